@@ -1,0 +1,37 @@
+namespace Kinefab.Numerics;
+
+/// <summary>A rigid pose: a point p of the inner frame is <c>Rotation * p + Position</c> in the outer one.</summary>
+public readonly struct Pose
+{
+    /// <summary>Origin of the inner frame in the outer one, metres.</summary>
+    public Vector3d Position { get; }
+
+    /// <summary>Rotation from the inner frame to the outer one, unit quaternion.</summary>
+    public Quaterniond Rotation { get; }
+
+    /// <summary>From position and unit rotation.</summary>
+    public Pose(Vector3d position, Quaterniond rotation)
+    {
+        Position = position;
+        Rotation = rotation;
+    }
+
+    /// <summary>Both frames the same.</summary>
+    public static Pose Identity => new(Vector3d.Zero, Quaterniond.Identity);
+
+    /// <summary>The pose of the outer frame in the inner one.</summary>
+    public Pose Inverse()
+    {
+        Quaterniond inverse = Rotation.Conjugate();
+        return new Pose(inverse * -Position, inverse);
+    }
+
+    /// <summary>The pose in a's outer frame of what stands at b in a's inner frame.</summary>
+    public static Pose operator *(Pose a, Pose b) => new(a.Rotation * b.Position + a.Position, a.Rotation * b.Rotation);
+
+    /// <summary>A point of the inner frame in the outer one.</summary>
+    public Vector3d Point(Vector3d p) => Rotation * p + Position;
+
+    /// <summary>A point of the outer frame in the inner one.</summary>
+    public Vector3d InversePoint(Vector3d p) => Rotation.InverseRotate(p - Position);
+}

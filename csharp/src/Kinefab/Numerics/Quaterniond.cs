@@ -1,0 +1,117 @@
+using System;
+using System.Globalization;
+
+namespace Kinefab.Numerics;
+
+/// <summary>A rotation as a quaternion (x, y, z, w) of doubles; formulas are Unity's and PhysX's, component by component.</summary>
+public readonly struct Quaterniond : IEquatable<Quaterniond>
+{
+    /// <summary>First component of the vector part.</summary>
+    public double X { get; }
+
+    /// <summary>Second component of the vector part.</summary>
+    public double Y { get; }
+
+    /// <summary>Third component of the vector part.</summary>
+    public double Z { get; }
+
+    /// <summary>Scalar part.</summary>
+    public double W { get; }
+
+    /// <summary>From components; not normalised.</summary>
+    public Quaterniond(double x, double y, double z, double w)
+    {
+        X = x;
+        Y = y;
+        Z = z;
+        W = w;
+    }
+
+    /// <summary>No rotation.</summary>
+    public static Quaterniond Identity => new(0, 0, 0, 1);
+
+    /// <summary>The vector part.</summary>
+    public Vector3d Vector => new(X, Y, Z);
+
+    /// <summary>Squared length.</summary>
+    public double LengthSquared => X * X + Y * Y + Z * Z + W * W;
+
+    /// <summary>The inverse of a unit quaternion.</summary>
+    public Quaterniond Conjugate() => new(-X, -Y, -Z, W);
+
+    /// <summary>The same rotation with length 1; zero becomes the identity.</summary>
+    public Quaterniond Normalized()
+    {
+        double length = Math.Sqrt(LengthSquared);
+        return length > 0 ? new Quaterniond(X / length, Y / length, Z / length, W / length) : Identity;
+    }
+
+    /// <summary>Rotation by <paramref name="angle"/> radians about a unit <paramref name="axis"/>.</summary>
+    public static Quaterniond AxisAngle(Vector3d axis, double angle)
+    {
+        double s = Math.Sin(angle / 2);
+        return new Quaterniond(axis.X * s, axis.Y * s, axis.Z * s, Math.Cos(angle / 2));
+    }
+
+    /// <summary>The rotation whose axes are the given unit vectors (columns of its matrix), w not negative.</summary>
+    public static Quaterniond FromAxes(Vector3d x, Vector3d y, Vector3d z)
+    {
+        double trace = x.X + y.Y + z.Z;
+        Quaterniond q;
+        if (trace >= x.X && trace >= y.Y && trace >= z.Z)
+        {
+            q = new Quaterniond(y.Z - z.Y, z.X - x.Z, x.Y - y.X, 1 + trace);
+        }
+        else if (x.X >= y.Y && x.X >= z.Z)
+        {
+            q = new Quaterniond(1 + x.X - y.Y - z.Z, y.X + x.Y, z.X + x.Z, y.Z - z.Y);
+        }
+        else if (y.Y >= z.Z)
+        {
+            q = new Quaterniond(y.X + x.Y, 1 + y.Y - x.X - z.Z, z.Y + y.Z, z.X - x.Z);
+        }
+        else
+        {
+            q = new Quaterniond(z.X + x.Z, z.Y + y.Z, 1 + z.Z - x.X - y.Y, x.Y - y.X);
+        }
+
+        q = q.Normalized();
+        return q.W < 0 ? new Quaterniond(-q.X, -q.Y, -q.Z, -q.W) : q;
+    }
+
+    /// <summary>First b, then a.</summary>
+    public static Quaterniond operator *(Quaterniond a, Quaterniond b) => new(
+        a.W * b.X + a.X * b.W + a.Y * b.Z - a.Z * b.Y,
+        a.W * b.Y - a.X * b.Z + a.Y * b.W + a.Z * b.X,
+        a.W * b.Z + a.X * b.Y - a.Y * b.X + a.Z * b.W,
+        a.W * b.W - a.X * b.X - a.Y * b.Y - a.Z * b.Z);
+
+    /// <summary>The vector turned by a unit quaternion.</summary>
+    public static Vector3d operator *(Quaterniond q, Vector3d v)
+    {
+        Vector3d u = q.Vector;
+        Vector3d t = 2 * Vector3d.Cross(u, v);
+        return v + q.W * t + Vector3d.Cross(u, t);
+    }
+
+    /// <summary>The vector turned by the inverse of a unit quaternion.</summary>
+    public Vector3d InverseRotate(Vector3d v) => Conjugate() * v;
+
+    /// <summary>Exact equality of the components.</summary>
+    public static bool operator ==(Quaterniond a, Quaterniond b) => a.Equals(b);
+
+    /// <summary>Not exactly equal.</summary>
+    public static bool operator !=(Quaterniond a, Quaterniond b) => !a.Equals(b);
+
+    /// <inheritdoc/>
+    public bool Equals(Quaterniond other) => X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z) && W.Equals(other.W);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is Quaterniond other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(X, Y, Z, W);
+
+    /// <inheritdoc/>
+    public override string ToString() => string.Format(CultureInfo.InvariantCulture, "({0}, {1}, {2}, {3})", X, Y, Z, W);
+}

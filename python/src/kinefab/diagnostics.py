@@ -1,0 +1,139 @@
+"""Findings about the data: a code from the shared table, a severity, a place and a remedy.
+
+The table is ``schemas/diagnostics.json``; C# embeds the same file.  Wrong *data* gives a Diagnostic,
+a wrong *call* (a programmer's mistake) gives an ordinary exception.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import lru_cache
+from pathlib import Path
+from typing import Iterable, Mapping
+
+
+class Severity(str, Enum):
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+class Outcome(str, Enum):
+    """What became of a feature of the source."""
+
+    KEPT = "kept"
+    APPROXIMATED = "approximated"
+    DROPPED = "dropped"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    code: a key of the table.  severity: the table's, unless the caller re-graded it.
+    message, remedy: the table's templates, filled in.
+    where: where in the source: a file, with a JSON pointer (``lever.bundle.json#/joints/3``), a line
+        (``lever.csv:12``) or an id; empty when there is no narrower place than the call itself.
+    """
+
+    code: str
+    severity: Severity
+    message: str
+    remedy: str
+    where: str = ""
+
+    def __str__(self) -> str:
+        place = f"{self.where}: " if self.where else ""
+        return f"{place}{self.severity.value} {self.code}: {self.message} {self.remedy}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class FeatureOutcome:
+    """One line of the loss report: a feature of the source and what became of it.
+
+    feature: kind and id in the source (``joint Hinge:1``).  code: empty when kept without remark.
+    """
+
+    feature: str
+    outcome: Outcome
+    code: str = ""
+    severity: Severity = Severity.INFO
+    message: str = ""
+    where: str = ""
+
+
+class KinefabError(Exception):
+    """The data cannot be carried on; holds the diagnostics that say why."""
+
+    def __init__(self, diagnostics: Iterable[Diagnostic]):
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(str(d) for d in self.diagnostics))
+
+
+def schema_directory() -> Path:
+    """Where the schemas are: beside the package when installed, at the root in a checkout."""
+    packaged = Path(__file__).parent / "schemas"
+    return packaged if packaged.is_dir() else Path(__file__).parents[3] / "schemas"
+
+
+@lru_cache(maxsize=1)
+def diagnostic_table() -> Mapping[str, Mapping[str, str]]:
+    """The shared table: code to {stage, severity, message, remedy}."""
+    text = (schema_directory() / "diagnostics.json").read_text(encoding="utf-8")
+    return json.loads(text)["codes"]
+
+
+def diagnostic(code: str, where: str = "", **values: object) -> Diagnostic:
+    """Make a diagnostic from the table.
+
+    code: a key of the table; KeyError for any other (that is a programmer's mistake).
+    values: what the message's and the remedy's ``{placeholders}`` stand for.
+    """
+    entry = diagnostic_table()[code]
+    return Diagnostic(
+        code,
+        Severity(entry["severity"]),
+        entry["message"].format_map(values),
+        entry["remedy"].format_map(values),
+        where,
+    )
+
+
+@dataclass(slots=True)
+class Report:
+    """What a run found (``diagnostics``) and what became of each feature (``outcomes``), in order."""
+
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    outcomes: list[FeatureOutcome] = field(default_factory=list)
+
+    def add(self, code: str, where: str = "", **values: object) -> Diagnostic:
+        found = diagnostic(code, where, **values)
+        self.diagnostics.append(found)
+        return found
+
+    def kept(self, feature: str, where: str = "") -> None:
+        self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
+
+    def approximated(self, feature: str, code: str, where: str = "", **values: object) -> None:
+        self._lost(feature, Outcome.APPROXIMATED, code, where, values)
+
+    def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
+        self._lost(feature, Outcome.DROPPED, code, where, values)
+
+    def _lost(self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]) -> None:
+        found = self.add(code, where, **values)
+        self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
+
+    def extend(self, other: "Report") -> None:
+        self.diagnostics.extend(other.diagnostics)
+        self.outcomes.extend(other.outcomes)
+
+    def of(self, severity: Severity) -> list[Diagnostic]:
+        return [d for d in self.diagnostics if d.severity is severity]
+
+    def raise_for_errors(self) -> None:
+        """Raise KinefabError with every error found so far, if there is any."""
+        if errors := self.of(Severity.ERROR):
+            raise KinefabError(errors)

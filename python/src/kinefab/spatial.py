@@ -1,0 +1,128 @@
+"""Rigid poses and the few rotation formulas shared by every stage.
+
+Everything here is right-handed, float64, SI and radians.  Quaternions are ``(x, y, z, w)``.
+Nothing here knows of Unity: the one mirror lives in ``unity/frames.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def vector(values) -> Array:
+    """Three numbers as a float64 array, shape (3,)."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (3,):
+        raise ValueError(f"expected three numbers, got shape {array.shape}")
+    return array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pose:
+    """A rigid pose: a point p of the inner frame is ``rotation @ p + translation`` in the outer one.
+
+    rotation: proper rotation matrix, shape (3, 3), columns are the inner axes in the outer frame.
+    translation: inner origin in the outer frame, metres, shape (3,).
+    """
+
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+    translation: Array = field(default_factory=lambda: np.zeros(3))
+
+    def __matmul__(self, inner: "Pose") -> "Pose":
+        return Pose(self.rotation @ inner.rotation, self.rotation @ inner.translation + self.translation)
+
+    def inverse(self) -> "Pose":
+        return Pose(self.rotation.T, -self.rotation.T @ self.translation)
+
+    def point(self, p: Array) -> Array:
+        """A point, or points of shape (n, 3), from the inner frame to the outer one."""
+        return p @ self.rotation.T + self.translation
+
+    def direction(self, d: Array) -> Array:
+        """A direction, or directions of shape (n, 3), from the inner frame to the outer one."""
+        return d @ self.rotation.T
+
+
+def skew(v: Array) -> Array:
+    """The matrix S with ``S @ u == cross(v, u)``, shape (3, 3)."""
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def rotation_about(axis: Array, angle: float) -> Array:
+    """Rotation matrix by ``angle`` radians about ``axis`` (unit vector), right-hand rule (Rodrigues)."""
+    s, c = np.sin(angle), np.cos(angle)
+    k = skew(axis)
+    return np.eye(3) + s * k + (1.0 - c) * (k @ k)
+
+
+def rotation_exp(w: Array) -> Array:
+    """Rotation matrix of the rotation vector ``w``, radians, shape (3,)."""
+    angle = float(np.linalg.norm(w))
+    return rotation_about(w / angle, angle) if angle > 0.0 else np.eye(3)
+
+
+def perpendicular(axis: Array) -> Array:
+    """A unit vector at right angles to ``axis`` (unit vector); the choice is deterministic."""
+    helper = np.zeros(3)
+    helper[int(np.argmin(np.abs(axis)))] = 1.0
+    side = np.cross(axis, helper)
+    return side / np.linalg.norm(side)
+
+
+def frame_from_axes(primary: Array, secondary: Array | None = None) -> Array:
+    """Rotation matrix whose first column is ``primary`` and whose second lies towards ``secondary``.
+
+    primary: direction of X, any length above zero.
+    secondary: direction that Y comes closest to; a deterministic perpendicular where it is None or
+        parallel to ``primary``.
+    Raises ValueError when ``primary`` has no length.
+    """
+    length = np.linalg.norm(primary)
+    if not length > 0.0:
+        raise ValueError("an axis of zero length gives no frame")
+    x = primary / length
+    y = np.zeros(3) if secondary is None else secondary - x * (x @ secondary)
+    size = np.linalg.norm(y)
+    scale = 0.0 if secondary is None else np.linalg.norm(secondary)
+    y = y / size if size > 1e-9 * scale else perpendicular(x)
+    return np.column_stack([x, y, np.cross(x, y)])
+
+
+def quaternion_from_matrix(r: Array) -> Array:
+    """Unit quaternion (x, y, z, w) of a rotation matrix, w >= 0, shape (4,) (Shepperd's method)."""
+    trace = np.trace(r)
+    choice = int(np.argmax([r[0, 0], r[1, 1], r[2, 2], trace]))
+    q = np.empty(4)
+    if choice == 3:
+        q[0], q[1], q[2] = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+        q[3] = 1.0 + trace
+    else:
+        i, j, k = choice, (choice + 1) % 3, (choice + 2) % 3
+        q[i] = 1.0 - trace + 2.0 * r[i, i]
+        q[j] = r[j, i] + r[i, j]
+        q[k] = r[k, i] + r[i, k]
+        q[3] = r[k, j] - r[j, k]
+    q /= np.linalg.norm(q)
+    return -q if q[3] < 0.0 else q
+
+
+def matrix_from_quaternion(q: Array) -> Array:
+    """Rotation matrix of a quaternion (x, y, z, w) of any length above zero, shape (3, 3)."""
+    x, y, z, w = q / np.linalg.norm(q)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def angle_about(axis: Array, start: Array, end: Array) -> float:
+    """Signed angle from ``start`` to ``end`` about ``axis`` (unit vector), radians, right-hand rule."""
+    return float(np.arctan2(axis @ np.cross(start, end), start @ end - (axis @ start) * (axis @ end)))

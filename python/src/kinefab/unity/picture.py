@@ -1,0 +1,297 @@
+"""A scene as a picture: flat-shaded triangles, and over them the joints with their ranges, as one SVG.
+
+Works on the written document (Unity's left-handed frame), so that what is drawn is what was exported.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from html import escape
+from typing import Mapping, Sequence
+
+import numpy as np
+
+from ..spatial import Array, Pose, frame_from_axes, matrix_from_quaternion, rotation_about
+
+WIDTH, HEIGHT, LEGEND = 760, 560, 400
+MAX_TRIANGLES = 40_000
+"""A picture with more triangles than this draws each body as the box around it."""
+
+COLOURS = {"HingeJoint": "#d9480f", "ConfigurableJoint": "#1864ab", "FixedJoint": "#495057"}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """An orthographic camera.  right, up, toward: unit vectors in the world; scale: pixels a metre."""
+
+    right: Array
+    up: Array
+    toward: Array
+    scale: float
+    center: Array
+
+    def project(self, points: Array) -> Array:
+        """World points, shape (n, 3), to pixels, shape (n, 2), y downwards."""
+        flat = (points - self.center) @ np.column_stack([self.right, -self.up]) * self.scale
+        return flat + np.array([WIDTH / 2, HEIGHT / 2])
+
+
+def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
+    """The SVG text of a scene.
+
+    document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.
+    """
+    poses = world_poses(document["gameObjects"])
+    triangles, colours = _triangles(document, buffers, poses)
+    joints = _joints(document["gameObjects"], poses)
+    points = [triangles.reshape(-1, 3)] + [joint.pose.translation[None] for joint in joints]
+    cloud = np.concatenate(points) if points else np.zeros((1, 3))
+    view = _view(cloud if len(cloud) else np.zeros((1, 3)), joints)
+    size = (WIDTH - 60) / view.scale
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH + LEGEND} {HEIGHT}" '
+        f'font-family="system-ui, sans-serif" font-size="13">',
+        f'<rect width="{WIDTH + LEGEND}" height="{HEIGHT}" fill="#ffffff"/>',
+        _surfaces(triangles, colours, view),
+        *(_glyph(number, joint, view, size) for number, joint in enumerate(joints, 1)),
+        _legend(document, joints),
+        "</svg>",
+    ]
+    return "\n".join(part for part in parts if part) + "\n"
+
+
+def world_poses(objects: Sequence[Mapping]) -> list[Pose]:
+    """World pose of each GameObject, by composing the local transforms; scale is not part of a pose."""
+    poses: list[Pose] = []
+    for item in objects:
+        transform = item.get("transform", {})
+        local = Pose(
+            matrix_from_quaternion(np.array(transform.get("localRotation", [0, 0, 0, 1]), float)),
+            np.array(transform.get("localPosition", [0, 0, 0]), float),
+        )
+        parent = item.get("parent")
+        poses.append(local if parent is None else poses[parent] @ local)
+    return poses
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnJoint:
+    """A joint component in the world: pose's X is its axis."""
+
+    name: str
+    kind: str
+    pose: Pose
+    component: Mapping
+    connected: str
+
+
+def _joints(objects: Sequence[Mapping], poses: Sequence[Pose]) -> list[DrawnJoint]:
+    found = []
+    for index, item in enumerate(objects):
+        for component in item.get("components", []):
+            if component["type"] not in COLOURS:
+                continue
+            axis = np.array(component.get("axis", [1, 0, 0]), float)
+            second = np.array(component.get("secondaryAxis", [0, 1, 0]), float)
+            local = Pose(frame_from_axes(axis, second), np.array(component.get("anchor", [0, 0, 0]), float))
+            other = component.get("connectedBody")
+            connected = "world" if other is None else objects[other]["name"]
+            found.append(DrawnJoint(item["name"], component["type"], poses[index] @ local, component, connected))
+    return found
+
+
+def _triangles(document: Mapping, buffers: Sequence[bytes], poses: Sequence[Pose]) -> tuple[Array, Array]:
+    """World triangles, shape (n, 3, 3), and their RGB, shape (n, 3)."""
+    meshes, materials = document.get("meshes", []), document.get("materials", [])
+    shapes, tints = [], []
+    total = sum(
+        sum(s["indexCount"] for s in meshes[c["mesh"]]["submeshes"]) // 3
+        for item in document["gameObjects"]
+        for c in item.get("components", [])
+        if c["type"] == "MeshFilter"
+    )
+    for item, pose in zip(document["gameObjects"], poses):
+        components = {c["type"]: c for c in item.get("components", [])}
+        if "MeshFilter" not in components or not item.get("active", True):
+            continue
+        mesh = meshes[components["MeshFilter"]["mesh"]]
+        slots = components.get("MeshRenderer", {}).get("materials", [])
+        if total > MAX_TRIANGLES:
+            corners, faces = _box(mesh["bounds"])
+            spans = [(0, len(faces))]
+        else:
+            corners, faces = _mesh(mesh, buffers)
+            spans = [(s["indexStart"] // 3, s["indexCount"] // 3) for s in mesh["submeshes"]]
+        world = pose.point(corners)
+        for number, (start, count) in enumerate(spans):
+            tint = materials[slots[number]].get("color", [1, 1, 1, 1]) if number < len(slots) else [0.7, 0.7, 0.72, 1]
+            shapes.append(world[faces[start : start + count]])
+            tints.append(np.tile(np.array(tint[:3], float), (count, 1)))
+    if not shapes:
+        return np.zeros((0, 3, 3)), np.zeros((0, 3))
+    return np.concatenate(shapes), np.concatenate(tints)
+
+
+def _mesh(mesh: Mapping, buffers: Sequence[bytes]) -> tuple[Array, np.ndarray]:
+    place = mesh["positions"]
+    corners = np.frombuffer(buffers[place["buffer"]], "<f4", 3 * mesh["vertexCount"], place["offset"])
+    count = sum(s["indexCount"] for s in mesh["submeshes"])
+    kind = "<u2" if mesh["indexFormat"] == "uint16" else "<u4"
+    place = mesh["indices"]
+    faces = np.frombuffer(buffers[place["buffer"]], kind, count, place["offset"]).astype(np.int64)
+    return corners.reshape(-1, 3).astype(np.float64), faces.reshape(-1, 3)
+
+
+def _box(bounds: Mapping) -> tuple[Array, np.ndarray]:
+    """Corners and outward triangles (in Unity's winding) of an axis-aligned box."""
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    corners = np.array(bounds["center"]) + signs * np.array(bounds["extents"])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+
+
+def _view(cloud: Array, joints: Sequence[DrawnJoint]) -> View:
+    """Looks mostly along the axis that most hinges share, tilted, so that planar linkages lie open."""
+    axes = np.array([j.pose.rotation[:, 0] for j in joints if j.kind == "HingeJoint"]).reshape(-1, 3)
+    main = np.linalg.svd(axes)[2][0] if len(axes) else np.array([0.0, 1.0, -1.2])
+    if main @ np.array([0.3, 1.0, -0.6]) < 0:
+        main = -main
+    side = np.array([0.35, 0.0, -0.75]) if abs(main[1]) > 0.9 * np.linalg.norm(main) else np.array([0.3, 0.45, 0.0])
+    toward = main / np.linalg.norm(main) + side
+    toward /= np.linalg.norm(toward)
+    up = np.array([0.0, 1.0, 0.0]) - toward * toward[1]
+    up /= np.linalg.norm(up)
+    right = np.cross(up, -toward)  # left-handed: right = up x forward
+    flat = cloud @ np.column_stack([right, up])
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    span = np.maximum(high - low, 1e-9)
+    scale = float(min((WIDTH - 120) / span[0], (HEIGHT - 120) / span[1]))
+    middle = (low + high) / 2
+    return View(right, up, toward, scale, right * middle[0] + up * middle[1])
+
+
+def _surfaces(triangles: Array, colours: Array, view: View) -> str:
+    """Painter's algorithm; large triangles are cut first, so that their centres sort well."""
+    limit = 0.12 * (WIDTH / view.scale)
+    for _ in range(6):
+        edges = np.linalg.norm(triangles - np.roll(triangles, -1, axis=1), axis=2)
+        large = edges.max(axis=1) > limit if len(triangles) else np.zeros(0, bool)
+        if not large.any() or len(triangles) > 3 * MAX_TRIANGLES:
+            break
+        cut, tint, longest = triangles[large], colours[large], edges[large].argmax(axis=1)
+        rows = np.arange(len(cut))
+        a, b, c = (cut[rows, (longest + k) % 3] for k in range(3))
+        half = (a + b) / 2
+        pieces = [triangles[~large], np.stack([a, half, c], axis=1), np.stack([half, b, c], axis=1)]
+        triangles = np.concatenate(pieces)
+        colours = np.concatenate([colours[~large], tint, tint])
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    facing = (normals @ view.toward) > 1e-9 * np.maximum(lengths, 1e-300)
+    triangles, colours, normals = triangles[facing], colours[facing], normals[facing] / lengths[facing][:, None]
+    light = view.toward + 0.5 * view.up - 0.4 * view.right
+    shade = 0.45 + 0.55 * np.clip(normals @ (light / np.linalg.norm(light)), 0.0, 1.0)
+    rgb = np.clip(colours * shade[:, None], 0, 1) ** (1 / 2.2) * 255
+    order = np.argsort(triangles.mean(axis=1) @ view.toward, kind="stable")
+    flat = view.project(triangles.reshape(-1, 3)).reshape(-1, 3, 2)
+    lines = ['<g stroke-width="0.7" stroke-linejoin="round">']
+    for i in order:
+        (ax, ay), (bx, by), (cx, cy) = flat[i]
+        colour = "#%02x%02x%02x" % tuple(int(v) for v in rgb[i])
+        lines.append(
+            f'<path d="M{ax:.1f} {ay:.1f}L{bx:.1f} {by:.1f}L{cx:.1f} {cy:.1f}Z" fill="{colour}" stroke="{colour}"/>'
+        )
+    return "\n".join([*lines, "</g>"])
+
+
+def _glyph(number: int, joint: DrawnJoint, view: View, size: float) -> str:
+    """The joint's axis, an arc or an arrow for its range, and its number in a disc."""
+    colour = COLOURS[joint.kind]
+    dash = ' stroke-dasharray="5 4"' if joint.component.get("closure") else ""
+    frame, place = joint.pose.rotation, joint.pose.translation
+    strokes: list[Array] = []
+    if joint.kind == "HingeJoint" or joint.component.get("angularXMotion", "Free") != "Locked":
+        if joint.kind != "FixedJoint":
+            strokes.append(place + np.outer([-0.07 * size, 0.07 * size], frame[:, 0]))
+            low, high = _turn(joint)
+            angles = np.linspace(low, high, 40)
+            strokes.append(np.array([place + 0.045 * size * (rotation_about(frame[:, 0], a) @ frame[:, 1]) for a in angles]))
+    if joint.kind == "ConfigurableJoint":
+        for name, axis in zip("xyz", frame.T):
+            motion = joint.component.get(f"{name}Motion", "Free")
+            if motion != "Locked":
+                reach = joint.component.get("linearLimit", {}).get("limit", 0.0) if motion == "Limited" else 0.12 * size
+                middle = _slide_middle(joint, place, axis)
+                strokes.append(middle + np.outer([-reach, reach], axis))
+    lines = []
+    for stroke in strokes:
+        path = "L".join(f"{x:.1f} {y:.1f}" for x, y in view.project(stroke))
+        lines.append(f'<path d="M{path}" fill="none" stroke="#fff" stroke-width="4.5" opacity="0.7"/>')
+        lines.append(f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="2.2" stroke-linecap="round"{dash}/>')
+    x, y = view.project(place[None])[0]
+    lines.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="{colour}" stroke="#fff" stroke-width="1.5"/>')
+    lines.append(f'<text x="{x:.1f}" y="{y + 4.5:.1f}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
+    return "\n".join(lines)
+
+
+def _turn(joint: DrawnJoint) -> tuple[float, float]:
+    """Range of the drawn arc, radians about the axis in Unity's left-hand sense, a full turn when free."""
+    component = joint.component
+    if joint.kind == "HingeJoint":
+        if not component.get("useLimits", False):
+            return 0.0, 2 * math.pi
+        limits = component.get("limits", {})
+        return math.radians(limits.get("min", 0.0)), math.radians(limits.get("max", 0.0))
+    if component.get("angularXMotion", "Free") == "Free":
+        return 0.0, 2 * math.pi
+    low = component.get("lowAngularXLimit", {}).get("limit", 0.0)
+    high = component.get("highAngularXLimit", {}).get("limit", 0.0)
+    return math.radians(-high), math.radians(-low)
+
+
+def _slide_middle(joint: DrawnJoint, place: Array, axis: Array) -> Array:
+    """Middle of a slide's range: the connected anchor, seen along the axis; the anchor when not given."""
+    given = joint.component.get("connectedAnchor")
+    if given is None or joint.connected != "world":
+        return place
+    return place + axis * float(axis @ (np.array(given, float) - place))
+
+
+def _legend(document: Mapping, joints: Sequence[DrawnJoint]) -> str:
+    lines = [f'<g transform="translate({WIDTH + 10} 36)" fill="#212529">']
+    title = document.get("source", {}).get("uri", "scene")
+    lines.append(f'<text font-size="16" font-weight="600">{escape(str(title))}</text>')
+    mobility = document.get("analysis", {}).get("mobility")
+    count = f"{len(document['gameObjects'])} objects, {len(joints)} joints"
+    lines.append(f'<text y="22" fill="#495057">{count}{"" if mobility is None else f", mobility {mobility}"}</text>')
+    for number, joint in enumerate(joints[:18], 1):
+        y = 32 + 27 * number
+        lines.append(f'<circle cx="8" cy="{y - 4.5}" r="9" fill="{COLOURS[joint.kind]}"/>')
+        lines.append(f'<text x="8" y="{y}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
+        lines.append(f'<text x="26" y="{y}">{escape(joint.name)} \u2013 {escape(joint.connected)}: {_freedoms(joint)}</text>')
+    if len(joints) > 18:
+        lines.append(f'<text y="{59 + 27 * 18}" fill="#495057">and {len(joints) - 18} more</text>')
+    return "\n".join([*lines, "</g>"])
+
+
+def _freedoms(joint: DrawnJoint) -> str:
+    """The joint's freedoms in words, short."""
+    component = joint.component
+    if joint.kind == "FixedJoint":
+        return "fixed"
+    if joint.kind == "HingeJoint":
+        low, high = _turn(joint)
+        free = not component.get("useLimits", False)
+        return "hinge, free" if free else f"hinge {math.degrees(low):.4g}\u2026{math.degrees(high):.4g}\u00b0"
+    words = []
+    for name in ("x", "y", "z"):
+        motion = component.get(f"{name}Motion", "Free")
+        if motion == "Limited":
+            words.append(f"slide {name} \u00b1{component.get('linearLimit', {}).get('limit', 0.0) * 1000:.4g} mm")
+        elif motion == "Free":
+            words.append(f"slide {name}")
+    for name in ("X", "Y", "Z"):
+        if component.get(f"angular{name}Motion", "Free") != "Locked":
+            words.append(f"turn {name.lower()}")
+    return ", ".join(words) or "locked"

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from pathlib import Path
 from typing import Mapping, Sequence
 
 import numpy as np
@@ -55,19 +56,46 @@ class Mesh:
     face_counts: tuple[int, ...] = ()
 
 
+class MeshKey(str, Enum):
+    """What names a body inside a mesh file: OBJ's ``o`` or ``g`` (other formats: the node's name)."""
+
+    OBJECT = "object"
+    GROUP = "group"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeshReference:
+    """Where the triangles of a body are: a reader states it, the geometry stage loads them.
+
+    path: the mesh file.  key: the body's name in it, matched by ``keyed_by``; None takes the whole file.
+    to_node: affine map from the file's axes and units to the node's frame in metres, shape (4, 4).  It holds
+        the unit, the turn of the axes, the inverse pose where the file is in world coordinates, and the mirror
+        of a mirrored part: where its determinant is negative the winding must be reversed.
+    where: place in the source, for diagnostics.
+    """
+
+    path: Path
+    to_node: Array
+    key: str | None = None
+    keyed_by: MeshKey = MeshKey.OBJECT
+    where: str = ""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
     """One solid or surface body of a part: a mesh with a material for each submesh.
 
-    mesh: index into ``Scene.meshes``, or None where the geometry was not found.
+    mesh: index into ``Scene.meshes``, or None where the geometry is not loaded or was not found.
     materials: indices into ``Scene.materials``, one for each submesh.
     density: kg/m^3, or None for the scene's default.
+    reference: where the geometry is to be loaded from, or None for a body without (or with loaded) geometry.
     """
 
     name: str
     mesh: int | None = None
     materials: tuple[int, ...] = ()
     density: float | None = None
+    reference: MeshReference | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,0 +1,23 @@
+using Kinefab.Numerics;
+
+namespace Kinefab.Document;
+
+/// <summary>A joint with an anchor and an axis on each body.</summary>
+public abstract class AnchoredJoint : Joint
+{
+    private protected AnchoredJoint()
+    {
+    }
+
+    /// <summary>Own local space, metres, multiplied by the GameObject's world scale.</summary>
+    public Vector3d Anchor { get; init; }
+
+    /// <summary>Own local direction of the joint's X, of any length.</summary>
+    public Vector3d Axis { get; init; } = Vector3d.UnitX;
+
+    /// <summary>When true, Unity computes <see cref="ConnectedAnchor"/> from <see cref="Anchor"/> at start-up.</summary>
+    public bool AutoConfigureConnectedAnchor { get; init; } = true;
+
+    /// <summary>Connected body's local space (scaled), or the world's when there is none; metres.</summary>
+    public Vector3d ConnectedAnchor { get; init; }
+}

@@ -1,0 +1,29 @@
+namespace Kinefab.Document;
+
+/// <summary>Linear red, green, blue, alpha, each 0 to 1.</summary>
+public readonly struct Color
+{
+    /// <summary>From components.</summary>
+    public Color(double r, double g, double b, double a)
+    {
+        R = r;
+        G = g;
+        B = b;
+        A = a;
+    }
+
+    /// <summary>Red.</summary>
+    public double R { get; }
+
+    /// <summary>Green.</summary>
+    public double G { get; }
+
+    /// <summary>Blue.</summary>
+    public double B { get; }
+
+    /// <summary>Opacity.</summary>
+    public double A { get; }
+
+    /// <summary>(1, 1, 1, 1).</summary>
+    public static Color White => new(1, 1, 1, 1);
+}

@@ -1,0 +1,6 @@
+namespace Kinefab.Document;
+
+/// <summary>FixedJoint: holds the relative pose that the bodies have at start-up; removes six freedoms.</summary>
+public sealed class FixedJoint : Joint
+{
+}

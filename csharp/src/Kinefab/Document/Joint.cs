@@ -1,0 +1,42 @@
+using System;
+using System.Collections.Generic;
+
+namespace Kinefab.Document;
+
+/// <summary>A joint between the Rigidbody of its own GameObject and another one, or the world.</summary>
+public abstract class Joint : Component
+{
+    private protected Joint()
+    {
+    }
+
+    /// <summary>Index of the GameObject whose Rigidbody is connected; null: the world.</summary>
+    public int? ConnectedBody { get; init; }
+
+    /// <summary>N; infinite: unbreakable.</summary>
+    public double BreakForce { get; init; } = double.PositiveInfinity;
+
+    /// <summary>N m; infinite: unbreakable.</summary>
+    public double BreakTorque { get; init; } = double.PositiveInfinity;
+
+    /// <summary>Whether the two bodies collide with each other.</summary>
+    public bool EnableCollision { get; init; }
+
+    /// <summary>PhysX's preprocessing; off helps over-constrained set-ups.</summary>
+    public bool EnablePreprocessing { get; init; } = true;
+
+    /// <summary>Scale on the INVERSE mass and inertia of the own body.</summary>
+    public double MassScale { get; init; } = 1;
+
+    /// <summary>Scale on the INVERSE mass and inertia of the connected body.</summary>
+    public double ConnectedMassScale { get; init; } = 1;
+
+    /// <summary>Source constraints or joints that this one comes from.</summary>
+    public IReadOnlyList<string> Because { get; init; } = Array.Empty<string>();
+
+    /// <summary>Closes a loop: the spanning tree does not need it.</summary>
+    public bool Closure { get; init; }
+
+    /// <summary>False where the component only approximates the source's relation.</summary>
+    public bool Exact { get; init; } = true;
+}

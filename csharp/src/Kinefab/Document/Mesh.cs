@@ -1,0 +1,35 @@
+using System;
+using System.Collections.Generic;
+
+namespace Kinefab.Document;
+
+/// <summary>Triangles, clockwise from outside (Unity's winding), in the frame of the GameObject that uses them, metres.</summary>
+public sealed class Mesh : DocumentObject
+{
+    /// <summary>Mesh.name.</summary>
+    public string Name { get; init; } = "";
+
+    /// <summary>Number of vertices.</summary>
+    public int VertexCount { get; init; }
+
+    /// <summary>Box around the vertices.</summary>
+    public Bounds Bounds { get; init; } = new();
+
+    /// <summary>float32 x 3 a vertex, metres.</summary>
+    public Accessor Positions { get; init; } = new();
+
+    /// <summary>float32 x 3 a vertex, unit; null when there are none.</summary>
+    public Accessor? Normals { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    public Accessor? Uv { get; init; }
+
+    /// <summary>Size of an index.</summary>
+    public IndexFormat IndexFormat { get; init; }
+
+    /// <summary>Three indices a triangle.</summary>
+    public Accessor Indices { get; init; } = new();
+
+    /// <summary>In the order of MeshRenderer.materials; they cover the indices without a gap.</summary>
+    public IReadOnlyList<Submesh> Submeshes { get; init; } = Array.Empty<Submesh>();
+}

@@ -1,0 +1,52 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Numerics;
+
+namespace Kinefab.Validation;
+
+/// <summary>A scene without errors: every reference resolves, every number is one that Unity takes.  Only <c>SceneValidator</c> makes one.</summary>
+public sealed class ValidScene
+{
+    private readonly WorldTransform[] world;
+
+    internal ValidScene(SceneDocument document)
+    {
+        Document = document;
+        world = WorldTransform.Of(document);
+    }
+
+    /// <summary>The scene.</summary>
+    public SceneDocument Document { get; }
+
+    /// <summary>Pose and scale of a GameObject in the world, as exported.</summary>
+    public WorldTransform World(int gameObject) => world[gameObject];
+
+    /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
+    public Rigidbody? Body(int gameObject)
+    {
+        foreach (Component component in Document.GameObjects[gameObject].Components)
+        {
+            if (component is Rigidbody body)
+                return body;
+        }
+
+        return null;
+    }
+
+    /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
+    public int? BodyOf(int gameObject)
+    {
+        int? at = gameObject;
+        while (at is int index && Body(index) is null)
+            at = Document.GameObjects[index].Parent;
+        return at;
+    }
+
+    /// <summary>The joint that a coupling refers to.</summary>
+    public Joint Joint(JointCoordinate coordinate)
+    {
+        if (coordinate is null)
+            throw new ArgumentNullException(nameof(coordinate));
+        return (Joint)Document.GameObjects[coordinate.GameObject].Components[coordinate.Component];
+    }
+}

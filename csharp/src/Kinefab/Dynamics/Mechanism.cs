@@ -1,0 +1,45 @@
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>Bodies, joints and couplings in PhysX's terms: all that a solver needs. The arrays never change length.</summary>
+internal sealed class Mechanism
+{
+    public readonly Bodies Bodies;
+
+    /// <summary>In the order of their creation, which decides the order in which PGS solves them.</summary>
+    public readonly Joint[] Joints;
+    public readonly Coupling[] Couplings;
+
+    /// <summary>m/s^2.</summary>
+    public Vector3d Gravity = new(0, -9.81, 0);
+
+    /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
+    public readonly JointReaction[] Reactions;
+
+    public Mechanism(Bodies bodies, Joint[] joints, Coupling[] couplings)
+    {
+        Bodies = bodies;
+        Joints = joints;
+        Couplings = couplings;
+        Reactions = new JointReaction[joints.Length];
+    }
+}
+
+/// <summary>Force and torque of a joint's constraint on actor 0, world frame; the torque is about the joint's anchor in actor 1.</summary>
+internal struct JointReaction
+{
+    /// <summary>N.</summary>
+    public Vector3d Force;
+
+    /// <summary>N m.</summary>
+    public Vector3d Torque;
+}
+
+/// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>
+internal interface ISolver
+{
+    /// <summary>One step of dt seconds; forces and torques are used up by it.</summary>
+    void Step(double dt);
+}

@@ -1,0 +1,104 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>
+/// Distance of a swing from an elliptic cone. The cone is the ellipse (y/Y)^2 + (z/Z)^2 = 1 in the plane of the swing
+/// angles y, z; the error is the sine of the angle between the X axis and the nearest line of the cone.
+/// Source: CmConeLimitHelper.h, ConeLimitHelperTanLess and computeAxisAndError.
+/// </summary>
+internal static class ConeLimitError
+{
+    /// <summary>False when the swing is inside the cone shrunk by the padding.</summary>
+    /// <param name="limit">Half angles, radians.</param>
+    /// <param name="padding">Radians.</param>
+    /// <param name="swing">Rotation without twist.</param>
+    /// <param name="axis">Unit axis in frame 0 about which a positive rotation leads outwards.</param>
+    /// <param name="error">Positive inside.</param>
+    public static bool Find(in ConeLimit limit, double padding, Quaterniond swing, out Vector3d axis, out double error)
+    {
+        axis = Vector3d.Zero;
+        error = 0;
+        double y = SwingTwist.SwingAngle(swing.Y, swing.W);
+        double z = SwingTwist.SwingAngle(swing.Z, swing.W);
+        double yPadded = (Math.Abs(y) + padding) / limit.Y;
+        double zPadded = (Math.Abs(z) + padding) / limit.Z;
+        if (yPadded * yPadded + zPadded * zPadded <= 1)
+        {
+            return false;
+        }
+
+        NearestOnEllipse(y, z, limit.Y, limit.Z, out double py, out double pz);
+        var radius = new Vector3d(0, Math.Tan(py / 4), Math.Tan(pz / 4));
+        var direction = new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z));
+        error = AxisAndError(radius, direction, swing * Vector3d.UnitX, out axis);
+        return true;
+    }
+
+    private static double AxisAndError(Vector3d r, Vector3d d, Vector3d twistAxis, out Vector3d axis)
+    {
+        double r2 = r.LengthSquared;
+        double a = 1 - r2;
+        double b = 1 / (1 + r2);
+        double b2 = b * b;
+        double v1 = 2 * a * b2;
+        var v2 = new Vector3d(a, 2 * r.Z, -2 * r.Y);
+        Vector3d line = v1 * v2 - Vector3d.UnitX;
+
+        double rd = Vector3d.Dot(r, d);
+        double dv1 = -4 * rd * (3 - r2) * b2 * b;
+        var dv2 = new Vector3d(-2 * rd, 2 * d.Z, -2 * d.Y);
+        Vector3d normal = v1 * dv2 + dv1 * v2;
+
+        axis = Vector3d.Cross(line, normal) * (1 / normal.Length);
+        return Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis);
+    }
+
+    // Newton on the Lagrange multiplier; PhysX's start and its coarse stop are kept (PsMathUtils.h, ellipseClamp), since
+    // the point it stops at is the one its joint uses.
+    private static void NearestOnEllipse(double y, double z, double radiusY, double radiusZ, out double py, out double pz)
+    {
+        const int maxIterations = 20;
+        const double converged = 1e-4;
+        const double tiny = 1e-6;
+        if (radiusY >= radiusZ ? Math.Abs(z) < tiny : Math.Abs(y) < tiny)
+        {
+            py = radiusY < radiusZ ? 0 : y > 0 ? radiusY : -radiusY;
+            pz = radiusY >= radiusZ ? 0 : z > 0 ? radiusZ : -radiusZ;
+            return;
+        }
+
+        double ey2 = radiusY * radiusY;
+        double ez2 = radiusZ * radiusZ;
+        double eqY = radiusY * Math.Abs(y);
+        double eqZ = radiusZ * Math.Abs(z);
+        double t = Math.Max(eqY - ey2, eqZ - ez2);
+        double denominatorY = 0;
+        double denominatorZ = 0;
+        for (int i = 0; i < maxIterations; i++)
+        {
+            denominatorY = 1 / (t + ey2);
+            denominatorZ = 1 / (t + ez2);
+            double fy = eqY * denominatorY;
+            double fz = eqZ * denominatorZ;
+            fy *= fy;
+            fz *= fz;
+            double f = fy + fz - 1;
+            if (f < converged)
+            {
+                py = ey2 * y * denominatorY;
+                pz = ez2 * z * denominatorZ;
+                return;
+            }
+
+            t += f / (2 * (fy * denominatorY + fz * denominatorZ));
+        }
+
+        py = ey2 * y * denominatorY;
+        pz = ez2 * z * denominatorZ;
+        double scale = 1 / Math.Sqrt(py / radiusY * (py / radiusY) + pz / radiusZ * (pz / radiusZ));
+        py *= scale;
+        pz *= scale;
+    }
+}

@@ -1,0 +1,235 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>
+/// PxD6Joint, the joint under Unity's ConfigurableJoint: six axes, each locked, limited or free, with drives. Linear axes,
+/// cone and single swing limits turn with actor 0; twist and swing drives act about actor 1's axes.
+/// </summary>
+internal sealed class D6Joint : Joint
+{
+    // Below this distance the direction of a disc or ball limit is undefined (PhysX: 1e-6 of the length scale).
+    private const double LeastLimitedDistance = 1e-6;
+
+    /// <summary>Motions in PxD6Axis's order: X, Y, Z, twist, swing about Y, swing about Z. All locked at first.</summary>
+    public AxisMotion X, Y, Z, Twist, Swing1, Swing2;
+
+    public LinearLimit LinearLimit;
+    public AngularLimit TwistLimit;
+    public ConeLimit SwingLimit;
+
+    public JointDrive DriveX, DriveY, DriveZ;
+
+    /// <summary>About actor 1's X.</summary>
+    public JointDrive DriveTwist;
+
+    /// <summary>About actor 1's Y and Z.</summary>
+    public JointDrive DriveSwing;
+
+    /// <summary>Along the shortest arc; replaces twist and swing drives, and needs all three angles unlocked.</summary>
+    public JointDrive DriveSlerp;
+
+    /// <summary>Goal of frame 1 in frame 0.</summary>
+    public Pose DrivePose = Pose.Identity;
+
+    /// <summary>Goal of the velocity of frame 1 against frame 0, in frame 0's axes, m/s.</summary>
+    public Vector3d DriveLinearVelocity;
+
+    /// <summary>Goal of the angular velocity, rad/s: of actor 0 against actor 1 with twist and swing drives, of actor 1
+    /// against actor 0 with the slerp drive (PhysX's own inconsistency).</summary>
+    public Vector3d DriveAngularVelocity;
+
+    /// <inheritdoc/>
+    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
+    {
+        var f = new JointFrames(this, body0, body1);
+        f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position);
+
+        LinearDrives(ref writer, f);
+        AngularDrives(ref writer, f, x1, y1, z1);
+        AngularLimits(ref writer, f, x1);
+        LinearLimits(ref writer, f);
+        LockedAxes(ref writer, f, x1);
+        return writer.Count;
+    }
+
+    /// <inheritdoc/>
+    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.D6(this, ref body0, ref body1, moveBody1);
+
+    // Spring-damper per axis a of frame 0: C = (target - c.p).a, Cdot = a.(velocity of 0 - velocity of 1).
+    // Source: ExtD6Joint.cpp, D6JointSolverPrep (the velocity is actor 1's against 0, hence its sign).
+    private void LinearDrives(ref RowWriter writer, in JointFrames f)
+    {
+        Vector3d error = DrivePose.Position - f.Relative.Position;
+        if (DriveX.IsActive && X != AxisMotion.Locked)
+        {
+            writer.LinearDrive(f.Axis0(0), -DriveLinearVelocity.X, error.X, DriveX);
+        }
+
+        if (DriveY.IsActive && Y != AxisMotion.Locked)
+        {
+            writer.LinearDrive(f.Axis0(1), -DriveLinearVelocity.Y, error.Y, DriveY);
+        }
+
+        if (DriveZ.IsActive && Z != AxisMotion.Locked)
+        {
+            writer.LinearDrive(f.Axis0(2), -DriveLinearVelocity.Z, error.Z, DriveZ);
+        }
+    }
+
+    // With delta = conj(target) * c, target on c's side of the double cover:
+    // slerp, three rows: C_i = -delta_i, J_i = row i of 1/2 L R (world axes while there is no stiffness);
+    // twist about X1: C = -2 delta_x; swing about Y1 and Z1: C = the sine of the angle that brings X1 to its goal.
+    // Source: ExtD6Joint.cpp, D6JointSolverPrep; prepareData for which drives count.
+    private void AngularDrives(ref RowWriter writer, in JointFrames f, Vector3d x1, Vector3d y1, Vector3d z1)
+    {
+        bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && Swing1 != AxisMotion.Locked && Swing2 != AxisMotion.Locked;
+        bool twist = DriveTwist.IsActive && Twist != AxisMotion.Locked;
+        bool swing = DriveSwing.IsActive && (Swing1 != AxisMotion.Locked || Swing2 != AxisMotion.Locked);
+        if (!slerp && !twist && !swing)
+        {
+            return;
+        }
+
+        Quaterniond goal = DrivePose.Rotation;
+        if (JointFrames.Dot(f.Relative.Rotation, goal) <= 0)
+        {
+            goal = JointFrames.Negate(goal);
+        }
+
+        Quaterniond delta = goal.Conjugate() * f.Relative.Rotation;
+        if (slerp)
+        {
+            Vector3d velocity = f.Q0 * -DriveAngularVelocity;
+            Vector3d a0 = Vector3d.UnitX;
+            Vector3d a1 = Vector3d.UnitY;
+            Vector3d a2 = Vector3d.UnitZ;
+            if (DriveSlerp.Stiffness != 0)
+            {
+                JointFrames.QuaternionAxes(f.Q0 * goal, f.Q1, out a0, out a1, out a2);
+            }
+
+            writer.AngularDrive(a0, Vector3d.Dot(a0, velocity), -delta.X, DriveSlerp, SolveHint.SlerpSpring);
+            writer.AngularDrive(a1, Vector3d.Dot(a1, velocity), -delta.Y, DriveSlerp, SolveHint.SlerpSpring);
+            writer.AngularDrive(a2, Vector3d.Dot(a2, velocity), -delta.Z, DriveSlerp, SolveHint.SlerpSpring);
+            return;
+        }
+
+        if (twist)
+        {
+            writer.AngularDrive(x1, DriveAngularVelocity.X, -2 * delta.X, DriveTwist);
+        }
+
+        if (swing)
+        {
+            Vector3d x = delta * Vector3d.UnitX;
+            if (Swing1 != AxisMotion.Locked)
+            {
+                writer.AngularDrive(y1, DriveAngularVelocity.Y, x.Z, DriveSwing);
+            }
+
+            if (Swing2 != AxisMotion.Locked)
+            {
+                writer.AngularDrive(z1, DriveAngularVelocity.Z, -x.Y, DriveSwing);
+            }
+        }
+    }
+
+    // Both swings limited: one row on the elliptic cone, error the sine of the distance. One limited, the other locked:
+    // C = the swing angle against +-limit about frame 0's axis. One limited, the other free: C = the elevation of X1
+    // against +-limit. Twist: C = the twist angle against its limits about X1.
+    // Source: ExtD6Joint.cpp, D6JointSolverPrep and setup*SwingLimit(s).
+    private void AngularLimits(ref RowWriter writer, in JointFrames f, Vector3d x1)
+    {
+        bool twist = Twist == AxisMotion.Limited;
+        bool swing1 = Swing1 == AxisMotion.Limited;
+        bool swing2 = Swing2 == AxisMotion.Limited;
+        if (!twist && !swing1 && !swing2)
+        {
+            return;
+        }
+
+        var parts = new SwingTwist(f.Relative.Rotation);
+        ref LimitResponse response = ref SwingLimit.Response;
+        if (swing1 && swing2)
+        {
+            double padding = response.IsSoft ? 0 : response.ContactDistance;
+            if (ConeLimitError.Find(SwingLimit, padding, parts.Swing, out Vector3d axis, out double error))
+            {
+                writer.AngleLimit(f.Q0 * axis, error, response);
+            }
+        }
+        else if (swing1)
+        {
+            if (Swing2 == AxisMotion.Locked)
+            {
+                double angle = SwingTwist.SwingAngle(parts.Swing.Y, parts.Swing.W);
+                writer.AngleLimits(f.Axis0(1), angle, -SwingLimit.Y, SwingLimit.Y, response);
+            }
+            else
+            {
+                Elevation(ref writer, Vector3d.Cross(f.Axis0(2), x1), -Vector3d.Dot(f.Axis0(2), x1), SwingLimit.Y, response);
+            }
+        }
+        else if (swing2)
+        {
+            if (Swing1 == AxisMotion.Locked)
+            {
+                double angle = SwingTwist.SwingAngle(parts.Swing.Z, parts.Swing.W);
+                writer.AngleLimits(f.Axis0(2), angle, -SwingLimit.Z, SwingLimit.Z, response);
+            }
+            else
+            {
+                Elevation(ref writer, -Vector3d.Cross(f.Axis0(1), x1), Vector3d.Dot(f.Axis0(1), x1), SwingLimit.Z, response);
+            }
+        }
+
+        if (twist)
+        {
+            writer.AngleLimits(x1, SwingTwist.TwistAngle(parts.Twist), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+        }
+    }
+
+    private static void Elevation(ref RowWriter writer, Vector3d axis, double sine, double limit, in LimitResponse response) =>
+        writer.AngleLimits(axis.Normalized(), Math.Asin(Math.Max(-1, Math.Min(1, sine))), -limit, limit, response);
+
+    // C = limit - |d|, d = c.p along the limited axes only; direction d/|d| in frame 0's axes.
+    // Source: ExtD6Joint.cpp, computeLimitedDistance and D6JointSolverPrep (distance limit).
+    private void LinearLimits(ref RowWriter writer, in JointFrames f)
+    {
+        Vector3d p = f.Relative.Position;
+        Vector3d d = Vector3d.Zero;
+        d += X == AxisMotion.Limited ? f.Axis0(0) * p.X : Vector3d.Zero;
+        d += Y == AxisMotion.Limited ? f.Axis0(1) * p.Y : Vector3d.Zero;
+        d += Z == AxisMotion.Limited ? f.Axis0(2) * p.Z : Vector3d.Zero;
+        double distance = d.Length;
+        if (distance > LeastLimitedDistance)
+        {
+            writer.UpperLimit(d * (1 / distance), distance, LinearLimit.Value, LinearLimit.Response);
+        }
+    }
+
+    // One swing locked alone: C = -X1.Z0 (swing about Y) or -X1.Y0 (about Z), the Cardan equation; J = X1 x Z0 or X1 x Y0.
+    // Otherwise the rows of RowWriter.Locked. Source: ExtD6Joint.cpp, end of D6JointSolverPrep.
+    private void LockedAxes(ref RowWriter writer, in JointFrames f, Vector3d x1)
+    {
+        int linear = Bit(X, 0) | Bit(Y, 1) | Bit(Z, 2);
+        int angular = Bit(Twist, 0) | Bit(Swing1, 1) | Bit(Swing2, 2);
+        if (angular == 2)
+        {
+            writer.LockedAngle(Vector3d.Cross(x1, f.Axis0(2)), -Vector3d.Dot(x1, f.Axis0(2)));
+            angular = 0;
+        }
+        else if (angular == 4)
+        {
+            writer.LockedAngle(Vector3d.Cross(x1, f.Axis0(1)), -Vector3d.Dot(x1, f.Axis0(1)));
+            angular = 0;
+        }
+
+        writer.Locked(f, linear, angular);
+    }
+
+    private static int Bit(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? 1 << bit : 0;
+}

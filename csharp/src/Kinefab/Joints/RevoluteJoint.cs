@@ -1,0 +1,76 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>
+/// PxRevoluteJoint, the joint under Unity's HingeJoint: rotation about the frames' common X, with limits and a motor;
+/// and Unity's hinge spring, which PxRevoluteJoint lacks.
+/// </summary>
+internal sealed class RevoluteJoint : Joint
+{
+    public bool LimitEnabled;
+
+    /// <summary>Limits of actor 1's angle against actor 0; lower >= upper locks the joint at 0.</summary>
+    public AngularLimit Limit;
+
+    public bool MotorEnabled;
+
+    /// <summary>Target of (w1 - w0).X, rad/s.</summary>
+    public double MotorVelocity;
+
+    /// <summary>Largest torque, N m (an impulse when DriveLimitsAreForces is off).</summary>
+    public double MotorForceLimit = double.PositiveInfinity;
+
+    /// <summary>The motor never brakes.</summary>
+    public bool MotorFreeSpin;
+
+    /// <summary>Spring towards SpringTarget; inactive while it has no gains or the motor is enabled.</summary>
+    public JointDrive Spring;
+
+    /// <summary>Target of actor 1's angle against actor 0, radians.</summary>
+    public double SpringTarget;
+
+    /// <inheritdoc/>
+    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
+    {
+        var f = new JointFrames(this, body0, body1);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position);
+        bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
+        writer.Locked(f, 7, isLocked ? 7 : 6);
+        if (isLocked)
+        {
+            return writer.Count;
+        }
+
+        // Cdot = (w1 - w0).X0 = MotorVelocity, torque within the limit; freeSpin takes away the braking side.
+        // Source: ExtRevoluteJoint.cpp, RevoluteJointSolverPrep.
+        Vector3d axis = f.Axis0(0);
+        if (MotorEnabled)
+        {
+            double minimum = MotorFreeSpin && MotorVelocity > 0 ? 0 : -MotorForceLimit;
+            double maximum = MotorFreeSpin && MotorVelocity < 0 ? 0 : MotorForceLimit;
+            writer.Motor(axis, MotorVelocity, minimum, maximum);
+        }
+        else if (Spring.IsActive)
+        {
+            // C = target - phi, Cdot = -(w1 - w0).X0: the angular drive row of a D6 with the angle itself as error.
+            writer.AngularDrive(axis, 0, SpringTarget - Angle(f), Spring);
+        }
+
+        if (LimitEnabled)
+        {
+            writer.AngleLimits(axis, Angle(f), Limit.Lower, Limit.Upper, Limit.Response);
+        }
+
+        return writer.Count;
+    }
+
+    /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
+    public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
+
+    /// <inheritdoc/>
+    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.Revolute(this, ref body0, ref body1, moveBody1);
+
+    private static double Angle(in JointFrames f) => SwingTwist.TwistAngle(f.Relative.Rotation);
+}

@@ -1,0 +1,213 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>
+/// Writes rows in the families that PhysX's joints share (ExtConstraintHelper.h). Levers are taken from both centres
+/// of mass to actor 1's anchor, so that a linear row's Cdot is exact while the anchors are apart.
+/// </summary>
+internal ref struct RowWriter
+{
+    private readonly Span<ConstraintRow> _rows;
+    private readonly Vector3d _lever0;
+    private readonly Vector3d _lever1;
+
+    /// <summary>Rows written so far.</summary>
+    public int Count { get; private set; }
+
+    public RowWriter(Span<ConstraintRow> rows, Vector3d anchor1, Vector3d center0, Vector3d center1)
+    {
+        _rows = rows;
+        _lever0 = anchor1 - center0;
+        _lever1 = anchor1 - center1;
+        Count = 0;
+    }
+
+    /// <summary>
+    /// Rigid rows on the joint axes named by two bit masks.
+    /// Linear, axis a of frame 0: C = -c.p.a; Cdot = a.(v0 + w0 x r0) - a.(v1 + w1 x r1); J = (a, r0 x a; a, r1 x a),
+    /// where r0 ends at frame 1's origin less its error along the locked axes.
+    /// Angular, component i of the quaternion c: C = -c.q_i; Cdot = row_i.(w0 - w1) with row = 1/2 L(q0*) R(q1).
+    /// Source: ExtConstraintHelper.h, prepareLockedAxes and computeJacobianAxes.
+    /// </summary>
+    public void Locked(in JointFrames f, int linear, int angular)
+    {
+        if (linear != 0)
+        {
+            Vector3d p = f.Relative.Position;
+            Vector3d error = Vector3d.Zero;
+            for (int i = 0; i < 3; i++)
+            {
+                if ((linear & (1 << i)) != 0)
+                {
+                    error -= f.Axis0(i) * p[i];
+                }
+            }
+
+            Vector3d lever0 = _lever0 + error;
+            for (int i = 0; i < 3; i++)
+            {
+                if ((linear & (1 << i)) != 0)
+                {
+                    Rigid(ref LinearRow(f.Axis0(i), lever0, _lever1, -p[i]));
+                }
+            }
+        }
+
+        if (angular != 0)
+        {
+            JointFrames.QuaternionAxes(f.Q0, f.Q1, out Vector3d x, out Vector3d y, out Vector3d z);
+            Quaterniond q = f.Relative.Rotation;
+            if ((angular & 1) != 0)
+            {
+                Rigid(ref AngularRow(x, -q.X));
+            }
+
+            if ((angular & 2) != 0)
+            {
+                Rigid(ref AngularRow(y, -q.Y));
+            }
+
+            if ((angular & 4) != 0)
+            {
+                Rigid(ref AngularRow(z, -q.Z));
+            }
+        }
+    }
+
+    /// <summary>A rigid row on the angular velocity along an axis: J = (0, axis; 0, axis).</summary>
+    public void LockedAngle(Vector3d axis, double error) => Rigid(ref AngularRow(axis, error));
+
+    /// <summary>
+    /// Upper limit of an ordinate that grows with frame 1's motion along the axis.
+    /// C = limit - ordinate >= 0; Cdot = a.(velocity of body 0 at the anchor - velocity of body 1); impulse >= 0.
+    /// </summary>
+    public void UpperLimit(Vector3d axis, double ordinate, double limit, in LimitResponse response)
+    {
+        double pad = response.IsSoft ? 0 : response.ContactDistance;
+        if (ordinate + pad > limit)
+        {
+            Limit(ref LinearRow(axis, _lever0, _lever1, limit - ordinate), response);
+        }
+    }
+
+    /// <summary>
+    /// Both limits of an angle of frame 1 against frame 0 about the axis.
+    /// Lower: C = angle - lower, J = -axis; upper: C = upper - angle, J = axis; Cdot = J.(w0 - w1); impulse >= 0.
+    /// </summary>
+    public void AngleLimits(Vector3d axis, double angle, double lower, double upper, in LimitResponse response)
+    {
+        double pad = response.IsSoft ? 0 : response.ContactDistance;
+        if (angle < lower + pad)
+        {
+            Limit(ref AngularRow(-axis, angle - lower), response);
+        }
+
+        if (angle > upper - pad)
+        {
+            Limit(ref AngularRow(axis, upper - angle), response);
+        }
+    }
+
+    /// <summary>One limit whose error is known, positive inside: J = (0, axis; 0, axis), impulse >= 0.</summary>
+    public void AngleLimit(Vector3d axis, double error, in LimitResponse response) => Limit(ref AngularRow(axis, error), response);
+
+    /// <summary>Spring-damper along a line through frame 1's origin: C = target - ordinate, J as a linear row.</summary>
+    public void LinearDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive) =>
+        Drive(ref LinearRow(axis, _lever0, _lever1, error), velocityTarget, drive);
+
+    /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
+    public void AngularDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive, SolveHint hint = SolveHint.None)
+    {
+        ref ConstraintRow row = ref AngularRow(axis, error);
+        row.Hint = hint;
+        Drive(ref row, velocityTarget, drive);
+    }
+
+    /// <summary>A velocity motor: Cdot = J.(w0 - w1) with J = -axis is driven to the target within the limits.</summary>
+    public void Motor(Vector3d axis, double velocityTarget, double minimum, double maximum)
+    {
+        ref ConstraintRow row = ref AngularRow(-axis, 0);
+        row.VelocityTarget = velocityTarget;
+        row.Minimum = minimum;
+        row.Maximum = maximum;
+        row.Flags |= RowFlags.HasDriveLimit | RowFlags.Drive;
+    }
+
+    private static void Rigid(ref ConstraintRow row)
+    {
+        row.Hint = SolveHint.Equality;
+        row.Flags |= RowFlags.OutputForce;
+    }
+
+    private static void Limit(ref ConstraintRow row, in LimitResponse response)
+    {
+        row.Flags |= RowFlags.OutputForce | RowFlags.Limit;
+        row.Minimum = 0;
+        if (response.IsSoft)
+        {
+            row.Flags |= RowFlags.Spring;
+            row.Stiffness = response.Stiffness;
+            row.Damping = response.Damping;
+            return;
+        }
+
+        row.Hint = SolveHint.Inequality;
+        row.Restitution = response.Restitution;
+        row.BounceThreshold = response.BounceThreshold;
+        if (row.GeometricError > 0)
+        {
+            row.Flags |= RowFlags.KeepBias;
+        }
+
+        if (response.Restitution > 0)
+        {
+            row.Flags |= RowFlags.Restitution;
+        }
+    }
+
+    private static void Drive(ref ConstraintRow row, double velocityTarget, in JointDrive drive)
+    {
+        row.VelocityTarget = velocityTarget;
+        row.Flags |= RowFlags.Spring | RowFlags.HasDriveLimit | RowFlags.Drive;
+        if (drive.IsAcceleration)
+        {
+            row.Flags |= RowFlags.AccelerationSpring;
+        }
+
+        row.Stiffness = drive.Stiffness;
+        row.Damping = drive.Damping;
+        row.Minimum = -drive.ForceLimit;
+        row.Maximum = drive.ForceLimit;
+    }
+
+    private ref ConstraintRow LinearRow(Vector3d axis, Vector3d lever0, Vector3d lever1, double error)
+    {
+        ref ConstraintRow row = ref Next(error);
+        row.Linear0 = axis;
+        row.Linear1 = axis;
+        row.Angular0 = Vector3d.Cross(lever0, axis);
+        row.Angular1 = Vector3d.Cross(lever1, axis);
+        return ref row;
+    }
+
+    private ref ConstraintRow AngularRow(Vector3d axis, double error)
+    {
+        ref ConstraintRow row = ref Next(error);
+        row.Angular0 = axis;
+        row.Angular1 = axis;
+        row.Flags = RowFlags.Angular;
+        return ref row;
+    }
+
+    private ref ConstraintRow Next(double error)
+    {
+        ref ConstraintRow row = ref _rows[Count++];
+        row = default;
+        row.GeometricError = error;
+        row.Minimum = double.NegativeInfinity;
+        row.Maximum = double.PositiveInfinity;
+        return ref row;
+    }
+}

@@ -1,0 +1,27 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>A rotation as q = swing * twist, twist about X and swing about an axis at right angles to X.</summary>
+internal readonly struct SwingTwist
+{
+    public readonly Quaterniond Swing;
+    public readonly Quaterniond Twist;
+
+    /// <summary>Source: PsMathUtils.h, separateSwingTwist.</summary>
+    public SwingTwist(Quaterniond q)
+    {
+        Twist = q.X != 0 ? new Quaterniond(q.X, 0, 0, q.W).Normalized() : Quaterniond.Identity;
+        Swing = q * Twist.Conjugate();
+    }
+
+    /// <summary>
+    /// Angle of a rotation's twist about X, radians: in (-pi, pi] when w is not negative, else out to -2 pi or 2 pi.
+    /// Source: ExtRevoluteJoint.cpp, computePhi (there by acos of a float, which is coarse near 0).
+    /// </summary>
+    public static double TwistAngle(Quaterniond q) => 2 * Math.Atan2(q.X, q.W);
+
+    /// <summary>Component of the swing about Y or Z, radians. Source: ExtJoint.h, computeSwingAngle.</summary>
+    public static double SwingAngle(double component, double w) => 4 * Math.Atan2(component, 1 + w);
+}

@@ -1,0 +1,148 @@
+"""Building a scene in a script: parts from meshes, and joints between them.
+
+    lid = scene.add_part("Lid", trimesh.creation.box((0.4, 0.02, 0.3)), translation=(0, 0.21, 0))
+    scene.add_hinge(box, lid, point=(0, 0.2, -0.15), axis=(1, 0, 0), limits=(0, 110))
+
+Positions are world positions of the exported pose, right-handed, +Y up, +Z forward, metres and degrees.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import model
+from .model import Body, Freedom, Joint, JointKind, MassProperties, Mesh, Motion, Node, NodeKind, freedoms_of
+from .spatial import Pose, frame_from_axes, vector
+
+Vector = Sequence[float]
+
+
+class Scene(model.Scene):
+    """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints."""
+
+    __slots__ = ()
+
+    def add_part(
+        self,
+        name: str,
+        mesh: Any = None,
+        *,
+        translation: Vector = (0.0, 0.0, 0.0),
+        rotation: Any = None,
+        parent: int | None = None,
+        grounded: bool = False,
+        density: float | None = None,
+        mass: MassProperties | None = None,
+        color: Vector | None = None,
+    ) -> int:
+        """Add a part at a world pose and return its index.
+
+        mesh: a trimesh.Trimesh, or anything with ``vertices`` and ``faces``, in the part's own frame, metres.
+        rotation: proper rotation matrix, shape (3, 3); None for none.
+        parent: index of an assembly, or None.  grounded: fixed to the world.
+        density: kg/m^3, None for the export's default.  mass: given instead of computed.
+        color: linear red green blue (alpha), 0..1.
+        """
+        bodies: tuple[Body, ...] = ()
+        if mesh is not None:
+            materials: tuple[int, ...] = ()
+            if color is not None:
+                self.materials.append(model.Material(name, (*(float(c) for c in color[:3]), *([1.0, *color[3:]][-1:]))))
+                materials = (len(self.materials) - 1,)
+            faces = np.asarray(mesh.faces, dtype=np.int64)
+            self.meshes.append(Mesh(name, np.asarray(mesh.vertices, dtype=np.float64), faces))
+            bodies = (Body(name, len(self.meshes) - 1, materials, density),)
+        return self._add_node(name, NodeKind.PART, parent, translation, rotation, bodies=bodies, mass=mass, grounded=grounded)
+
+    def add_assembly(
+        self,
+        name: str,
+        *,
+        translation: Vector = (0.0, 0.0, 0.0),
+        rotation: Any = None,
+        parent: int | None = None,
+        flexible: bool = True,
+    ) -> int:
+        """Add an assembly to put parts under, and return its index.  flexible: whether its parts may move
+        against each other; otherwise they are one rigid body."""
+        return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
+
+    def _add_node(
+        self, name: str, kind: NodeKind, parent: int | None, translation: Vector, rotation: Any, **fields: Any
+    ) -> int:
+        path = name if parent is None else f"{self.nodes[parent].id}/{name}"
+        taken = {node.id for node in self.nodes}
+        copies = (f"{path}:{i}" for i in range(2, len(taken) + 3))
+        node_id = path if path not in taken else next(i for i in copies if i not in taken)
+        turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=np.float64)
+        self.nodes.append(Node(node_id, name, kind, parent, Pose(turn, vector(translation)), **fields))
+        return len(self.nodes) - 1
+
+    def add_joint(
+        self,
+        kind: JointKind,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector = (1.0, 0.0, 0.0),
+        secondary: Vector | None = None,
+        name: str = "",
+        lead: float = 0.0,
+        **freedoms: Freedom,
+    ) -> Joint:
+        """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
+
+        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD.
+        lead: of a screw, metres a turn.
+        freedoms: ``tx`` .. ``rz``, replacing those that the kind leaves (SI, radians).
+        """
+        world = Pose(frame_from_axes(vector(axis), None if secondary is None else vector(secondary)), vector(point))
+        frames = [self.pose(side).inverse() @ world for side in (a, b)]
+        joint_id = name or f"{kind.value}:{len(self.joints) + 1}"
+        joint = Joint(joint_id, kind, a, b, *frames, freedoms_of(kind, **freedoms), name=name, lead=lead)
+        self.joints.append(joint)
+        return joint
+
+    def add_hinge(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector,
+        limits: tuple[float, float] | None = None,
+        name: str = "",
+    ) -> Joint:
+        """Add a hinge: ``b`` turns against ``a`` about ``axis`` through ``point``, right-hand rule.
+
+        limits: (lower, upper) in degrees from the present pose, or None.
+        """
+        turn = _limited(tuple(map(math.radians, limits))) if limits else model.FREE
+        return self.add_joint(JointKind.REVOLUTE, a, b, point=point, axis=axis, name=name, rx=turn)
+
+    def add_slider(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector,
+        limits: tuple[float, float] | None = None,
+        name: str = "",
+    ) -> Joint:
+        """Add a slider: ``b`` moves against ``a`` along ``axis``.  limits: (lower, upper) in metres from the
+        present pose, or None."""
+        slide = _limited(limits) if limits else model.FREE
+        return self.add_joint(JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, tx=slide)
+
+    def add_fixed(self, a: int | None, b: int, *, name: str = "") -> Joint:
+        """Fix ``b`` to ``a`` where they stand now."""
+        return self.add_joint(JointKind.FIXED, a, b, point=self.nodes[b].pose.translation, name=name)
+
+
+def _limited(limits: Sequence[float]) -> Freedom:
+    return Freedom(Motion.LIMITED, float(limits[0]), float(limits[1]))

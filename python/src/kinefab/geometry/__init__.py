@@ -1,0 +1,1 @@
+"""Triangles: reading mesh files, matching them to bodies, mass properties and collision hulls."""

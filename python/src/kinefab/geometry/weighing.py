@@ -1,0 +1,80 @@
+"""Gives every part that has geometry and no mass of its own the mass of that geometry."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Iterable
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import MassProperties, Mesh, Node, Scene
+from .closure import is_closed, welded
+from .hulls import hull_of_points
+from .mass import combined, is_possible, solid_properties
+
+DEFAULT_DENSITY = 1000.0
+"""kg/m^3, water: of bodies whose source and user say nothing."""
+THIN = 1e-9
+"""A volume below this share of the cube of the mesh's size is none."""
+
+
+def weigh(scene: Scene, density: float, report: Report) -> Scene:
+    """The scene with ``Node.mass`` filled in from meshes; given masses are checked and kept.
+
+    density: kg/m^3 of bodies that state none.
+    """
+    unit: dict[int, MassProperties | None] = {}  # of each mesh at density 1, so that copies are weighed once
+    nodes = list(scene.nodes)
+    turned: dict[int, Mesh] = {}
+    for i, node in enumerate(nodes):
+        if node.mass is not None:
+            _check_given(node, report)
+            continue
+        known = []
+        for body in node.bodies:
+            if body.mesh is None:
+                continue
+            if body.mesh not in unit:
+                mesh = scene.meshes[body.mesh]
+                unit[body.mesh] = _unit_properties(mesh, f"{node.id}/{body.name}", node.where, report)
+                if (found := unit[body.mesh]) is not None and found.mass < 0.0:
+                    report.add("MESH_INSIDE_OUT", node.where, body=f"{node.id}/{body.name}")
+                    turned[body.mesh] = _inside_out(mesh)
+                    unit[body.mesh] = MassProperties(-found.mass, found.center, -found.inertia)
+            if (found := unit[body.mesh]) is not None:
+                factor = density if body.density is None else body.density
+                known.append(MassProperties(found.mass * factor, found.center, found.inertia * factor))
+        if known:
+            nodes[i] = replace(node, mass=combined(known))
+    meshes = [turned.get(i, mesh) for i, mesh in enumerate(scene.meshes)]
+    return replace(scene, nodes=nodes, meshes=meshes)
+
+
+def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassProperties | None:
+    """Of one mesh at density 1; of its convex hull where it is open; None where it has no volume."""
+    size = float(np.ptp(mesh.vertices, axis=0).max())
+    if is_closed(welded(mesh.vertices, mesh.faces)):
+        found = solid_properties(mesh.vertices, mesh.faces, 1.0)
+        if abs(found.mass) > THIN * size**3:
+            return found
+    elif (hull := hull_of_points(mesh.vertices)) is not None:
+        report.add("MESH_OPEN", where, body=body)
+        return solid_properties(*hull, 1.0)
+    report.add("MESH_WITHOUT_VOLUME", where, body=body)
+    return None
+
+
+def _inside_out(mesh: Mesh) -> Mesh:
+    normals = None if mesh.normals is None else -mesh.normals
+    return replace(mesh, faces=mesh.faces[:, ::-1], normals=normals)
+
+
+def _check_given(node: Node, report: Report) -> None:
+    given = node.mass
+    numbers: Iterable[np.ndarray] = (np.asarray(given.mass), given.center, given.inertia)
+    if not all(np.isfinite(n).all() for n in numbers) or not given.mass > 0.0:
+        report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=f"the mass is {given.mass:g} kg")
+    elif not is_possible(given.inertia):
+        detail = "a principal moment is not positive, or above the sum of the other two"
+        report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)

@@ -1,0 +1,94 @@
+"""Rigid groups: which nodes move as one, and which of them stand on the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterable
+
+from .model import JointKind, Motion, NodeKind, Scene
+
+
+@dataclass(frozen=True, slots=True)
+class RigidGroups:
+    """group_of: for each node its group's number, or None for a node that is no body (a flexible assembly
+    or a suppressed node).  members: for each group its nodes in scene order.  grounded: for each group
+    whether it is fixed to the world.
+    """
+
+    group_of: tuple[int | None, ...]
+    members: tuple[tuple[int, ...], ...]
+    grounded: tuple[bool, ...]
+
+    def is_ground(self, node: int | None) -> bool:
+        """Whether a joint's side is the world, directly or through its group."""
+        if node is None:
+            return True
+        group = self.group_of[node]
+        return group is not None and self.grounded[group]
+
+    def together(self, a: int | None, b: int | None) -> bool:
+        """Whether two sides of a joint can never move against each other."""
+        if self.is_ground(a) or self.is_ground(b):
+            return self.is_ground(a) and self.is_ground(b)
+        return self.group_of[a] == self.group_of[b]
+
+
+def active_nodes(scene: Scene) -> list[bool]:
+    """For each node whether neither it nor an ancestor is suppressed."""
+    active: list[bool] = []
+    for node in scene.nodes:
+        active.append(not node.suppressed and (node.parent is None or active[node.parent]))
+    return active
+
+
+def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()) -> RigidGroups:
+    """Group the scene's nodes by fixed joints, inflexible assemblies and the ground.
+
+    also_fixed: further pairs of nodes that are fixed to each other (None: ground), as an analysis finds them.
+    """
+    nodes, active = scene.nodes, active_nodes(scene)
+    ground = len(nodes)
+    leader = list(range(ground + 1))
+
+    def find(i: int) -> int:
+        while leader[i] != i:
+            leader[i] = leader[leader[i]]
+            i = leader[i]
+        return i
+
+    def unite(i: int, j: int) -> None:
+        i, j = find(i), find(j)
+        leader[max(i, j)] = min(i, j)
+
+    frozen = [False] * len(nodes)
+    for i, node in enumerate(nodes):
+        inherited = node.parent is not None and frozen[node.parent]
+        frozen[i] = inherited or (node.kind is NodeKind.ASSEMBLY and not node.flexible)
+        if active[i] and inherited:
+            unite(node.parent, i)
+        if active[i] and node.grounded:
+            unite(i, ground)
+    fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j)]
+    for a, b in [*fixed, *also_fixed]:
+        if active[b] and (a is None or active[a]):
+            unite(ground if a is None else a, b)
+
+    is_body = [
+        active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded) for i, node in enumerate(nodes)
+    ]
+    numbers: dict[int, int] = {}
+    group_of = tuple(numbers.setdefault(find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes)))
+    members: list[list[int]] = [[] for _ in numbers]
+    for i, group in enumerate(group_of):
+        if group is not None:
+            members[group].append(i)
+    grounded = [False] * len(numbers)
+    if (group := numbers.get(find(ground))) is not None:
+        grounded[group] = True
+    return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
+
+
+def is_rigid(joint) -> bool:
+    """Whether a joint leaves no freedom at all and cannot break."""
+    locked = joint.kind is JointKind.FIXED or all(f.motion is Motion.LOCKED for f in joint.freedoms)
+    return locked and joint.break_force == joint.break_torque == float("inf")

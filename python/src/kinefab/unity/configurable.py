@@ -1,0 +1,217 @@
+"""The fields of a ConfigurableJoint: motions, limits, drives and targets.
+
+Everything here is in terms of c, PhysX's "actor1 in actor0" at the component's axes.  A CAD coordinate q
+of axis i reads on c as ``sign * q``: see ``Senses``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import RX, Drive, Freedom, Joint, Motion
+from ..spatial import Array, quaternion_from_matrix, rotation_exp
+from .coordinates import CanonicalJoint, Coordinates, nearest_turn
+from .limits import FREEDOM_NAMES, report_outside
+from .placement import BASIS_SIGNS, Placement
+
+OPEN_TRAVEL = 100.0
+"""Metres of travel written for a slide that ends on one side only: Unity's linear limit has two ends."""
+MOTOR_DAMPER = 1e9
+"""Damper, N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
+
+_MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
+_TITLES = {Motion.LOCKED: "Locked", Motion.LIMITED: "Limited", Motion.FREE: "Free"}
+
+
+@dataclass(frozen=True, slots=True)
+class Senses:
+    """Signs of CAD coordinates on c.  Angles turn the other way than distances: SPEC M9 and M10."""
+
+    linear: tuple[float, float, float]
+    angular: tuple[float, float, float]
+
+    @staticmethod
+    def of(placement: Placement) -> "Senses":
+        order = 1.0 if placement.direct else -1.0
+        return Senses(tuple(order * s for s in BASIS_SIGNS), tuple(-order * s for s in BASIS_SIGNS))
+
+
+@dataclass(slots=True, eq=False)
+class _Writing:
+    """One joint on its way out: what is read, and the fields written so far."""
+
+    joint: Joint
+    shape: CanonicalJoint
+    zeros: Array
+    senses: Senses
+    report: Report
+    fields: dict[str, object]
+
+    def approximated(self, code: str, **values: object) -> None:
+        self.report.approximated(f"joint {self.joint.id}", code, self.joint.where, joint=self.joint.id, **values)
+
+    def name(self, freedom: int) -> str:
+        """The source's name of a freedom."""
+        return FREEDOM_NAMES[self.shape.name_of[freedom]]
+
+
+def configurable_fields(
+    joint: Joint, shape: CanonicalJoint, coordinates: Coordinates, placement: Placement, report: Report
+) -> tuple[dict[str, object], Array]:
+    """The component's fields apart from anchors and axes, and the zero of its linear coordinates.
+
+    Returns (fields, middle); middle: metres along a's joint axes, shape (3,), where a's anchor must stand.
+    """
+    zeros = coordinates.values.copy()
+    for i in shape.rotations:
+        zeros[RX + i] = nearest_turn(zeros[RX + i], shape.freedoms[RX + i])
+    writing = _Writing(joint, shape, zeros, Senses.of(placement), report, {})
+    for i, freedom in enumerate(shape.freedoms):
+        if freedom.motion is Motion.LIMITED:
+            report_outside(joint, shape.name_of[i], freedom, zeros[i], report)
+    motions = [freedom.motion for freedom in shape.freedoms]
+    middle = _linear_limits(writing)
+    _twist_limits(writing, motions)
+    _swing_limits(writing, motions)
+    turned = abs(zeros[RX + 1]) + abs(zeros[RX + 2]) > 1e-6
+    if turned and len(shape.rotations) > 1 and not shape.plain(range(6)):
+        # Unity's zero is the exported pose, but a swing there is no shift of the angles.
+        writing.approximated("JOINT_ZERO_SHIFTED")
+    _linear_drives(writing, middle)
+    _angular_drives(writing)
+    if placement.swap:
+        writing.fields["swapBodies"] = True
+    written = {name: _TITLES[motion] for name, motion in zip(_MOTIONS, motions)}
+    return written | writing.fields, middle
+
+
+def _linear_limits(w: _Writing) -> Array:
+    """``linearLimit``: one radius about the anchors' meeting point, so that point is the middle of the range."""
+    middle = np.zeros(3)
+    limited = [i for i in w.shape.translations if w.shape.freedoms[i].motion is Motion.LIMITED]
+    if not limited:
+        return middle
+    halves = []
+    for i in limited:
+        freedom = w.shape.freedoms[i]
+        lower, upper = freedom.lower, freedom.upper
+        if math.isinf(lower) or math.isinf(upper):
+            w.approximated("JOINT_LIMIT_ONE_SIDED", stop=f"{OPEN_TRAVEL:g} m from its end")
+            lower = upper - OPEN_TRAVEL if math.isinf(lower) else lower
+            upper = lower + OPEN_TRAVEL if math.isinf(upper) else upper
+        middle[i] = 0.5 * (lower + upper)
+        halves.append(0.5 * (upper - lower))
+    if len(limited) > 1:
+        w.approximated("JOINT_LIMITS_SHARED", radius=f"{max(halves):g}", axes=", ".join(map(w.name, limited)))
+    first = _stiffest(w, limited)
+    w.fields["linearLimit"] = {"limit": max(halves), "bounciness": first.restitution}
+    w.fields["linearLimitSpring"] = _limit_spring(first)
+    return middle
+
+
+def _twist_limits(w: _Writing, motions: list[Motion]) -> None:
+    """``lowAngularXLimit`` and ``highAngularXLimit``: a range of c's twist, within half a turn."""
+    freedom = w.shape.freedoms[RX]
+    if freedom.motion is not Motion.LIMITED:
+        return
+    sign = w.senses.angular[0]
+    lower, upper = (math.degrees(x - w.zeros[RX]) for x in (freedom.lower, freedom.upper))
+    if math.isinf(lower) or math.isinf(upper):
+        w.approximated("JOINT_LIMIT_ONE_SIDED", stop="180 degrees from the exported pose")
+        lower, upper = max(lower, -180.0), min(upper, 180.0)
+    if lower < -180.0 or upper > 180.0:
+        w.approximated("JOINT_LIMIT_BEYOND_TURN", low=f"{lower:g}", high=f"{upper:g}")
+        motions[RX] = Motion.FREE
+        return
+    low, high = sorted((sign * lower, sign * upper))
+    w.fields["lowAngularXLimit"] = {"limit": low, "bounciness": freedom.restitution}
+    w.fields["highAngularXLimit"] = {"limit": high, "bounciness": freedom.restitution}
+    w.fields["angularXLimitSpring"] = _limit_spring(freedom)
+
+
+def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
+    """``angularYLimit`` and ``angularZLimit``: half angles of a cone about X, the same to either side."""
+    limited = [i for i in (1, 2) if w.shape.freedoms[RX + i].motion is Motion.LIMITED]
+    for i in limited:
+        freedom = w.shape.freedoms[RX + i]
+        lower, upper = (math.degrees(x - w.zeros[RX + i]) for x in (freedom.lower, freedom.upper))
+        half = max(-lower, upper)
+        if half >= 180.0:
+            w.approximated("JOINT_LIMIT_BEYOND_TURN", low=f"{lower:g}", high=f"{upper:g}")
+            motions[RX + i] = Motion.FREE
+            continue
+        if abs(lower + upper) > 1e-6:
+            w.approximated(
+                "JOINT_LIMIT_ASYMMETRIC", freedom=w.name(RX + i), low=f"{lower:g}", high=f"{upper:g}", half=f"{half:g}"
+            )
+        key = "angularYLimit" if i == 1 else "angularZLimit"
+        w.fields[key] = {"limit": half, "bounciness": freedom.restitution}
+    if limited:
+        w.fields["angularYZLimitSpring"] = _limit_spring(_stiffest(w, [RX + i for i in limited]))
+
+
+def _stiffest(w: _Writing, limited: list[int]) -> Freedom:
+    """The freedom whose limit stands for all of ``limited``, where Unity has one spring for them."""
+    freedoms = [w.shape.freedoms[i] for i in limited]
+    settings = {(f.stiffness, f.damping, f.restitution) for f in freedoms}
+    if len(settings) > 1:
+        w.approximated("JOINT_LIMIT_SPRING_SHARED", axes=", ".join(map(w.name, limited)))
+    return max(freedoms, key=lambda f: (f.stiffness, f.damping, f.restitution))
+
+
+def _limit_spring(freedom: Freedom) -> dict[str, float]:
+    return {"spring": freedom.stiffness, "damper": freedom.damping}
+
+
+def _linear_drives(w: _Writing, middle: Array) -> None:
+    """``xDrive`` .. and their targets: the goal of c's position and of its speed."""
+    target, velocity = np.zeros(3), np.zeros(3)
+    for i in w.shape.translations:
+        drive = w.shape.freedoms[i].drive
+        if drive is None:
+            continue
+        target[i] = w.senses.linear[i] * (drive.target - middle[i])
+        velocity[i] = w.senses.linear[i] * drive.target_velocity
+        w.fields["xyz"[i] + "Drive"] = _joint_drive(w, drive, i)
+    w.fields["targetPosition"], w.fields["targetVelocity"] = target, velocity
+
+
+def _angular_drives(w: _Writing) -> None:
+    """``angularXDrive`` and ``angularYZDrive`` (mode XYAndZ) and their targets, radians/s."""
+    driven = [i for i in w.shape.rotations if w.shape.freedoms[RX + i].drive is not None]
+    turn, velocity = np.zeros(3), np.zeros(3)
+    for i in driven:
+        drive = w.shape.freedoms[RX + i].drive
+        turn[i] = w.senses.angular[i] * (0.0 if drive.motor else drive.target - w.zeros[RX + i])
+        # PhysX drives w0 - w1 here, the speed of actor0 against actor1: the opposite of c's own.
+        velocity[i] = -w.senses.angular[i] * drive.target_velocity
+    if 0 in driven:
+        w.fields["angularXDrive"] = _joint_drive(w, w.shape.freedoms[RX].drive, RX)
+    swings = [i for i in w.shape.rotations if i != 0]
+    drives = [w.shape.freedoms[RX + i].drive for i in swings if i in driven]
+    if drives:
+        gains = {(d.stiffness, d.damping, d.max_force, d.acceleration, d.motor) for d in drives}
+        if len(gains) > 1 or len(drives) < len(swings):
+            w.approximated("JOINT_DRIVE_SHARED", axes=", ".join(w.name(RX + i) for i in swings))
+        strongest = max(drives, key=lambda d: (d.motor, d.stiffness, d.damping))
+        w.fields["angularYZDrive"] = _joint_drive(w, strongest, RX + swings[0])
+    w.fields["targetRotation"] = quaternion_from_matrix(rotation_exp(turn))
+    w.fields["targetAngularVelocity"] = velocity
+
+
+def _joint_drive(w: _Writing, drive: Drive, freedom: int) -> dict[str, object]:
+    if drive.motor:
+        w.approximated("JOINT_MOTOR_AS_DRIVE", freedom=w.name(freedom), damper=f"{MOTOR_DAMPER:g}")
+        spring, damper = 0.0, MOTOR_DAMPER
+    else:
+        spring, damper = drive.stiffness, drive.damping
+    fields: dict[str, object] = {"positionSpring": spring, "positionDamper": damper}
+    if math.isfinite(drive.max_force):
+        fields["maximumForce"] = drive.max_force
+    if drive.acceleration and not drive.motor:
+        fields["useAcceleration"] = True
+    return fields

@@ -1,0 +1,82 @@
+"""The paper's way: a list of a part's remaining freedoms becomes one joint to the ground that leaves just those."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import FREE, LOCKED, DofRecord, Joint, JointKind, Scene, UNLOCKED
+from ..rigid import RigidGroups
+from ..spatial import Array, Pose, frame_from_axes
+
+PARALLEL = 1e-6
+"""Sine of the angle up to which two directions of a record count as one."""
+
+
+def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> list[Joint]:
+    """A joint for each record whose part no joint of the scene is on."""
+    jointed = {groups.group_of[n] for j in scene.joints for n in (j.a, j.b) if n is not None}
+    joints = []
+    for record in scene.dof_records:
+        node = scene.nodes[record.node]
+        feature = f"freedoms of {node.id}"
+        group = groups.group_of[record.node]
+        if group is None or groups.is_ground(record.node):
+            continue
+        if group in jointed:
+            report.dropped(feature, "DOF_RECORD_OVERRIDDEN", record.where, node=node.id)
+            continue
+        placed = _frame_and_freedoms(record, node.pose)
+        if isinstance(placed, str):
+            report.dropped(feature, "DOF_RECORD_INEXPRESSIBLE", record.where, node=node.id, detail=placed)
+            continue
+        axes, free = placed
+        center = node.pose.translation if record.center is None else record.center
+        world = Pose(axes, center)
+        freedoms = tuple(FREE if i in free else LOCKED for i in range(6))
+        kind = next((k for k, unlocked in UNLOCKED.items() if tuple(unlocked) == free), JointKind.GENERAL)
+        frame_b = node.pose.inverse() @ world
+        joints.append(
+            Joint(f"dof:{node.id}", kind, None, record.node, world, frame_b, freedoms, because=(feature,), where=record.where)
+        )
+    return joints
+
+
+def _frame_and_freedoms(record: DofRecord, pose: Pose) -> tuple[Array, tuple[int, ...]] | str:
+    """World axes of a joint frame, columns X Y Z, and the freedoms it leaves; or what is in the way."""
+    slides, turns = _span(record.translations), _span(record.rotations)
+    t, r = len(slides), len(turns)
+    # What fixes the frame: the one direction that is singled out, if there is one.
+    turn_axis = turns[0] if r == 1 else np.cross(*turns) if r == 2 else None
+    slide_axis = slides[0] if t == 1 else np.cross(*slides) if t == 2 else None
+    if turn_axis is None and slide_axis is None:
+        axes = np.eye(3)
+    elif turn_axis is None or slide_axis is None:
+        main = turn_axis if turn_axis is not None else slide_axis
+        axes = frame_from_axes(main)
+    elif np.linalg.norm(np.cross(turn_axis, slide_axis)) < PARALLEL:
+        axes = frame_from_axes(turn_axis)
+    elif abs(turn_axis @ slide_axis) < PARALLEL:
+        axes = frame_from_axes(turn_axis, slide_axis)
+    else:
+        return "its slides stand askew to its rotations"
+    free = tuple(i for i in range(3) if _lies_in(axes[:, i], slides))
+    about = tuple(3 + i for i in range(3) if _lies_in(axes[:, i], turns))
+    if r == 2:  # two rotations are a cross joint: its middle body turns about one axis, the part about the other
+        return "two rotations are no motion of their own"
+    return axes, free + about
+
+
+def _span(directions: Array) -> Array:
+    """Independent unit directions that span the given ones, shape (k, 3)."""
+    given = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
+    if len(given) == 0:
+        return given
+    if len(given) == 1:
+        return given / np.linalg.norm(given)
+    _, sizes, rows = np.linalg.svd(given)
+    return rows[: int((sizes > PARALLEL * sizes[0]).sum())]
+
+
+def _lies_in(axis: Array, span: Array) -> bool:
+    return bool(np.linalg.norm(axis - span.T @ (span @ axis)) < 10.0 * PARALLEL)

@@ -1,0 +1,86 @@
+"""The fields of a HingeJoint: limits, motor and spring of one rotation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import RX, Joint, Motion
+from .coordinates import CanonicalJoint, Coordinates, nearest_turn
+from .limits import report_outside
+from .placement import Placement
+
+MAX_FLOAT = 3.4028233e38
+"""What Unity writes for "unlimited" in a force field."""
+
+
+def fits_hinge(joint: CanonicalJoint) -> bool:
+    """Whether the joint is one rotation without what only a ConfigurableJoint has: a soft limit, a spring
+    with a largest torque or with a target speed."""
+    if joint.rotations != (0,) or joint.translations:
+        return False
+    freedom = joint.freedoms[RX]
+    if freedom.motion is Motion.LIMITED and (freedom.stiffness > 0.0 or freedom.damping > 0.0):
+        return False
+    drive = freedom.drive
+    if drive is None or drive.motor:
+        return True
+    return math.isinf(drive.max_force) and (drive.target_velocity == 0.0 or drive.damping == 0.0)
+
+
+def hinge_fields(
+    joint: Joint,
+    shape: CanonicalJoint,
+    coordinates: Coordinates,
+    placement: Placement,
+    frame: dict[str, object],
+    report: Report,
+) -> dict[str, object]:
+    """Axis, limits, motor and spring; degrees.  frame: the component's anchors and axes so far."""
+    freedom = shape.freedoms[RX]
+    zero = nearest_turn(coordinates.values[RX], freedom)
+    frame.pop("secondaryAxis")  # a hinge has none
+    fields: dict[str, object] = {}
+    if not placement.on_a:
+        # own = b: angle about -M X, which is the axis mapped as an axial vector (SPEC M3)
+        fields["axis"] = -np.asarray(frame["axis"])
+    if freedom.motion is Motion.LIMITED:
+        fields |= _limits(joint, shape, zero, report)
+    drive = freedom.drive
+    if drive is not None and drive.motor:
+        fields["useMotor"] = True
+        fields["motor"] = {
+            "targetVelocity": math.degrees(drive.target_velocity),
+            "force": min(drive.max_force, MAX_FLOAT),
+        }
+    elif drive is not None:
+        fields["useSpring"] = True
+        fields["spring"] = {
+            "spring": drive.stiffness,
+            "damper": drive.damping,
+            "targetPosition": math.degrees(drive.target - zero),
+        }
+        if drive.acceleration:
+            fields["useAcceleration"] = True
+    return fields
+
+
+def _limits(joint: Joint, shape: CanonicalJoint, zero: float, report: Report) -> dict[str, object]:
+    freedom, feature = shape.freedoms[RX], f"joint {joint.id}"
+    report_outside(joint, shape.name_of[RX], freedom, zero, report)
+    low, high = math.degrees(freedom.lower - zero), math.degrees(freedom.upper - zero)
+    if math.isinf(low) or math.isinf(high):
+        report.approximated(
+            feature, "JOINT_LIMIT_ONE_SIDED", joint.where, joint=joint.id, stop="360 degrees from the exported pose"
+        )
+        low, high = max(low, -360.0), min(high, 360.0)
+    if low < -360.0 or high > 360.0:
+        report.approximated(
+            feature, "JOINT_LIMIT_BEYOND_TURN", joint.where, joint=joint.id, low=f"{low:g}", high=f"{high:g}"
+        )
+        return {}
+    limits = {"min": low, "max": high, "bounciness": freedom.restitution}
+    extended = {"extendedLimits": True} if low < -180.0 or high > 180.0 else {}
+    return {"useLimits": True, "limits": limits} | extended

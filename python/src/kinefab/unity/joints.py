@@ -1,0 +1,191 @@
+"""From a joint of the model to the one Unity component that moves as it does.
+
+Signs and frames: ``schemas/SPEC.md``, "Joints".  In short, with X Y Z the joint axes in CAD:
+
+* The component's axes are M X, M Y and their cross product, -M Z.
+* A HingeJoint on ``b`` has axis -M X, on ``a`` +M X: its angle is the CAD angle, counted from the exported pose.
+* A ConfigurableJoint limits and drives c, PhysX's "actor1 in actor0".  Where c is "b in a" (the component
+  is on ``a``, or on ``b`` with swapBodies) distances keep their sign on X and Y; where it is "a in b" (on
+  ``b``) all senses turn round.  Only joints that move alike seen from either side may take the second form.
+* Zero of an angle is the exported pose, as Unity freezes the frames there.  Zero of a distance is where the
+  anchors meet, so the anchors carry it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+from ..diagnostics import Report
+from ..model import RX, Joint, Motion, Scene
+from ..rigid import RigidGroups
+from ..spatial import Pose
+from . import frames
+from .configurable import configurable_fields
+from .coordinates import CanonicalJoint, Coordinates, canonical, nearest_turn, read_coordinates
+from .hinge import fits_hinge, hinge_fields
+from .placement import BASIS_SIGNS, Placement, place
+
+GAP_LENGTH = 1e-5
+"""Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
+GAP_ANGLE = 1e-4
+"""Radians, likewise."""
+
+Component = dict[str, object]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnityCoordinate:
+    """How a CAD coordinate q reads on the component: u = sign * (q - zero), metres or radians.
+
+    name: of the scene format (``angle``, ``x`` .. ``angularZ``).
+    """
+
+    name: str
+    sign: float
+    zero: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnityJoint:
+    """A component, the node whose Rigidbody carries it and the one it is connected to (None: the world).
+
+    component: fields of the scene format without ``connectedBody``.
+    coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
+    """
+
+    source: Joint
+    owner: int
+    connected: int | None
+    component: Component
+    coordinates: dict[int, UnityCoordinate]
+
+
+def map_joint(
+    joint: Joint, scene: Scene, groups: RigidGroups, carrier: Callable[[int], int], report: Report
+) -> UnityJoint | None:
+    """The component for ``joint``, or None where none is needed or possible; ``report`` says which and why.
+
+    carrier: the node whose GameObject has the Rigidbody that a node moves with.
+    """
+    feature = f"joint {joint.id}"
+    unbodied = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
+    if unbodied is not None:
+        report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id)
+        return None
+    if not _limits_in_order(joint, report):
+        return None
+    shape = canonical(joint)
+    relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
+    coordinates = read_coordinates(shape, relative)
+    lossless = _report_gap(joint, coordinates, report)
+    if groups.together(joint.a, joint.b):
+        if not (shape.rotations or shape.translations):
+            report.kept(feature, joint.where)  # one Rigidbody, or a FixedJoint of the group
+        else:
+            report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+        return None
+    if len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6)):
+        report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
+        return None
+
+    a, b = (None if groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
+    frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
+    placement = place(shape, a is None, b is None)
+    before = len(report.outcomes)
+    if not (shape.rotations or shape.translations):
+        component: Component = {"type": "FixedJoint"}
+    elif fits_hinge(shape):
+        component = {"type": "HingeJoint"}
+        component |= _frame_fields(frame_a, frame_b, placement, coordinates)
+        component |= hinge_fields(joint, shape, coordinates, placement, component, report)
+    else:
+        limits, middle = configurable_fields(joint, shape, coordinates, placement, report)
+        shifted = Pose(frame_a.rotation, frame_a.point(middle))
+        component = {"type": "ConfigurableJoint"}
+        component |= _frame_fields(shifted, frame_b, placement, coordinates) | limits
+    component |= _common_fields(joint)
+    if lossless and len(report.outcomes) == before:
+        report.kept(feature, joint.where)
+    else:
+        component["exact"] = False
+    owner, connected = (a, b) if placement.on_a else (b, a)
+    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
+
+
+def _frame_fields(frame_a: Pose, frame_b: Pose, placement: Placement, coordinates: Coordinates) -> Component:
+    """Anchors and axes.  frame_a, frame_b: the joint frames in their carriers, with the anchors as origins."""
+    own, other = (frame_a, frame_b) if placement.on_a else (frame_b, frame_a)
+    turn = coordinates.in_a if placement.on_a else coordinates.in_b
+    basis = frames.joint_basis(own.rotation @ turn)
+    return {
+        "anchor": frames.point(own.translation),
+        "axis": basis[:, 0],
+        "secondaryAxis": basis[:, 1],
+        "autoConfigureConnectedAnchor": False,
+        "connectedAnchor": frames.point(other.translation),
+    }
+
+
+def _common_fields(joint: Joint) -> Component:
+    fields: Component = {}
+    if math.isfinite(joint.break_force):
+        fields["breakForce"] = joint.break_force
+    if math.isfinite(joint.break_torque):
+        fields["breakTorque"] = joint.break_torque
+    if joint.because:
+        fields["because"] = list(joint.because)
+    if joint.closure:
+        fields["closure"] = True
+    return fields
+
+
+def _readings(
+    shape: CanonicalJoint, coordinates: Coordinates, placement: Placement
+) -> dict[int, UnityCoordinate]:
+    """How each unlocked coordinate is read: the own body's motion against the connected one's."""
+    own = -1.0 if placement.on_a else 1.0
+    hinge = fits_hinge(shape)
+    readings = {}
+    for i in range(6):
+        if shape.freedoms[i].motion is Motion.LOCKED:
+            continue
+        axis = i % 3
+        along = own * BASIS_SIGNS[axis]
+        if hinge:
+            name, sign = "angle", 1.0
+        elif i < RX:
+            name, sign = "xyz"[axis], along
+        else:
+            name, sign = "angular" + "XYZ"[axis], -along
+        zero = nearest_turn(coordinates.values[i], shape.freedoms[i]) if i >= RX else coordinates.values[i]
+        readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
+    return readings
+
+
+def _report_gap(joint: Joint, coordinates: Coordinates, report: Report) -> bool:
+    """Whether the exported pose meets the joint; a warning with the misfit where it does not."""
+    if coordinates.gap_length <= GAP_LENGTH and coordinates.gap_angle <= GAP_ANGLE:
+        return True
+    report.approximated(
+        f"joint {joint.id}",
+        "JOINT_POSE_GAP",
+        joint.where,
+        joint=joint.id,
+        metres=f"{coordinates.gap_length:.3g}",
+        degrees=f"{math.degrees(coordinates.gap_angle):.3g}",
+    )
+    return False
+
+
+def _limits_in_order(joint: Joint, report: Report) -> bool:
+    limited = [f for f in joint.freedoms if f.motion is Motion.LIMITED]
+    wrong = next((f for f in limited if not f.lower <= f.upper), None)
+    if wrong is not None:
+        values = {"lower": wrong.lower, "upper": wrong.upper}
+        report.dropped(f"joint {joint.id}", "JOINT_LIMITS_REVERSED", joint.where, joint=joint.id, **values)
+    return wrong is None
+
+

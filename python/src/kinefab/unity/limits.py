@@ -1,0 +1,32 @@
+"""Findings about a joint's ranges that hinge and configurable joints share."""
+
+from __future__ import annotations
+
+import math
+
+from ..diagnostics import Report
+from ..model import RX, Freedom, Joint
+
+FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
+
+
+def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, report: Report) -> None:
+    """Warn when the exported pose lies outside the range: Unity would throw the part into it at start-up.
+
+    freedom: index in the source joint.  value: coordinate at the exported pose, metres or radians.
+    """
+    beyond = max(limits.lower - value, value - limits.upper)
+    if beyond <= 1e-6:
+        return
+    angle = freedom >= RX
+    shown = [math.degrees(x) if angle else x for x in (value, limits.lower, limits.upper)]
+    report.add(
+        "JOINT_OUTSIDE_LIMITS",
+        joint.where,
+        joint=joint.id,
+        freedom=FREEDOM_NAMES[freedom],
+        value=f"{shown[0]:g}",
+        lower=f"{shown[1]:g}",
+        upper=f"{shown[2]:g}",
+        unit="degrees" if angle else "m",
+    )

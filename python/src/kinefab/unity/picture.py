@@ -77,13 +77,14 @@ def world_poses(objects: Sequence[Mapping]) -> list[Pose]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnJoint:
-    """A joint component in the world: pose's X is its axis."""
+    """A joint component in the world: pose's X is its axis; connected_anchor is None where not given."""
 
     name: str
     kind: str
     pose: Pose
     component: Mapping
     connected: str
+    connected_anchor: Array | None
 
 
 def _joints(objects: Sequence[Mapping], poses: Sequence[Pose]) -> list[DrawnJoint]:
@@ -97,7 +98,10 @@ def _joints(objects: Sequence[Mapping], poses: Sequence[Pose]) -> list[DrawnJoin
             local = Pose(frame_from_axes(axis, second), np.array(component.get("anchor", [0, 0, 0]), float))
             other = component.get("connectedBody")
             connected = "world" if other is None else objects[other]["name"]
-            found.append(DrawnJoint(item["name"], component["type"], poses[index] @ local, component, connected))
+            anchor = component.get("connectedAnchor")
+            if anchor is not None:
+                anchor = (Pose() if other is None else poses[other]).point(np.array(anchor, float))
+            found.append(DrawnJoint(item["name"], component["type"], poses[index] @ local, component, connected, anchor))
     return found
 
 
@@ -154,11 +158,13 @@ def _box(bounds: Mapping) -> tuple[Array, np.ndarray]:
 def _view(cloud: Array, joints: Sequence[DrawnJoint]) -> View:
     """Looks mostly along the axis that most hinges share, tilted, so that planar linkages lie open."""
     axes = np.array([j.pose.rotation[:, 0] for j in joints if j.kind == "HingeJoint"]).reshape(-1, 3)
-    main = np.linalg.svd(axes)[2][0] if len(axes) else np.array([0.0, 1.0, -1.2])
+    main = np.linalg.svd(axes)[2][0] if len(axes) else np.array([0.2, 0.4, -1.0]) / np.sqrt(1.2)
     if main @ np.array([0.3, 1.0, -0.6]) < 0:
         main = -main
-    side = np.array([0.35, 0.0, -0.75]) if abs(main[1]) > 0.9 * np.linalg.norm(main) else np.array([0.3, 0.45, 0.0])
-    toward = main / np.linalg.norm(main) + side
+    lift = np.array([0.0, 1.0, 0.0]) if abs(main[1]) < 0.9 else np.array([0.0, 0.0, -1.0])
+    lift = lift - main * (main @ lift)
+    lift /= np.linalg.norm(lift)
+    toward = main + 0.62 * lift + 0.45 * np.cross(main, lift)
     toward /= np.linalg.norm(toward)
     up = np.array([0.0, 1.0, 0.0]) - toward * toward[1]
     up /= np.linalg.norm(up)
@@ -173,7 +179,7 @@ def _view(cloud: Array, joints: Sequence[DrawnJoint]) -> View:
 
 def _surfaces(triangles: Array, colours: Array, view: View) -> str:
     """Painter's algorithm; large triangles are cut first, so that their centres sort well."""
-    limit = 0.12 * (WIDTH / view.scale)
+    limit = 0.07 * (WIDTH / view.scale)
     for _ in range(6):
         edges = np.linalg.norm(triangles - np.roll(triangles, -1, axis=1), axis=2)
         large = edges.max(axis=1) > limit if len(triangles) else np.zeros(0, bool)
@@ -252,10 +258,8 @@ def _turn(joint: DrawnJoint) -> tuple[float, float]:
 
 def _slide_middle(joint: DrawnJoint, place: Array, axis: Array) -> Array:
     """Middle of a slide's range: the connected anchor, seen along the axis; the anchor when not given."""
-    given = joint.component.get("connectedAnchor")
-    if given is None or joint.connected != "world":
-        return place
-    return place + axis * float(axis @ (np.array(given, float) - place))
+    anchor = joint.connected_anchor
+    return place if anchor is None else place + axis * float(axis @ (anchor - place))
 
 
 def _legend(document: Mapping, joints: Sequence[DrawnJoint]) -> str:

@@ -1,6 +1,27 @@
+using System;
+using System.CommandLine;
+using Kinefab.Cli.Commands;
+
 namespace Kinefab.Cli;
 
+/// <summary>dotnet kinefab: exit 0 ok, 1 errors found, 2 wrong usage.</summary>
 internal static class Program
 {
-    private static int Main() => 0;
+    private const int WrongUsage = 2;
+
+    private static int Main(string[] args)
+    {
+        var root = new RootCommand("Validates and inspects Kinefab scenes.")
+        {
+            ValidateCommand.Create(),
+            InspectCommand.Create(),
+        };
+        ParseResult parsed = root.Parse(args);
+        if (parsed.Errors.Count == 0)
+            return parsed.Invoke();
+        foreach (var error in parsed.Errors)
+            Console.Error.WriteLine(error.Message);
+        Console.Error.WriteLine("Run 'dotnet kinefab --help' for the commands and their options.");
+        return WrongUsage;
+    }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -19,6 +20,39 @@ public enum WrapMode
 /// <summary>An animation, linear between keys.</summary>
 public sealed class AnimationClip : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(["name", "times", "tracks"], "wrapMode", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public AnimationClip()
+    {
+    }
+
+    internal AnimationClip(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "name":
+                    Name = json.Text();
+                    break;
+                case "times":
+                    Times = json.List(static (ref JsonCursor at) => at.Number(), least: 1);
+                    break;
+                case "wrapMode":
+                    WrapMode = json.Word(DocumentWords.WrapModes);
+                    break;
+                case "tracks":
+                    Tracks = json.List(static (ref JsonCursor at) => new AnimationTrack(ref at));
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Its name.</summary>
     public string Name { get; init; } = "";
 

@@ -1,3 +1,4 @@
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Document;
@@ -5,6 +6,33 @@ namespace Kinefab.Document;
 /// <summary>Axis-aligned box.</summary>
 public sealed class Bounds : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(["center", "extents"], "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public Bounds()
+    {
+    }
+
+    internal Bounds(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "center":
+                    Center = json.Vector3();
+                    break;
+                case "extents":
+                    Extents = json.Vector3();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Metres.</summary>
     public Vector3d Center { get; init; }
 

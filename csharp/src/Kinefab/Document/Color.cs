@@ -1,3 +1,6 @@
+using System;
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>Linear red, green, blue, alpha, each 0 to 1.</summary>
@@ -26,4 +29,11 @@ public readonly struct Color
 
     /// <summary>(1, 1, 1, 1).</summary>
     public static Color White => new(1, 1, 1, 1);
+
+    internal static Color Read(ref JsonCursor json)
+    {
+        Span<double> v = stackalloc double[4];
+        json.Numbers(v);
+        return new Color(v[0], v[1], v[2], v[3]);
+    }
 }

@@ -1,3 +1,4 @@
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Document;
@@ -8,6 +9,133 @@ namespace Kinefab.Document;
 /// </summary>
 public sealed class ConfigurableJoint : AnchoredJoint
 {
+    internal static readonly FieldNames Fields = new(
+        ["type"],
+        [
+            .. AnchoredJointFields,
+            "secondaryAxis", "xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion",
+            "angularZMotion", "linearLimitSpring", "linearLimit", "angularXLimitSpring", "lowAngularXLimit",
+            "highAngularXLimit", "angularYZLimitSpring", "angularYLimit", "angularZLimit", "targetPosition",
+            "targetVelocity", "xDrive", "yDrive", "zDrive", "targetRotation", "targetAngularVelocity",
+            "rotationDriveMode", "angularXDrive", "angularYZDrive", "slerpDrive", "projectionMode",
+            "projectionDistance", "projectionAngle", "configuredInWorldSpace", "swapBodies", "extras",
+        ]);
+
+    /// <summary>Unity's defaults.</summary>
+    public ConfigurableJoint()
+    {
+    }
+
+    internal ConfigurableJoint(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "secondaryAxis":
+                    SecondaryAxis = json.Vector3();
+                    break;
+                case "xMotion":
+                    XMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "yMotion":
+                    YMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "zMotion":
+                    ZMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "angularXMotion":
+                    AngularXMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "angularYMotion":
+                    AngularYMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "angularZMotion":
+                    AngularZMotion = json.Word(DocumentWords.Motions);
+                    break;
+                case "linearLimitSpring":
+                    LinearLimitSpring = new SoftJointLimitSpring(ref json);
+                    break;
+                case "linearLimit":
+                    LinearLimit = new SoftJointLimit(ref json);
+                    break;
+                case "angularXLimitSpring":
+                    AngularXLimitSpring = new SoftJointLimitSpring(ref json);
+                    break;
+                case "lowAngularXLimit":
+                    LowAngularXLimit = new SoftJointLimit(ref json);
+                    break;
+                case "highAngularXLimit":
+                    HighAngularXLimit = new SoftJointLimit(ref json);
+                    break;
+                case "angularYZLimitSpring":
+                    AngularYZLimitSpring = new SoftJointLimitSpring(ref json);
+                    break;
+                case "angularYLimit":
+                    AngularYLimit = new SoftJointLimit(ref json);
+                    break;
+                case "angularZLimit":
+                    AngularZLimit = new SoftJointLimit(ref json);
+                    break;
+                case "targetPosition":
+                    TargetPosition = json.Vector3();
+                    break;
+                case "targetVelocity":
+                    TargetVelocity = json.Vector3();
+                    break;
+                case "xDrive":
+                    XDrive = new JointDrive(ref json);
+                    break;
+                case "yDrive":
+                    YDrive = new JointDrive(ref json);
+                    break;
+                case "zDrive":
+                    ZDrive = new JointDrive(ref json);
+                    break;
+                case "targetRotation":
+                    TargetRotation = json.Quaternion();
+                    break;
+                case "targetAngularVelocity":
+                    TargetAngularVelocity = json.Vector3();
+                    break;
+                case "rotationDriveMode":
+                    RotationDriveMode = json.Word(DocumentWords.RotationDriveModes);
+                    break;
+                case "angularXDrive":
+                    AngularXDrive = new JointDrive(ref json);
+                    break;
+                case "angularYZDrive":
+                    AngularYZDrive = new JointDrive(ref json);
+                    break;
+                case "slerpDrive":
+                    SlerpDrive = new JointDrive(ref json);
+                    break;
+                case "projectionMode":
+                    ProjectionMode = json.Word(DocumentWords.ProjectionModes);
+                    break;
+                case "projectionDistance":
+                    ProjectionDistance = json.Number();
+                    break;
+                case "projectionAngle":
+                    ProjectionAngle = json.Number();
+                    break;
+                case "configuredInWorldSpace":
+                    ConfiguredInWorldSpace = json.Boolean();
+                    break;
+                case "swapBodies":
+                    SwapBodies = json.Boolean();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+                default:
+                    ReadAnchoredJointField(ref json, fields.Name);
+                    break;
+            }
+        }
+    }
+
     /// <summary>Own local direction that the joint's Y comes closest to.</summary>
     public Vector3d SecondaryAxis { get; init; } = Vector3d.UnitY;
 

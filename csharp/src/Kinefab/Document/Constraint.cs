@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -99,6 +100,69 @@ public enum ConstraintSide
 /// <summary>A geometric constraint of the source, written through for whoever wants it.</summary>
 public sealed class Constraint : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["id", "kind", "features"],
+        "name", "rawKind", "value", "lower", "upper", "sense", "side", "lockRotation", "suppressed", "reading",
+        "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public Constraint()
+    {
+    }
+
+    internal Constraint(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "id":
+                    Id = json.Text();
+                    break;
+                case "name":
+                    Name = json.Text();
+                    break;
+                case "kind":
+                    Kind = json.Word(DocumentWords.ConstraintKinds);
+                    break;
+                case "rawKind":
+                    RawKind = json.Text();
+                    break;
+                case "features":
+                    Features = json.List(static (ref JsonCursor at) => new Feature(ref at));
+                    break;
+                case "value":
+                    Value = json.Number();
+                    break;
+                case "lower":
+                    Lower = json.Number();
+                    break;
+                case "upper":
+                    Upper = json.Number();
+                    break;
+                case "sense":
+                    Sense = json.Word(DocumentWords.ConstraintSenses);
+                    break;
+                case "side":
+                    Side = json.Word(DocumentWords.ConstraintSides);
+                    break;
+                case "lockRotation":
+                    LockRotation = json.Boolean();
+                    break;
+                case "suppressed":
+                    Suppressed = json.Boolean();
+                    break;
+                case "reading":
+                    Reading = json.Dictionary();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Id in the source.</summary>
     public string Id { get; init; } = "";
 

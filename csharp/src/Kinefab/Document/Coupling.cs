@@ -1,3 +1,5 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>What makes two joint coordinates move together.</summary>
@@ -22,6 +24,45 @@ public enum CouplingKind
 /// <summary>q_b = ratio * q_a + offset between two joint coordinates, degrees and metres.</summary>
 public sealed class Coupling : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(["kind", "a", "b", "ratio"], "id", "offset", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public Coupling()
+    {
+    }
+
+    internal Coupling(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "id":
+                    Id = json.Text();
+                    break;
+                case "kind":
+                    Kind = json.Word(DocumentWords.CouplingKinds);
+                    break;
+                case "a":
+                    A = new JointCoordinate(ref json);
+                    break;
+                case "b":
+                    B = new JointCoordinate(ref json);
+                    break;
+                case "ratio":
+                    Ratio = json.Number();
+                    break;
+                case "offset":
+                    Offset = json.Number();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Name in the source; null when it has none.</summary>
     public string? Id { get; init; }
 

@@ -1,3 +1,4 @@
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Document;
@@ -36,6 +37,50 @@ public enum FeatureKind
 /// <summary>Geometry that a constraint refers to, in the local frame of its GameObject, or in the world.</summary>
 public sealed class Feature : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["kind"],
+        "gameObject", "point", "direction", "secondary", "radius", "halfAngle", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public Feature()
+    {
+    }
+
+    internal Feature(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "gameObject":
+                    GameObject = json.Int();
+                    break;
+                case "kind":
+                    Kind = json.Word(DocumentWords.FeatureKinds);
+                    break;
+                case "point":
+                    Point = json.Vector3();
+                    break;
+                case "direction":
+                    Direction = json.Vector3();
+                    break;
+                case "secondary":
+                    Secondary = json.Vector3();
+                    break;
+                case "radius":
+                    Radius = json.Number();
+                    break;
+                case "halfAngle":
+                    HalfAngle = json.Number();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Index of the GameObject; null: the ground.</summary>
     public int? GameObject { get; init; }
 

@@ -1,11 +1,53 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
 /// <summary>A node of the hierarchy.</summary>
 public sealed class GameObject : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["id", "name"],
+        "parent", "active", "transform", "components", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public GameObject()
+    {
+    }
+
+    internal GameObject(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "id":
+                    Id = json.Text();
+                    break;
+                case "name":
+                    Name = json.Text();
+                    break;
+                case "parent":
+                    Parent = json.Int();
+                    break;
+                case "active":
+                    Active = json.Boolean();
+                    break;
+                case "transform":
+                    Transform = new Transform(ref json);
+                    break;
+                case "components":
+                    Components = json.List(ComponentReader.Read);
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Unique and stable: made from the source's own path.</summary>
     public string Id { get; init; } = "";
 

@@ -1,3 +1,5 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>Which coordinate of a joint is meant.</summary>
@@ -31,6 +33,36 @@ public enum Coordinate
 /// </summary>
 public sealed class JointCoordinate : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(["gameObject", "component", "coordinate"], "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public JointCoordinate()
+    {
+    }
+
+    internal JointCoordinate(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "gameObject":
+                    GameObject = json.Int();
+                    break;
+                case "component":
+                    Component = json.Int();
+                    break;
+                case "coordinate":
+                    Coordinate = json.Word(DocumentWords.Coordinates);
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Index of the GameObject that carries the joint.</summary>
     public int GameObject { get; init; }
 

@@ -1,8 +1,48 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>JointLimits of a <see cref="HingeJoint"/>.</summary>
 public sealed class JointLimits : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        [],
+        "min", "max", "bounciness", "bounceMinVelocity", "contactDistance", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public JointLimits()
+    {
+    }
+
+    internal JointLimits(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "min":
+                    Min = json.Number();
+                    break;
+                case "max":
+                    Max = json.Number();
+                    break;
+                case "bounciness":
+                    Bounciness = json.Number();
+                    break;
+                case "bounceMinVelocity":
+                    BounceMinVelocity = json.Number();
+                    break;
+                case "contactDistance":
+                    ContactDistance = json.Number();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Unity's defaults.</summary>
     public static JointLimits Default { get; } = new();
 

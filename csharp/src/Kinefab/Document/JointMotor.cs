@@ -1,8 +1,40 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>JointMotor of a <see cref="HingeJoint"/>.</summary>
 public sealed class JointMotor : DocumentObject
 {
+    internal static readonly FieldNames Fields = new([], "targetVelocity", "force", "freeSpin", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public JointMotor()
+    {
+    }
+
+    internal JointMotor(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "targetVelocity":
+                    TargetVelocity = json.Number();
+                    break;
+                case "force":
+                    Force = json.Number();
+                    break;
+                case "freeSpin":
+                    FreeSpin = json.Boolean();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Unity's defaults.</summary>
     public static JointMotor Default { get; } = new();
 

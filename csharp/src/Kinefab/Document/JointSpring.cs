@@ -1,8 +1,40 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>JointSpring of a <see cref="HingeJoint"/>.</summary>
 public sealed class JointSpring : DocumentObject
 {
+    internal static readonly FieldNames Fields = new([], "spring", "damper", "targetPosition", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public JointSpring()
+    {
+    }
+
+    internal JointSpring(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "spring":
+                    Spring = json.Number();
+                    break;
+                case "damper":
+                    Damper = json.Number();
+                    break;
+                case "targetPosition":
+                    TargetPosition = json.Number();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Unity's defaults.</summary>
     public static JointSpring Default { get; } = new();
 

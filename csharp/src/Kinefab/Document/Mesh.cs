@@ -1,11 +1,62 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
 /// <summary>Triangles, clockwise from outside (Unity's winding), in the frame of the GameObject that uses them, metres.</summary>
 public sealed class Mesh : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["name", "vertexCount", "bounds", "positions", "indexFormat", "indices", "submeshes"],
+        "normals", "uv", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public Mesh()
+    {
+    }
+
+    internal Mesh(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "name":
+                    Name = json.Text();
+                    break;
+                case "vertexCount":
+                    VertexCount = json.Int();
+                    break;
+                case "bounds":
+                    Bounds = new Bounds(ref json);
+                    break;
+                case "positions":
+                    Positions = new Accessor(ref json);
+                    break;
+                case "normals":
+                    Normals = new Accessor(ref json);
+                    break;
+                case "uv":
+                    Uv = new Accessor(ref json);
+                    break;
+                case "indexFormat":
+                    IndexFormat = json.Word(DocumentWords.IndexFormats);
+                    break;
+                case "indices":
+                    Indices = new Accessor(ref json);
+                    break;
+                case "submeshes":
+                    Submeshes = json.List(static (ref JsonCursor at) => new Submesh(ref at), least: 1);
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Mesh.name.</summary>
     public string Name { get; init; } = "";
 

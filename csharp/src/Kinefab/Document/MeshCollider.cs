@@ -1,8 +1,45 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>MeshCollider.</summary>
 public sealed class MeshCollider : Collider
 {
+    internal static readonly FieldNames Fields = new(
+        ["type", "mesh"],
+        [
+            .. ColliderFields,
+            "convex", "extras",
+        ]);
+
+    /// <summary>Unity's defaults.</summary>
+    public MeshCollider()
+    {
+    }
+
+    internal MeshCollider(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "mesh":
+                    Mesh = json.Int();
+                    break;
+                case "convex":
+                    Convex = json.Boolean();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+                default:
+                    ReadColliderField(ref json, fields.Name);
+                    break;
+            }
+        }
+    }
+
     /// <summary>Index into <see cref="SceneDocument.Meshes"/>.</summary>
     public int Mesh { get; init; }
 

@@ -1,4 +1,5 @@
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -18,6 +19,47 @@ public enum Outcome
 /// <summary>One line of the exporter's loss report.</summary>
 public sealed class ReportEntry : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["feature", "outcome"],
+        "severity", "code", "message", "source", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public ReportEntry()
+    {
+    }
+
+    internal ReportEntry(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "feature":
+                    Feature = json.Text();
+                    break;
+                case "outcome":
+                    Outcome = json.Word(DocumentWords.Outcomes);
+                    break;
+                case "severity":
+                    Severity = json.Word(DocumentWords.Severities);
+                    break;
+                case "code":
+                    Code = json.Text();
+                    break;
+                case "message":
+                    Message = json.Text();
+                    break;
+                case "source":
+                    Source = json.Text();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Kind and id in the source.</summary>
     public string Feature { get; init; } = "";
 

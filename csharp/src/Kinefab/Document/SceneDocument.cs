@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -9,6 +10,72 @@ namespace Kinefab.Document;
 /// </summary>
 public sealed class SceneDocument : DocumentObject
 {
+    internal static readonly FieldNames Fields = new(
+        ["format", "version", "gameObjects"],
+        "generator", "source", "physics", "buffers", "meshes", "materials", "couplings", "animations", "constraints",
+        "analysis", "report", "extras");
+
+    /// <summary>With nothing in it.</summary>
+    public SceneDocument()
+    {
+    }
+
+    internal SceneDocument(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "format":
+                    FormatVersion.ReadFormat(ref json);
+                    break;
+                case "version":
+                    Version = FormatVersion.ReadVersion(ref json);
+                    break;
+                case "generator":
+                    Generator = new Generator(ref json);
+                    break;
+                case "source":
+                    Source = new SceneSource(ref json);
+                    break;
+                case "physics":
+                    Physics = new Physics(ref json);
+                    break;
+                case "buffers":
+                    Buffers = json.List(static (ref JsonCursor at) => new SceneBuffer(ref at));
+                    break;
+                case "meshes":
+                    Meshes = json.List(static (ref JsonCursor at) => new Mesh(ref at));
+                    break;
+                case "materials":
+                    Materials = json.List(static (ref JsonCursor at) => new Material(ref at));
+                    break;
+                case "gameObjects":
+                    GameObjects = json.List(static (ref JsonCursor at) => new GameObject(ref at));
+                    break;
+                case "couplings":
+                    Couplings = json.List(static (ref JsonCursor at) => new Coupling(ref at));
+                    break;
+                case "animations":
+                    Animations = json.List(static (ref JsonCursor at) => new AnimationClip(ref at));
+                    break;
+                case "constraints":
+                    Constraints = json.List(static (ref JsonCursor at) => new Constraint(ref at));
+                    break;
+                case "analysis":
+                    Analysis = new Analysis(ref json);
+                    break;
+                case "report":
+                    Report = json.List(static (ref JsonCursor at) => new ReportEntry(ref at));
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>Version of the format that the file states, "1.x".</summary>
     public string Version { get; init; } = "1.0";
 
@@ -47,4 +114,7 @@ public sealed class SceneDocument : DocumentObject
 
     /// <summary>The exporter's loss report.</summary>
     public IReadOnlyList<ReportEntry> Report { get; init; } = Array.Empty<ReportEntry>();
+
+    /// <summary>The UTF-8 text that the scene was read from, for the places of later findings; empty when there is none.</summary>
+    internal ReadOnlyMemory<byte> Text { get; set; }
 }

@@ -1,3 +1,4 @@
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Document;
@@ -5,6 +6,36 @@ namespace Kinefab.Document;
 /// <summary>Transform, local to the parent.</summary>
 public sealed class Transform : DocumentObject
 {
+    internal static readonly FieldNames Fields = new([], "localPosition", "localRotation", "localScale", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public Transform()
+    {
+    }
+
+    internal Transform(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "localPosition":
+                    LocalPosition = json.Vector3();
+                    break;
+                case "localRotation":
+                    LocalRotation = json.Quaternion();
+                    break;
+                case "localScale":
+                    LocalScale = json.Vector3();
+                    break;
+                case "extras":
+                    Extras = json.Extras();
+                    break;
+            }
+        }
+    }
+
     /// <summary>At the parent's origin, unturned, unscaled.</summary>
     public static Transform Default { get; } = new();
 

@@ -1,6 +1,6 @@
 using System;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
-using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
@@ -20,6 +20,20 @@ public sealed class ValidScene
 
     /// <summary>Pose and scale of a GameObject in the world, as exported.</summary>
     public WorldTransform World(int gameObject) => world[gameObject];
+
+    /// <summary>Reads and validates a file.</summary>
+    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
+    public static ValidScene Load(string path, SceneReadOptions? options = null)
+    {
+        SceneReading reading = SceneFile.Load(path, options);
+        if (reading.Document is null)
+            throw new SceneFormatException(reading.Report);
+        SceneValidation validation = SceneValidator.Validate(reading.Document, options?.Limits);
+        return validation.Scene ?? throw new SceneFormatException(validation.Report);
+    }
+
+    /// <summary>The numbers of a mesh.</summary>
+    public MeshData Mesh(int mesh) => new(Document, Document.Meshes[mesh]);
 
     /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
     public Rigidbody? Body(int gameObject)

@@ -1,0 +1,245 @@
+namespace Kinefab.Diagnostics;
+
+/// <summary>The codes of schemas/diagnostics.json that this library reports; their meaning stands there.</summary>
+public static class DiagnosticCodes
+{
+    /// <summary>The JSON is broken: {detail}.</summary>
+    public const string JsonSyntax = "JSON_SYNTAX";
+
+    /// <summary>The text is not UTF-8 from here on.</summary>
+    public const string JsonNotUtf8 = "JSON_NOT_UTF8";
+
+    /// <summary>A string holds half of a surrogate pair.</summary>
+    public const string JsonStringInvalid = "JSON_STRING_INVALID";
+
+    /// <summary>Objects and arrays lie more than {limit} deep in each other.</summary>
+    public const string JsonTooDeep = "JSON_TOO_DEEP";
+
+    /// <summary>The file holds no data.</summary>
+    public const string SceneEmpty = "SCENE_EMPTY";
+
+    /// <summary>{path} cannot be read: {detail}.</summary>
+    public const string SceneUnreadable = "SCENE_UNREADABLE";
+
+    /// <summary>The scene has {size} bytes or more; at most {limit} are read.</summary>
+    public const string SceneTooLarge = "SCENE_TOO_LARGE";
+
+    /// <summary>An array has more than {limit} items.</summary>
+    public const string ItemsTooMany = "ITEMS_TOO_MANY";
+
+    /// <summary>{count} more findings are not listed.</summary>
+    public const string FindingsOmitted = "FINDINGS_OMITTED";
+
+    /// <summary>The format is "{format}", not "kinefab.scene".</summary>
+    public const string FormatUnknown = "FORMAT_UNKNOWN";
+
+    /// <summary>The version "{version}" is not of the form major.minor.</summary>
+    public const string VersionInvalid = "VERSION_INVALID";
+
+    /// <summary>Version {version} of the format cannot be read; this library reads 1.x.</summary>
+    public const string VersionUnsupported = "VERSION_UNSUPPORTED";
+
+    /// <summary>Version {version} of the format is newer than this library, which knows 1.0.</summary>
+    public const string VersionNewer = "VERSION_NEWER";
+
+    /// <summary>The field "{field}" is missing.</summary>
+    public const string FieldMissing = "FIELD_MISSING";
+
+    /// <summary>The field "{field}" is unknown.</summary>
+    public const string FieldUnknown = "FIELD_UNKNOWN";
+
+    /// <summary>The field "{field}" stands here twice.</summary>
+    public const string FieldDuplicate = "FIELD_DUPLICATE";
+
+    /// <summary>There is {found} where {expected} belongs.</summary>
+    public const string TypeMismatch = "TYPE_MISMATCH";
+
+    /// <summary>"{value}" is none of: {allowed}.</summary>
+    public const string ValueNotAllowed = "VALUE_NOT_ALLOWED";
+
+    /// <summary>"{value}" stands in the list twice.</summary>
+    public const string ItemDuplicate = "ITEM_DUPLICATE";
+
+    /// <summary>The array has {found} items, not {expected}.</summary>
+    public const string ArrayLength = "ARRAY_LENGTH";
+
+    /// <summary>There is no component of type "{type}" in a scene.</summary>
+    public const string ComponentTypeUnknown = "COMPONENT_TYPE_UNKNOWN";
+
+    /// <summary>The id is empty.</summary>
+    public const string IdEmpty = "ID_EMPTY";
+
+    /// <summary>The id "{id}" belongs to gameObjects[{first}] already.</summary>
+    public const string IdDuplicate = "ID_DUPLICATE";
+
+    /// <summary>The parent {parent} does not stand before gameObjects[{index}].</summary>
+    public const string ParentNotEarlier = "PARENT_NOT_EARLIER";
+
+    /// <summary>There is no {list}[{index}]; the list has {count}.</summary>
+    public const string ReferenceUnresolved = "REFERENCE_UNRESOLVED";
+
+    /// <summary>The GameObject has more than one Rigidbody.</summary>
+    public const string RigidbodyDuplicate = "RIGIDBODY_DUPLICATE";
+
+    /// <summary>The GameObject has more than one {type}.</summary>
+    public const string ComponentDuplicate = "COMPONENT_DUPLICATE";
+
+    /// <summary>The joint's GameObject has no Rigidbody.</summary>
+    public const string JointWithoutRigidbody = "JOINT_WITHOUT_RIGIDBODY";
+
+    /// <summary>The connected gameObjects[{gameObject}] has no Rigidbody.</summary>
+    public const string ConnectedBodyWithoutRigidbody = "CONNECTED_BODY_WITHOUT_RIGIDBODY";
+
+    /// <summary>The joint connects its own GameObject with itself.</summary>
+    public const string JointConnectsItself = "JOINT_CONNECTS_ITSELF";
+
+    /// <summary>components[{component}] is not a joint.</summary>
+    public const string CouplingNotAJoint = "COUPLING_NOT_A_JOINT";
+
+    /// <summary>The joint has no coordinate "{coordinate}".</summary>
+    public const string CouplingCoordinateMissing = "COUPLING_COORDINATE_MISSING";
+
+    /// <summary>The coupling couples a coordinate with itself.</summary>
+    public const string CouplingItself = "COUPLING_ITSELF";
+
+    /// <summary>The track has {keys} keys, the clip {times} times.</summary>
+    public const string AnimationKeyCount = "ANIMATION_KEY_COUNT";
+
+    /// <summary>{number} is not a finite number.</summary>
+    public const string NumberNotFinite = "NUMBER_NOT_FINITE";
+
+    /// <summary>{value} is not {range}.</summary>
+    public const string NumberOutOfRange = "NUMBER_OUT_OF_RANGE";
+
+    /// <summary>The rotation has length {length}, not 1.</summary>
+    public const string QuaternionNotUnit = "QUATERNION_NOT_UNIT";
+
+    /// <summary>This is not a SHA-256: 64 lower-case hexadecimal digits.</summary>
+    public const string Sha256Invalid = "SHA256_INVALID";
+
+    /// <summary>The mass is {mass} kg.</summary>
+    public const string BodyMassNotPositive = "BODY_MASS_NOT_POSITIVE";
+
+    /// <summary>The inertia tensor is {inertia}.</summary>
+    public const string BodyInertiaNotPositive = "BODY_INERTIA_NOT_POSITIVE";
+
+    /// <summary>No body has the moments of inertia {inertia}: one exceeds the sum of the others.</summary>
+    public const string BodyInertiaTriangle = "BODY_INERTIA_TRIANGLE";
+
+    /// <summary>The axis is zero.</summary>
+    public const string JointAxisZero = "JOINT_AXIS_ZERO";
+
+    /// <summary>The secondary axis is zero or lies along the axis.</summary>
+    public const string JointSecondaryAxisParallel = "JOINT_SECONDARY_AXIS_PARALLEL";
+
+    /// <summary>The lower limit {min} is above the upper one {max}.</summary>
+    public const string HingeLimitsOrder = "HINGE_LIMITS_ORDER";
+
+    /// <summary>lowAngularXLimit {low} is above highAngularXLimit {high}.</summary>
+    public const string AngularXLimitsOrder = "ANGULAR_X_LIMITS_ORDER";
+
+    /// <summary>The limit {limit} acts on both sides of zero, so it cannot be negative.</summary>
+    public const string LimitNegative = "LIMIT_NEGATIVE";
+
+    /// <summary>{count} indices do not make triangles.</summary>
+    public const string SubmeshNotTriangles = "SUBMESH_NOT_TRIANGLES";
+
+    /// <summary>The submesh starts at index {start}, not at {expected}, where the one before ends.</summary>
+    public const string SubmeshGap = "SUBMESH_GAP";
+
+    /// <summary>The times do not rise here.</summary>
+    public const string AnimationTimesNotRising = "ANIMATION_TIMES_NOT_RISING";
+
+    /// <summary>"{uri}" could lead out of the scene's folder.</summary>
+    public const string BufferUriUnsafe = "BUFFER_URI_UNSAFE";
+
+    /// <summary>The buffer {uri} cannot be read: {detail}.</summary>
+    public const string BufferMissing = "BUFFER_MISSING";
+
+    /// <summary>The buffer has {found} bytes, not {expected}.</summary>
+    public const string BufferSize = "BUFFER_SIZE";
+
+    /// <summary>{uri} is not the buffer that this scene was written with.</summary>
+    public const string BufferSha256 = "BUFFER_SHA256";
+
+    /// <summary>The offset {offset} is not a multiple of 4 from 0.</summary>
+    public const string BufferMisaligned = "BUFFER_MISALIGNED";
+
+    /// <summary>The values end at byte {end}, the buffer at {length}.</summary>
+    public const string BufferOverrun = "BUFFER_OVERRUN";
+
+    /// <summary>The triangles use vertex {index}; there are {count}.</summary>
+    public const string MeshIndexRange = "MESH_INDEX_RANGE";
+
+    /// <summary>Vertex {vertex} has a coordinate that is not a finite number.</summary>
+    public const string MeshPositionNotFinite = "MESH_POSITION_NOT_FINITE";
+
+    /// <summary>The scale {scale} makes the object vanish.</summary>
+    public const string TransformScaleZero = "TRANSFORM_SCALE_ZERO";
+
+    /// <summary>The object is turned under a parent of uneven scale {scale}: Unity shears it, its joints and colliders stay as they are.</summary>
+    public const string TransformSkew = "TRANSFORM_SKEW";
+
+    /// <summary>Unity does not support the negative size {size}.</summary>
+    public const string ColliderSizeNegative = "COLLIDER_SIZE_NEGATIVE";
+
+    /// <summary>Unity ignores a MeshCollider that is not convex on a Rigidbody that is not kinematic.</summary>
+    public const string MeshColliderNotConvex = "MESH_COLLIDER_NOT_CONVEX";
+
+    /// <summary>There are {materials} materials for {submeshes} submeshes.</summary>
+    public const string RendererMaterialCount = "RENDERER_MATERIAL_COUNT";
+
+    /// <summary>The joint moves nothing: neither side is a Rigidbody that the solver moves.</summary>
+    public const string JointBetweenKinematic = "JOINT_BETWEEN_KINEMATIC";
+
+    /// <summary>Unity recomputes connectedAnchor, because autoConfigureConnectedAnchor is on: this value is lost.</summary>
+    public const string ConnectedAnchorRecomputed = "CONNECTED_ANCHOR_RECOMPUTED";
+
+    /// <summary>At start-up the anchors stand {gap} m further apart than the joint allows: Unity pulls the bodies together with a jerk.</summary>
+    public const string JointAnchorsApart = "JOINT_ANCHORS_APART";
+
+    /// <summary>Both limits are {angle} degrees: Unity locks the hinge at 0 instead.</summary>
+    public const string HingeLimitsEqual = "HINGE_LIMITS_EQUAL";
+
+    /// <summary>A limit of {angle} degrees is cut to 180.</summary>
+    public const string HingeLimitsBeyond180 = "HINGE_LIMITS_BEYOND_180";
+
+    /// <summary>A limit of {angle} degrees is more than extendedLimits reach.</summary>
+    public const string HingeLimitsBeyond360 = "HINGE_LIMITS_BEYOND_360";
+
+    /// <summary>The motor switches the spring off.</summary>
+    public const string HingeMotorOverridesSpring = "HINGE_MOTOR_OVERRIDES_SPRING";
+
+    /// <summary>The motor's force is 0, so it does nothing.</summary>
+    public const string HingeMotorForceZero = "HINGE_MOTOR_FORCE_ZERO";
+
+    /// <summary>A limit of {angle} degrees is never reached: angles are measured within a half turn.</summary>
+    public const string AngularLimitBeyond180 = "ANGULAR_LIMIT_BEYOND_180";
+
+    /// <summary>A swing limit of {angle} degrees beside a free swing is never reached: the joint's X rises to 90 degrees at most.</summary>
+    public const string SwingLimitBeyond90 = "SWING_LIMIT_BEYOND_90";
+
+    /// <summary>The freedom is Limited, but its limit leaves no room.</summary>
+    public const string LimitWithoutRoom = "LIMIT_WITHOUT_ROOM";
+
+    /// <summary>A soft limit does not bounce.</summary>
+    public const string LimitBounceIgnored = "LIMIT_BOUNCE_IGNORED";
+
+    /// <summary>The damper makes the limit soft, and without a spring nothing pushes back.</summary>
+    public const string LimitDamperWithoutSpring = "LIMIT_DAMPER_WITHOUT_SPRING";
+
+    /// <summary>The Slerp drive does nothing, because an angular axis is locked.</summary>
+    public const string SlerpDriveLocked = "SLERP_DRIVE_LOCKED";
+
+    /// <summary>The drive does nothing in rotationDriveMode {mode}.</summary>
+    public const string DriveOfOtherMode = "DRIVE_OF_OTHER_MODE";
+
+    /// <summary>The drive does nothing, because its axis is locked.</summary>
+    public const string DriveOnLockedFreedom = "DRIVE_ON_LOCKED_FREEDOM";
+
+    /// <summary>maximumForce is 0, so the drive does nothing.</summary>
+    public const string DriveMaximumForceZero = "DRIVE_MAXIMUM_FORCE_ZERO";
+
+    /// <summary>The coordinate "{coordinate}" is locked, so the coupling holds the other one still.</summary>
+    public const string CouplingCoordinateLocked = "COUPLING_COORDINATE_LOCKED";
+}

@@ -1,0 +1,60 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Text;
+using System.Text.Json;
+
+namespace Kinefab.Diagnostics;
+
+/// <summary>The table of diagnostics that Python and C# share: schemas/diagnostics.json, embedded.</summary>
+internal static class DiagnosticTable
+{
+    private static readonly Lazy<Dictionary<string, Entry>> Table = new(Read);
+
+    internal static IReadOnlyDictionary<string, Entry> Entries => Table.Value;
+
+    /// <summary>Fills {placeholders} of a template with the given values.</summary>
+    internal static string Fill(string template, ReadOnlySpan<(string Name, string Value)> values)
+    {
+        var text = new StringBuilder(template);
+        foreach ((string name, string value) in values)
+            text.Replace("{" + name + "}", value);
+        return text.ToString();
+    }
+
+    private static Dictionary<string, Entry> Read()
+    {
+        using Stream stream = typeof(DiagnosticTable).Assembly.GetManifestResourceStream("Kinefab.diagnostics.json")!;
+        using JsonDocument json = JsonDocument.Parse(stream);
+        var entries = new Dictionary<string, Entry>(StringComparer.Ordinal);
+        foreach (JsonProperty code in json.RootElement.GetProperty("codes").EnumerateObject())
+        {
+            entries.Add(code.Name, new Entry(
+                code.Value.GetProperty("stage").GetString()!,
+                SeverityNames.Parse(code.Value.GetProperty("severity").GetString()!)!.Value,
+                code.Value.GetProperty("message").GetString()!,
+                code.Value.GetProperty("remedy").GetString()!));
+        }
+
+        return entries;
+    }
+
+    internal sealed class Entry
+    {
+        internal Entry(string stage, Severity severity, string message, string remedy)
+        {
+            Stage = stage;
+            Severity = severity;
+            Message = message;
+            Remedy = remedy;
+        }
+
+        internal string Stage { get; }
+
+        internal Severity Severity { get; }
+
+        internal string Message { get; }
+
+        internal string Remedy { get; }
+    }
+}

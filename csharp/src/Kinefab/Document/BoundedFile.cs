@@ -1,0 +1,51 @@
+using System;
+using System.IO;
+using System.Security;
+
+namespace Kinefab.Document;
+
+/// <summary>Whole files, but never more than a given size, whatever the file says of itself.</summary>
+internal static class BoundedFile
+{
+    /// <summary>The bytes; null when there are more than <paramref name="limit"/>, and then <paramref name="size"/> says at least how many.</summary>
+    internal static byte[]? Read(string path, long limit, out long size)
+    {
+        using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
+        size = stream.Length;
+        if (size > limit)
+            return null;
+        byte[] bytes = new byte[size];
+        int count = 0;
+        while (true)
+        {
+            // Devices and growing files hold more than their length says.
+            if (count == bytes.Length)
+            {
+                int next = stream.ReadByte();
+                if (next < 0)
+                    break;
+                if (count >= limit)
+                {
+                    size = count + 1L;
+                    return null;
+                }
+
+                Array.Resize(ref bytes, (int)Math.Min(limit, Math.Max(4096L, count * 2L)));
+                bytes[count++] = (byte)next;
+            }
+
+            int read = stream.Read(bytes, count, bytes.Length - count);
+            count += read;
+            if (read == 0 && count < bytes.Length)
+                break;
+        }
+
+        if (count < bytes.Length)
+            Array.Resize(ref bytes, count);
+        return bytes;
+    }
+
+    /// <summary>What the file system may throw at a path.</summary>
+    internal static bool IsExpected(Exception fault) =>
+        fault is IOException or UnauthorizedAccessException or ArgumentException or NotSupportedException or SecurityException;
+}

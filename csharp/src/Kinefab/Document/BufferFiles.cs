@@ -1,0 +1,34 @@
+using System;
+using System.IO;
+
+namespace Kinefab.Document;
+
+/// <summary>Reads the buffers of a scene from the folder of its file.</summary>
+internal static class BufferFiles
+{
+    /// <summary>The longest array that .NET allows.</summary>
+    private const long MaxBytes = 0x7FFFFFC7;
+
+    internal static void Attach(SceneDocument document, string folder)
+    {
+        foreach (SceneBuffer buffer in document.Buffers)
+        {
+            if (BufferUri.IsSafe(buffer.Uri))
+                Attach(buffer, Path.Combine(folder, buffer.Uri));
+        }
+    }
+
+    private static void Attach(SceneBuffer buffer, string path)
+    {
+        try
+        {
+            byte[]? bytes = BoundedFile.Read(path, Math.Min(MaxBytes, Math.Max(0, buffer.ByteLength)), out long size);
+            buffer.Attach(bytes, null, size);
+        }
+        catch (Exception fault) when (BoundedFile.IsExpected(fault))
+        {
+            // The message holds the full path, which differs from machine to machine.
+            buffer.Attach(null, fault is FileNotFoundException or DirectoryNotFoundException ? "there is no such file" : "it cannot be opened");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+using System;
+using System.IO;
+using System.Text.Json;
+using Kinefab.Diagnostics;
+using Kinefab.Json;
+
+namespace Kinefab.Document;
+
+/// <summary>
+/// Reads scene files (NAME.kinefab and its buffers).  Faulty data gives a report, never an exception; what the numbers
+/// mean together is checked by <c>SceneValidator</c>.
+/// </summary>
+public static class SceneFile
+{
+    /// <summary>Reads a file and the buffers beside it.</summary>
+    public static SceneReading Load(string path, SceneReadOptions? options = null)
+    {
+        if (path is null)
+            throw new ArgumentNullException(nameof(path));
+        options ??= SceneReadOptions.Default;
+        var findings = new Findings(options.Limits.MaxFindings);
+        byte[]? bytes = null;
+        try
+        {
+            bytes = BoundedFile.Read(path, options.Limits.MaxFileBytes, out long size);
+            if (bytes is null)
+                findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(size)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
+        }
+        catch (Exception fault) when (BoundedFile.IsExpected(fault))
+        {
+            findings.Add("", DiagnosticCodes.SceneUnreadable, ("path", path), ("detail", fault.Message.TrimEnd('.')));
+        }
+
+        if (bytes is null)
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default));
+        SceneReading reading = Parse(bytes, findings, options);
+        if (reading.Document is { Buffers.Count: > 0 } document)
+            BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!);
+        return reading;
+    }
+
+    /// <summary>Reads a text in memory; it is copied, so that later findings can give line and column.</summary>
+    /// <param name="json">The text, UTF-8.</param>
+    /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
+    /// <param name="options">Null: the default ones.</param>
+    public static SceneReading Parse(
+        ReadOnlySpan<byte> json,
+        Func<string, ReadOnlyMemory<byte>?>? buffers = null,
+        SceneReadOptions? options = null)
+    {
+        options ??= SceneReadOptions.Default;
+        var findings = new Findings(options.Limits.MaxFindings);
+        if (json.Length > options.Limits.MaxFileBytes)
+        {
+            findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(json.Length)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default));
+        }
+
+        SceneReading reading = Parse(json.ToArray(), findings, options);
+        if (buffers is not null && reading.Document is not null)
+        {
+            foreach (SceneBuffer buffer in reading.Document.Buffers)
+                buffer.Attach(buffers(buffer.Uri));
+        }
+
+        return reading;
+    }
+
+    /// <summary>Reads a text that the document keeps.</summary>
+    internal static SceneReading Parse(ReadOnlyMemory<byte> text, Findings findings, SceneReadOptions options)
+    {
+        text = JsonText.WithoutMark(text);
+        SceneDocument? document = Read(text.Span, findings, options);
+        Report report = FindingPlaces.Resolve(findings, text.Span);
+        if (findings.Errors > 0 || document is null)
+            return new SceneReading(null, report);
+        document.Text = text;
+        return new SceneReading(document, report);
+    }
+
+    private static SceneDocument? Read(ReadOnlySpan<byte> text, Findings findings, SceneReadOptions options)
+    {
+        if (!JsonText.Check(text, findings))
+            return null;
+        var cursor = default(JsonCursor);
+        try
+        {
+            cursor = new JsonCursor(text, findings, options.Limits, options.Strict);
+            var document = new SceneDocument(ref cursor);
+            cursor.End();
+            return document;
+        }
+        catch (JsonException fault)
+        {
+            JsonText.ReportBroken(text, fault, cursor.Depth >= options.Limits.MaxDepth, options.Limits.MaxDepth, findings);
+            return null;
+        }
+        catch (ReadingEndedException)
+        {
+            return null;
+        }
+    }
+}

@@ -1,0 +1,19 @@
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Document;
+
+/// <summary>What came of reading a scene file.</summary>
+public sealed class SceneReading
+{
+    internal SceneReading(SceneDocument? document, Report report)
+    {
+        Document = document;
+        Report = report;
+    }
+
+    /// <summary>The scene; null when the report has errors.</summary>
+    public SceneDocument? Document { get; }
+
+    /// <summary>What was found: of the file's shape, not of its meaning.</summary>
+    public Report Report { get; }
+}

@@ -1,0 +1,21 @@
+namespace Kinefab.Json;
+
+/// <summary>Where a <see cref="JsonCursor"/> stands among the fields of one object.</summary>
+internal struct FieldCursor
+{
+    internal readonly FieldNames? Names;
+    internal readonly long Start;
+    internal ulong Seen;
+
+    /// <summary>The field whose value comes next.</summary>
+    internal string Name;
+
+    /// <summary>No names: there is no object, so there are no fields.</summary>
+    internal FieldCursor(FieldNames? names, long start)
+    {
+        Names = names;
+        Start = start;
+        Seen = 0;
+        Name = "";
+    }
+}

@@ -1,0 +1,86 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Text;
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Json;
+
+/// <summary>Completes findings: pointer from offset, offset from pointer, line and column from offset.</summary>
+internal static class FindingPlaces
+{
+    /// <summary>The report, in the order of the places; an empty text gives no lines.</summary>
+    internal static Report Resolve(Findings findings, ReadOnlySpan<byte> text)
+    {
+        if (findings.List.Count == 0)
+            return Report.Empty;
+        long[] offsets = Offsets(findings.List, text);
+        int[] order = Enumerable.Range(0, offsets.Length).OrderBy(i => offsets[i]).ToArray();
+        long[] sorted = order.Select(i => offsets[i]).ToArray();
+        string[] pointers = text.IsEmpty ? order.Select(_ => "").ToArray() : PointerFinder.PointersAt(text, sorted);
+        var lines = new LineCounter(text);
+        var diagnostics = new List<Diagnostic>();
+        for (int i = 0; i < order.Length; i++)
+        {
+            Findings.Finding found = findings.List[order[i]];
+            (int? line, int? column) = text.IsEmpty ? (null, null) : lines.At(sorted[i]);
+            diagnostics.Add(new Diagnostic(
+                found.Code, found.Severity, found.Message, found.Remedy, found.Pointer ?? pointers[i], line, column));
+        }
+
+        if (findings.Omitted > 0)
+            diagnostics.Add(Omitted(findings.Omitted));
+        return new Report(diagnostics);
+    }
+
+    private static long[] Offsets(IReadOnlyList<Findings.Finding> list, ReadOnlySpan<byte> text)
+    {
+        long[] offsets = list.Select(found => Math.Max(0, found.Offset)).ToArray();
+        string[] wanted = list.Select(found => found.Pointer ?? "").ToArray();
+        if (text.IsEmpty || wanted.All(pointer => pointer.Length == 0))
+            return offsets;
+        long[] found = PointerFinder.OffsetsOf(text, wanted);
+        for (int i = 0; i < offsets.Length; i++)
+        {
+            if (wanted[i].Length > 0)
+                offsets[i] = found[i];
+        }
+
+        return offsets;
+    }
+
+    private static Diagnostic Omitted(int count)
+    {
+        DiagnosticTable.Entry entry = DiagnosticTable.Entries[DiagnosticCodes.FindingsOmitted];
+        string message = DiagnosticTable.Fill(entry.Message, new[] { ("count", Invariant.Text(count)) });
+        return new Diagnostic(DiagnosticCodes.FindingsOmitted, entry.Severity, message, entry.Remedy, "", null, null);
+    }
+
+    /// <summary>Lines and columns of rising offsets, in one pass.</summary>
+    private ref struct LineCounter
+    {
+        private readonly ReadOnlySpan<byte> text;
+        private int line;
+        private int start;
+
+        internal LineCounter(ReadOnlySpan<byte> text)
+        {
+            this.text = text;
+            line = 1;
+            start = 0;
+        }
+
+        internal (int? Line, int? Column) At(long offset)
+        {
+            int end = (int)Math.Min(offset, text.Length);
+            int newline;
+            while ((newline = text.Slice(start, end - start).IndexOf((byte)'\n')) >= 0)
+            {
+                start += newline + 1;
+                line++;
+            }
+
+            return (line, Encoding.UTF8.GetCharCount(text.Slice(start, end - start)) + 1);
+        }
+    }
+}

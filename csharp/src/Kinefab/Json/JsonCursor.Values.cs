@@ -1,0 +1,231 @@
+using System;
+using System.Buffers;
+using System.Collections.Generic;
+using System.Text;
+using System.Text.Json;
+using Kinefab.Diagnostics;
+using Kinefab.Numerics;
+
+namespace Kinefab.Json;
+
+/// <summary>Values: each method reads one, or reports why not and gives a stand-in.</summary>
+internal ref partial struct JsonCursor
+{
+    /// <summary>A finite number.</summary>
+    internal double Number()
+    {
+        if (reader.TokenType != JsonTokenType.Number)
+        {
+            Mismatch("a number");
+            return 0;
+        }
+
+        if (ShortDecimal.TryParse(reader.ValueSpan, out double value))
+            return value;
+        // .NET reads 1e999 as infinity, older runtimes refuse it.
+        if (reader.TryGetDouble(out value) && !double.IsInfinity(value))
+            return value;
+        Report(DiagnosticCodes.NumberNotFinite, ("number", TokenText()));
+        return 0;
+    }
+
+    /// <summary>An integer that fits 64 bits; 3.0 counts as one, as in JSON Schema.</summary>
+    internal long Integer()
+    {
+        if (reader.TokenType == JsonTokenType.Number)
+        {
+            if (reader.TryGetInt64(out long value))
+                return value;
+            const double exact = 9007199254740992;
+            if (reader.TryGetDouble(out double number) && Math.Floor(number) == number && Math.Abs(number) <= exact)
+                return (long)number;
+        }
+
+        Mismatch("an integer");
+        return 0;
+    }
+
+    /// <summary>An integer that fits 32 bits: a count or a setting.</summary>
+    internal int Int()
+    {
+        long value = Integer();
+        if (value is >= int.MinValue and <= int.MaxValue)
+            return (int)value;
+        Report(DiagnosticCodes.NumberOutOfRange, ("value", TokenText()), ("range", "below 2147483648"));
+        return 0;
+    }
+
+    /// <summary>True or false.</summary>
+    internal bool Boolean()
+    {
+        if (reader.TokenType is JsonTokenType.True or JsonTokenType.False)
+            return reader.TokenType == JsonTokenType.True;
+        Mismatch("true or false");
+        return false;
+    }
+
+    /// <summary>A string.</summary>
+    internal string Text()
+    {
+        if (reader.TokenType != JsonTokenType.String)
+        {
+            Mismatch("a string");
+            return "";
+        }
+
+        if (!reader.ValueIsEscaped)
+            return Encoding.UTF8.GetString(reader.ValueSpan);
+        try
+        {
+            return reader.GetString()!;
+        }
+        catch (InvalidOperationException)
+        {
+            Report(DiagnosticCodes.JsonStringInvalid);
+            return "";
+        }
+    }
+
+    /// <summary>One of a set of words.</summary>
+    internal T Word<T>(Words<T> words)
+        where T : struct
+    {
+        if (reader.TokenType != JsonTokenType.String)
+        {
+            Mismatch("a string");
+            return default;
+        }
+
+        if (words.TryFind(reader.ValueIsEscaped ? Encoding.UTF8.GetBytes(TokenText()) : reader.ValueSpan, out T value))
+            return value;
+        Report(DiagnosticCodes.ValueNotAllowed, ("value", TokenText()), ("allowed", words.Listing));
+        return default;
+    }
+
+    /// <summary>Three numbers.</summary>
+    internal Vector3d Vector3()
+    {
+        Span<double> v = stackalloc double[3];
+        Numbers(v);
+        return new Vector3d(v[0], v[1], v[2]);
+    }
+
+    /// <summary>Four numbers x y z w.</summary>
+    internal Quaterniond Quaternion()
+    {
+        Span<double> v = stackalloc double[4];
+        Numbers(v);
+        return new Quaterniond(v[0], v[1], v[2], v[3]);
+    }
+
+    /// <summary>An array of exactly as many numbers as there is room for.</summary>
+    internal void Numbers(scoped Span<double> values)
+    {
+        if (reader.TokenType != JsonTokenType.StartArray)
+        {
+            Mismatch(values.Length == 3 ? "an array of 3 numbers" : "an array of 4 numbers");
+            return;
+        }
+
+        long start = Offset;
+        int count = 0;
+        while (reader.Read() && reader.TokenType != JsonTokenType.EndArray)
+        {
+            double value = Number();
+            if (count < values.Length)
+                values[count] = value;
+            count++;
+        }
+
+        if (count != values.Length)
+        {
+            findings.AddAt(
+                start,
+                DiagnosticCodes.ArrayLength,
+                ("expected", Invariant.Text(values.Length)),
+                ("found", Invariant.Text(count)));
+        }
+    }
+
+    /// <summary>An array of any length.</summary>
+    internal T[] List<T>(ReadItem<T> item, int least = 0)
+    {
+        if (reader.TokenType != JsonTokenType.StartArray)
+        {
+            Mismatch("an array");
+            return Array.Empty<T>();
+        }
+
+        long start = Offset;
+        T[] pooled = ArrayPool<T>.Shared.Rent(8);
+        int count = 0;
+        while (reader.Read() && reader.TokenType != JsonTokenType.EndArray)
+        {
+            if (count == maxItems)
+            {
+                Report(DiagnosticCodes.ItemsTooMany, ("limit", Invariant.Text(maxItems)));
+                throw new ReadingEndedException();
+            }
+
+            if (count == pooled.Length)
+                pooled = Grow(pooled);
+            pooled[count++] = item(ref this);
+        }
+
+        if (count < least)
+            findings.AddAt(start, DiagnosticCodes.ArrayLength, ("expected", "at least " + Invariant.Text(least)), ("found", Invariant.Text(count)));
+        T[] items = count == 0 ? Array.Empty<T>() : pooled.AsSpan(0, count).ToArray();
+        Return(pooled, count);
+        return items;
+    }
+
+    /// <summary>An object of strings.</summary>
+    internal IReadOnlyDictionary<string, string> Dictionary()
+    {
+        var entries = new Dictionary<string, string>(StringComparer.Ordinal);
+        if (reader.TokenType != JsonTokenType.StartObject)
+        {
+            Mismatch("an object");
+            return entries;
+        }
+
+        while (reader.Read() && reader.TokenType == JsonTokenType.PropertyName)
+        {
+            string name = TokenText();
+            if (entries.ContainsKey(name))
+                Report(DiagnosticCodes.FieldDuplicate, ("field", name));
+            reader.Read();
+            entries[name] = Text();
+        }
+
+        return entries;
+    }
+
+    /// <summary>An object as raw JSON.</summary>
+    internal string? Extras()
+    {
+        if (reader.TokenType != JsonTokenType.StartObject)
+        {
+            Mismatch("an object");
+            return null;
+        }
+
+        int start = (int)reader.TokenStartIndex;
+        reader.Skip();
+        return Encoding.UTF8.GetString(text.Slice(start, (int)reader.BytesConsumed - start));
+    }
+
+    private static T[] Grow<T>(T[] full)
+    {
+        T[] larger = ArrayPool<T>.Shared.Rent(full.Length * 2);
+        full.CopyTo(larger, 0);
+        Return(full, full.Length);
+        return larger;
+    }
+
+    private static void Return<T>(T[] pooled, int used)
+    {
+        Array.Clear(pooled, 0, used);
+        ArrayPool<T>.Shared.Return(pooled);
+    }
+}

@@ -1,0 +1,167 @@
+using System;
+using System.Text;
+using System.Text.Json;
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Json;
+
+/// <summary>
+/// Reads one JSON text forward, strictly, without building a tree.  What does not fit is reported and stepped over,
+/// so that one run finds all faults; only broken JSON ends the reading (<see cref="JsonException"/>).
+/// Every reading method starts on the first token of a value and ends on its last.
+/// </summary>
+internal ref partial struct JsonCursor
+{
+    private readonly ReadOnlySpan<byte> text;
+    private readonly Findings findings;
+    private readonly Severity unknownFields;
+    private readonly int maxItems;
+    private Utf8JsonReader reader;
+
+    /// <summary>On the text's first token.</summary>
+    internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, SceneLimits limits, bool strict)
+    {
+        this.text = text;
+        this.findings = findings;
+        unknownFields = strict ? Severity.Error : Severity.Warning;
+        maxItems = limits.MaxItems;
+        reader = new Utf8JsonReader(text, new JsonReaderOptions { MaxDepth = limits.MaxDepth });
+        reader.Read();
+    }
+
+    /// <summary>A value of an array, made from the cursor.</summary>
+    internal delegate T ReadItem<out T>(ref JsonCursor json);
+
+    /// <summary>Byte offset of the current token.</summary>
+    internal readonly long Offset => reader.TokenStartIndex;
+
+    /// <summary>Containers open around the current token.</summary>
+    internal readonly int Depth => reader.CurrentDepth;
+
+    /// <summary>Byte offset behind the last token.</summary>
+    internal readonly long Consumed => reader.BytesConsumed;
+
+    /// <summary>Nothing but white space may follow the value that was read last.</summary>
+    internal void End() => reader.Read();
+
+    /// <summary>Steps into an object; <see cref="NextField"/> gives its fields.</summary>
+    internal FieldCursor BeginObject(FieldNames names)
+    {
+        if (reader.TokenType == JsonTokenType.StartObject)
+            return new FieldCursor(names, reader.TokenStartIndex);
+        Mismatch("an object");
+        return new FieldCursor(null, 0);
+    }
+
+    /// <summary>Steps to the value of the next known field; false behind the last one.  Unknown, double and missing fields are reported.</summary>
+    internal bool NextField(ref FieldCursor fields)
+    {
+        if (fields.Names is null)
+            return false;
+        while (reader.Read() && reader.TokenType == JsonTokenType.PropertyName)
+        {
+            int index = reader.ValueIsEscaped ? IndexOfEscaped(fields.Names) : fields.Names.IndexOf(reader.ValueSpan);
+            ulong bit = 1UL << index;
+            if (index >= 0 && (fields.Seen & bit) == 0)
+            {
+                fields.Seen |= bit;
+                fields.Name = fields.Names[index];
+                reader.Read();
+                return true;
+            }
+
+            if (index < 0)
+                findings.AddAt(Offset, unknownFields, DiagnosticCodes.FieldUnknown, ("field", TokenText()));
+            else
+                findings.AddAt(Offset, DiagnosticCodes.FieldDuplicate, ("field", fields.Names[index]));
+            reader.Skip();
+        }
+
+        if ((fields.Seen & fields.Names.Required) != fields.Names.Required)
+            ReportMissing(fields);
+        return false;
+    }
+
+    /// <summary>Reports about the current token.</summary>
+    internal readonly void Report(string code, params (string Name, string Value)[] values) => findings.AddAt(Offset, code, values);
+
+    /// <summary>Reports about the current token, drops all other findings and ends the reading.</summary>
+    internal readonly void ReportAlone(string code, params (string Name, string Value)[] values)
+    {
+        findings.Clear();
+        Report(code, values);
+        throw new ReadingEndedException();
+    }
+
+    /// <summary>Steps over the current value.</summary>
+    internal void Skip() => reader.Skip();
+
+    /// <summary>The text of a string field of the object that the cursor stands on, wherever in the object it is; null when there is none.</summary>
+    internal readonly string? Peek(ReadOnlySpan<byte> field)
+    {
+        Utf8JsonReader ahead = reader;
+        while (ahead.Read() && ahead.TokenType == JsonTokenType.PropertyName)
+        {
+            bool found = !ahead.ValueIsEscaped && ahead.ValueSpan.SequenceEqual(field);
+            if (!found)
+            {
+                ahead.Skip();
+                continue;
+            }
+
+            ahead.Read();
+            return ahead.TokenType == JsonTokenType.String && !ahead.ValueIsEscaped ? Encoding.UTF8.GetString(ahead.ValueSpan) : null;
+        }
+
+        return null;
+    }
+
+    internal readonly bool IsObject => reader.TokenType == JsonTokenType.StartObject;
+
+    /// <summary>Reports that the current value is of another type, and steps over it.</summary>
+    internal void Mismatch(string expected)
+    {
+        string found = reader.TokenType switch
+        {
+            JsonTokenType.StartObject => "an object",
+            JsonTokenType.StartArray => "an array",
+            JsonTokenType.String => "a string",
+            JsonTokenType.Number => "the number " + TokenText(),
+            JsonTokenType.Null => "null",
+            _ => "a boolean",
+        };
+        Report(DiagnosticCodes.TypeMismatch, ("expected", expected), ("found", found));
+        reader.Skip();
+    }
+
+    private readonly void ReportMissing(in FieldCursor fields)
+    {
+        FieldNames names = fields.Names!;
+        for (int i = 0; i < names.Count; i++)
+        {
+            if ((names.Required & ~fields.Seen & (1UL << i)) != 0)
+                findings.AddAt(fields.Start, DiagnosticCodes.FieldMissing, ("field", names[i]));
+        }
+    }
+
+    private readonly int IndexOfEscaped(FieldNames names) => names.IndexOf(Encoding.UTF8.GetBytes(TokenText()));
+
+    /// <summary>The current token for a message: shortened, whatever is in it.</summary>
+    private readonly string TokenText()
+    {
+        const int enough = 60;
+        string whole;
+        try
+        {
+            whole = reader.TokenType is JsonTokenType.String or JsonTokenType.PropertyName
+                ? reader.GetString()!
+                : Encoding.UTF8.GetString(reader.ValueSpan);
+        }
+        catch (InvalidOperationException)
+        {
+            whole = Encoding.UTF8.GetString(reader.ValueSpan);
+        }
+
+        return whole.Length <= enough ? whole : whole.Remove(enough) + "...";
+    }
+}

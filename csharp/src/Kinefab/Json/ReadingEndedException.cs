@@ -1,0 +1,8 @@
+using System;
+
+namespace Kinefab.Json;
+
+/// <summary>Ends the reading of a text whose fault is already reported; never leaves the library.</summary>
+internal sealed class ReadingEndedException : Exception
+{
+}

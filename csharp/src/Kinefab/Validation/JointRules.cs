@@ -1,0 +1,60 @@
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Json;
+using Kinefab.Numerics;
+
+namespace Kinefab.Validation;
+
+/// <summary>What holds for every joint.</summary>
+internal static class JointRules
+{
+    internal static void Numbers(Joint joint, in Place at)
+    {
+        NumberRules.PositiveOrUnlimited(at, "breakForce", joint.BreakForce);
+        NumberRules.PositiveOrUnlimited(at, "breakTorque", joint.BreakTorque);
+        NumberRules.Positive(at, "massScale", joint.MassScale);
+        NumberRules.Positive(at, "connectedMassScale", joint.ConnectedMassScale);
+    }
+
+    internal static void AnchorNumbers(AnchoredJoint joint, in Place at)
+    {
+        NumberRules.Finite(at, "anchor", joint.Anchor);
+        NumberRules.Finite(at, "axis", joint.Axis);
+        NumberRules.Finite(at, "connectedAnchor", joint.ConnectedAnchor);
+    }
+
+    /// <summary>Unity adds a Rigidbody of its own to a joint without one, with mass 1 and guessed inertia.</summary>
+    internal static void OwnBody(Rigidbody? own, in Place at)
+    {
+        if (own is null)
+            at.Report("", DiagnosticCodes.JointWithoutRigidbody);
+    }
+
+    /// <summary>The connected GameObject exists, is another one and has a Rigidbody.</summary>
+    internal static void ConnectedBody(Joint joint, int gameObject, Rigidbody?[] bodies, in Place at)
+    {
+        if (joint.ConnectedBody is not int connected)
+            return;
+        if (!NumberRules.Reference(at, "connectedBody", connected, "gameObjects", bodies.Length))
+            return;
+        if (connected == gameObject)
+            at.Report("connectedBody", DiagnosticCodes.JointConnectsItself);
+        else if (bodies[connected] is null)
+            at.Report("connectedBody", DiagnosticCodes.ConnectedBodyWithoutRigidbody, ("gameObject", Invariant.Text(connected)));
+    }
+
+    /// <summary>Nothing that the solver moves hangs on such a joint.</summary>
+    internal static void Kinematic(Joint joint, Rigidbody? own, Rigidbody?[] bodies, in Place at)
+    {
+        bool connectedMoves = joint.ConnectedBody is int connected && (uint)connected < (uint)bodies.Length && bodies[connected] is { IsKinematic: false };
+        if (own is { IsKinematic: true } && !connectedMoves)
+            at.Report("", DiagnosticCodes.JointBetweenKinematic);
+    }
+
+    /// <summary>An axis of length zero says nothing; Unity silently takes its own X.</summary>
+    internal static void Axis(AnchoredJoint joint, in Place at)
+    {
+        if (joint.Axis == Vector3d.Zero)
+            at.Report("axis", DiagnosticCodes.JointAxisZero);
+    }
+}

@@ -1,0 +1,51 @@
+using System;
+using System.Runtime.InteropServices;
+using Kinefab.Document;
+
+namespace Kinefab.Validation;
+
+/// <summary>The numbers of a mesh, seen in the buffer without a copy.  Little-endian machines only, as all that Unity runs on are.</summary>
+public readonly ref struct MeshData
+{
+    private readonly SceneDocument document;
+
+    internal MeshData(SceneDocument document, Mesh mesh)
+    {
+        this.document = document;
+        Mesh = mesh;
+    }
+
+    /// <summary>The mesh.</summary>
+    public Mesh Mesh { get; }
+
+    /// <summary>x y z for each vertex, metres.</summary>
+    public ReadOnlySpan<float> Positions => Floats(Mesh.Positions, 3);
+
+    /// <summary>x y z for each vertex, unit; empty when there are none.</summary>
+    public ReadOnlySpan<float> Normals => Floats(Mesh.Normals, 3);
+
+    /// <summary>u v for each vertex; empty when there are none.</summary>
+    public ReadOnlySpan<float> Uv => Floats(Mesh.Uv, 2);
+
+    /// <summary>Three for each triangle; empty unless the format is UInt16.</summary>
+    public ReadOnlySpan<ushort> Indices16 => Mesh.IndexFormat == IndexFormat.UInt16 ? MemoryMarshal.Cast<byte, ushort>(IndexSpan) : default;
+
+    /// <summary>Three for each triangle; empty unless the format is UInt32.</summary>
+    public ReadOnlySpan<uint> Indices32 => Mesh.IndexFormat == IndexFormat.UInt32 ? MemoryMarshal.Cast<byte, uint>(IndexSpan) : default;
+
+    private ReadOnlySpan<byte> IndexSpan => Bytes(document, Mesh.Indices, IndexBytes(Mesh));
+
+    internal static long IndexBytes(Mesh mesh)
+    {
+        long count = 0;
+        for (int i = 0; i < mesh.Submeshes.Count; i++)
+            count += Math.Max(0, mesh.Submeshes[i].IndexCount);
+        return count * (mesh.IndexFormat == IndexFormat.UInt16 ? 2 : 4);
+    }
+
+    internal static ReadOnlySpan<byte> Bytes(SceneDocument document, Accessor accessor, long count) =>
+        document.Buffers[accessor.Buffer].Data!.Value.Span.Slice((int)accessor.Offset, (int)count);
+
+    private ReadOnlySpan<float> Floats(Accessor? accessor, int width) =>
+        accessor is null ? default : MemoryMarshal.Cast<byte, float>(Bytes(document, accessor, (long)Mesh.VertexCount * width * 4));
+}

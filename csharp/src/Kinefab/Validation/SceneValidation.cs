@@ -1,0 +1,19 @@
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Validation;
+
+/// <summary>What came of validating a scene.</summary>
+public sealed class SceneValidation
+{
+    internal SceneValidation(ValidScene? scene, Report report)
+    {
+        Scene = scene;
+        Report = report;
+    }
+
+    /// <summary>The scene; null when the report has errors.</summary>
+    public ValidScene? Scene { get; }
+
+    /// <summary>What was found.</summary>
+    public Report Report { get; }
+}

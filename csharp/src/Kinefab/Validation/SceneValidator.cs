@@ -1,0 +1,234 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Json;
+using Kinefab.Numerics;
+
+namespace Kinefab.Validation;
+
+/// <summary>Holds a document to all rules; changes and repairs nothing.</summary>
+public static class SceneValidator
+{
+    /// <summary>All findings, and the valid scene when none is an error.</summary>
+    public static SceneValidation Validate(SceneDocument document, SceneLimits? limits = null)
+    {
+        if (document is null)
+            throw new ArgumentNullException(nameof(document));
+        var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
+        Descriptions(document, findings);
+        StructureRules.Ids(document, findings);
+        Rigidbody?[] bodies = Bodies(document.GameObjects);
+        for (int i = 0; i < document.GameObjects.Count; i++)
+            GameObject(document, i, bodies, findings);
+        Lists(document, findings);
+        Buffers(document, findings);
+        ValidScene? scene = findings.Errors == 0 ? new ValidScene(document) : null;
+        if (scene is not null)
+            Placement(scene, findings);
+        return new SceneValidation(scene, FindingPlaces.Resolve(findings, document.Text.Span));
+    }
+
+    private static void Descriptions(SceneDocument document, Findings findings)
+    {
+        DescriptionRules.Physics(document.Physics, new Place(findings, "physics"));
+        if (document.Source is SceneSource source)
+            DescriptionRules.Source(source, new Place(findings, "source"));
+        if (document.Analysis is Analysis analysis)
+            DescriptionRules.Analysis(analysis, document.GameObjects.Count, new Place(findings, "analysis"));
+    }
+
+    private static Rigidbody?[] Bodies(IReadOnlyList<GameObject> objects)
+    {
+        var bodies = new Rigidbody?[objects.Count];
+        for (int i = 0; i < bodies.Length; i++)
+        {
+            IReadOnlyList<Component> components = objects[i].Components;
+            for (int c = 0; c < components.Count && bodies[i] is null; c++)
+                bodies[i] = components[c] as Rigidbody;
+        }
+
+        return bodies;
+    }
+
+    private static void GameObject(SceneDocument document, int index, Rigidbody?[] bodies, Findings findings)
+    {
+        GameObject gameObject = document.GameObjects[index];
+        var at = new Place(findings, "gameObjects", index);
+        StructureRules.Parent(gameObject, index, at);
+        StructureRules.SingleComponents(gameObject.Components, index, findings);
+        if (!ReferenceEquals(gameObject.Transform, Transform.Default))
+        {
+            TransformRules.Numbers(gameObject.Transform, at);
+            TransformRules.ScaleZero(gameObject.Transform, at);
+        }
+
+        Mesh? mesh = null;
+        for (int c = 0; c < gameObject.Components.Count; c++)
+        {
+            var place = new Place(findings, "gameObjects", index, c);
+            switch (gameObject.Components[c])
+            {
+                case MeshFilter filter:
+                    if (NumberRules.Reference(place, "mesh", filter.Mesh, "meshes", document.Meshes.Count))
+                        mesh = document.Meshes[filter.Mesh];
+                    break;
+                case MeshRenderer renderer:
+                    MeshRules.Renderer(renderer, mesh, document.Materials.Count, place);
+                    break;
+                case Rigidbody body:
+                    BodyRules.Numbers(body, place);
+                    BodyRules.Mass(body, place);
+                    BodyRules.Inertia(body, place);
+                    break;
+                case Collider collider:
+                    Collider(collider, document, index, bodies, place);
+                    break;
+                case Joint joint:
+                    Joint(joint, index, bodies, place);
+                    break;
+            }
+        }
+    }
+
+    private static void Collider(Collider collider, SceneDocument document, int index, Rigidbody?[] bodies, in Place at)
+    {
+        switch (collider)
+        {
+            case BoxCollider box:
+                ColliderRules.Box(box, at);
+                break;
+            case SphereCollider sphere:
+                ColliderRules.Sphere(sphere, at);
+                break;
+            case CapsuleCollider capsule:
+                ColliderRules.Capsule(capsule, at);
+                break;
+            case MeshCollider mesh:
+                NumberRules.Reference(at, "mesh", mesh.Mesh, "meshes", document.Meshes.Count);
+                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjects, bodies), at);
+                break;
+        }
+    }
+
+    /// <summary>The nearest Rigidbody on the object or its ancestors; parents may still be wrong, so only earlier ones count.</summary>
+    private static Rigidbody? BodyOf(int index, IReadOnlyList<GameObject> objects, Rigidbody?[] bodies)
+    {
+        while (bodies[index] is null && objects[index].Parent is int parent && parent >= 0 && parent < index)
+            index = parent;
+        return bodies[index];
+    }
+
+    private static void Joint(Joint joint, int index, Rigidbody?[] bodies, in Place at)
+    {
+        JointRules.Numbers(joint, at);
+        JointRules.OwnBody(bodies[index], at);
+        JointRules.ConnectedBody(joint, index, bodies, at);
+        JointRules.Kinematic(joint, bodies[index], bodies, at);
+        if (joint is AnchoredJoint anchored)
+        {
+            JointRules.AnchorNumbers(anchored, at);
+            JointRules.Axis(anchored, at);
+        }
+
+        if (joint is HingeJoint hinge)
+            Hinge(hinge, at);
+        else if (joint is ConfigurableJoint configurable)
+            Configurable(configurable, at);
+    }
+
+    private static void Hinge(HingeJoint hinge, in Place at)
+    {
+        HingeRules.Numbers(hinge, at);
+        HingeRules.LimitsOrder(hinge, at);
+        HingeRules.LimitsEqual(hinge, at);
+        HingeRules.LimitsRange(hinge, at);
+        HingeRules.MotorAndSpring(hinge, at);
+        HingeRules.MotorForce(hinge, at);
+    }
+
+    private static void Configurable(ConfigurableJoint joint, in Place at)
+    {
+        ConfigurableRules.Numbers(joint, at);
+        ConfigurableRules.SecondaryAxis(joint, at);
+        ConfigurableRules.AngularXLimitsOrder(joint, at);
+        ConfigurableRules.SymmetricLimits(joint, at);
+        ConfigurableRules.AngularLimitsRange(joint, at);
+        ConfigurableRules.SwingLimitBesideFree(joint, at);
+        ConfigurableRules.LimitWithoutRoom(joint, at);
+        ConfigurableRules.BounceOfSoftLimit(joint, at);
+        ConfigurableRules.DamperWithoutSpring(joint, at);
+        DriveRules.Numbers(joint, at);
+        DriveRules.SlerpLocked(joint, at);
+        DriveRules.OtherMode(joint, at);
+        DriveRules.LockedFreedom(joint, at);
+        DriveRules.MaximumForceZero(joint, at);
+    }
+
+    private static void Lists(SceneDocument document, Findings findings)
+    {
+        for (int i = 0; i < document.Materials.Count; i++)
+            MeshRules.Material(document.Materials[i], new Place(findings, "materials", i));
+        for (int i = 0; i < document.Couplings.Count; i++)
+            CouplingRules.Check(document.Couplings[i], document, new Place(findings, "couplings", i));
+        for (int i = 0; i < document.Animations.Count; i++)
+            AnimationRules.Check(document.Animations[i], document.GameObjects.Count, new Place(findings, "animations", i));
+        for (int i = 0; i < document.Constraints.Count; i++)
+            DescriptionRules.Constraint(document.Constraints[i], document.GameObjects.Count, new Place(findings, "constraints", i));
+    }
+
+    private static void Buffers(SceneDocument document, Findings findings)
+    {
+        var usable = new bool[document.Buffers.Count];
+        for (int i = 0; i < usable.Length; i++)
+            usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i));
+        for (int i = 0; i < document.Meshes.Count; i++)
+            Mesh(document, document.Meshes[i], usable, new Place(findings, "meshes", i));
+    }
+
+    private static void Mesh(SceneDocument document, Mesh mesh, bool[] usable, in Place at)
+    {
+        MeshRules.Numbers(mesh, at);
+        MeshRules.Submeshes(mesh, at);
+        long vertices = Math.Max(0, mesh.VertexCount);
+        bool positions = BufferRules.Accessor(mesh.Positions, vertices * 12, usable, document, "positions", at);
+        bool indices = BufferRules.Accessor(mesh.Indices, MeshData.IndexBytes(mesh), usable, document, "indices", at);
+        if (mesh.Normals is Accessor normals)
+            BufferRules.Accessor(normals, vertices * 12, usable, document, "normals", at);
+        if (mesh.Uv is Accessor uv)
+            BufferRules.Accessor(uv, vertices * 8, usable, document, "uv", at);
+        if (positions)
+            BufferRules.FinitePositions(MeshData.Bytes(document, mesh.Positions, vertices * 12), at);
+        if (indices)
+            BufferRules.IndexRange(mesh, MeshData.Bytes(document, mesh.Indices, MeshData.IndexBytes(mesh)), at);
+    }
+
+    /// <summary>Rules that need every object's place in the world.</summary>
+    private static void Placement(ValidScene scene, Findings findings)
+    {
+        IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
+        for (int i = 0; i < objects.Count; i++)
+        {
+            if (objects[i].Parent is int parent)
+                TransformRules.Skew(objects[i].Transform, scene.World(parent).Scale, new Place(findings, "gameObjects", i));
+            for (int c = 0; c < objects[i].Components.Count; c++)
+            {
+                if (objects[i].Components[c] is AnchoredJoint joint)
+                    Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
+            }
+        }
+    }
+
+    private static void Anchors(AnchoredJoint joint, ValidScene scene, int index, in Place at)
+    {
+        WorldTransform own = scene.World(index);
+        WorldTransform connected = joint.ConnectedBody is int body
+            ? scene.World(body)
+            : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
+        AnchorRules.ConnectedAnchorRecomputed(joint, own, connected, at);
+        if (joint is HingeJoint hinge)
+            AnchorRules.Hinge(hinge, own, connected, at);
+        else if (joint is ConfigurableJoint configurable)
+            AnchorRules.Configurable(configurable, own, connected, at);
+    }
+}

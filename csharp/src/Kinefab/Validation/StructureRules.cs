@@ -1,0 +1,62 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Json;
+
+namespace Kinefab.Validation;
+
+/// <summary>How GameObjects and components hang together.</summary>
+internal static class StructureRules
+{
+    /// <summary>An id names one GameObject, so that a re-import finds it again.</summary>
+    internal static void Ids(SceneDocument document, Findings findings)
+    {
+        IReadOnlyList<GameObject> objects = document.GameObjects;
+        var first = new Dictionary<string, int>(objects.Count, StringComparer.Ordinal);
+        for (int i = 0; i < objects.Count; i++)
+        {
+            string id = objects[i].Id;
+            var at = new Place(findings, "gameObjects", i);
+            if (id.Length == 0)
+                at.Report("id", DiagnosticCodes.IdEmpty);
+            else if (!first.TryAdd(id, i))
+                at.Report("id", DiagnosticCodes.IdDuplicate, ("id", id), ("first", Invariant.Text(first[id])));
+        }
+    }
+
+    /// <summary>A parent stands before its children, so there are no cycles.</summary>
+    internal static void Parent(GameObject gameObject, int index, in Place at)
+    {
+        if (gameObject.Parent is int parent && (parent < 0 || parent >= index))
+            at.Report("parent", DiagnosticCodes.ParentNotEarlier, ("parent", Invariant.Text(parent)), ("index", Invariant.Text(index)));
+    }
+
+    /// <summary>Unity allows one Rigidbody, MeshFilter and MeshRenderer on a GameObject.</summary>
+    internal static void SingleComponents(IReadOnlyList<Component> components, int gameObject, Findings findings)
+    {
+        bool body = false, filter = false, renderer = false;
+        for (int i = 0; i < components.Count; i++)
+        {
+            switch (components[i])
+            {
+                case Rigidbody:
+                    Once(ref body, nameof(Rigidbody), DiagnosticCodes.RigidbodyDuplicate, new Place(findings, "gameObjects", gameObject, i));
+                    break;
+                case MeshFilter:
+                    Once(ref filter, nameof(MeshFilter), DiagnosticCodes.ComponentDuplicate, new Place(findings, "gameObjects", gameObject, i));
+                    break;
+                case MeshRenderer:
+                    Once(ref renderer, nameof(MeshRenderer), DiagnosticCodes.ComponentDuplicate, new Place(findings, "gameObjects", gameObject, i));
+                    break;
+            }
+        }
+    }
+
+    private static void Once(ref bool seen, string type, string code, in Place at)
+    {
+        if (seen)
+            at.Report("", code, ("type", type));
+        seen = true;
+    }
+}

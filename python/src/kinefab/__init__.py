@@ -14,9 +14,9 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "export": "pipeline",
-    "ExportOptions": "pipeline",
+    "ExportOptions": "options",
     "ExportResult": "pipeline",
-    "ColliderShape": "unity.colliders",
+    "ColliderShape": "options",
     "Scene": "builder",
     "JointKind": "model",
     "Freedom": "model",
@@ -31,9 +31,9 @@ __all__ = [*_HOMES, "__version__"]
 if TYPE_CHECKING:
     from .builder import Scene
     from .diagnostics import KinefabError, Report
-    from .pipeline import ExportOptions, ExportResult, export
     from .model import Drive, Freedom, JointKind, MassProperties, Motion
-    from .unity.colliders import ColliderShape
+    from .options import ColliderShape, ExportOptions
+    from .pipeline import ExportResult, export
 
 
 def __getattr__(name: str) -> Any:

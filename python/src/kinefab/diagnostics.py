@@ -65,10 +65,11 @@ class FeatureOutcome:
 
 
 class KinefabError(Exception):
-    """The data cannot be carried on; holds the diagnostics that say why."""
+    """The data cannot be carried on; holds the diagnostics that say why, and everything found until then."""
 
-    def __init__(self, diagnostics: Iterable[Diagnostic]):
+    def __init__(self, diagnostics: Iterable[Diagnostic], report: "Report | None" = None):
         self.diagnostics = tuple(diagnostics)
+        self.report = report
         super().__init__("\n".join(str(d) for d in self.diagnostics))
 
 
@@ -137,3 +138,22 @@ class Report:
         """Raise KinefabError with every error found so far, if there is any."""
         if errors := self.of(Severity.ERROR):
             raise KinefabError(errors)
+
+
+def report_document(report: Report, ok: bool) -> dict[str, object]:
+    """A report as ``schemas/report.schema.json`` has it.  ok: whether the run reached its end."""
+    findings = [
+        {
+            "code": d.code,
+            "severity": d.severity.value,
+            **({"where": d.where} if d.where else {}),
+            "message": d.message,
+            "remedy": d.remedy,
+        }
+        for d in report.diagnostics
+    ]
+    outcomes = [
+        {"feature": o.feature, "outcome": o.outcome.value, **({"code": o.code} if o.code else {})}
+        for o in report.outcomes
+    ]
+    return {"ok": ok, "diagnostics": findings, "outcomes": outcomes}

@@ -8,27 +8,18 @@ from typing import Callable
 
 from .diagnostics import KinefabError, Outcome, Report, Severity, diagnostic
 from .geometry.hulls import collision_hulls
-from .geometry.loading import load_geometry
-from .geometry.weighing import DEFAULT_DENSITY, weigh
+from .geometry.loading import MeshFiles, load_geometry
+from .geometry.weighing import weigh
 from .model import Scene
+from .options import ColliderShape, ExportOptions
 from .rigid import RigidGroups, rigid_groups
-from .unity.colliders import Colliders, ColliderShape
+from .unity.colliders import Colliders
 from .unity.document import Document, build_document
 from .unity.dof_records import joints_of_dof_records
 from .unity.writer import write_scene
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""
-
-
-@dataclass(frozen=True, slots=True)
-class ExportOptions:
-    """colliders: none, box, hull or mesh.  density: kg/m^3 of bodies that state none.
-    strict: what would be approximated or dropped with a warning is an error, and nothing is written."""
-
-    colliders: ColliderShape = ColliderShape.HULL
-    density: float = DEFAULT_DENSITY
-    strict: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,8 +46,9 @@ def export(
     """
     report = Report()
     try:
-        scene = _read(source, report, progress)
-        scene = load_geometry(scene, report, progress)
+        files = MeshFiles(report)
+        scene = _read(source, files, report, progress)
+        scene = load_geometry(scene, files, report, progress)
         scene = weigh(scene, options.density, report)
         report.raise_for_errors()
         groups = rigid_groups(scene)
@@ -70,14 +62,13 @@ def export(
     return ExportResult(Path(target), buffer, document, report)
 
 
-def _read(source: str | Path | Scene, report: Report, progress: Progress) -> Scene:
+def _read(source: str | Path | Scene, files: MeshFiles, report: Report, progress: Progress) -> Scene:
     if isinstance(source, Scene):
         return source
     from .sources import read
 
     progress("read", 0.0)
-    scene, found = read(Path(source))
-    report.extend(found)
+    scene = read(Path(source), report, files.vertices)
     progress("read", 1.0)
     return scene
 

@@ -13,8 +13,6 @@ from .closure import is_closed, welded
 from .hulls import hull_of_points
 from .mass import combined, is_possible, solid_properties
 
-DEFAULT_DENSITY = 1000.0
-"""kg/m^3, water: of bodies whose source and user say nothing."""
 THIN = 1e-9
 """A volume below this share of the cube of the mesh's size is none."""
 

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import Any, Mapping
 
 import numpy as np
 
 from ..model import Mesh
+from ..options import ColliderShape
 from . import frames
 from .numbers import rounded, without_defaults
-
-
-class ColliderShape(str, Enum):
-    NONE = "none"
-    BOX = "box"
-    HULL = "hull"
-    MESH = "mesh"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

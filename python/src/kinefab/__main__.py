@@ -1,0 +1,5 @@
+"""``python -m kinefab``."""
+
+from .cli import main
+
+main()

@@ -1,0 +1,148 @@
+"""The command line: a thin layer over ``kinefab.export`` and ``kinefab.inspection``.
+
+Logs go to stderr, data to stdout; exit 0 done, 1 errors found, 2 wrong usage.  What takes long to import is
+imported inside the commands.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Callable, Iterator, Optional
+
+import typer
+
+from . import __version__
+from .diagnostics import KinefabError, Report, Severity, report_document
+from .options import DEFAULT_DENSITY, ColliderShape, ExportOptions
+
+if TYPE_CHECKING:
+    from .pipeline import ExportResult
+
+app = typer.Typer(name="kinefab", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
+_verbosity = 0
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"kinefab {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _common(
+    version: bool = typer.Option(False, "--version", callback=_show_version, is_eager=True, help="Show the version."),
+    verbose: bool = typer.Option(False, "--verbose", "-v", help="Show remarks too, not only warnings and errors."),
+    quiet: bool = typer.Option(False, "--quiet", "-q", help="Show errors only."),
+) -> None:
+    """Carry a mechanism out of CAD into Unity, moving as it moved in CAD."""
+    global _verbosity
+    _verbosity = 1 if verbose else -1 if quiet else 0
+
+
+@app.command()
+def export(
+    source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
+    output: Path = typer.Option(..., "--output", "-o", help="Scene to write: NAME.kinefab.", show_default=False),
+    strict: bool = typer.Option(False, "--strict", help="Fail where anything would be approximated or dropped."),
+    report: Optional[Path] = typer.Option(None, "--report", help="Write every finding to this JSON file."),
+    colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", help="Collider of each body."),
+    density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
+) -> None:
+    """Export a CAD assembly as a Unity scene."""
+    if not density > 0.0 or density == float("inf"):
+        raise typer.BadParameter("the density must be a number above zero", param_hint="--density")
+    if output.is_dir():
+        raise typer.BadParameter(f"{output} is a folder", param_hint="--output")
+    from .pipeline import export as run
+
+    result: Optional[ExportResult] = None
+    try:
+        with _progress_bar() as progress:
+            result = run(source, output, ExportOptions(colliders, density, strict), progress)
+        found = result.report
+    except KinefabError as error:
+        found = error.report or Report(list(error.diagnostics))
+    _log(found, strict)
+    failed = result is None
+    if report is not None:
+        _write_report(report, found, failed)
+    if failed:
+        raise typer.Exit(1)
+    if _verbosity >= 0:
+        typer.echo(_summary(result), err=True)
+
+
+@app.command()
+def inspect(
+    file: Path = typer.Argument(..., help="A NAME.kinefab scene.", show_default=False),
+    as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
+) -> None:
+    """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
+    from .inspection import describe, read_scene_file, render
+
+    try:
+        description = describe(read_scene_file(file))
+    except KinefabError as error:
+        _log(Report(list(error.diagnostics)))
+        raise typer.Exit(1)
+    typer.echo(json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description))
+
+
+def _log(report: Report, strict: bool = False) -> None:
+    """Findings on stderr, one a line, coloured on a terminal."""
+    from rich.console import Console
+    from rich.text import Text
+
+    least = {1: 0, 0: 1, -1: 2}[_verbosity]
+    rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+    style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
+    console = Console(stderr=True, soft_wrap=True, highlight=False)
+    for found in report.diagnostics:
+        if rank[found.severity] >= least or strict:
+            console.print(Text(str(found), style=style[found.severity]))
+
+
+def _write_report(path: Path, report: Report, failed: bool) -> None:
+    try:
+        path.write_text(json.dumps(report_document(report, not failed), indent=2, ensure_ascii=False) + "\n", "utf-8")
+    except OSError as error:
+        typer.echo(f"{path} cannot be written: {error.strerror}", err=True)
+        raise typer.Exit(1)
+
+
+def _summary(result: ExportResult) -> str:
+    outcomes = [outcome.outcome.value for outcome in result.report.outcomes]
+    counts = ", ".join(f"{outcomes.count(word)} {word}" for word in ("kept", "approximated", "dropped"))
+    objects = result.document.tail["gameObjects"]
+    joints = sum(c["type"].endswith("Joint") for o in objects for c in o.get("components", ()))
+    meshes = len(result.document.meshes)
+    return f"{result.path}: {len(objects)} objects, {joints} joints, {meshes} meshes; features: {counts}."
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[str, float], None]]:
+    """A bar on a terminal, nothing in a pipe."""
+    if _verbosity < 0 or not sys.stderr.isatty():
+        yield lambda stage, fraction: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        tasks: dict[str, TaskID] = {}
+
+        def advance(stage: str, fraction: float) -> None:
+            if stage not in tasks:
+                tasks[stage] = bar.add_task(stage, total=1.0)
+            bar.update(tasks[stage], completed=fraction)
+
+        yield advance
+
+
+def main() -> None:
+    """Entry point of the ``kinefab`` script."""
+    app()

@@ -1,0 +1,190 @@
+"""Wavefront OBJ with its bodies kept apart.
+
+trimesh parses vertices and faces; which faces make a body is read here, because it merges objects that share
+a material or a name, passes a ``g`` on to the next ``o``, counts negative indices from the end of the file,
+and spends time on every vertex of the file for each object.  So it gets the file as one mesh of triangles
+with plain indices, and the mesh is cut up again by counting faces.
+"""
+
+from __future__ import annotations
+
+import inspect
+import io
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import Material, MeshKey
+from .pieces import MeshFile, Piece, cut
+
+_STATEMENT = re.compile(rb"^(o|g|usemtl)(?: +(.*?))? *$", re.MULTILINE)
+_INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
+_CORNER = rb" +[1-9][0-9]*(?:/[0-9]*){0,2}"
+_UNUSUAL_FACE = re.compile(rb"^f(?!(?:" + _CORNER + rb"){3} *$)", re.MULTILINE)
+_LIBRARY = re.compile(rb"^mtllib +(.*?) *$", re.MULTILINE)
+
+
+class ObjError(ValueError):
+    """The text is no usable OBJ; the message says why."""
+
+
+@dataclass(slots=True)
+class _Section:
+    """Faces between two ``o`` or ``g`` statements.  object, group: (number of the statement, name).
+    runs: [material, faces] in order."""
+
+    object: tuple[int, str]
+    group: tuple[int, str]
+    runs: list[list]
+
+    @property
+    def faces(self) -> int:
+        return sum(count for _, count in self.runs)
+
+
+def read_obj(path: Path, report: Report) -> MeshFile:
+    """Read bodies and materials of an OBJ file.  Raises ObjError or OSError."""
+    text = _plain_text(path.read_bytes())
+    if _UNUSUAL_FACE.search(text):
+        text = _with_plain_faces(text)
+    sections = [s for s in _sections(text) if s.faces]
+    whole = _parse(_STATEMENT.sub(b"", text)) if sections else None
+    pieces: list[Piece] = []
+    named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = {key: {} for key in MeshKey}
+    statements: dict[tuple[MeshKey, int, str], list[int]] = {}
+    start = 0
+    for number, section in enumerate(sections):
+        stop = start + section.faces
+        runs = [run for run in section.runs if run[1]]
+        counts, materials = tuple(n for _, n in runs), tuple(name for name, _ in runs)
+        pieces.append(cut(whole, start, stop, counts, materials))
+        start = stop
+        for key, (statement, name) in ((MeshKey.OBJECT, section.object), (MeshKey.GROUP, section.group)):
+            for word in dict.fromkeys([name, *name.split()]) if key is MeshKey.GROUP else [name]:
+                if word:
+                    statements.setdefault((key, statement, word), []).append(number)
+    for (key, _, name), numbers in statements.items():
+        named[key].setdefault(name, []).append(tuple(numbers))
+    if whole is not None and start != len(whole.faces):
+        raise ObjError(f"{len(whole.faces)} faces were read where {start} were counted")
+    return MeshFile(path, pieces, named, _materials(text, path, report))
+
+
+def _plain_text(data: bytes) -> bytes:
+    """LF line ends, no continuations, no tabs or indents, and a line end at both ends."""
+    data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    data = data.replace(b"\\\n", b" ").replace(b"\t", b" ")
+    return b"\n" + (_INDENT.sub(b"", data) if b"\n " in data else data).strip() + b"\n"
+
+
+def _sections(text: bytes) -> list[_Section]:
+    """The sections in file order, each with its runs of one material."""
+    current_object, current_group, material = (0, ""), (0, ""), ""
+    sections = [_Section(current_object, current_group, [])]
+    start = 0
+    for number, match in enumerate([*_STATEMENT.finditer(text), None], 1):
+        stop = len(text) if match is None else match.start()
+        count = text.count(b"\nf ", max(0, start - 1), stop)
+        sections[-1].runs.append([material, count])
+        if match is None:
+            break
+        start = match.end()
+        name = (match[2] or b"").decode("utf-8", "replace").strip()
+        if match[1] == b"usemtl":
+            material = name
+            continue
+        if match[1] == b"o":
+            current_object, current_group = (number, name), (0, "")
+        else:
+            current_group = (number, name)
+        sections.append(_Section(current_object, current_group, []))
+    return sections
+
+
+def _with_plain_faces(text: bytes) -> bytes:
+    """The text with every face a fan of triangles whose indices count from 1.  Line by line, so slow."""
+    counts = {b"v": 0, b"vt": 0, b"vn": 0}
+    order = (b"v", b"vt", b"vn")
+    lines = []
+    for line in text.split(b"\n"):
+        head, _, rest = line.partition(b" ")
+        if head in counts:
+            counts[head] += 1
+        if head != b"f":
+            lines.append(line)
+            continue
+        corners = [_absolute(corner, [counts[k] for k in order]) for corner in rest.split()]
+        for i in range(1, len(corners) - 1):
+            lines.append(b"f " + b" ".join((corners[0], corners[i], corners[i + 1])))
+    return b"\n".join(lines)
+
+
+def _absolute(corner: bytes, counts: list[int]) -> bytes:
+    indices = []
+    for text, count in zip(corner.split(b"/"), counts):
+        try:
+            index = int(text) if text else None
+        except ValueError:
+            raise ObjError(f"a face names {corner.decode('ascii', 'replace')!r}") from None
+        if index is not None and index < 0:
+            index += count + 1
+        if index is not None and index < 1:
+            raise ObjError(f"a face names vertex {text.decode()}, before the first")
+        indices.append(b"" if index is None else b"%d" % index)
+    return b"/".join(indices)
+
+
+def _parse(text: bytes) -> Piece:
+    """The whole text as one piece, by trimesh; face order is kept."""
+    from trimesh.exchange.obj import load_obj
+
+    wanted = {"skip_materials": True, "split_objects": False, "split_object": False, "split_groups": False}
+    known = inspect.signature(load_obj).parameters
+    options = {name: value for name, value in wanted.items() if name in known}
+    try:
+        loaded = load_obj(io.BytesIO(text), **options)
+        if "geometry" in loaded:
+            (loaded,) = loaded["geometry"].values()
+        faces = np.asarray(loaded["faces"], dtype=np.int64).reshape(-1, 3)
+        vertices = np.asarray(loaded["vertices"], dtype=np.float64)
+    except (IndexError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ObjError(str(error) or type(error).__name__) from error
+    normals, uv = loaded.get("vertex_normals"), getattr(loaded.get("visual"), "uv", None)
+    fits = lambda values: values is not None and len(values) == len(vertices)  # noqa: E731
+    return Piece(vertices, faces, normals if fits(normals) else None, np.asarray(uv) if fits(uv) else None)
+
+
+def _materials(text: bytes, path: Path, report: Report) -> dict[str, Material]:
+    """The materials of every ``mtllib`` that is there; a warning for one that is not."""
+    from trimesh.exchange.obj import parse_mtl
+
+    materials: dict[str, Material] = {}
+    for match in _LIBRARY.finditer(text):
+        library = path.parent / match[1].decode("utf-8", "replace")
+        try:
+            content = library.read_bytes()
+        except OSError:
+            report.add("MATERIALS_MISSING", str(path), library=library.name, path=path.name)
+            continue
+        for name, entry in parse_mtl(content).items():
+            materials[name] = _material(name, entry)
+    return materials
+
+
+def _material(name: str, entry: dict) -> Material:
+    """Unity's terms for a Phong material: Kd, d (or Tr) and Ns."""
+    try:
+        color = [min(1.0, max(0.0, float(c))) for c in entry.get("diffuse", (0.8, 0.8, 0.8))][:3]
+        opacity = float(entry["d"][0]) if "d" in entry else 1.0 - float(entry.get("tr", ["0"])[0])
+        shininess = max(0.0, float(entry.get("glossiness", 0.0)))
+    except (TypeError, ValueError, IndexError):
+        return Material(name)
+    if len(color) != 3:
+        return Material(name)
+    # Blinn-Phong exponent to roughness: alpha^2 = 2 / (n + 2); smoothness = 1 - alpha.
+    smoothness = 1.0 - math.sqrt(2.0 / (shininess + 2.0))
+    return Material(name, (*color, min(1.0, max(0.0, opacity))), 0.0, smoothness)

@@ -1,0 +1,138 @@
+"""Reads a written scene back and tells what is in it; the checks of a file are C#'s (``dotnet kinefab validate``)."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, Mapping
+
+from .diagnostics import KinefabError, diagnostic
+
+_FREEDOMS = {
+    "xMotion": "slide X",
+    "yMotion": "slide Y",
+    "zMotion": "slide Z",
+    "angularXMotion": "turn X",
+    "angularYMotion": "turn Y",
+    "angularZMotion": "turn Z",
+}
+
+
+def read_scene_file(path: Path) -> Mapping[str, Any]:
+    """The JSON of a scene.  Raises KinefabError when the file is missing, broken or no scene of this major version."""
+    try:
+        content = json.loads(Path(path).read_bytes())
+    except FileNotFoundError:
+        raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
+    except OSError as error:
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error.strerror)]) from error
+    except RecursionError:
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail="it is nested too deeply")]) from None
+    except ValueError as error:
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
+    if not isinstance(content, dict) or content.get("format") != "kinefab.scene":
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail="it does not say it is a kinefab.scene")])
+    version = str(content.get("version", ""))
+    if version.partition(".")[0] != "1":
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")])
+    return content
+
+
+def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
+    """The scene in brief: objects, joints with their freedoms, couplings, and what became of each feature."""
+    objects = scene.get("gameObjects", [])
+    joints = []
+    for entry in objects:
+        for component in entry.get("components", []):
+            if component["type"].endswith("Joint"):
+                connected = component.get("connectedBody")
+                joints.append(
+                    {
+                        "type": component["type"],
+                        "object": entry["id"],
+                        "connected": None if connected is None else objects[connected]["id"],
+                        "freedoms": freedoms_of_component(component),
+                        "closure": component.get("closure", False),
+                        "exact": component.get("exact", True),
+                        "because": component.get("because", []),
+                    }
+                )
+    return {
+        "generator": scene.get("generator", {}),
+        "source": scene.get("source", {}),
+        "objects": [
+            {
+                "id": entry["id"],
+                "name": entry["name"],
+                "parent": entry.get("parent"),
+                "mass": next((c.get("mass", 1) for c in entry.get("components", []) if c["type"] == "Rigidbody"), None),
+                "components": [component["type"] for component in entry.get("components", [])],
+            }
+            for entry in objects
+        ],
+        "joints": joints,
+        "couplings": [coupling.get("id", coupling["kind"]) for coupling in scene.get("couplings", [])],
+        "mobility": scene.get("analysis", {}).get("mobility"),
+        "report": list(scene.get("report", [])),
+    }
+
+
+def freedoms_of_component(component: Mapping[str, Any]) -> list[str]:
+    """What a joint component lets its object do, in words: ``turn X -10 .. 80 deg``."""
+    if component["type"] == "FixedJoint":
+        return []
+    if component["type"] == "HingeJoint":
+        if not component.get("useLimits", False):
+            return ["turn X"]
+        limits = component.get("limits", {})
+        return [f"turn X {limits.get('min', 0):g} .. {limits.get('max', 0):g} deg"]
+    found = []
+    for field, words in _FREEDOMS.items():
+        motion = component.get(field, "Free")
+        if motion != "Locked":
+            found.append(words + (_range(component, field) if motion == "Limited" else ""))
+    return found
+
+
+def _range(component: Mapping[str, Any], field: str) -> str:
+    def limit(name: str) -> float:
+        return component.get(name, {}).get("limit", 0)
+
+    if not field.startswith("angular"):
+        return f" +-{limit('linearLimit'):g} m"
+    if field != "angularXMotion":
+        return f" +-{limit('angularYLimit' if 'Y' in field else 'angularZLimit'):g} deg"
+    low, high = limit("lowAngularXLimit"), limit("highAngularXLimit")
+    # X limits hold for the connected body; told here is what the object itself does.
+    ends = (low, high) if component.get("swapBodies", False) else (-high, -low)
+    return f" {ends[0]:g} .. {ends[1]:g} deg"
+
+
+def render(description: Mapping[str, Any]) -> str:
+    """The description as text for a terminal or a log."""
+    lines = []
+    depth: list[int] = []
+    for entry in description["objects"]:
+        parent = entry["parent"]
+        depth.append(0 if parent is None else depth[parent] + 1)
+        mass = "" if entry["mass"] is None else f"  {entry['mass']:.4g} kg"
+        lines.append("  " * depth[-1] + entry["name"] + mass)
+    lines += ["", f"{len(description['joints'])} joints"]
+    for joint in description["joints"]:
+        freedoms = ", ".join(joint["freedoms"]) or "fixed"
+        marks = (" closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else " approximated")
+        lines.append(f"  {joint['object']} -> {joint['connected'] or 'world'}: {joint['type']}, {freedoms}{marks}")
+    if description["couplings"]:
+        lines.append("couplings: " + ", ".join(description["couplings"]))
+    if description["mobility"] is not None:
+        lines.append(f"mobility: {description['mobility']}")
+    lines.append("")
+    words = ("kept", "approximated", "dropped")
+    counts = [sum(entry["outcome"] == word for entry in description["report"]) for word in words]
+    lines.append(", ".join(f"{count} {word}" for count, word in zip(counts, words)))
+    lines += [
+        f"  {entry['outcome']} {entry['feature']}: {entry.get('message', '')}".rstrip(": ")
+        for entry in description["report"]
+        if entry["outcome"] != "kept"
+    ]
+    return "\n".join(lines)

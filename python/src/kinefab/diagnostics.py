@@ -124,7 +124,7 @@ class Report:
         self._lost(feature, Outcome.DROPPED, code, where, values)
 
     def _lost(self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]) -> None:
-        found = self.add(code, where, **values)
+        found = self.add(code, where, feature=feature, **values)
         self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
 
     def extend(self, other: "Report") -> None:

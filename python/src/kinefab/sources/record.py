@@ -1,0 +1,246 @@
+"""Typed access to the raw values of a bundle; a wrong type becomes a diagnostic at its place.
+
+Every accessor returns a harmless value (0, "", a zero vector) after it has reported a fault and marks the
+record as not ``sound``, so that a reader goes on to find everything else that is wrong.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Iterator, Mapping, TypeVar
+
+from ..diagnostics import Report, Severity, diagnostic_table
+
+T = TypeVar("T")
+Vector = tuple[float, float, float]
+
+REQUIRED: object = object()
+"""Default of a field that must be there."""
+
+MAX_EXTRAS_DEPTH = 64
+MAX_NUMBER = 1e15
+"""Largest magnitude of a number: its cube is still far from overflow, and no length comes near it."""
+MIN_DIRECTION = 1e-9
+"""Shortest vector that still says where it points to: CAD programs write unit vectors."""
+
+
+@dataclass(slots=True)
+class Log:
+    """Where diagnostics go, and how a place in the raw values is written.
+
+    name: of the source file.  lines: for a source of lines, the line of each record by its JSON pointer.
+    """
+
+    report: Report
+    name: str
+    lines: Mapping[str, int] = field(default_factory=dict)
+
+    def place(self, pointer: str) -> str:
+        if not self.lines:
+            return f"{self.name}#{pointer}"
+        while pointer and pointer not in self.lines:
+            pointer = pointer.rpartition("/")[0]
+        return f"{self.name}:{self.lines[pointer]}" if pointer else self.name
+
+    def add(self, code: str, pointer: str, **values: object) -> None:
+        self.report.add(code, self.place(pointer), **values)
+
+    def dropped(self, feature: str, code: str, pointer: str, **values: object) -> None:
+        self.report.dropped(feature, code, self.place(pointer), **values)
+
+    def approximated(self, feature: str, code: str, pointer: str, **values: object) -> None:
+        self.report.approximated(feature, code, self.place(pointer), **values)
+
+
+def shown(text: str) -> str:
+    """A text of the source for a message: short, and printable on any terminal."""
+    start = text[:60]
+    return start if start.isprintable() else start.encode("unicode_escape").decode("ascii")
+
+
+def kind_of(value: object) -> str:
+    """The JSON name of a value's type, with the value where it is short."""
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return f"the text '{shown(value)}'"
+    if isinstance(value, (int, float)):
+        return "a number"
+    return "an array" if isinstance(value, list) else "an object"
+
+
+def is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def is_encodable(text: str) -> bool:
+    """Whether a string can be written as UTF-8: JSON's escapes can hold half of a surrogate pair."""
+    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
+
+
+class Record:
+    """One JSON object.  known: names of its fields; others are warned about, except ``extras``."""
+
+    __slots__ = ("values", "pointer", "log", "sound")
+
+    def __init__(self, values: dict[str, object], pointer: str, log: Log, known: frozenset[str]):
+        self.values, self.pointer, self.log, self.sound = values, pointer, log, True
+        if not values.keys() <= known:
+            for key in sorted(values.keys() - known - {"extras"}):
+                escaped = shown(key).replace("~", "~0").replace("/", "~1")
+                log.add("BUNDLE_FIELD_UNKNOWN", f"{pointer}/{escaped}", field=shown(key))
+
+    def fault(self, code: str, key: str = "", **values: object) -> None:
+        """Report ``code`` at the field ``key`` (at the record itself when empty)."""
+        self.log.add(code, f"{self.pointer}/{key}" if key else self.pointer, **values)
+        self.sound &= diagnostic_table()[code]["severity"] != Severity.ERROR.value
+
+    def wrong(self, key: str, wanted: str, value: object) -> None:
+        self.fault("BUNDLE_FIELD_TYPE", key, field=key, wanted=wanted, found=kind_of(value))
+
+    def _value(self, key: str, default: object) -> object:
+        """The raw value; ``default`` when absent or null; REQUIRED, after a report, when it must be there."""
+        value = self.values.get(key)
+        if value is not None:
+            return value
+        if default is REQUIRED:
+            self.fault("BUNDLE_FIELD_MISSING", "", field=key)
+        return default
+
+    def has(self, key: str) -> bool:
+        return self.values.get(key) is not None
+
+    def text(self, key: str, default: object = REQUIRED) -> str:
+        value = self._value(key, default)
+        if value is default:
+            return "" if default is REQUIRED else default
+        if not isinstance(value, str) or not is_encodable(value) or "\0" in value:
+            self.wrong(key, "a text", value)
+            return ""
+        if not value and default is REQUIRED:
+            self.fault("BUNDLE_FIELD_MISSING", "", field=key)
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """An array of texts; empty when absent."""
+        values = self._value(key, ())
+        if values and not (isinstance(values, list) and all(isinstance(v, str) and is_encodable(v) for v in values)):
+            self.wrong(key, "an array of texts", values)
+            return ()
+        return tuple(values) if isinstance(values, list) else ()
+
+    def number(self, key: str, default: object = REQUIRED) -> float:
+        value = self._value(key, default)
+        if value is default:
+            return 0.0 if default is REQUIRED else default
+        if not is_number(value):
+            self.wrong(key, "a number", value)
+            return 0.0
+        return self._finite(key, value)
+
+    def _finite(self, key: str, value: int | float) -> float:
+        if -MAX_NUMBER <= value <= MAX_NUMBER:
+            return float(value)
+        self.fault("BUNDLE_NUMBER_RANGE", key, field=key, limit=f"{MAX_NUMBER:g}")
+        return 0.0
+
+    def flag(self, key: str, default: bool = False) -> bool:
+        value = self._value(key, default)
+        if not isinstance(value, bool):
+            self.wrong(key, "true or false", value)
+            return default
+        return value
+
+    def numbers(self, key: str, count: int, default: object = REQUIRED) -> tuple[float, ...]:
+        """``count`` numbers."""
+        value = self._value(key, default)
+        if value is default:
+            return (0.0,) * count if default is REQUIRED else default
+        if not isinstance(value, list) or len(value) != count or not all(map(is_number, value)):
+            self.wrong(key, f"{count} numbers", value)
+            return (0.0,) * count
+        return tuple(self._finite(key, number) for number in value)
+
+    def vector(self, key: str, default: object = REQUIRED) -> Vector:
+        return self.numbers(key, 3, default)
+
+    def direction(self, key: str, default: object = REQUIRED) -> Vector:
+        """A direction as a unit vector; it must have a length."""
+        if default is not REQUIRED and not self.has(key):
+            return default
+        before, self.sound = self.sound, True
+        x, y, z = value = self.numbers(key, 3)
+        length = math.hypot(x, y, z)
+        if self.sound and not MIN_DIRECTION < length < math.inf:
+            self.fault("AXIS_ZERO", key, field=key)
+        usable, self.sound = self.sound, self.sound and before
+        return value if length == 1.0 or not usable else (x / length, y / length, z / length)
+
+    def vectors(self, key: str) -> list[Vector]:
+        """An array of vectors; empty when absent."""
+        values = self._value(key, [])
+        if not isinstance(values, list):
+            self.wrong(key, "an array of vectors", values)
+            return []
+        by_index = {str(index): value for index, value in enumerate(values)}
+        entries = Record(by_index, f"{self.pointer}/{key}", self.log, frozenset(by_index))
+        found = [entries.direction(index) for index in entries.values]
+        self.sound &= entries.sound
+        return found
+
+    def choice(
+        self, key: str, words: Mapping[str, T], default: object = REQUIRED, code: str = "BUNDLE_WORD_UNKNOWN"
+    ) -> T:
+        """What the field's word stands for in ``words``; the first entry's after a fault."""
+        value = self._value(key, default)
+        if value is default and default is not REQUIRED:
+            return default
+        if isinstance(value, str) and value in words:
+            return words[value]
+        if isinstance(value, str):
+            self.fault(code, key, field=key, word=shown(value), known=", ".join(words))
+        elif value is not REQUIRED:
+            self.wrong(key, "a text", value)
+        return next(iter(words.values()))
+
+    def record(self, key: str, known: frozenset[str], default: object = None) -> "Record | None":
+        """An object within this one; None when absent or not an object."""
+        value = self._value(key, default)
+        if isinstance(value, dict):
+            return Record(value, f"{self.pointer}/{key}", self.log, known)
+        if value is not default:
+            self.wrong(key, "an object", value)
+        return None
+
+    def records(self, key: str, known: frozenset[str]) -> Iterator["Record"]:
+        """The objects of an array, in order; an entry that is no object is reported and passed over."""
+        values = self._value(key, [])
+        if not isinstance(values, list):
+            self.wrong(key, "an array", values)
+            return
+        for index, value in enumerate(values):
+            if isinstance(value, dict):
+                yield Record(value, f"{self.pointer}/{key}/{index}", self.log, known)
+            else:
+                self.wrong(f"{key}/{index}", "an object", value)
+
+    def extras(self) -> dict[str, object]:
+        """The free room; checked only for what no JSON file can hold again."""
+        value = self._value("extras", {})
+        if not isinstance(value, dict):
+            self.wrong("extras", "an object", value)
+            return {}
+        open_values: list[tuple[object, int]] = [(value, 0)]
+        while open_values:
+            entry, depth = open_values.pop()
+            inner = [*entry, *entry.values()] if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
+            open_values += [(v, depth + 1) for v in inner]
+            broken_text = isinstance(entry, str) and not is_encodable(entry)
+            broken_number = isinstance(entry, float) and not math.isfinite(entry)
+            if broken_text or broken_number or depth > MAX_EXTRAS_DEPTH:
+                self.fault("BUNDLE_EXTRAS", "extras", limit=MAX_EXTRAS_DEPTH)
+                return {}
+        return value

@@ -173,7 +173,9 @@ class _Reading:
             name, tuple(bodies), fixed, freedoms["translations"], freedoms["rotations"], vectors["center"], vectors["origin"]
         )
         if freedoms["translations"] or freedoms["rotations"]:
-            record = {"component": name, **freedoms, "center": vectors["center"]}
+            record = {"component": name, **freedoms}
+            if vectors["center"]:
+                record["center"] = vectors["center"]
             records = self.values.setdefault("dof", [])
             self.lines[f"/dof/{len(records)}"] = row.line
             records.append(record)
@@ -181,7 +183,7 @@ class _Reading:
             "id": name,
             "name": _text(cell, "name"),
             "kind": KINDS.get(_plain(kind), kind),
-            "pose": {"o": vectors["origin"], **{axis: vectors[axis] for axis in AXES}},
+            "pose": {short: vectors[key] for short, key in zip("oxyz", ("origin", *AXES)) if vectors[key]},
             "bodies": [{"id": body, "name": body, "meshKey": body} for body in bodies],
             "grounded": fixed,
             "flexible": not parent,

@@ -102,11 +102,13 @@ class Record:
         self.fault("BUNDLE_FIELD_TYPE", key, field=key, wanted=wanted, found=kind_of(value))
 
     def _value(self, key: str, default: object) -> object:
-        """The raw value; ``default`` when absent or null; REQUIRED, after a report, when it must be there."""
+        """The raw value; ``default`` when absent, and after a report when null or absent though REQUIRED."""
         value = self.values.get(key)
         if value is not None:
             return value
-        if default is REQUIRED:
+        if key in self.values:
+            self.wrong(key, "a value", None)
+        elif default is REQUIRED:
             self.fault("BUNDLE_FIELD_MISSING", "", field=key)
         return default
 

@@ -146,7 +146,7 @@ def _materials(bundle: Record, scene: Scene) -> Materials:
     for record in bundle.records("materials", MATERIAL):
         name = record.text("name")
         if name in found:
-            record.fault("ID_DUPLICATE", "name", id=name, first=record.log.place("/materials"))
+            record.fault("SOURCE_ID_DUPLICATE", "name", id=name, first=record.log.place("/materials"))
         density = record.number("density", None)
         color = record.numbers("color", 4, (0.8, 0.8, 0.8, 1.0))
         shine = {key: record.number(key, default) for key, default in (("metallic", 0.0), ("smoothness", 0.5))}

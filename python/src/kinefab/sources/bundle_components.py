@@ -90,7 +90,7 @@ def _unique(bundle: Record, log: Log) -> dict[str, Record]:
         if name == GROUND:
             record.fault("ID_RESERVED", "id", id=name)
         elif name in found:
-            record.fault("ID_DUPLICATE", "id", id=name, first=log.place(found[name].pointer))
+            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=log.place(found[name].pointer))
         elif name:
             found[name] = record
     return found

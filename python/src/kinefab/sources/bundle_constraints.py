@@ -56,7 +56,7 @@ def read_constraints(bundle: Record, components: Components, frame: SourceFrame,
     for record in bundle.records("constraints", CONSTRAINT):
         name = record.text("id")
         if name and name in seen:
-            record.fault("ID_DUPLICATE", "id", id=name, first=seen[name])
+            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
         seen[name] = log.place(record.pointer)
         start = len(drafts)
         fields = _fields(record, name, components, frame, drafts, log)

@@ -26,7 +26,7 @@ def read_couplings(bundle: Record, joints: Joints, frame: SourceFrame, log: Log)
         name = record.text("id")
         feature = f"coupling {name}"
         if name and name in seen:
-            record.fault("ID_DUPLICATE", "id", id=name, first=seen[name])
+            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
         seen[name] = log.place(record.pointer)
         kind = record.choice("kind", KINDS)
         ends = [_end(record, key, feature, by_id, joints) for key in "ab"]

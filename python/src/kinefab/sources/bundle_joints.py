@@ -48,7 +48,7 @@ def read_joints(bundle: Record, components: Components, frame: SourceFrame, log:
     for record in bundle.records("joints", JOINT):
         name = record.text("id")
         if name and name in seen:
-            record.fault("ID_DUPLICATE", "id", id=name, first=seen[name])
+            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
         seen[name] = log.place(record.pointer)
         if (draft := read_draft(record, name, components, frame, found.inactive)) is not None:
             drafts.append(draft)

@@ -35,7 +35,7 @@ def parse_json(data: bytes, name: str, report: Report) -> object:
     except json.JSONDecodeError as error:
         report.add("JSON_SYNTAX", f"{name}:{error.lineno}:{error.colno}", detail=error.msg)
     except RecursionError:
-        report.add("JSON_TOO_DEEP", name)
+        report.add("SOURCE_TOO_DEEP", name)
     except ValueError as error:  # NaN, Infinity, an integer of thousands of digits
         report.add("JSON_SYNTAX", name, detail=error)
     for key in repeated:

@@ -54,7 +54,8 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
         f'font-family="system-ui, sans-serif" font-size="13">',
         f'<rect width="{WIDTH + LEGEND}" height="{HEIGHT}" fill="#ffffff"/>',
         _surfaces(triangles, colours, view),
-        *(_glyph(number, joint, view, size) for number, joint in enumerate(joints, 1)),
+        *(_glyph(joint, view, size) for joint in joints),
+        *_badges(joints, view),
         _legend(document, joints),
         "</svg>",
     ]
@@ -179,7 +180,7 @@ def _view(cloud: Array, joints: Sequence[DrawnJoint]) -> View:
 
 def _surfaces(triangles: Array, colours: Array, view: View) -> str:
     """Painter's algorithm; large triangles are cut first, so that their centres sort well."""
-    limit = 0.07 * (WIDTH / view.scale)
+    limit = 0.1 * (WIDTH / view.scale)
     for _ in range(6):
         edges = np.linalg.norm(triangles - np.roll(triangles, -1, axis=1), axis=2)
         large = edges.max(axis=1) > limit if len(triangles) else np.zeros(0, bool)
@@ -201,18 +202,20 @@ def _surfaces(triangles: Array, colours: Array, view: View) -> str:
     rgb = np.clip(colours * shade[:, None], 0, 1) ** (1 / 2.2) * 255
     order = np.argsort(triangles.mean(axis=1) @ view.toward, kind="stable")
     flat = view.project(triangles.reshape(-1, 3)).reshape(-1, 3, 2)
-    lines = ['<g stroke-width="0.7" stroke-linejoin="round">']
+    lines, colour, path = ['<g stroke-width="0.7" stroke-linejoin="round">'], "", ""
     for i in order:
         (ax, ay), (bx, by), (cx, cy) = flat[i]
-        colour = "#%02x%02x%02x" % tuple(int(v) for v in rgb[i])
-        lines.append(
-            f'<path d="M{ax:.1f} {ay:.1f}L{bx:.1f} {by:.1f}L{cx:.1f} {cy:.1f}Z" fill="{colour}" stroke="{colour}"/>'
-        )
+        shaded = "#%02x%02x%02x" % tuple(int(v) for v in rgb[i])
+        if shaded != colour:  # neighbours in depth are often of one face: one path for a run of one colour
+            lines += [f'<path d="{path}" fill="{colour}" stroke="{colour}"/>'] if path else []
+            colour, path = shaded, ""
+        path += f"M{ax:.1f} {ay:.1f}L{bx:.1f} {by:.1f}L{cx:.1f} {cy:.1f}Z"
+    lines += [f'<path d="{path}" fill="{colour}" stroke="{colour}"/>'] if path else []
     return "\n".join([*lines, "</g>"])
 
 
-def _glyph(number: int, joint: DrawnJoint, view: View, size: float) -> str:
-    """The joint's axis, an arc or an arrow for its range, and its number in a disc."""
+def _glyph(joint: DrawnJoint, view: View, size: float) -> str:
+    """The joint's axis, and an arc or a line for its range."""
     colour = COLOURS[joint.kind]
     dash = ' stroke-dasharray="5 4"' if joint.component.get("closure") else ""
     frame, place = joint.pose.rotation, joint.pose.translation
@@ -235,10 +238,22 @@ def _glyph(number: int, joint: DrawnJoint, view: View, size: float) -> str:
         path = "L".join(f"{x:.1f} {y:.1f}" for x, y in view.project(stroke))
         lines.append(f'<path d="M{path}" fill="none" stroke="#fff" stroke-width="4.5" opacity="0.7"/>')
         lines.append(f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="2.2" stroke-linecap="round"{dash}/>')
-    x, y = view.project(place[None])[0]
-    lines.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="{colour}" stroke="#fff" stroke-width="1.5"/>')
-    lines.append(f'<text x="{x:.1f}" y="{y + 4.5:.1f}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
     return "\n".join(lines)
+
+
+def _badges(joints: Sequence[DrawnJoint], view: View) -> list[str]:
+    """Each joint's number in a disc at its anchor; discs on one spot stand beside each other."""
+    lines, taken = [], []
+    for number, joint in enumerate(joints, 1):
+        x, y = view.project(joint.pose.translation[None])[0]
+        while any((x - u) ** 2 + (y - v) ** 2 < 18**2 for u, v in taken):
+            x += 19
+        taken.append((x, y))
+        lines.append(
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="{COLOURS[joint.kind]}" stroke="#fff" stroke-width="1.5"/>'
+            f'<text x="{x:.1f}" y="{y + 4.5:.1f}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>'
+        )
+    return lines
 
 
 def _turn(joint: DrawnJoint) -> tuple[float, float]:

@@ -1,4 +1,3 @@
-using Kinefab.Diagnostics;
 using Kinefab.Json;
 
 namespace Kinefab.Document;
@@ -6,47 +5,23 @@ namespace Kinefab.Document;
 /// <summary>Tells components apart by their <c>type</c>, which may stand anywhere in the object.</summary>
 internal static class ComponentReader
 {
+    private static readonly Words<JsonCursor.ReadItem<Component>> Types = new(
+        ("MeshFilter", static (ref JsonCursor json) => new MeshFilter(ref json)),
+        ("MeshRenderer", static (ref JsonCursor json) => new MeshRenderer(ref json)),
+        ("Rigidbody", static (ref JsonCursor json) => new Rigidbody(ref json)),
+        ("MeshCollider", static (ref JsonCursor json) => new MeshCollider(ref json)),
+        ("HingeJoint", static (ref JsonCursor json) => new HingeJoint(ref json)),
+        ("ConfigurableJoint", static (ref JsonCursor json) => new ConfigurableJoint(ref json)),
+        ("FixedJoint", static (ref JsonCursor json) => new FixedJoint(ref json)),
+        ("BoxCollider", static (ref JsonCursor json) => new BoxCollider(ref json)),
+        ("SphereCollider", static (ref JsonCursor json) => new SphereCollider(ref json)),
+        ("CapsuleCollider", static (ref JsonCursor json) => new CapsuleCollider(ref json)));
+
     /// <summary>An unknown component is reported, stepped over and stood in for: a report with errors gives no document.</summary>
     internal static Component Read(ref JsonCursor json)
     {
-        if (!json.IsObject)
-        {
-            json.Mismatch("an object");
-            return new MeshFilter();
-        }
-
-        string? type = json.Peek("type"u8);
-        switch (type)
-        {
-            case nameof(MeshFilter):
-                return new MeshFilter(ref json);
-            case nameof(MeshRenderer):
-                return new MeshRenderer(ref json);
-            case nameof(Rigidbody):
-                return new Rigidbody(ref json);
-            case nameof(BoxCollider):
-                return new BoxCollider(ref json);
-            case nameof(SphereCollider):
-                return new SphereCollider(ref json);
-            case nameof(CapsuleCollider):
-                return new CapsuleCollider(ref json);
-            case nameof(MeshCollider):
-                return new MeshCollider(ref json);
-            case nameof(HingeJoint):
-                return new HingeJoint(ref json);
-            case nameof(ConfigurableJoint):
-                return new ConfigurableJoint(ref json);
-            case nameof(FixedJoint):
-                return new FixedJoint(ref json);
-            case null:
-                json.Report(DiagnosticCodes.FieldMissing, ("field", "type"));
-                break;
-            default:
-                json.Report(DiagnosticCodes.ComponentTypeUnknown, ("type", type));
-                break;
-        }
-
-        json.Skip();
+        if (json.TryBeginTyped(Types, out JsonCursor.ReadItem<Component>? read))
+            return read!(ref json);
         return new MeshFilter();
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Json;
 
 namespace Kinefab.Document;
@@ -10,6 +11,8 @@ public sealed class GameObject : DocumentObject
     internal static readonly FieldNames Fields = new(
         ["id", "name"],
         "parent", "active", "transform", "components", "extras");
+
+    private Component[] components = Array.Empty<Component>();
 
     /// <summary>Unity's defaults.</summary>
     public GameObject()
@@ -39,7 +42,7 @@ public sealed class GameObject : DocumentObject
                     Transform = new Transform(ref json);
                     break;
                 case "components":
-                    Components = json.List(ComponentReader.Read);
+                    components = json.List(ComponentReader.Read);
                     break;
                 case "extras":
                     Extras = json.Extras();
@@ -64,5 +67,12 @@ public sealed class GameObject : DocumentObject
     public Transform Transform { get; init; } = Transform.Default;
 
     /// <summary>In order; couplings refer to joints by their place here.</summary>
-    public IReadOnlyList<Component> Components { get; init; } = Array.Empty<Component>();
+    public IReadOnlyList<Component> Components
+    {
+        get => components;
+        init => components = value.ToArray();
+    }
+
+    /// <summary>The same, without the price of an interface.</summary>
+    internal ReadOnlySpan<Component> ComponentSpan => components;
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Json;
 
 namespace Kinefab.Document;
@@ -14,6 +15,8 @@ public sealed class SceneDocument : DocumentObject
         ["format", "version", "gameObjects"],
         "generator", "source", "physics", "buffers", "meshes", "materials", "couplings", "animations", "constraints",
         "analysis", "report", "extras");
+
+    private GameObject[] gameObjects = Array.Empty<GameObject>();
 
     /// <summary>With nothing in it.</summary>
     public SceneDocument()
@@ -52,7 +55,7 @@ public sealed class SceneDocument : DocumentObject
                     Materials = json.List(static (ref JsonCursor at) => new Material(ref at));
                     break;
                 case "gameObjects":
-                    GameObjects = json.List(static (ref JsonCursor at) => new GameObject(ref at));
+                    gameObjects = json.List(static (ref JsonCursor at) => new GameObject(ref at));
                     break;
                 case "couplings":
                     Couplings = json.List(static (ref JsonCursor at) => new Coupling(ref at));
@@ -98,7 +101,14 @@ public sealed class SceneDocument : DocumentObject
     public IReadOnlyList<Material> Materials { get; init; } = Array.Empty<Material>();
 
     /// <summary>Flat and ordered: a parent stands before its children.</summary>
-    public IReadOnlyList<GameObject> GameObjects { get; init; } = Array.Empty<GameObject>();
+    public IReadOnlyList<GameObject> GameObjects
+    {
+        get => gameObjects;
+        init => gameObjects = value.ToArray();
+    }
+
+    /// <summary>The same, without the price of an interface.</summary>
+    internal ReadOnlySpan<GameObject> GameObjectSpan => gameObjects;
 
     /// <summary>Relations between joint coordinates.</summary>
     public IReadOnlyList<Coupling> Couplings { get; init; } = Array.Empty<Coupling>();

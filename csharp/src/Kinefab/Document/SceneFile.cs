@@ -39,15 +39,17 @@ public static class SceneFile
         return reading;
     }
 
-    /// <summary>Reads a text in memory; it is copied, so that later findings can give line and column.</summary>
+    /// <summary>As the other <c>Parse</c>, without the copy: the array is kept and must not be changed any more.</summary>
     /// <param name="json">The text, UTF-8.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     public static SceneReading Parse(
-        ReadOnlySpan<byte> json,
+        byte[] json,
         Func<string, ReadOnlyMemory<byte>?>? buffers = null,
         SceneReadOptions? options = null)
     {
+        if (json is null)
+            throw new ArgumentNullException(nameof(json));
         options ??= SceneReadOptions.Default;
         var findings = new Findings(options.Limits.MaxFindings);
         if (json.Length > options.Limits.MaxFileBytes)
@@ -56,7 +58,7 @@ public static class SceneFile
             return new SceneReading(null, FindingPlaces.Resolve(findings, default));
         }
 
-        SceneReading reading = Parse(json.ToArray(), findings, options);
+        SceneReading reading = Parse(json, findings, options);
         if (buffers is not null && reading.Document is not null)
         {
             foreach (SceneBuffer buffer in reading.Document.Buffers)
@@ -66,10 +68,19 @@ public static class SceneFile
         return reading;
     }
 
+    /// <summary>Reads a text in memory; it is copied, so that later findings can give line and column.</summary>
+    /// <param name="json">The text, UTF-8.</param>
+    /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
+    /// <param name="options">Null: the default ones.</param>
+    public static SceneReading Parse(
+        ReadOnlySpan<byte> json,
+        Func<string, ReadOnlyMemory<byte>?>? buffers = null,
+        SceneReadOptions? options = null) => Parse(json.ToArray(), buffers, options);
+
     /// <summary>Reads a text that the document keeps.</summary>
-    internal static SceneReading Parse(ReadOnlyMemory<byte> text, Findings findings, SceneReadOptions options)
+    private static SceneReading Parse(byte[] json, Findings findings, SceneReadOptions options)
     {
-        text = JsonText.WithoutMark(text);
+        ReadOnlyMemory<byte> text = JsonText.WithoutMark(json);
         SceneDocument? document = Read(text.Span, findings, options);
         Report report = FindingPlaces.Resolve(findings, text.Span);
         if (findings.Errors > 0 || document is null)

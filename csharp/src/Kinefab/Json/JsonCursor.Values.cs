@@ -73,11 +73,16 @@ internal ref partial struct JsonCursor
             return "";
         }
 
-        if (!reader.ValueIsEscaped)
-            return Encoding.UTF8.GetString(reader.ValueSpan);
+        return TextOf(reader);
+    }
+
+    private readonly string TextOf(in Utf8JsonReader at)
+    {
+        if (!at.ValueIsEscaped)
+            return Encoding.UTF8.GetString(at.ValueSpan);
         try
         {
-            return reader.GetString()!;
+            return at.GetString()!;
         }
         catch (InvalidOperationException)
         {
@@ -157,9 +162,27 @@ internal ref partial struct JsonCursor
         }
 
         long start = Offset;
+        T[] items;
+        if (!NextItem())
+            items = Array.Empty<T>();
+        else
+            items = Items(item(ref this), item);
+        if (items.Length < least)
+            findings.AddAt(start, DiagnosticCodes.ArrayLength, ("expected", "at least " + Invariant.Text(least)), ("found", Invariant.Text(items.Length)));
+        return items;
+    }
+
+    private bool NextItem() => reader.Read() && reader.TokenType != JsonTokenType.EndArray;
+
+    /// <summary>Most lists have one item; only longer ones need room to grow.</summary>
+    private T[] Items<T>(T first, ReadItem<T> item)
+    {
+        if (!NextItem())
+            return new[] { first };
         T[] pooled = ArrayPool<T>.Shared.Rent(8);
-        int count = 0;
-        while (reader.Read() && reader.TokenType != JsonTokenType.EndArray)
+        pooled[0] = first;
+        int count = 1;
+        do
         {
             if (count == maxItems)
             {
@@ -171,10 +194,8 @@ internal ref partial struct JsonCursor
                 pooled = Grow(pooled);
             pooled[count++] = item(ref this);
         }
-
-        if (count < least)
-            findings.AddAt(start, DiagnosticCodes.ArrayLength, ("expected", "at least " + Invariant.Text(least)), ("found", Invariant.Text(count)));
-        T[] items = count == 0 ? Array.Empty<T>() : pooled.AsSpan(0, count).ToArray();
+        while (NextItem());
+        T[] items = pooled.AsSpan(0, count).ToArray();
         Return(pooled, count);
         return items;
     }
@@ -191,7 +212,7 @@ internal ref partial struct JsonCursor
 
         while (reader.Read() && reader.TokenType == JsonTokenType.PropertyName)
         {
-            string name = TokenText();
+            string name = TextOf(reader);
             if (entries.ContainsKey(name))
                 Report(DiagnosticCodes.FieldDuplicate, ("field", name));
             reader.Read();

@@ -18,6 +18,9 @@ internal ref partial struct JsonCursor
     private readonly int maxItems;
     private Utf8JsonReader reader;
 
+    /// <summary>Start of the object whose <c>type</c> was read ahead of its other fields, or -1.</summary>
+    private long typedStart;
+
     /// <summary>On the text's first token.</summary>
     internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, SceneLimits limits, bool strict)
     {
@@ -26,6 +29,7 @@ internal ref partial struct JsonCursor
         unknownFields = strict ? Severity.Error : Severity.Warning;
         maxItems = limits.MaxItems;
         reader = new Utf8JsonReader(text, new JsonReaderOptions { MaxDepth = limits.MaxDepth });
+        typedStart = -1;
         reader.Read();
     }
 
@@ -47,6 +51,13 @@ internal ref partial struct JsonCursor
     /// <summary>Steps into an object; <see cref="NextField"/> gives its fields.</summary>
     internal FieldCursor BeginObject(FieldNames names)
     {
+        if (typedStart >= 0)
+        {
+            var typed = new FieldCursor(names, typedStart) { Seen = 1UL << names.IndexOf("type"u8) };
+            typedStart = -1;
+            return typed;
+        }
+
         if (reader.TokenType == JsonTokenType.StartObject)
             return new FieldCursor(names, reader.TokenStartIndex);
         Mismatch("an object");
@@ -96,41 +107,10 @@ internal ref partial struct JsonCursor
     /// <summary>Steps over the current value.</summary>
     internal void Skip() => reader.Skip();
 
-    /// <summary>The text of a string field of the object that the cursor stands on, wherever in the object it is; null when there is none.</summary>
-    internal readonly string? Peek(ReadOnlySpan<byte> field)
-    {
-        Utf8JsonReader ahead = reader;
-        while (ahead.Read() && ahead.TokenType == JsonTokenType.PropertyName)
-        {
-            bool found = !ahead.ValueIsEscaped && ahead.ValueSpan.SequenceEqual(field);
-            if (!found)
-            {
-                ahead.Skip();
-                continue;
-            }
-
-            ahead.Read();
-            return ahead.TokenType == JsonTokenType.String && !ahead.ValueIsEscaped ? Encoding.UTF8.GetString(ahead.ValueSpan) : null;
-        }
-
-        return null;
-    }
-
-    internal readonly bool IsObject => reader.TokenType == JsonTokenType.StartObject;
-
     /// <summary>Reports that the current value is of another type, and steps over it.</summary>
     internal void Mismatch(string expected)
     {
-        string found = reader.TokenType switch
-        {
-            JsonTokenType.StartObject => "an object",
-            JsonTokenType.StartArray => "an array",
-            JsonTokenType.String => "a string",
-            JsonTokenType.Number => "the number " + TokenText(),
-            JsonTokenType.Null => "null",
-            _ => "a boolean",
-        };
-        Report(DiagnosticCodes.TypeMismatch, ("expected", expected), ("found", found));
+        Report(DiagnosticCodes.TypeMismatch, ("expected", expected), ("found", Kind(reader)));
         reader.Skip();
     }
 
@@ -146,20 +126,32 @@ internal ref partial struct JsonCursor
 
     private readonly int IndexOfEscaped(FieldNames names) => names.IndexOf(Encoding.UTF8.GetBytes(TokenText()));
 
-    /// <summary>The current token for a message: shortened, whatever is in it.</summary>
-    private readonly string TokenText()
+    private readonly string TokenText() => Text(reader);
+
+    private static string Kind(in Utf8JsonReader at) => at.TokenType switch
+    {
+        JsonTokenType.StartObject => "an object",
+        JsonTokenType.StartArray => "an array",
+        JsonTokenType.String => "a string",
+        JsonTokenType.Number => "the number " + Text(at),
+        JsonTokenType.Null => "null",
+        _ => "a boolean",
+    };
+
+    /// <summary>A token for a message: shortened, whatever is in it.</summary>
+    private static string Text(in Utf8JsonReader at)
     {
         const int enough = 60;
         string whole;
         try
         {
-            whole = reader.TokenType is JsonTokenType.String or JsonTokenType.PropertyName
-                ? reader.GetString()!
-                : Encoding.UTF8.GetString(reader.ValueSpan);
+            whole = at.TokenType is JsonTokenType.String or JsonTokenType.PropertyName
+                ? at.GetString()!
+                : Encoding.UTF8.GetString(at.ValueSpan);
         }
         catch (InvalidOperationException)
         {
-            whole = Encoding.UTF8.GetString(reader.ValueSpan);
+            whole = Encoding.UTF8.GetString(at.ValueSpan);
         }
 
         return whole.Length <= enough ? whole : whole.Remove(enough) + "...";

@@ -1,4 +1,5 @@
 using System;
+using System.Buffers.Binary;
 
 namespace Kinefab.Json;
 
@@ -17,30 +18,74 @@ internal static class ShortDecimal
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
     };
 
-    /// <summary>From a JSON number without exponent; false when it is not of this kind.</summary>
+    /// <summary>From a JSON number; false when it is not of this kind.</summary>
     internal static bool TryParse(ReadOnlySpan<byte> number, out double value)
     {
         value = 0;
-        bool negative = number[0] == '-';
+        int first = number[0] == '-' ? 1 : 0;
         ulong digits = 0;
         int point = -1;
-        int i = negative ? 1 : 0;
+        int i = first;
         for (; i < number.Length; i++)
         {
             uint digit = (uint)(number[i] - '0');
             if (digit <= 9)
+            {
                 digits = digits * 10 + digit;
-            else if (number[i] == '.')
-                point = i;
-            else
-                return false;
+                continue;
+            }
+
+            if (number[i] != '.')
+                break;
+            point = i;
+            while (i + 8 < number.Length && TryEight(number.Slice(i + 1), ref digits))
+                i += 8;
         }
 
-        int count = number.Length - (negative ? 1 : 0) - (point < 0 ? 0 : 1);
-        if (count > 19 || digits > LargestExact)
+        int count = i - first - (point < 0 ? 0 : 1);
+        // More than 19 digits may have overflowed.
+        if (count > 19 || digits > LargestExact || !TryExponent(number.Slice(i), out int power))
             return false;
-        double magnitude = point < 0 ? digits : digits / PowersOfTen[number.Length - 1 - point];
-        value = negative ? -magnitude : magnitude;
+        power -= point < 0 ? 0 : i - 1 - point;
+        if (power < -22 || power > 22)
+            return false;
+        double magnitude = power < 0 ? digits / PowersOfTen[-power] : digits * PowersOfTen[power];
+        value = first == 1 ? -magnitude : magnitude;
+        return true;
+    }
+
+    /// <summary>
+    /// Appends the next eight characters when all are digits, four multiplications for the eight (D. Lemire,
+    /// "Number parsing at a gigabyte per second", Software: Practice and Experience 51, 2021, section 7).
+    /// </summary>
+    private static bool TryEight(ReadOnlySpan<byte> text, ref ulong digits)
+    {
+        ulong eight = BinaryPrimitives.ReadUInt64LittleEndian(text);
+        const ulong high = 0xF0F0F0F0F0F0F0F0;
+        if (((eight & high) | (((eight + 0x0606060606060606) & high) >> 4)) != 0x3333333333333333)
+            return false;
+        eight -= 0x3030303030303030;
+        eight = eight * 10 + (eight >> 8);
+        const ulong mask = 0x000000FF000000FF;
+        eight = ((eight & mask) * 0x000F424000000064 + ((eight >> 16) & mask) * 0x0000271000000001) >> 32;
+        digits = digits * 100000000 + (uint)eight;
+        return true;
+    }
+
+    /// <summary>From nothing, or from e, a sign and at most two digits.</summary>
+    private static bool TryExponent(ReadOnlySpan<byte> text, out int exponent)
+    {
+        exponent = 0;
+        if (text.IsEmpty)
+            return true;
+        bool signed = text[1] is (byte)'-' or (byte)'+';
+        ReadOnlySpan<byte> digits = text.Slice(signed ? 2 : 1);
+        if (digits.Length > 2)
+            return false;
+        foreach (byte digit in digits)
+            exponent = exponent * 10 + (digit - '0');
+        if (text[1] == '-')
+            exponent = -exponent;
         return true;
     }
 }

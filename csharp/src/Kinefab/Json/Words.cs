@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
 using System.Linq;
 using System.Text;
 
@@ -7,7 +8,6 @@ namespace Kinefab.Json;
 
 /// <summary>The words that JSON uses for the values of an enumeration.</summary>
 internal sealed class Words<T>
-    where T : struct
 {
     private readonly (byte[] Utf8, T Value)[] entries;
 
@@ -20,7 +20,7 @@ internal sealed class Words<T>
     /// <summary>All words, for a message.</summary>
     internal string Listing { get; }
 
-    internal bool TryFind(ReadOnlySpan<byte> word, out T value)
+    internal bool TryFind(ReadOnlySpan<byte> word, [MaybeNullWhen(false)] out T value)
     {
         foreach ((byte[] utf8, T known) in entries)
         {

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -18,8 +17,8 @@ public static class SceneValidator
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
         Descriptions(document, findings);
         StructureRules.Ids(document, findings);
-        Rigidbody?[] bodies = Bodies(document.GameObjects);
-        for (int i = 0; i < document.GameObjects.Count; i++)
+        Rigidbody?[] bodies = Bodies(document.GameObjectSpan);
+        for (int i = 0; i < bodies.Length; i++)
             GameObject(document, i, bodies, findings);
         Lists(document, findings);
         Buffers(document, findings);
@@ -38,14 +37,13 @@ public static class SceneValidator
             DescriptionRules.Analysis(analysis, document.GameObjects.Count, new Place(findings, "analysis"));
     }
 
-    private static Rigidbody?[] Bodies(IReadOnlyList<GameObject> objects)
+    private static Rigidbody?[] Bodies(ReadOnlySpan<GameObject> objects)
     {
-        var bodies = new Rigidbody?[objects.Count];
+        var bodies = new Rigidbody?[objects.Length];
         for (int i = 0; i < bodies.Length; i++)
         {
-            IReadOnlyList<Component> components = objects[i].Components;
-            for (int c = 0; c < components.Count && bodies[i] is null; c++)
-                bodies[i] = components[c] as Rigidbody;
+            foreach (Component component in objects[i].ComponentSpan)
+                bodies[i] ??= component as Rigidbody;
         }
 
         return bodies;
@@ -53,10 +51,11 @@ public static class SceneValidator
 
     private static void GameObject(SceneDocument document, int index, Rigidbody?[] bodies, Findings findings)
     {
-        GameObject gameObject = document.GameObjects[index];
+        GameObject gameObject = document.GameObjectSpan[index];
+        ReadOnlySpan<Component> components = gameObject.ComponentSpan;
         var at = new Place(findings, "gameObjects", index);
         StructureRules.Parent(gameObject, index, at);
-        StructureRules.SingleComponents(gameObject.Components, index, findings);
+        StructureRules.SingleComponents(components, index, findings);
         if (!ReferenceEquals(gameObject.Transform, Transform.Default))
         {
             TransformRules.Numbers(gameObject.Transform, at);
@@ -64,10 +63,10 @@ public static class SceneValidator
         }
 
         Mesh? mesh = null;
-        for (int c = 0; c < gameObject.Components.Count; c++)
+        for (int c = 0; c < components.Length; c++)
         {
             var place = new Place(findings, "gameObjects", index, c);
-            switch (gameObject.Components[c])
+            switch (components[c])
             {
                 case MeshFilter filter:
                     if (NumberRules.Reference(place, "mesh", filter.Mesh, "meshes", document.Meshes.Count))
@@ -106,13 +105,13 @@ public static class SceneValidator
                 break;
             case MeshCollider mesh:
                 NumberRules.Reference(at, "mesh", mesh.Mesh, "meshes", document.Meshes.Count);
-                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjects, bodies), at);
+                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjectSpan, bodies), at);
                 break;
         }
     }
 
     /// <summary>The nearest Rigidbody on the object or its ancestors; parents may still be wrong, so only earlier ones count.</summary>
-    private static Rigidbody? BodyOf(int index, IReadOnlyList<GameObject> objects, Rigidbody?[] bodies)
+    private static Rigidbody? BodyOf(int index, ReadOnlySpan<GameObject> objects, Rigidbody?[] bodies)
     {
         while (bodies[index] is null && objects[index].Parent is int parent && parent >= 0 && parent < index)
             index = parent;
@@ -206,14 +205,15 @@ public static class SceneValidator
     /// <summary>Rules that need every object's place in the world.</summary>
     private static void Placement(ValidScene scene, Findings findings)
     {
-        IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
-        for (int i = 0; i < objects.Count; i++)
+        ReadOnlySpan<GameObject> objects = scene.Document.GameObjectSpan;
+        for (int i = 0; i < objects.Length; i++)
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.World(parent).Scale, new Place(findings, "gameObjects", i));
-            for (int c = 0; c < objects[i].Components.Count; c++)
+            ReadOnlySpan<Component> components = objects[i].ComponentSpan;
+            for (int c = 0; c < components.Length; c++)
             {
-                if (objects[i].Components[c] is AnchoredJoint joint)
+                if (components[c] is AnchoredJoint joint)
                     Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
             }
         }

@@ -12,9 +12,9 @@ internal static class StructureRules
     /// <summary>An id names one GameObject, so that a re-import finds it again.</summary>
     internal static void Ids(SceneDocument document, Findings findings)
     {
-        IReadOnlyList<GameObject> objects = document.GameObjects;
-        var first = new Dictionary<string, int>(objects.Count, StringComparer.Ordinal);
-        for (int i = 0; i < objects.Count; i++)
+        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        var first = new Dictionary<string, int>(objects.Length, StringComparer.Ordinal);
+        for (int i = 0; i < objects.Length; i++)
         {
             string id = objects[i].Id;
             var at = new Place(findings, "gameObjects", i);
@@ -33,10 +33,10 @@ internal static class StructureRules
     }
 
     /// <summary>Unity allows one Rigidbody, MeshFilter and MeshRenderer on a GameObject.</summary>
-    internal static void SingleComponents(IReadOnlyList<Component> components, int gameObject, Findings findings)
+    internal static void SingleComponents(ReadOnlySpan<Component> components, int gameObject, Findings findings)
     {
         bool body = false, filter = false, renderer = false;
-        for (int i = 0; i < components.Count; i++)
+        for (int i = 0; i < components.Length; i++)
         {
             switch (components[i])
             {

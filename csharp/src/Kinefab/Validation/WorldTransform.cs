@@ -1,4 +1,4 @@
-using System.Collections.Generic;
+using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
 
@@ -23,8 +23,8 @@ public readonly struct WorldTransform
     /// <summary>Of all GameObjects; a parent must stand before its children.</summary>
     internal static WorldTransform[] Of(SceneDocument document)
     {
-        IReadOnlyList<GameObject> objects = document.GameObjects;
-        var world = new WorldTransform[objects.Count];
+        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        var world = new WorldTransform[objects.Length];
         for (int i = 0; i < world.Length; i++)
         {
             Transform local = objects[i].Transform;

@@ -118,7 +118,7 @@ public sealed class Rigidbody : Component
     private static RigidbodyConstraints ReadConstraints(ref JsonCursor json)
     {
         var all = RigidbodyConstraints.None;
-        foreach (RigidbodyConstraints flag in json.List(static (ref JsonCursor at) => at.Word(DocumentWords.RigidbodyConstraint)))
+        foreach (RigidbodyConstraints flag in json.WordSet(DocumentWords.RigidbodyConstraint))
             all |= flag;
         return all;
     }

@@ -32,7 +32,7 @@ public static class SceneFile
         }
 
         if (bytes is null)
-            return new SceneReading(null, FindingPlaces.Resolve(findings, default));
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         SceneReading reading = Parse(bytes, findings, options);
         if (reading.Document is { Buffers.Count: > 0 } document)
             BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!);
@@ -55,7 +55,7 @@ public static class SceneFile
         if (json.Length > options.Limits.MaxFileBytes)
         {
             findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(json.Length)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
-            return new SceneReading(null, FindingPlaces.Resolve(findings, default));
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         }
 
         SceneReading reading = Parse(json, findings, options);
@@ -82,7 +82,7 @@ public static class SceneFile
     {
         ReadOnlyMemory<byte> text = JsonText.WithoutMark(json);
         SceneDocument? document = Read(text.Span, findings, options);
-        Report report = FindingPlaces.Resolve(findings, text.Span);
+        Report report = FindingPlaces.Resolve(findings, text.Span, hasText: true);
         if (findings.Errors > 0 || document is null)
             return new SceneReading(null, report);
         document.Text = text;
@@ -103,7 +103,7 @@ public static class SceneFile
         }
         catch (JsonException fault)
         {
-            JsonText.ReportBroken(text, fault, cursor.Depth >= options.Limits.MaxDepth, options.Limits.MaxDepth, findings);
+            JsonText.ReportBroken(text, fault, cursor.Depth >= options.Limits.MaxDepth - 1, options.Limits.MaxDepth, findings);
             return null;
         }
         catch (ReadingEndedException)

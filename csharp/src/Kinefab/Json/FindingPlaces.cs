@@ -9,21 +9,21 @@ namespace Kinefab.Json;
 /// <summary>Completes findings: pointer from offset, offset from pointer, line and column from offset.</summary>
 internal static class FindingPlaces
 {
-    /// <summary>The report, in the order of the places; an empty text gives no lines.</summary>
-    internal static Report Resolve(Findings findings, ReadOnlySpan<byte> text)
+    /// <summary>The report, in the order of the places; without a text there are no lines.</summary>
+    internal static Report Resolve(Findings findings, ReadOnlySpan<byte> text, bool hasText)
     {
         if (findings.List.Count == 0)
             return Report.Empty;
         long[] offsets = Offsets(findings.List, text);
         int[] order = Enumerable.Range(0, offsets.Length).OrderBy(i => offsets[i]).ToArray();
         long[] sorted = order.Select(i => offsets[i]).ToArray();
-        string[] pointers = text.IsEmpty ? order.Select(_ => "").ToArray() : PointerFinder.PointersAt(text, sorted);
+        string[] pointers = PointerFinder.PointersAt(text, sorted);
         var lines = new LineCounter(text);
         var diagnostics = new List<Diagnostic>();
         for (int i = 0; i < order.Length; i++)
         {
             Findings.Finding found = findings.List[order[i]];
-            (int? line, int? column) = text.IsEmpty ? (null, null) : lines.At(sorted[i]);
+            (int? line, int? column) = !hasText ? (null, null) : lines.At(sorted[i]);
             diagnostics.Add(new Diagnostic(
                 found.Code, found.Severity, found.Message, found.Remedy, found.Pointer ?? pointers[i], line, column));
         }

@@ -107,6 +107,27 @@ internal ref partial struct JsonCursor
         return default;
     }
 
+    /// <summary>An array of words, each at most once.</summary>
+    internal List<T> WordSet<T>(Words<T> words)
+        where T : struct
+    {
+        var set = new List<T>();
+        if (reader.TokenType != JsonTokenType.StartArray)
+            Mismatch("an array");
+        else
+        {
+            while (NextItem())
+            {
+                T word = Word(words);
+                if (set.Contains(word))
+                    Report(DiagnosticCodes.ItemDuplicate, ("value", TokenText()));
+                set.Add(word);
+            }
+        }
+
+        return set;
+    }
+
     /// <summary>Three numbers.</summary>
     internal Vector3d Vector3()
     {

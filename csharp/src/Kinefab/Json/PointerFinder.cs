@@ -31,7 +31,7 @@ internal static class PointerFinder
                 else if (path.Count > 0 && path[^1].Name is null)
                     path[^1] = (null, path[^1].Index + 1);
 
-                for (; next < offsets.Length && offsets[next] <= reader.TokenStartIndex; next++)
+                for (; next < offsets.Length && offsets[next] < reader.BytesConsumed; next++)
                     pointers[next] = Text(path);
 
                 if (reader.TokenType == JsonTokenType.StartObject)

@@ -25,7 +25,7 @@ public static class SceneValidator
         ValidScene? scene = findings.Errors == 0 ? new ValidScene(document) : null;
         if (scene is not null)
             Placement(scene, findings);
-        return new SceneValidation(scene, FindingPlaces.Resolve(findings, document.Text.Span));
+        return new SceneValidation(scene, FindingPlaces.Resolve(findings, document.Text.Span, hasText: !document.Text.IsEmpty));
     }
 
     private static void Descriptions(SceneDocument document, Findings findings)

@@ -229,9 +229,9 @@ UNLOCKED: Mapping[JointKind, tuple[int, ...]] = {
 
 
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:
-    """Six freedoms with ``kind``'s own unlocked; ``given`` (tx=..., rx=...) replaces single ones."""
+    """Six freedoms with ``kind``'s own unlocked (none of GENERAL); ``given`` (tx=..., rx=...) replaces single ones."""
     names = ("tx", "ty", "tz", "rx", "ry", "rz")
-    freedoms = [FREE if i in UNLOCKED[kind] else LOCKED for i in range(6)]
+    freedoms = [FREE if i in UNLOCKED.get(kind, ()) else LOCKED for i in range(6)]
     for name, freedom in given.items():
         freedoms[names.index(name)] = freedom
     return tuple(freedoms)

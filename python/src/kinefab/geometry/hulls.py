@@ -14,8 +14,10 @@ from ..spatial import Array
 
 UNITY_TRIANGLES = 255
 """Most triangles of a convex MeshCollider."""
-DIRECTIONS = 128
-"""Directions in which a large hull is sampled: a hull of n points has at most 2 n - 4 triangles."""
+UNITY_VERTICES = 128
+"""So many vertices have at most 252 triangles: a hull of n points has 2 n - 4 (Euler)."""
+DIRECTIONS = 24
+"""Directions whose extreme vertices a simplified hull starts from."""
 
 Hull = tuple[Array, np.ndarray]
 
@@ -66,25 +68,28 @@ def _is_solid(points: Array) -> bool:
 
 
 def _simplified(hull: Hull, body: str, report: Report) -> Hull:
-    """The hull itself, or that of its extreme points in evenly spread directions when it is too large."""
+    """The hull itself, or one through as many of its vertices as Unity takes, the farthest out first."""
     vertices, faces = hull
     if len(faces) <= UNITY_TRIANGLES:
         return hull
-    heights = vertices @ _directions().T
-    smaller = hull_of_points(vertices[np.unique(heights.argmax(axis=0))])
+    chosen = np.unique((vertices @ _directions().T).argmax(axis=0))
+    while (smaller := hull_of_points(vertices[chosen])) is not None:
+        # For each facet the vertex that stands out of it the most.
+        a, b, c = (smaller[0][smaller[1][:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        heights = vertices @ normals.T - np.einsum("ij,ij->i", a, normals)
+        highest = heights.argmax(axis=0)
+        order = np.argsort(-heights.max(axis=0), kind="stable")
+        fresh = [v for v in dict.fromkeys(highest[order].tolist()) if v not in set(chosen.tolist())]
+        room = min(UNITY_VERTICES - len(chosen), max(1, len(chosen) // 2))
+        if not fresh or room == 0:
+            break
+        chosen = np.sort(np.append(chosen, fresh[:room]))
     if smaller is None:
         return hull
-    a, b, c = (smaller[0][smaller[1][:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    outside = (vertices @ normals.T - np.einsum("ij,ij->i", a, normals)).max(axis=1)
-    report.add(
-        "HULL_SIMPLIFIED",
-        body=body,
-        before=len(faces),
-        after=len(smaller[1]),
-        deviation=f"{max(0.0, float(outside.max())):.3g}",
-    )
+    deviation = f"{max(0.0, float(heights.max())):.3g}"
+    report.add("HULL_SIMPLIFIED", body=body, before=len(faces), after=len(smaller[1]), deviation=deviation)
     return smaller
 
 

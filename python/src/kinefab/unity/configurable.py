@@ -29,7 +29,7 @@ _TITLES = {Motion.LOCKED: "Locked", Motion.LIMITED: "Limited", Motion.FREE: "Fre
 
 @dataclass(frozen=True, slots=True)
 class Senses:
-    """Signs of CAD coordinates on c.  Angles turn the other way than distances: SPEC M9 and M10."""
+    """Signs of CAD coordinates on c.  Angles turn the other way than distances: SPEC F8."""
 
     linear: tuple[float, float, float]
     angular: tuple[float, float, float]
@@ -136,6 +136,7 @@ def _twist_limits(w: _Writing, motions: list[Motion]) -> None:
 def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
     """``angularYLimit`` and ``angularZLimit``: half angles of a cone about X, the same to either side."""
     limited = [i for i in (1, 2) if w.shape.freedoms[RX + i].motion is Motion.LIMITED]
+    half = 0.0
     for i in limited:
         freedom = w.shape.freedoms[RX + i]
         lower, upper = (math.degrees(x - w.zeros[RX + i]) for x in (freedom.lower, freedom.upper))
@@ -150,6 +151,8 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
             )
         key = "angularYLimit" if i == 1 else "angularZLimit"
         w.fields[key] = {"limit": half, "bounciness": freedom.restitution}
+    if len(limited) == 1 and motions[RX + 3 - limited[0]] is Motion.FREE:
+        w.approximated("JOINT_LIMIT_ELEVATION", freedom=w.name(RX + limited[0]), half=f"{half:g}")
     if limited:
         w.fields["angularYZLimitSpring"] = _limit_spring(_stiffest(w, [RX + i for i in limited]))
 

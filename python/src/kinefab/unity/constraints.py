@@ -33,7 +33,7 @@ def constraint_entry(constraint: Constraint, object_of: Sequence[int]) -> dict[s
 
 
 def _value(constraint: Constraint, value: float | None) -> float | None:
-    """Metres stay, radians become degrees, and a screw's lead turns its sign as angles do (SPEC M11)."""
+    """Metres stay, radians become degrees, and a screw's lead turns its sign as angles do (SPEC F8)."""
     if value is None or not math.isfinite(value):
         return None
     if constraint.kind is ConstraintKind.ANGLE:

@@ -18,64 +18,64 @@ _QUATERNION = np.array([1.0, -1.0, -1.0, 1.0])
 
 
 def point(p) -> Array:
-    """M1. Points, metres, shape (..., 3): M p."""
+    """F1. Points, metres, shape (..., 3): M p."""
     return np.asarray(p, dtype=np.float64) * _POLAR
 
 
 def direction(v) -> Array:
-    """M2. Polar vectors, shape (..., 3): directions, normals, velocities, forces: M v."""
+    """F1. Polar vectors, shape (..., 3): directions, normals, velocities, forces: M v."""
     return np.asarray(v, dtype=np.float64) * _POLAR
 
 
 def axial(w) -> Array:
-    """M3. Axial vectors, shape (..., 3): angular velocity, torque, the axis of a rotation whose angle keeps
+    """F2. Axial vectors, shape (..., 3): angular velocity, torque, the axis of a rotation whose angle keeps
     its sign: det(M) M w = -M w."""
     return np.asarray(w, dtype=np.float64) * _AXIAL
 
 
 def rotation(r) -> Array:
-    """M4. Rotation matrices, shape (..., 3, 3): M R M."""
+    """F4. Rotation matrices, shape (..., 3, 3): M R M."""
     return np.asarray(r, dtype=np.float64) * np.outer(_POLAR, _POLAR)
 
 
 def quaternion(q) -> Array:
-    """M5. Quaternions (x, y, z, w), shape (..., 4): the vector part is axial, w stays."""
+    """F3. Quaternions (x, y, z, w), shape (..., 4): the vector part is axial, w stays."""
     return np.asarray(q, dtype=np.float64) * _QUATERNION
 
 
 def pose(p: Pose) -> Pose:
-    """M6. A rigid pose: M4 and M1 together.  Local and world poses alike: the mirror commutes with composition."""
+    """F1, F4. A rigid pose.  Local and world poses alike: the mirror commutes with composition."""
     return Pose(rotation(p.rotation), point(p.translation))
 
 
 def inertia(i) -> Array:
-    """M7. Inertia tensors, kg m^2, shape (..., 3, 3): M I M, no further sign.  Principal moments do not change."""
+    """F5. Inertia tensors, kg m^2, shape (..., 3, 3): M I M, no further sign.  Principal moments do not change."""
     return rotation(i)
 
 
 def winding(faces: np.ndarray) -> np.ndarray:
-    """M8. Triangles, shape (m, 3): counter-clockwise from outside becomes clockwise."""
+    """F6. Triangles, shape (m, 3): counter-clockwise from outside becomes clockwise."""
     return faces[:, [0, 2, 1]]
 
 
 def angle(q):
-    """M9. A right-handed angle about an axis that is itself mapped as a direction (M2), read by Unity's
-    left-hand rule: -q.  (Where the axis is mapped by M3 instead, the angle keeps its sign.)"""
+    """F8. A right-handed angle about an axis that is itself mapped as a direction (F1), read by Unity's
+    left-hand rule: -q.  (Where the axis is mapped by F2 instead, the angle keeps its sign: F7.)"""
     return -np.asarray(q, dtype=np.float64)
 
 
 def distance(q):
-    """M10. A distance along an axis mapped as a direction (M2) keeps its sign."""
+    """F1. A distance along an axis mapped as a direction keeps its sign."""
     return np.asarray(q, dtype=np.float64)
 
 
 def lead(metres_per_turn):
-    """M11. The lead of a screw against left-handed angles: its sign turns, as M9 turns and M10 does not."""
+    """F8. The lead of a screw against left-handed angles: its sign turns, as the angle's does and the distance's does not."""
     return -np.asarray(metres_per_turn, dtype=np.float64)
 
 
 def joint_basis(r) -> Array:
-    """M12. Joint axes, shape (3, 3), columns X Y Z: X and Y are mapped as directions, and Z is the cross
+    """F1. Joint axes, shape (3, 3), columns X Y Z: X and Y are mapped as directions, and Z is the cross
     product that Unity forms of them, which is -M z."""
     x, y = direction(r[:, 0]), direction(r[:, 1])
     return np.column_stack([x, y, np.cross(x, y)])

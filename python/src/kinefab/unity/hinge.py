@@ -44,7 +44,7 @@ def hinge_fields(
     frame.pop("secondaryAxis")  # a hinge has none
     fields: dict[str, object] = {}
     if not placement.on_a:
-        # own = b: angle about -M X, which is the axis mapped as an axial vector (SPEC M3)
+        # own = b: angle about -M X, which is the axis mapped as an axial vector (SPEC F2, F7)
         fields["axis"] = -np.asarray(frame["axis"])
     if freedom.motion is Motion.LIMITED:
         fields |= _limits(joint, shape, zero, report)

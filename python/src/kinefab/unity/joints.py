@@ -25,6 +25,7 @@ from . import frames
 from .configurable import configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, nearest_turn, read_coordinates
 from .hinge import fits_hinge, hinge_fields
+from .limits import FREEDOM_NAMES
 from .placement import BASIS_SIGNS, Placement, place
 
 GAP_LENGTH = 1e-5
@@ -95,6 +96,9 @@ def map_joint(
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
     placement = place(shape, a is None, b is None)
     before = len(report.outcomes)
+    for name, freedom in zip(FREEDOM_NAMES, joint.freedoms):
+        if freedom.drive is not None and freedom.motion is Motion.LOCKED:
+            report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=name)
     if not (shape.rotations or shape.translations):
         component: Component = {"type": "FixedJoint"}
     elif fits_hinge(shape):

@@ -1,0 +1,354 @@
+"""Mesh files to bodies: OBJ's traps, names, units, shared meshes, masses and hulls."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from kinefab.diagnostics import Report
+from kinefab.geometry.files import FORMATS, read_mesh_file
+from kinefab.geometry.hulls import collision_hulls, hull_of_points
+from kinefab.geometry.loading import MeshFiles, load_geometry
+from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties
+from kinefab.geometry.weighing import weigh
+from kinefab.model import Body, MassProperties, Mesh, MeshKey, MeshReference, Node, Scene
+from kinefab.spatial import Pose, rotation_exp
+
+CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+QUADS = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+
+
+def cube_lines(first: int, shift: float = 0.0, scale: float = 1.0) -> tuple[list[str], list[str]]:
+    """(vertex lines, quad lines) of a unit cube whose first vertex has number ``first``."""
+    vertices = [f"v {scale * x + shift} {scale * y} {scale * z}" for x, y, z in CUBE]
+    faces = ["f " + " ".join(str(i + first - 1) for i in quad) for quad in QUADS]
+    return vertices, faces
+
+
+def write(path: Path, *lines, end="\n") -> Path:
+    flat = [line for item in lines for line in ([item] if isinstance(item, str) else item)]
+    path.write_bytes(end.join([*flat, ""]).encode())
+    return path
+
+
+def load(path: Path, *keys, definition=None, unit=1.0, keyed_by=MeshKey.OBJECT, poses=None):
+    """A scene with one part for each key, its geometry loaded; and the report."""
+    nodes = []
+    for i, key in enumerate(keys):
+        to_node = np.eye(4) * [unit, unit, unit, 1.0]
+        if poses is not None:
+            inverse = poses[i].inverse()
+            to_node[:3, :3], to_node[:3, 3] = inverse.rotation * unit, inverse.translation
+        reference = MeshReference(path, to_node, key, keyed_by, f"bundle#/{i}")
+        nodes.append(Node(f"P{i}", f"P{i}", definition=definition, bodies=(Body(str(key), reference=reference),)))
+    report = Report()
+    scene = load_geometry(Scene(nodes=nodes), MeshFiles(report), report, lambda *_: None)
+    return scene, report
+
+
+def meshes(scene) -> list[Mesh | None]:
+    return [None if b.mesh is None else scene.meshes[b.mesh] for n in scene.nodes for b in n.bodies]
+
+
+def volume(mesh: Mesh) -> float:
+    return solid_properties(mesh.vertices, mesh.faces, 1.0).mass
+
+
+def two_cubes(path, head_one, head_two, end="\n"):
+    """A cube of side 1 at x = 0 and one of side 2 at x = 10, under the given statements."""
+    v1, f1 = cube_lines(1)
+    v2, f2 = cube_lines(9, 10.0, 2.0)
+    return write(path, head_one, v1, f1, head_two, v2, f2, end=end)
+
+
+@pytest.mark.parametrize(
+    "one, two",
+    [
+        (["o A", "usemtl Steel"], ["o B", "usemtl Steel"]),  # one material for both
+        (["o A", "g whole"], ["o B"]),  # a group that must not leak into the next object
+        (["g A"], ["g B"]),
+        (["o A", "g A"], ["o B", "g B"]),
+        (["usemtl Steel", "o A"], ["o B"]),
+    ],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_obj_bodies_stay_apart(tmp_path, one, two, end):
+    """Whatever o, g and usemtl say, each name has its own triangles."""
+    scene, report = load(two_cubes(tmp_path / "a.obj", one, two, end), "B", "A")
+    assert [volume(m) for m in meshes(scene)] == pytest.approx([8, 1])
+    loose = {d.code for d in report.diagnostics}
+    assert loose == ({"BODY_MATCHED_LOOSELY"} if one[0].startswith("g") else set())
+
+
+def test_obj_objects_of_one_name_are_taken_in_order_and_reported(tmp_path):
+    """Two objects called Solid, wanted twice, pair by order with a warning each."""
+    scene, report = load(two_cubes(tmp_path / "a.obj", "o Solid", "o Solid"), "Solid", "Solid")
+    assert [volume(m) for m in meshes(scene)] == pytest.approx([1, 8])
+    assert [d.code for d in report.diagnostics] == ["BODY_MATCHED_LOOSELY"] * 2
+
+
+def test_obj_negative_indices_count_from_the_face(tmp_path):
+    """-1 is the vertex above the face, not the last one of the file."""
+    v1, _ = cube_lines(1)
+    v2, _ = cube_lines(9, 10.0, 2.0)
+    back = ["f " + " ".join(str(i - 9) for i in quad) for quad in QUADS]
+    scene, _ = load(write(tmp_path / "a.obj", "o A", v1, back, "o B", v2, back), "A", "B")
+    assert [volume(m) for m in meshes(scene)] == pytest.approx([1, 8])
+
+
+def test_obj_continued_lines_and_polygons(tmp_path):
+    """A pentagon prism with faces over two lines comes out as triangles of the right volume."""
+    ring = [(math.cos(0.4 * math.pi * k), math.sin(0.4 * math.pi * k)) for k in range(5)]
+    vertices = [f"v {x} {y} {z}" for z in (0, 2) for x, y in ring]
+    sides = [f"f {k + 1} {(k + 1) % 5 + 1} \\\n {(k + 1) % 5 + 6} {k + 6}" for k in range(5)]
+    path = write(tmp_path / "a.obj", "o P", vertices, "f 5 4 3 2 1", "f 6 7 8 9 10", sides)
+    scene, _ = load(path, "P")
+    (mesh,) = meshes(scene)
+    assert len(mesh.faces) == 3 + 3 + 10
+    assert volume(mesh) == pytest.approx(2 * 2.5 * math.sin(0.4 * math.pi))
+
+
+def test_obj_material_change_makes_a_submesh_not_a_body(tmp_path):
+    """One object in two materials is one mesh with two runs of faces."""
+    v, f = cube_lines(1)
+    (tmp_path / "m.mtl").write_text("newmtl Red\nKd 0.8 0.1 0.2\nd 0.5\nnewmtl Grey\nKd 0.5 0.5 0.5\n")
+    path = write(tmp_path / "a.obj", "mtllib m.mtl", "o A", v, "usemtl Red", f[:2], "usemtl Grey", f[2:])
+    scene, _ = load(path, "A")
+    (mesh,) = meshes(scene)
+    assert mesh.face_counts == (4, 8)
+    body = scene.nodes[0].bodies[0]
+    assert [scene.materials[m].name for m in body.materials] == ["Red", "Grey"]
+    assert scene.materials[body.materials[0]].color == (0.8, 0.1, 0.2, 0.5)
+
+
+def test_obj_missing_material_library_is_a_warning(tmp_path):
+    """The shape is loaded, and the missing library is named."""
+    v, f = cube_lines(1)
+    scene, report = load(write(tmp_path / "a.obj", "mtllib gone.mtl", "o A", v, f), "A")
+    assert volume(meshes(scene)[0]) == pytest.approx(1)
+    assert [d.code for d in report.diagnostics] == ["MATERIALS_MISSING"]
+
+
+def test_obj_normals_and_texture_coordinates_stay_with_their_corners(tmp_path):
+    """Corners that differ in vt or vn are different vertices; normals keep their direction."""
+    v, _ = cube_lines(1)
+    normals = ["vn 1 0 0", "vn 0 1 0"]
+    path = write(tmp_path / "a.obj", "o A", v, "vt 0 0", "vt 1 0", "vt 0 1", normals, "f 5/1/1 7/2/1 8/3/1", "f 3/1/2 4/2/2 8/3/2")
+    scene, _ = load(path, "A")
+    (mesh,) = meshes(scene)
+    assert len(mesh.vertices) == 6
+    corner = [np.flatnonzero((mesh.vertices == (1, 1, 1)).all(axis=1))][0]
+    assert sorted(map(tuple, mesh.normals[corner])) == [(0, 1, 0), (1, 0, 0)]
+    assert mesh.uv.shape == (6, 2)
+
+
+@pytest.mark.parametrize(
+    "lines, code",
+    [
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 9"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 99999999999"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 0 1 2"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f -4 -2 -1"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f a b c"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0"], "GEOMETRY_EMPTY"),
+        (["o A", "v nan 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3"], "GEOMETRY_NOT_FINITE"),
+        ([], "GEOMETRY_EMPTY"),
+    ],
+)
+def test_damaged_obj_is_a_diagnostic(tmp_path, lines, code):
+    """Faces without vertices, index 0, words for numbers, no faces, NaN, nothing: each has its code and place."""
+    path = tmp_path / "a.obj"
+    path.write_text("\n".join(lines))
+    scene, report = load(path, "A")
+    assert [d.code for d in report.diagnostics] == [code]
+    assert report.diagnostics[0].where == "bundle#/0"
+    assert meshes(scene) == [None]
+
+
+def test_missing_and_unknown_files_are_diagnostics(tmp_path):
+    """A file that is not there, and formats that nothing here reads, say what to do instead."""
+    for name, code in (("a.obj", "GEOMETRY_UNREADABLE"), ("a.fbx", "GEOMETRY_FORMAT_UNKNOWN"), ("a.step", "GEOMETRY_FORMAT_UNKNOWN")):
+        _, report = load(tmp_path / name, "A")
+        assert [d.code for d in report.diagnostics] == [code]
+    assert "kinefab[step]" in report.diagnostics[0].remedy
+
+
+def test_body_that_is_not_in_the_file_lists_near_names(tmp_path):
+    """A misspelt body is an error with what comes close."""
+    scene, report = load(two_cubes(tmp_path / "a.obj", "o Lever_Arm", "o Lever_Grip"), "Lever_Arn", "Lever_Grip", "x")
+    errors = [d for d in report.diagnostics if d.code == "BODY_NOT_IN_FILE"]
+    assert len(errors) == 2 and "Lever_Arm" in errors[0].message
+
+
+@pytest.mark.parametrize("wanted, named", [("Arm:1", "Arm_1"), ("arm 1", "Arm_1"), ("Gr\u00fcn.ipt:1", "Gru\u0308n_1")])
+def test_names_that_differ_in_spelling_only_are_matched_and_reported(tmp_path, wanted, named):
+    """Separators, case, Unicode form and file extensions may differ; the report says so."""
+    scene, report = load(two_cubes(tmp_path / "a.obj", f"o {named}", "o Other"), wanted, "Other")
+    assert [volume(m) for m in meshes(scene)] == pytest.approx([1, 8])
+    assert [d.code for d in report.diagnostics] == ["BODY_MATCHED_LOOSELY"]
+
+
+def test_bodies_in_no_part_are_a_warning(tmp_path):
+    """What the assembly does not name is counted."""
+    _, report = load(two_cubes(tmp_path / "a.obj", "o A", "o B"), "A")
+    assert [d.code for d in report.diagnostics] == ["BODY_UNUSED"]
+
+
+@pytest.mark.parametrize("suffix", [s for s in FORMATS if s not in (".obj", ".dae", ".3mf", ".gltf")])
+def test_every_plain_format_gives_the_same_solid(tmp_path, suffix):
+    """A box of 0.1 x 0.2 x 0.3 m has 6 litres in each format."""
+    path = tmp_path / f"a{suffix}"
+    trimesh.creation.box((0.1, 0.2, 0.3)).export(path)
+    scene, report = load(path, None)
+    assert volume(meshes(scene)[0]) == pytest.approx(0.006, rel=1e-6)
+    assert report.diagnostics == []
+
+
+def test_glb_nodes_are_bodies_at_their_place(tmp_path):
+    """Two nodes of one geometry are two bodies, each moved by its own transform."""
+    scene = trimesh.Scene()
+    box = trimesh.creation.box((1, 1, 1))
+    scene.add_geometry(box, node_name="Left", geom_name="Box", transform=trimesh.transformations.translation_matrix((-5, 0, 0)))
+    scene.add_geometry(box, node_name="Right", geom_name="Box", transform=trimesh.transformations.translation_matrix((5, 0, 0)))
+    scene.export(tmp_path / "a.glb")
+    found, _ = load(tmp_path / "a.glb", "Right", "Left")
+    assert [float(m.vertices[:, 0].mean()) for m in meshes(found)] == pytest.approx([5, -5])
+
+
+def test_world_coordinates_become_local_and_equal_parts_share_a_mesh(tmp_path):
+    """Three occurrences in world millimetres come back to one mesh in metres in the part's frame."""
+    rng = np.random.default_rng(6)
+    shape = trimesh.creation.annulus(3, 9, 20)
+    poses = [Pose(rotation_exp(rng.normal(size=3)), rng.normal(size=3)) for _ in range(3)]
+    lines, first = [], 1
+    for i, pose in enumerate(poses):
+        lines += [f"o P{i}", *("v %.6f %.6f %.6f" % tuple(1000 * pose.point(p / 1000)) for p in shape.vertices)]
+        lines += ["f %d %d %d" % tuple(f + first) for f in shape.faces]
+        first += len(shape.vertices)
+    scene, report = load(write(tmp_path / "a.obj", lines), "P0", "P1", "P2", definition="ring", unit=1e-3, poses=poses)
+    assert [b.mesh for n in scene.nodes for b in n.bodies] == [0, 0, 0] and len(scene.meshes) == 1
+    assert np.allclose(scene.meshes[0].vertices, shape.vertices / 1000, atol=1e-8)
+    assert report.diagnostics == []
+
+
+def test_occurrence_that_differs_from_its_definition_is_reported(tmp_path):
+    """Two cubes of one definition but different size point to a wrong unit or pose."""
+    _, report = load(two_cubes(tmp_path / "a.obj", "o A", "o B"), "A", "B", definition="cube")
+    assert [d.code for d in report.diagnostics] == ["BODY_SHAPE_DIFFERS"]
+
+
+def test_mirrored_part_is_baked_with_its_winding_turned(tmp_path):
+    """A mirroring map keeps the outside outside."""
+    reference = MeshReference(two_cubes(tmp_path / "a.obj", "o A", "o B"), np.diag([-1.0, 1, 1, 1]), "B")
+    report = Report()
+    scene = Scene(nodes=[Node("P", "P", bodies=(Body("B", reference=reference),))])
+    scene = load_geometry(scene, MeshFiles(report), report, lambda *_: None)
+    assert volume(scene.meshes[0]) == pytest.approx(8)
+    assert scene.meshes[0].vertices[:, 0].min() == -12
+
+
+def weighed(vertices, faces, **body):
+    report = Report()
+    mesh = Mesh("m", np.array(vertices, float), np.array(faces))
+    scene = Scene(nodes=[Node("P", "P", bodies=(Body("b", 0, **body),))], meshes=[mesh])
+    return weigh(scene, 1000.0, report), report
+
+
+def test_mass_of_a_cylinder_is_its_closed_form():
+    """A fine cylinder approaches m r^2 / 2 about its axis and m (3 r^2 + h^2) / 12 across."""
+    shape = trimesh.creation.cylinder(0.1, 0.4, sections=720)
+    shape.apply_translation((100.0, 0, 0))  # far from the origin
+    scene, _ = weighed(shape.vertices, shape.faces, density=7850.0)
+    mass = scene.nodes[0].mass
+    expected = 7850 * math.pi * 0.01 * 0.4
+    assert mass.mass == pytest.approx(expected, rel=1e-4)
+    across = expected * (3 * 0.01 + 0.16) / 12
+    assert np.allclose(np.diag(mass.inertia), [across, across, expected * 0.01 / 2], rtol=1e-4)
+    assert np.allclose(mass.center, (100, 0, 0), atol=1e-9)
+
+
+def test_open_mesh_takes_the_mass_of_its_hull_with_a_warning():
+    """A cube without its lid weighs what the full cube weighs, and says so."""
+    box = trimesh.creation.box((1, 1, 1))
+    scene, report = weighed(box.vertices, box.faces[2:])
+    assert scene.nodes[0].mass.mass == pytest.approx(1000)
+    assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
+
+
+def test_repeated_vertices_do_not_make_a_mesh_open():
+    """A skin whose every triangle has vertices of its own is closed all the same."""
+    box = trimesh.creation.box((1, 2, 3))
+    scene, report = weighed(box.vertices[box.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+    assert scene.nodes[0].mass.mass == pytest.approx(6000) and report.diagnostics == []
+
+
+def test_inside_out_mesh_is_turned_with_a_warning():
+    """Negative volume is no mass: the winding is wrong, and is turned."""
+    box = trimesh.creation.box((1, 2, 3))
+    scene, report = weighed(box.vertices, box.faces[:, ::-1])
+    assert scene.nodes[0].mass.mass == pytest.approx(6000) and volume(scene.meshes[0]) == pytest.approx(6)
+    assert [d.code for d in report.diagnostics] == ["MESH_INSIDE_OUT"]
+
+
+def test_flat_mesh_has_no_volume_and_no_hull():
+    """A single rectangle gets a warning instead of a mass, and a box instead of a hull."""
+    scene, report = weighed([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    assert scene.nodes[0].mass is None
+    assert [d.code for d in report.diagnostics] == ["MESH_WITHOUT_VOLUME"]
+    assert collision_hulls(scene, [(0, "b")], report) == {}
+    assert report.diagnostics[-1].code == "HULL_FLAT"
+
+
+def test_combined_mass_is_that_of_the_whole():
+    """Two halves of a box, one of them turned in its own frame, weigh as the whole."""
+    whole, half = trimesh.creation.box((2, 0.6, 0.4)), trimesh.creation.box((1, 0.6, 0.4))
+    of = lambda m: solid_properties(np.array(m.vertices), np.array(m.faces), 500.0)  # noqa: E731
+    turned = Pose(rotation_exp(np.array([math.pi, 0, 0])), np.array([-0.5, 0, 0]))
+    total = combined([moved(of(half), turned), moved(of(half), Pose(np.eye(3), np.array([0.5, 0, 0])))])
+    expected = of(whole)
+    assert total.mass == pytest.approx(expected.mass)
+    assert np.allclose(total.inertia, expected.inertia) and np.allclose(total.center, 0)
+
+
+def test_principal_axes_are_a_proper_rotation_near_the_part_frame():
+    """Moments and axes rebuild the tensor; the axes are right-handed and turned as little as can be."""
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        r = rotation_exp(rng.uniform(-0.3, 0.3, 3))
+        tensor = r @ np.diag([5.0, 1.0, 3.0]) @ r.T
+        moments, axes = principal(tensor)
+        assert np.allclose(axes @ np.diag(moments) @ axes.T, tensor)
+        assert np.linalg.det(axes) == pytest.approx(1.0)
+        assert np.allclose(moments, [5, 1, 3]) and np.allclose(axes, r)
+
+
+def test_inertia_that_no_body_has_is_known():
+    """The largest moment may not exceed the sum of the others, and none may be zero or less."""
+    assert is_possible(np.diag([3.0, 4.0, 5.0])) and is_possible(np.diag([1.0, 1.0, 2.0]))
+    assert not is_possible(np.diag([1.0, 1.0, 2.1])) and not is_possible(np.diag([0.0, 1.0, 1.0]))
+    assert not is_possible(np.diag([-1.0, 4.0, 4.0]))
+
+
+def test_large_hull_is_reduced_to_what_unity_takes():
+    """A fine cylinder's hull ends below 256 triangles, within a hundredth of its radius, and is reported."""
+    shape = trimesh.creation.cylinder(0.1, 0.4, sections=300)
+    mesh = Mesh("m", np.array(shape.vertices), np.array(shape.faces))
+    report = Report()
+    hull = collision_hulls(Scene(meshes=[mesh]), [(0, "P/b")], report)[0]
+    assert 200 < len(hull.faces) <= 255
+    assert volume(hull) == pytest.approx(shape.volume, rel=0.01)
+    (finding,) = report.diagnostics
+    assert finding.code == "HULL_SIMPLIFIED" and "P/b" in finding.message
+
+
+def test_hull_is_wound_outwards():
+    """The hull of random points has the volume that trimesh finds."""
+    points = np.random.default_rng(8).normal(size=(200, 3))
+    vertices, faces = hull_of_points(points)
+    expected = trimesh.convex.convex_hull(points).volume
+    assert solid_properties(vertices, faces, 1.0).mass == pytest.approx(expected)
+    assert isinstance(solid_properties(vertices, faces, 1.0), MassProperties)

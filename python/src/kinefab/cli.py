@@ -59,17 +59,19 @@ def export(
     from .pipeline import export as run
 
     result: Optional[ExportResult] = None
+    reasons = 0
     try:
         with _progress_bar() as progress:
             result = run(source, output, ExportOptions(colliders, density, strict), progress)
         found = result.report
     except KinefabError as error:
-        found = error.report or Report(list(error.diagnostics))
-    _log(found, strict)
+        found, reasons = error.report or Report(list(error.diagnostics)), len(error.diagnostics)
+    _log(found)
     failed = result is None
     if report is not None:
         _write_report(report, found, failed)
     if failed:
+        typer.echo(f"{output} was not written: {reasons} {'losses or ' if strict else ''}errors.", err=True)
         raise typer.Exit(1)
     if _verbosity >= 0:
         typer.echo(_summary(result), err=True)
@@ -91,7 +93,7 @@ def inspect(
     typer.echo(json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description))
 
 
-def _log(report: Report, strict: bool = False) -> None:
+def _log(report: Report) -> None:
     """Findings on stderr, one a line, coloured on a terminal."""
     from rich.console import Console
     from rich.text import Text
@@ -101,7 +103,7 @@ def _log(report: Report, strict: bool = False) -> None:
     style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
     console = Console(stderr=True, soft_wrap=True, highlight=False)
     for found in report.diagnostics:
-        if rank[found.severity] >= least or strict:
+        if rank[found.severity] >= least:
             console.print(Text(str(found), style=style[found.severity]))
 
 

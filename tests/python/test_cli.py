@@ -1,0 +1,105 @@
+"""The command line: exit codes, streams, options, start-up time's cause."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import kinefab
+from scenes import lid_scene, read
+
+LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
+HEAVY = ("trimesh", "scipy", "pxr", "numpy", "jsonschema")
+
+
+def run(*arguments, cwd=None, **environment):
+    return subprocess.run(
+        [sys.executable, "-m", "kinefab", *map(str, arguments)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, **environment},
+    )
+
+
+@pytest.fixture()
+def lid(tmp_path) -> Path:
+    return kinefab.export(lid_scene(), tmp_path / "lid.kinefab").path
+
+
+def test_version_goes_to_stdout():
+    """--version prints the package's version and exits 0."""
+    done = run("--version")
+    assert (done.returncode, done.stdout.strip()) == (0, f"kinefab {kinefab.__version__}")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["export", "--help"], ["inspect", "--help"]])
+def test_help_imports_nothing_heavy(arguments):
+    """Help answers without numpy, trimesh and the like: that is what keeps it quick."""
+    code = (
+        "import sys\nfrom kinefab.cli import app\n"
+        f"try: app({arguments!r})\nexcept SystemExit as end: assert not end.code\n"
+        f"print([m for m in {HEAVY!r} if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout.strip().endswith("[]"), done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("arguments", [["nonsense"], ["export"], ["export", "a.json"], ["export", "a", "-o", "b", "--colliders", "egg"],
+                                       ["export", "a", "-o", "b", "--density", "-3"], ["inspect"]])  # fmt: skip
+def test_wrong_usage_exits_2(arguments):
+    """What the user mistyped is told on stderr, and nothing on stdout."""
+    done = run(*arguments)
+    assert done.returncode == 2 and done.stderr and not done.stdout
+
+
+def test_inspect_tells_what_is_in_a_scene(lid):
+    """The tree, the hinge's range and the loss report."""
+    done = run("inspect", lid)
+    assert done.returncode == 0 and done.stderr == ""
+    assert "Lid -> world: HingeJoint, turn X 0 .. 110 deg" in done.stdout
+    assert "1 kept, 0 approximated, 0 dropped" in done.stdout
+
+
+def test_inspect_as_json_is_json(lid):
+    """--json prints one document with objects, joints and report."""
+    content = json.loads(run("inspect", lid, "--json").stdout)
+    assert [o["id"] for o in content["objects"]] == ["Box", "Lid"]
+    assert content["joints"][0]["freedoms"] == ["turn X 0 .. 110 deg"]
+
+
+@pytest.mark.parametrize("text", [None, "", "{", '{"format": "else"}', '{"format": "kinefab.scene", "version": "2.0"}', "[" * 100000])
+def test_inspect_of_no_scene_exits_1_without_a_traceback(tmp_path, text):
+    """Missing, empty, broken, foreign, newer and absurdly nested files each give one diagnostic."""
+    path = tmp_path / "x.kinefab"
+    if text is not None:
+        path.write_text(text)
+    done = run("inspect", path)
+    assert done.returncode == 1 and done.stdout == ""
+    assert "Traceback" not in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_missing_source_exits_1_and_writes_nothing(tmp_path):
+    """A source that is not there is a diagnostic; so it is in the report file."""
+    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", tmp_path / "r.json")
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["r.json"]
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["diagnostics"][0]["severity"] == "error"
+
+
+@pytest.mark.skipif(not LEVER.exists(), reason="the lever's fixture is not here")
+def test_lever_is_exported_with_its_hinges_and_slider(tmp_path):
+    """The paper's mechanism from its bundle: three hinges and a slider, nothing approximated, no bar in a pipe."""
+    done = run("export", LEVER, "-o", tmp_path / "lever.kinefab", "--strict")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "" and len(done.stderr.splitlines()) <= 2 and "\x1b" not in done.stderr
+    content = read(tmp_path / "lever.kinefab")
+    joints = [c["type"] for o in content["gameObjects"] for c in o.get("components", []) if c["type"].endswith("Joint")]
+    assert sorted(joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]

@@ -101,8 +101,9 @@ def _placed(mesh, transform: np.ndarray, materials: dict[str, Material]) -> Piec
     """One trimesh mesh at its place in the scene."""
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces, dtype=np.int64)
-    # Normals from the file lie in trimesh's cache; asking for them outright would compute missing ones.
-    normals = np.asarray(mesh.vertex_normals) if "vertex_normals" in mesh._cache else None
+    # Normals from the file lie in trimesh's cache; asking for them outright would compute missing ones, and
+    # asking the cache itself would hash the whole mesh.
+    normals = np.asarray(mesh.vertex_normals) if "vertex_normals" in mesh._cache.cache else None
     uv = getattr(mesh.visual, "uv", None)
     piece = Piece(vertices, faces, normals, uv, (len(faces),), (_named_material(mesh, materials),))
     return piece if np.array_equal(transform, np.eye(4)) else transformed(piece, transform)

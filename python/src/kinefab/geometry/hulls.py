@@ -63,8 +63,9 @@ def hull_of_points(points: Array) -> Hull | None:
 
 def _is_solid(points: Array) -> bool:
     """Whether the points leave every plane by more than rounding."""
-    spread = np.linalg.svd(np.cov((points - points.mean(axis=0)).T), compute_uv=False)
-    return bool(spread[2] > 1e-14 * spread[0])
+    centred = points - points.mean(axis=0)
+    spread = np.linalg.eigvalsh(centred.T @ centred)  # squares of lengths
+    return bool(spread[0] > 1e-14 * spread[2])
 
 
 def _simplified(hull: Hull, body: str, report: Report) -> Hull:
@@ -81,8 +82,9 @@ def _simplified(hull: Hull, body: str, report: Report) -> Hull:
         heights = vertices @ normals.T - np.einsum("ij,ij->i", a, normals)
         highest = heights.argmax(axis=0)
         order = np.argsort(-heights.max(axis=0), kind="stable")
-        fresh = [v for v in dict.fromkeys(highest[order].tolist()) if v not in set(chosen.tolist())]
-        room = min(UNITY_VERTICES - len(chosen), max(1, len(chosen) // 2))
+        taken = set(chosen.tolist())
+        fresh = [v for v in dict.fromkeys(highest[order].tolist()) if v not in taken]
+        room = min(UNITY_VERTICES - len(chosen), len(chosen))
         if not fresh or room == 0:
             break
         chosen = np.sort(np.append(chosen, fresh[:room]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Callable
 
@@ -80,6 +80,15 @@ def load_geometry(scene: Scene, files: MeshFiles, report: Report, progress: Call
     return loading.finish()
 
 
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """A mesh that others may turn out to equal.  first: its first vertex.  tolerance: metres."""
+
+    mesh: int
+    first: list[float]
+    tolerance: float
+
+
 class _Loading:
     """The scene's meshes, materials and bodies while files are being read."""
 
@@ -88,7 +97,7 @@ class _Loading:
         self._meshes, self._materials = list(scene.meshes), list(scene.materials)
         self._bodies = [list(node.bodies) for node in scene.nodes]
         self._by_origin: dict[tuple, tuple[int, Piece]] = {}
-        self._by_shape: dict[tuple, list[int]] = {}
+        self._by_shape: dict[tuple, list[_Known]] = {}
         self._first_of: dict[tuple[str, int], tuple[int, str]] = {}
 
     def place(self, place: _Place, wanted: Wanted, file: MeshFile, numbers: tuple[int, ...]) -> None:
@@ -118,16 +127,19 @@ class _Loading:
     def _share(self, name: str, piece: Piece) -> int:
         """The index of a mesh of this shape: one that is there already, or a new one."""
         faces = np.ascontiguousarray(piece.faces)
-        key = (len(piece.vertices), piece.face_counts, piece.uv is None, zlib.crc32(faces.tobytes()))
+        key = (len(piece.vertices), piece.face_counts, piece.uv is None, zlib.crc32(faces))
         alike = self._by_shape.setdefault(key, [])
-        for index in alike:
-            mesh = self._meshes[index]
-            if _deviation(mesh.vertices, piece.vertices) <= SAME_SHAPE * _size(mesh.vertices) and (
-                piece.uv is None or np.allclose(mesh.uv, piece.uv, atol=SAME_SHAPE)
-            ):
-                return index
+        first = piece.vertices[0].tolist()
+        for known in alike:
+            if all(abs(x - y) <= known.tolerance for x, y in zip(first, known.first)):  # tells most apart at once
+                mesh = self._meshes[known.mesh]
+                if _deviation(mesh.vertices, piece.vertices) <= known.tolerance and (
+                    piece.uv is None or np.allclose(mesh.uv, piece.uv, atol=SAME_SHAPE)
+                ):
+                    return known.mesh
         self._meshes.append(Mesh(name, piece.vertices, faces, piece.normals, piece.uv, piece.face_counts))
-        alike.append(len(self._meshes) - 1)
+        tolerance = SAME_SHAPE * float(np.ptp(piece.vertices, axis=0).max())
+        alike.append(_Known(len(self._meshes) - 1, first, tolerance))
         return len(self._meshes) - 1
 
     def _compare_with_definition(self, place: _Place, wanted: Wanted, mesh: int) -> None:
@@ -169,10 +181,6 @@ class _Loading:
                 return index
         self._materials.append(file.materials.get(name, Material(name or "Default")))
         return len(self._materials) - 1
-
-
-def _size(vertices: np.ndarray) -> float:
-    return float(np.ptp(vertices, axis=0).max())
 
 
 def _deviation(a: np.ndarray, b: np.ndarray) -> float:

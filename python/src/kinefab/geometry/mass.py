@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import permutations
 from typing import Iterable, Sequence
 
@@ -38,6 +39,8 @@ def moved(properties: MassProperties, pose: Pose) -> MassProperties:
 def combined(bodies: Iterable[MassProperties]) -> MassProperties:
     """Of several bodies as one (parallel axis theorem); all in one frame, at least one body."""
     parts: Sequence[MassProperties] = list(bodies)
+    if len(parts) == 1:
+        return parts[0]
     mass = sum(p.mass for p in parts)
     center = sum(p.mass * p.center for p in parts) / mass
     inertia = np.zeros((3, 3))
@@ -52,6 +55,14 @@ def principal(inertia: Array) -> tuple[Array, Array]:
 
     Of the 24 ways to name and point the axes the one closest to the given frame is taken.
     """
+    moments, axes = _principal(np.ascontiguousarray(inertia, dtype=np.float64).tobytes())
+    return moments.copy(), axes.copy()
+
+
+@lru_cache(maxsize=4096)
+def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
+    """As ``principal``; an assembly has few shapes and many copies of them."""
+    inertia = np.frombuffer(inertia_bytes).reshape(3, 3)
     symmetric = 0.5 * (inertia + inertia.T)
     diagonal = np.diag(symmetric)
     if np.abs(symmetric - np.diag(diagonal)).max() <= DIAGONAL * np.abs(diagonal).max():

@@ -64,13 +64,12 @@ def place_rigidbodies(scene: Scene, groups: RigidGroups) -> Rigidbodies:
 def rigidbody_fields(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> dict[str, object]:
     """Mass, centre of mass and principal inertia of everything a carrier moves, in the carrier's frame."""
     own = scene.nodes[carrier]
-    to_carrier = own.pose.inverse()
-    given = own.mass if own.mass is not None and own.kind is NodeKind.ASSEMBLY else None
-    known = [given] if given is not None else [
-        moved(node.mass, to_carrier @ node.pose)
-        for node in (scene.nodes[i] for i in moved_nodes)
-        if node.mass is not None
-    ]
+    if own.mass is not None and (own.kind is NodeKind.ASSEMBLY or moved_nodes == (carrier,)):
+        known = [own.mass]
+    else:
+        to_carrier = own.pose.inverse()
+        nodes = (scene.nodes[i] for i in moved_nodes)
+        known = [moved(node.mass, to_carrier @ node.pose) for node in nodes if node.mass is not None]
     if not known:
         report.approximated(f"mass {own.id}", "MASS_UNKNOWN", own.where, node=own.id)
     total = combined(known) if known else UNITY_DEFAULT

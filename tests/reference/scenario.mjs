@@ -117,7 +117,7 @@ function makeJoint(px, physics, bodies, j) {
 
 function configureRevolute(px, joint, j) {
   if (j.limit) {
-    joint.setLimit(applyResponse(new px.PxJointAngularLimitPair(j.limit.lower, j.limit.upper), j.limit));
+    joint.setLimit(makeLimit(px, px.PxJointAngularLimitPair, [j.limit.lower, j.limit.upper], j.limit));
     joint.setRevoluteJointFlag({ value: 1 }, true);
   }
   if (j.motor) {
@@ -134,11 +134,11 @@ function configureD6(px, joint, j) {
   }
   if (j.twistLimit) {
     const { lower, upper } = j.twistLimit;
-    joint.setTwistLimit(applyResponse(new px.PxJointAngularLimitPair(lower, upper), j.twistLimit));
+    joint.setTwistLimit(makeLimit(px, px.PxJointAngularLimitPair, [lower, upper], j.twistLimit));
   }
   if (j.swingLimit) {
     const { y, z } = j.swingLimit;
-    joint.setSwingLimit(applyResponse(new px.PxJointLimitCone(y, z), j.swingLimit));
+    joint.setSwingLimit(makeLimit(px, px.PxJointLimitCone, [y, z], j.swingLimit));
   }
   for (const [name, d] of Object.entries(j.drives ?? {})) {
     const drive = new px.PxD6JointDrive();
@@ -158,16 +158,15 @@ function configureD6(px, joint, j) {
 }
 
 // Every limit states its contact distance or is soft: PhysX's own default would hide in the trace.
-function applyResponse(limit, spec) {
-  const { restitution = 0, bounceThreshold = 0, stiffness = 0, damping = 0, contactDistance } = spec;
-  if (contactDistance === undefined && !stiffness && !damping) {
+// A soft limit is made with its spring, since the binding's property "stiffness" writes the restitution instead.
+function makeLimit(px, Limit, range, { restitution = 0, bounceThreshold = 0, stiffness = 0, damping = 0, contactDistance }) {
+  if (stiffness || damping) {
+    return new Limit(...range, new px.PxSpring(stiffness, damping));
+  }
+  if (contactDistance === undefined) {
     throw new Error("a hard limit needs a contactDistance");
   }
-  Object.assign(limit, { restitution, bounceThreshold, stiffness, damping });
-  if (contactDistance !== undefined) {
-    limit.contactDistance = contactDistance;
-  }
-  return limit;
+  return Object.assign(new Limit(...range), { restitution, bounceThreshold, contactDistance });
 }
 
 function pose(body) {

@@ -1,0 +1,72 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Pgs;
+
+/// <summary>Turns a prepared row into the constants of its sweeps. Source: DySolverConstraint1D.h, setSolverConstants.</summary>
+internal static class PgsConstants
+{
+    /// <summary>Fills a row's constants.</summary>
+    /// <param name="result">Linear and angular parts must be set.</param>
+    /// <param name="row">The prepared row.</param>
+    /// <param name="keptError">The row's own error before preprocessing when it keeps its bias, else 0.</param>
+    /// <param name="response">J M^-1 J^T.</param>
+    /// <param name="velocity">Cdot at the start of the solve.</param>
+    /// <param name="driveScale">What makes a drive limit an impulse.</param>
+    /// <param name="dt">Step, s.</param>
+    /// <remarks>
+    /// Rigid: lambda += (VelocityTarget - error/dt - Cdot) / response.
+    /// Spring, implicit Euler: a = dt^2 k + dt d, b = dt (d vT - k error);
+    /// force mode x = 1/(1 + a response), lambda = x b - x a Cdot + (1 - x) lambda;
+    /// acceleration mode x = 1/(1 + a), lambda = (x b - x a Cdot)/response + (1 - x) lambda.
+    /// </remarks>
+    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double response, double velocity, double driveScale, double dt)
+    {
+        double inverseResponse = response > 0 ? 1 / response : 0;
+        if (row.Has(RowFlags.Spring))
+        {
+            double a = dt * dt * row.Stiffness + dt * row.Damping;
+            double b = dt * (row.Damping * row.VelocityTarget - row.Stiffness * row.GeometricError);
+            double x;
+            double scale;
+            if (row.Has(RowFlags.AccelerationSpring))
+            {
+                x = 1 / (1 + a);
+                scale = inverseResponse;
+            }
+            else
+            {
+                x = response > 0 ? 1 / (1 + a * response) : 0;
+                scale = 1;
+            }
+
+            result.Constant = x * scale * b;
+            result.UnbiasedConstant = result.Constant;
+            result.VelocityMultiplier = -x * scale * a;
+            result.ImpulseMultiplier = 1 - x;
+        }
+        else
+        {
+            result.VelocityMultiplier = -inverseResponse;
+            result.ImpulseMultiplier = 1;
+            if (row.Has(RowFlags.Restitution) && -velocity > row.BounceThreshold)
+            {
+                result.Constant = inverseResponse * row.Restitution * -velocity;
+                result.UnbiasedConstant = result.Constant;
+            }
+            else
+            {
+                result.Constant = inverseResponse * (row.VelocityTarget - row.GeometricError / dt);
+                result.UnbiasedConstant = inverseResponse * (row.VelocityTarget - keptError / dt);
+            }
+        }
+
+        double start = velocity * result.VelocityMultiplier;
+        result.Constant += start;
+        result.UnbiasedConstant += start;
+        result.Minimum = row.Minimum * driveScale;
+        result.Maximum = row.Maximum * driveScale;
+        result.Impulse = 0;
+    }
+}

@@ -1,0 +1,99 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+
+namespace Kinefab.Dynamics.Pgs;
+
+/// <summary>
+/// Order in which PGS sweeps the joints. PhysX colours them greedily: a joint between two moving bodies takes the first
+/// partition that neither body is in; a joint to the world or to a kinematic body comes after all partitions of its moving
+/// body. Within a partition no two joints share a body, so only the partitions decide the result.
+/// Source: DyConstraintPartition.cpp, classifyConstraintDesc and writeConstraintDesc.
+/// </summary>
+internal sealed class SolveOrder
+{
+    // Joints of one body beyond this many are swept last, in order.
+    private const int MaxPartitions = 64;
+
+    private readonly Mechanism _mechanism;
+    private readonly ulong[] _used;
+    private readonly int[] _last;
+    private readonly int[] _partition;
+    private readonly List<int> _order;
+
+    public SolveOrder(Mechanism mechanism)
+    {
+        _mechanism = mechanism;
+        _used = new ulong[mechanism.Bodies.Count];
+        _last = new int[mechanism.Bodies.Count];
+        _partition = new int[mechanism.Joints.Length];
+        _order = new List<int>(mechanism.Joints.Length);
+        Refresh();
+    }
+
+    /// <summary>Indices of the joints that are whole, in the order of their sweep.</summary>
+    public IReadOnlyList<int> Joints => _order;
+
+    /// <summary>Colours again, after a joint broke.</summary>
+    public void Refresh()
+    {
+        Array.Clear(_used, 0, _used.Length);
+        Array.Clear(_last, 0, _last.Length);
+        int partitions = 0;
+        for (int i = 0; i < _partition.Length; i++)
+        {
+            Joint joint = _mechanism.Joints[i];
+            if (!joint.IsBroken && Moves(joint.Body0) && Moves(joint.Body1))
+            {
+                _partition[i] = FreePartition(joint.Body0, joint.Body1);
+                partitions = Math.Max(partitions, _partition[i] + 1);
+            }
+        }
+
+        for (int i = 0; i < _partition.Length; i++)
+        {
+            Joint joint = _mechanism.Joints[i];
+            if (!joint.IsBroken && Moves(joint.Body0) != Moves(joint.Body1))
+            {
+                int body = Moves(joint.Body0) ? joint.Body0 : joint.Body1;
+                _partition[i] = _last[body]++;
+                partitions = Math.Max(partitions, _partition[i] + 1);
+            }
+        }
+
+        _order.Clear();
+        for (int p = 0; p < partitions; p++)
+        {
+            for (int i = 0; i < _partition.Length; i++)
+            {
+                Joint joint = _mechanism.Joints[i];
+                if (_partition[i] == p && !joint.IsBroken && (Moves(joint.Body0) || Moves(joint.Body1)))
+                {
+                    _order.Add(i);
+                }
+            }
+        }
+    }
+
+    private int FreePartition(int body0, int body1)
+    {
+        ulong used = _used[body0] | _used[body1];
+        int partition = 0;
+        while (partition < MaxPartitions && (used & (1UL << partition)) != 0)
+        {
+            partition++;
+        }
+
+        if (partition < MaxPartitions)
+        {
+            _used[body0] |= 1UL << partition;
+            _used[body1] |= 1UL << partition;
+        }
+
+        _last[body0] = Math.Max(_last[body0], partition + 1);
+        _last[body1] = Math.Max(_last[body1], partition + 1);
+        return partition;
+    }
+
+    private bool Moves(int body) => body >= 0 && !_mechanism.Bodies.IsKinematic[body];
+}

@@ -25,8 +25,6 @@ internal sealed class Scenario
 
     public string About => _spec.GetProperty("about").GetString()!;
 
-    public bool IsMechanism => _spec.TryGetProperty("kind", out _);
-
     public double Dt => Number(_spec, "dt", 0.02);
 
     public int Steps => _spec.GetProperty("steps").GetInt32();
@@ -34,6 +32,8 @@ internal sealed class Scenario
     public int Sample => _spec.GetProperty("sample").GetInt32();
 
     public static IReadOnlyList<Scenario> All { get; } = Load();
+
+    public static IEnumerable<string> Names => All.Select(s => s.Name);
 
     public static string Folder { get; } = FindFolder();
 
@@ -47,6 +47,9 @@ internal sealed class Scenario
         double At(int i) => values[7 * k + i].GetDouble();
         return new Pose(new Vector3d(At(0), At(1), At(2)), new Quaterniond(At(3), At(4), At(5), At(6)).Normalized());
     }
+
+    /// <summary>A body's pose at the start.</summary>
+    public Pose Start(int body) => FramePose(_spec.GetProperty("bodies")[body]);
 
     public Mechanism Build()
     {

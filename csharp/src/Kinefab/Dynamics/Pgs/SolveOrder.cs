@@ -7,7 +7,8 @@ namespace Kinefab.Dynamics.Pgs;
 /// <summary>
 /// Order in which PGS sweeps the joints. PhysX colours them greedily: a joint between two moving bodies takes the first
 /// partition that neither body is in; a joint to the world or to a kinematic body comes after all partitions of its moving
-/// body. Within a partition no two joints share a body, so only the partitions decide the result.
+/// body. Within a partition no two joints share a body, so only the partitions decide the result. The joint made last
+/// is coloured first: seen in PhysX's traces, for every graph tried.
 /// Source: DyConstraintPartition.cpp, classifyConstraintDesc and writeConstraintDesc.
 /// </summary>
 internal sealed class SolveOrder
@@ -40,7 +41,7 @@ internal sealed class SolveOrder
         Array.Clear(_used, 0, _used.Length);
         Array.Clear(_last, 0, _last.Length);
         int partitions = 0;
-        for (int i = 0; i < _partition.Length; i++)
+        for (int i = _partition.Length - 1; i >= 0; i--)
         {
             Joint joint = _mechanism.Joints[i];
             if (!joint.IsBroken && Moves(joint.Body0) && Moves(joint.Body1))
@@ -50,7 +51,7 @@ internal sealed class SolveOrder
             }
         }
 
-        for (int i = 0; i < _partition.Length; i++)
+        for (int i = _partition.Length - 1; i >= 0; i--)
         {
             Joint joint = _mechanism.Joints[i];
             if (!joint.IsBroken && Moves(joint.Body0) != Moves(joint.Body1))

@@ -14,6 +14,7 @@ internal sealed class UnitySolver : ISolver
     private readonly Mechanism _mechanism;
     private readonly Bodies _bodies;
     private readonly SolveOrder _order;
+    private readonly ProjectionOrder _projection;
 
     // One more than there are bodies: the last stands for the world and never moves.
     private readonly Vector3d[] _linear;
@@ -50,6 +51,7 @@ internal sealed class UnitySolver : ISolver
         _mechanism = mechanism;
         _bodies = mechanism.Bodies;
         _order = new SolveOrder(mechanism);
+        _projection = new ProjectionOrder(mechanism);
         int slots = _bodies.Count + 1;
         _linear = new Vector3d[slots];
         _angular = new Vector3d[slots];
@@ -96,7 +98,7 @@ internal sealed class UnitySolver : ISolver
             Move(i, dt);
         }
 
-        Projection.Apply(_mechanism);
+        _projection.Apply();
     }
 
     private int Prepare(double dt)
@@ -247,6 +249,7 @@ internal sealed class UnitySolver : ISolver
         if (broken)
         {
             _order.Refresh();
+            _projection.Refresh();
         }
     }
 

@@ -115,6 +115,25 @@ internal sealed class Bodies
     /// <summary>A body's pose; the identity for Joint.World.</summary>
     public Pose PoseOf(int body) => body < 0 ? Pose.Identity : Poses[body];
 
+    /// <summary>Translation and rotation, J; a frozen rotation and a kinematic body count for nothing.</summary>
+    public double KineticEnergy(int body)
+    {
+        double inverseMass = InverseMasses[body];
+        Vector3d w = Poses[body].Rotation.InverseRotate(AngularVelocities[body]);
+        Vector3d inertia = InverseInertias[body];
+        double energy = inverseMass > 0 ? LinearVelocities[body].LengthSquared / inverseMass : 0;
+        for (int i = 0; i < 3; i++)
+        {
+            energy += inertia[i] > 0 ? w[i] * w[i] / inertia[i] : 0;
+        }
+
+        return energy / 2;
+    }
+
+    /// <summary>-m g.x, J; 0 for a body without gravity or mass.</summary>
+    public double PotentialEnergy(int body, Vector3d gravity) =>
+        UseGravity[body] && InverseMasses[body] > 0 ? -Vector3d.Dot(gravity, Poses[body].Position) / InverseMasses[body] : 0;
+
     private void Set(int i, in BodyDefinition d)
     {
         Poses[i] = d.Pose;

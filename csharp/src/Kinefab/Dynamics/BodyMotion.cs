@@ -60,6 +60,14 @@ internal static class BodyMotion
         return new Pose(position, (turn * pose.Rotation).Normalized());
     }
 
+    /// <summary>False once squares of these numbers could overflow a float, PhysX's range, or one is not a number.</summary>
+    public static bool InRange(in Pose pose, Vector3d v, Vector3d w)
+    {
+        const double limit = 1e18;
+        return pose.Position.LengthSquared < limit * limit && v.LengthSquared < limit * limit && w.LengthSquared < limit * limit
+            && pose.Rotation.LengthSquared > 0.5;
+    }
+
     /// <summary>A velocity with its locked components set to 0.</summary>
     public static Vector3d Unlocked(Vector3d v, BodyLocks locks, BodyLocks x, BodyLocks y, BodyLocks z) =>
         locks == BodyLocks.None

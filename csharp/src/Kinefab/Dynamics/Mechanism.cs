@@ -18,6 +18,9 @@ internal sealed class Mechanism
     /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
     public readonly JointReaction[] Reactions;
 
+    /// <summary>Times that a body's motion left the range of numbers and was stopped; counted by the solver.</summary>
+    public int Overflows;
+
     public Mechanism(Bodies bodies, Joint[] joints, Coupling[] couplings)
     {
         Bodies = bodies;

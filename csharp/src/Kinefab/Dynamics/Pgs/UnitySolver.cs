@@ -15,6 +15,7 @@ internal sealed class UnitySolver : ISolver
     private readonly Bodies _bodies;
     private readonly SolveOrder _order;
     private readonly ProjectionOrder _projection;
+    private readonly CouplingRows _couplings;
 
     // One more than there are bodies: the last stands for the world and never moves.
     private readonly Vector3d[] _linear;
@@ -52,6 +53,7 @@ internal sealed class UnitySolver : ISolver
         _bodies = mechanism.Bodies;
         _order = new SolveOrder(mechanism);
         _projection = new ProjectionOrder(mechanism);
+        _couplings = new CouplingRows(mechanism);
         int slots = _bodies.Count + 1;
         _linear = new Vector3d[slots];
         _angular = new Vector3d[slots];
@@ -77,19 +79,23 @@ internal sealed class UnitySolver : ISolver
         }
 
         int blocks = Prepare(dt);
+        _couplings.Prepare(_sqrtInertia, dt);
         Array.Clear(_linear, 0, _linear.Length);
         Array.Clear(_angular, 0, _angular.Length);
         for (int i = 0; i < positionIterations; i++)
         {
             Sweep(blocks);
+            _couplings.Sweep(_linear, _angular);
         }
 
         Array.Copy(_linear, _motionLinear, _linear.Length);
         Array.Copy(_angular, _motionAngular, _angular.Length);
         RemoveBias(blocks);
+        _couplings.RemoveBias();
         for (int i = 0; i < velocityIterations; i++)
         {
             Sweep(blocks);
+            _couplings.Sweep(_linear, _angular);
         }
 
         Report(blocks, dt);
@@ -99,6 +105,7 @@ internal sealed class UnitySolver : ISolver
         }
 
         _projection.Apply();
+        _couplings.Finish();
     }
 
     private int Prepare(double dt)
@@ -272,8 +279,19 @@ internal sealed class UnitySolver : ISolver
 
         Vector3d v = _bodies.LinearVelocities[i] + _motionLinear[i];
         Vector3d w = _bodies.AngularVelocities[i] + _sqrtInertia[i].Times(_motionAngular[i]);
-        _bodies.Poses[i] = BodyMotion.Integrate(_bodies.Poses[i], v, w, dt);
-        _bodies.LinearVelocities[i] += _linear[i];
-        _bodies.AngularVelocities[i] += _sqrtInertia[i].Times(_angular[i]);
+        Pose pose = BodyMotion.Integrate(_bodies.Poses[i], v, w, dt);
+        v = _bodies.LinearVelocities[i] + _linear[i];
+        w = _bodies.AngularVelocities[i] + _sqrtInertia[i].Times(_angular[i]);
+        if (!BodyMotion.InRange(pose, v, w))
+        {
+            _mechanism.Overflows++;
+            v = Vector3d.Zero;
+            w = Vector3d.Zero;
+            pose = _bodies.Poses[i];
+        }
+
+        _bodies.Poses[i] = pose;
+        _bodies.LinearVelocities[i] = v;
+        _bodies.AngularVelocities[i] = w;
     }
 }

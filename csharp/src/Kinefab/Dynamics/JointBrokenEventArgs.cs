@@ -1,0 +1,12 @@
+using System;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A joint broke in the step just done; as Unity's OnJointBreak.</summary>
+public sealed class JointBrokenEventArgs : EventArgs
+{
+    internal JointBrokenEventArgs(WorldJoint joint) => Joint = joint;
+
+    /// <summary>The joint; its force and torque are those that broke it.</summary>
+    public WorldJoint Joint { get; }
+}

@@ -1,0 +1,165 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Pgs;
+
+/// <summary>
+/// The couplings' rows in the sweeps: rigid rows over up to four bodies, solved after all joints. PhysX 4.1 has none;
+/// they follow its formula for a rigid row.
+/// </summary>
+internal sealed class CouplingRows
+{
+    private const int MaxBodies = 4;
+
+    private readonly Mechanism _mechanism;
+    private readonly Row[] _rows;
+
+    // MaxBodies for each row.
+    private readonly Part[] _parts;
+
+    private struct Row
+    {
+        public double Constant;
+        public double UnbiasedConstant;
+        public double InverseResponse;
+        public double Impulse;
+        public int Parts;
+    }
+
+    private struct Part
+    {
+        public int Body;
+        public double InverseMass;
+        public Vector3d Linear;
+
+        /// <summary>Of the plain angular velocity.</summary>
+        public Vector3d Angular;
+
+        /// <summary>I^(-1/2) Angular.</summary>
+        public Vector3d SqrtAngular;
+    }
+
+    public CouplingRows(Mechanism mechanism)
+    {
+        _mechanism = mechanism;
+        _rows = new Row[mechanism.Couplings.Length];
+        _parts = new Part[_rows.Length * MaxBodies];
+    }
+
+    public void Prepare(SqrtInertia[] sqrtInertia, double dt)
+    {
+        Bodies bodies = _mechanism.Bodies;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            Coupling coupling = _mechanism.Couplings[i];
+            ref Row row = ref _rows[i];
+            row = default;
+            if (coupling.A.Joint.IsBroken || coupling.B.Joint.IsBroken)
+            {
+                continue;
+            }
+
+            Joint a = coupling.A.Joint;
+            Joint b = coupling.B.Joint;
+            double error = coupling.Prepare(
+                bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), out ConstraintRow rowA, out ConstraintRow rowB);
+            Add(i, a.Body0, rowA.Linear0 * -coupling.Ratio, rowA.Angular0 * -coupling.Ratio);
+            Add(i, a.Body1, rowA.Linear1 * coupling.Ratio, rowA.Angular1 * coupling.Ratio);
+            Add(i, b.Body0, rowB.Linear0, rowB.Angular0);
+            Add(i, b.Body1, -rowB.Linear1, -rowB.Angular1);
+            SetConstants(i, sqrtInertia, error, dt);
+        }
+    }
+
+    public void Sweep(Vector3d[] linear, Vector3d[] angular)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref Row row = ref _rows[i];
+            double velocity = 0;
+            for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+            {
+                ref Part part = ref _parts[p];
+                velocity += Vector3d.Dot(part.Linear, linear[part.Body]) + Vector3d.Dot(part.SqrtAngular, angular[part.Body]);
+            }
+
+            double delta = row.Constant - velocity * row.InverseResponse;
+            row.Impulse += delta;
+            for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+            {
+                ref Part part = ref _parts[p];
+                linear[part.Body] += part.Linear * (delta * part.InverseMass);
+                angular[part.Body] += part.SqrtAngular * delta;
+            }
+        }
+    }
+
+    public void RemoveBias()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].Constant = _rows[i].UnbiasedConstant;
+        }
+    }
+
+    /// <summary>Notes the coordinates reached, against which the next step unwraps its angles.</summary>
+    public void Finish()
+    {
+        Bodies bodies = _mechanism.Bodies;
+        foreach (Coupling coupling in _mechanism.Couplings)
+        {
+            Joint a = coupling.A.Joint;
+            Joint b = coupling.B.Joint;
+            coupling.LastA = coupling.A.Evaluate(bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), coupling.LastA, out _);
+            coupling.LastB = coupling.B.Evaluate(bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), coupling.LastB, out _);
+        }
+    }
+
+    // A body on both sides counts once, with its parts added up.
+    private void Add(int row, int body, Vector3d linear, Vector3d angular)
+    {
+        if (body < 0)
+        {
+            return;
+        }
+
+        int start = row * MaxBodies;
+        int end = start + _rows[row].Parts;
+        int p = start;
+        while (p < end && _parts[p].Body != body)
+        {
+            p++;
+        }
+
+        if (p == end)
+        {
+            _parts[p] = new Part { Body = body };
+            _rows[row].Parts++;
+        }
+
+        _parts[p].Linear += linear;
+        _parts[p].Angular += angular;
+    }
+
+    private void SetConstants(int i, SqrtInertia[] sqrtInertia, double error, double dt)
+    {
+        Bodies bodies = _mechanism.Bodies;
+        ref Row row = ref _rows[i];
+        double response = 0;
+        double velocity = 0;
+        for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+        {
+            ref Part part = ref _parts[p];
+            part.InverseMass = bodies.InverseMasses[part.Body];
+            part.SqrtAngular = sqrtInertia[part.Body].Times(part.Angular);
+            response += part.InverseMass * part.Linear.LengthSquared + part.SqrtAngular.LengthSquared;
+            velocity += Vector3d.Dot(part.Linear, bodies.LinearVelocities[part.Body])
+                + Vector3d.Dot(part.Angular, bodies.AngularVelocities[part.Body]);
+        }
+
+        row.InverseResponse = response > 0 ? 1 / response : 0;
+        row.UnbiasedConstant = -velocity * row.InverseResponse;
+        row.Constant = row.UnbiasedConstant - error / dt * row.InverseResponse;
+    }
+}

@@ -1,0 +1,123 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Dynamics.Pgs;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>
+/// The bodies and joints of a scene in motion, as Unity makes them at start-up. There are no contacts: colliders are not
+/// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks.
+/// </summary>
+public sealed class World
+{
+    private readonly Mechanism _mechanism;
+    private readonly ISolver _solver;
+    private readonly bool[] _broken;
+
+    internal World(Mechanism mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints)
+    {
+        _mechanism = mechanism;
+        _solver = solver;
+        _broken = new bool[joints.Length];
+        Bodies = bodies;
+        Joints = joints;
+    }
+
+    /// <summary>Raised after a step for every joint that broke in it.</summary>
+    public event EventHandler<JointBrokenEventArgs>? JointBroken;
+
+    /// <summary>In the order of their GameObjects.</summary>
+    public IReadOnlyList<WorldBody> Bodies { get; }
+
+    /// <summary>In the order of their GameObjects and components.</summary>
+    public IReadOnlyList<WorldJoint> Joints { get; }
+
+    /// <summary>Seconds simulated.</summary>
+    public double Time { get; private set; }
+
+    /// <summary>m/s^2.</summary>
+    public Vector3d Gravity
+    {
+        get => _mechanism.Gravity;
+        set => _mechanism.Gravity = value;
+    }
+
+    /// <summary>
+    /// Number of times that a body's motion left the range of numbers and was stopped where it stood; not 0 only when the
+    /// solver cannot follow the scene.
+    /// </summary>
+    public int Overflows => _mechanism.Overflows;
+
+    /// <summary>Kinetic energy of all bodies, J.</summary>
+    public double KineticEnergy
+    {
+        get
+        {
+            double energy = 0;
+            for (int i = 0; i < _mechanism.Bodies.Count; i++)
+            {
+                energy += _mechanism.Bodies.KineticEnergy(i);
+            }
+
+            return energy;
+        }
+    }
+
+    /// <summary>Energy of all bodies under gravity, J, 0 at the world's origin.</summary>
+    public double PotentialEnergy
+    {
+        get
+        {
+            double energy = 0;
+            for (int i = 0; i < _mechanism.Bodies.Count; i++)
+            {
+                energy += _mechanism.Bodies.PotentialEnergy(i, _mechanism.Gravity);
+            }
+
+            return energy;
+        }
+    }
+
+    /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
+    public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
+    {
+        if (scene is null)
+        {
+            throw new ArgumentNullException(nameof(scene));
+        }
+
+        var builder = new WorldBuilder(scene);
+        ISolver chosen = solver switch
+        {
+            SolverKind.Unity => new UnitySolver(builder.Mechanism),
+            _ => throw new ArgumentOutOfRangeException(nameof(solver)),
+        };
+        return new World(builder.Mechanism, chosen, builder.Bodies, builder.Joints);
+    }
+
+    /// <summary>Moves the world forward.</summary>
+    /// <param name="dt">Seconds; Unity's fixed time step is in the scene's physics settings.</param>
+    /// <exception cref="ArgumentOutOfRangeException">dt is not a positive number.</exception>
+    public void Step(double dt)
+    {
+        if (!(dt > 0 && dt < double.PositiveInfinity))
+        {
+            throw new ArgumentOutOfRangeException(nameof(dt));
+        }
+
+        _solver.Step(dt);
+        Time += dt;
+        for (int i = 0; i < Joints.Count; i++)
+        {
+            WorldJoint joint = Joints[i];
+            joint.AfterStep();
+            if (joint.IsBroken && !_broken[i])
+            {
+                _broken[i] = true;
+                JointBroken?.Invoke(this, new JointBrokenEventArgs(joint));
+            }
+        }
+    }
+}

@@ -1,0 +1,92 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A Rigidbody in a <see cref="World"/>.</summary>
+public sealed class WorldBody
+{
+    private readonly Bodies _bodies;
+    private readonly int _index;
+    private readonly Pose _local;
+    private readonly Pose _localInverse;
+
+    internal WorldBody(Bodies bodies, int index, int gameObject, GameObject source, Rigidbody settings, in Pose local)
+    {
+        _bodies = bodies;
+        _index = index;
+        _local = local;
+        _localInverse = local.Inverse();
+        GameObject = gameObject;
+        Id = source.Id;
+        Name = source.Name;
+        Settings = settings;
+    }
+
+    /// <summary>Index of the GameObject that carries the Rigidbody.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Id of the GameObject.</summary>
+    public string Id { get; }
+
+    /// <summary>Name of the GameObject.</summary>
+    public string Name { get; }
+
+    /// <summary>The component as the scene has it.</summary>
+    public Rigidbody Settings { get; }
+
+    /// <summary>Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities.</summary>
+    public Pose Pose
+    {
+        get => _bodies.Poses[_index] * _localInverse;
+        set
+        {
+            _bodies.Poses[_index] = value * _local;
+            _bodies.KinematicTargets[_index] = _bodies.Poses[_index];
+        }
+    }
+
+    /// <summary>Where a kinematic body is after the next step (Rigidbody.MovePosition and MoveRotation).</summary>
+    public Pose KinematicTarget
+    {
+        get => _bodies.KinematicTargets[_index] * _localInverse;
+        set => _bodies.KinematicTargets[_index] = value * _local;
+    }
+
+    /// <summary>Centre of mass in the world, metres.</summary>
+    public Vector3d CenterOfMass => _bodies.Poses[_index].Position;
+
+    /// <summary>Velocity of the centre of mass, world frame, m/s.</summary>
+    public Vector3d LinearVelocity
+    {
+        get => _bodies.LinearVelocities[_index];
+        set => _bodies.LinearVelocities[_index] = value;
+    }
+
+    /// <summary>World frame, rad/s.</summary>
+    public Vector3d AngularVelocity
+    {
+        get => _bodies.AngularVelocities[_index];
+        set => _bodies.AngularVelocities[_index] = value;
+    }
+
+    /// <summary>Whether only its target moves the body.</summary>
+    public bool IsKinematic => _bodies.IsKinematic[_index];
+
+    /// <summary>Translation and rotation, J; 0 for a kinematic body.</summary>
+    public double KineticEnergy => _bodies.KineticEnergy(_index);
+
+    /// <summary>A force at the centre of mass over the next step, world frame, N.</summary>
+    public void AddForce(Vector3d force) => _bodies.Forces[_index] += force;
+
+    /// <summary>A torque over the next step, world frame, N m.</summary>
+    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += torque;
+
+    /// <summary>A force over the next step at a point of the world, N.</summary>
+    public void AddForceAtPosition(Vector3d force, Vector3d position)
+    {
+        AddForce(force);
+        AddTorque(Vector3d.Cross(position - CenterOfMass, force));
+    }
+}

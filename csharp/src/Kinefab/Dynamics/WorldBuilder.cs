@@ -1,0 +1,193 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using Document = Kinefab.Document;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>Makes a world's bodies and joints from a scene.</summary>
+internal sealed class WorldBuilder
+{
+    private const double Radians = Math.PI / 180;
+
+    private readonly ValidScene _scene;
+
+    // Body of each GameObject; -1 for one without a Rigidbody or inactive.
+    private readonly int[] _bodyOf;
+    private readonly List<Kinefab.Joints.Joint> _joints = new();
+    private readonly List<Document.Joint> _settings = new();
+    private readonly List<JointPlace> _places = new();
+
+    public WorldBuilder(ValidScene scene)
+    {
+        _scene = scene;
+        _bodyOf = new int[scene.Document.GameObjects.Count];
+        bool[] active = Active();
+        List<int> objects = MakeBodies(active, out Bodies bodies);
+        MakeJoints(active, bodies);
+        Mechanism = new Mechanism(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
+        Bodies = new WorldBody[objects.Count];
+        for (int i = 0; i < Bodies.Length; i++)
+        {
+            int gameObject = objects[i];
+            Rigidbody body = scene.Body(gameObject)!;
+            Bodies[i] = new WorldBody(bodies, i, gameObject, scene.Document.GameObjects[gameObject], body, MassFrame(body));
+        }
+
+        Joints = new WorldJoint[_joints.Count];
+        for (int i = 0; i < Joints.Length; i++)
+        {
+            Joints[i] = _settings[i] switch
+            {
+                HingeJoint hinge => new WorldHingeJoint(Mechanism, i, _places[i], hinge),
+                ConfigurableJoint configurable => new WorldConfigurableJoint(Mechanism, i, _places[i], configurable),
+                _ => new WorldFixedJoint(Mechanism, i, _places[i]),
+            };
+        }
+    }
+
+    public Mechanism Mechanism { get; }
+
+    public WorldBody[] Bodies { get; }
+
+    public WorldJoint[] Joints { get; }
+
+    private bool[] Active()
+    {
+        IReadOnlyList<GameObject> objects = _scene.Document.GameObjects;
+        var active = new bool[objects.Count];
+        for (int i = 0; i < active.Length; i++)
+        {
+            active[i] = objects[i].Active && (objects[i].Parent is not int parent || active[parent]);
+        }
+
+        return active;
+    }
+
+    private List<int> MakeBodies(bool[] active, out Bodies bodies)
+    {
+        var objects = new List<int>();
+        var definitions = new List<BodyDefinition>();
+        for (int i = 0; i < active.Length; i++)
+        {
+            _bodyOf[i] = -1;
+            if (active[i] && _scene.Body(i) is Rigidbody body)
+            {
+                _bodyOf[i] = objects.Count;
+                objects.Add(i);
+                definitions.Add(Define(body, _scene.World(i).Pose));
+            }
+        }
+
+        bodies = new Bodies(definitions.ToArray());
+        return objects;
+    }
+
+    // The centre of mass is taken in metres along the object's axes, whatever its scale (in Unity unconfirmed).
+    private static Pose MassFrame(Rigidbody body) => new(body.CenterOfMass, body.InertiaTensorRotation.Normalized());
+
+    private BodyDefinition Define(Rigidbody body, in Pose pose)
+    {
+        Document.Physics physics = _scene.Document.Physics;
+        RigidbodyConstraints frozen = body.Constraints;
+        return new BodyDefinition
+        {
+            Pose = pose * MassFrame(body),
+            Mass = body.Mass,
+            Inertia = new Vector3d(
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationX) ? 0 : body.InertiaTensor.X,
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationY) ? 0 : body.InertiaTensor.Y,
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationZ) ? 0 : body.InertiaTensor.Z),
+            LinearDamping = body.LinearDamping,
+            AngularDamping = body.AngularDamping,
+            MaxAngularSpeed = body.MaxAngularVelocity ?? physics.DefaultMaxAngularSpeed,
+            UseGravity = body.UseGravity,
+            IsKinematic = body.IsKinematic,
+            Locks = Locks(frozen),
+            PositionIterations = body.SolverIterations ?? physics.SolverIterations,
+            VelocityIterations = body.SolverVelocityIterations ?? physics.SolverVelocityIterations,
+        };
+    }
+
+    // Positions are frozen in the world's axes by PhysX's locks. Rotations are frozen by infinite moments of inertia (Unity's
+    // manual, Joint.enablePreprocessing), and so about the principal axes; that these are the ones meant is unconfirmed.
+    private static BodyLocks Locks(RigidbodyConstraints frozen) =>
+        (Frozen(frozen, RigidbodyConstraints.FreezePositionX) ? BodyLocks.LinearX : 0)
+        | (Frozen(frozen, RigidbodyConstraints.FreezePositionY) ? BodyLocks.LinearY : 0)
+        | (Frozen(frozen, RigidbodyConstraints.FreezePositionZ) ? BodyLocks.LinearZ : 0);
+
+    private static bool Frozen(RigidbodyConstraints constraints, RigidbodyConstraints one) => (constraints & one) != 0;
+
+    private void MakeJoints(bool[] active, Bodies bodies)
+    {
+        IReadOnlyList<GameObject> objects = _scene.Document.GameObjects;
+        for (int i = 0; i < objects.Count; i++)
+        {
+            for (int c = 0; active[i] && c < objects[i].Components.Count; c++)
+            {
+                if (objects[i].Components[c] is Document.Joint settings)
+                {
+                    _joints.Add(MakeJoint(settings, i, bodies));
+                    _settings.Add(settings);
+                    _places.Add(new JointPlace(i, c, objects[i].Id));
+                }
+            }
+        }
+    }
+
+    // An inactive connected body has left the simulation: the joint holds to the world where it stands.
+    private Kinefab.Joints.Joint MakeJoint(Document.Joint settings, int gameObject, Bodies bodies)
+    {
+        WorldTransform? connected = settings.ConnectedBody is int index ? _scene.World(index) : null;
+        Pose ownFrame = UnityFrames.Own(settings, _scene.World(gameObject));
+        Pose connectedFrame = UnityFrames.Connected(settings, ownFrame, connected);
+        int own = _bodyOf[gameObject];
+        int other = settings.ConnectedBody is int body ? _bodyOf[body] : Kinefab.Joints.Joint.World;
+        bool swap = settings is ConfigurableJoint { SwapBodies: true };
+
+        Kinefab.Joints.Joint joint = UnityJoints.Create(settings);
+        joint.Body0 = swap ? other : own;
+        joint.Body1 = swap ? own : other;
+        joint.Frame0 = bodies.PoseOf(joint.Body0).Inverse() * (swap ? connectedFrame : ownFrame);
+        joint.Frame1 = bodies.PoseOf(joint.Body1).Inverse() * (swap ? ownFrame : connectedFrame);
+        return joint;
+    }
+
+    private Kinefab.Joints.Coupling[] MakeCouplings(Bodies bodies)
+    {
+        var couplings = new List<Kinefab.Joints.Coupling>();
+        foreach (Document.Coupling coupling in _scene.Document.Couplings)
+        {
+            if (Find(coupling.A) is Kinefab.Joints.JointCoordinate a && Find(coupling.B) is Kinefab.Joints.JointCoordinate b)
+            {
+                // In radians, and with the coordinates' values at the start in the offset: the file counts from there.
+                double unitA = a.IsAngle ? Radians : 1;
+                double unitB = b.IsAngle ? Radians : 1;
+                double ratio = coupling.Ratio * unitB / unitA;
+                double startA = a.Evaluate(bodies.PoseOf(a.Joint.Body0), bodies.PoseOf(a.Joint.Body1), 0, out _);
+                double startB = b.Evaluate(bodies.PoseOf(b.Joint.Body0), bodies.PoseOf(b.Joint.Body1), 0, out _);
+                couplings.Add(new Kinefab.Joints.Coupling(a, b, ratio, coupling.Offset * unitB + startB - ratio * startA));
+            }
+        }
+
+        return couplings.ToArray();
+    }
+
+    /// <summary>Null when the joint's object is inactive.</summary>
+    private Kinefab.Joints.JointCoordinate? Find(Document.JointCoordinate coordinate)
+    {
+        int index = _places.FindIndex(p => p.GameObject == coordinate.GameObject && p.Component == coordinate.Component);
+        if (index < 0)
+        {
+            return null;
+        }
+
+        CoordinateAxis axis = coordinate.Coordinate == Coordinate.Angle
+            ? CoordinateAxis.AngularX
+            : (CoordinateAxis)(coordinate.Coordinate - Coordinate.X);
+        return new Kinefab.Joints.JointCoordinate(_joints[index], axis, UnityJoints.CoordinateSign(_settings[index]));
+    }
+}

@@ -1,0 +1,92 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Document = Kinefab.Document;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A joint component in a <see cref="World"/>.</summary>
+public abstract class WorldJoint
+{
+    private protected const double Degrees = 180 / Math.PI;
+
+    private protected WorldJoint(Mechanism mechanism, int index, JointPlace place)
+    {
+        Mechanism = mechanism;
+        Index = index;
+        GameObject = place.GameObject;
+        Component = place.Component;
+        Id = place.Id;
+    }
+
+    /// <summary>Index of the GameObject that carries the joint.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Index of the joint in that GameObject's components.</summary>
+    public int Component { get; }
+
+    /// <summary>Id of the GameObject that carries the joint.</summary>
+    public string Id { get; }
+
+    /// <summary>Whether its constraint force or torque has passed a limit; a broken joint holds nothing any more.</summary>
+    public bool IsBroken => Solved.IsBroken;
+
+    /// <summary>Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count.</summary>
+    public Vector3d CurrentForce => Mechanism.Reactions[Index].Force;
+
+    /// <summary>Torque of the constraint on actor 0 about the connected anchor in the last step, N m; drives do not count.</summary>
+    public Vector3d CurrentTorque => Mechanism.Reactions[Index].Torque;
+
+    /// <summary>How far the joint's locked freedoms have come apart.</summary>
+    public JointDrift Drift => JointDrift.Of(Solved, Pose0, Pose1);
+
+    /// <summary>Whether a limit of the joint is reached or passed.</summary>
+    public bool IsAtLimit => JointDrift.IsAtLimit(Solved, Pose0, Pose1);
+
+    internal Kinefab.Joints.Joint Solved => Mechanism.Joints[Index];
+
+    internal int Index { get; }
+
+    private protected Mechanism Mechanism { get; }
+
+    private protected Pose Pose0 => Mechanism.Bodies.PoseOf(Solved.Body0);
+
+    private protected Pose Pose1 => Mechanism.Bodies.PoseOf(Solved.Body1);
+
+    /// <summary>A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres.</summary>
+    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    public abstract double Coordinate(Coordinate coordinate);
+
+    /// <summary>Called when the joint has been moved by a step.</summary>
+    internal virtual void AfterStep()
+    {
+    }
+}
+
+/// <summary>A FixedJoint in a <see cref="World"/>.</summary>
+public sealed class WorldFixedJoint : WorldJoint
+{
+    internal WorldFixedJoint(Mechanism mechanism, int index, JointPlace place)
+        : base(mechanism, index, place)
+    {
+    }
+
+    /// <inheritdoc/>
+    public override double Coordinate(Coordinate coordinate) => throw new ArgumentException("A FixedJoint has no coordinates.", nameof(coordinate));
+}
+
+/// <summary>Where a joint component stands in its scene.</summary>
+internal readonly struct JointPlace
+{
+    public readonly int GameObject;
+    public readonly int Component;
+    public readonly string Id;
+
+    public JointPlace(int gameObject, int component, string id)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Id = id;
+    }
+}

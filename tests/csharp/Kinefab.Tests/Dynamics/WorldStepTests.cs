@@ -1,0 +1,239 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics;
+
+/// <summary>What a world does while it runs: readings, events, run-time changes, kinematic bodies, couplings, no rubbish.</summary>
+public sealed class WorldStepTests
+{
+    private static readonly Physics NoGravity = new() { Gravity = Vector3d.Zero };
+
+    [Test]
+    public void HingeJoint_Angle_WrapsAndUnwraps()
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = true, Motor = new JointMotor { TargetVelocity = 360, Force = 1e6 } });
+        var hinge = (WorldHingeJoint)world.Joints[0];
+
+        SmallScene.Run(world, 1.75);
+
+        Assert.That(hinge.UnwrappedAngle, Is.EqualTo(630).Within(1e-3));
+        Assert.That(hinge.Angle, Is.EqualTo(-90).Within(1e-3));
+        Assert.That(hinge.Coordinate(Coordinate.Angle), Is.EqualTo(hinge.UnwrappedAngle));
+    }
+
+    [Test]
+    public void CurrentForce_HangingBody_IsItsWeight()
+    {
+        SceneDocument document = Hanging(new FixedJoint());
+        World world = World.Create(SmallScene.Validate(document));
+
+        SmallScene.Run(world, 0.1);
+
+        Vector3d force = world.Joints[0].CurrentForce;
+        Assert.That((force - new Vector3d(0, 3 * 9.81, 0)).Length, Is.LessThan(1e-9), force.ToString());
+    }
+
+    [Test]
+    public void CurrentTorque_CantileveredBody_IsItsWeightTimesItsArm()
+    {
+        // The weight at 0.4 m along X from the anchor turns it by (0.4, 0, 0) x (0, -29.43, 0); the wall gives the opposite.
+        SceneDocument document = Hanging(new ConfigurableJoint
+        {
+            Anchor = new Vector3d(-0.4, 0, 0),
+            XMotion = ConfigurableJointMotion.Locked,
+            YMotion = ConfigurableJointMotion.Locked,
+            ZMotion = ConfigurableJointMotion.Locked,
+            AngularXMotion = ConfigurableJointMotion.Locked,
+            AngularYMotion = ConfigurableJointMotion.Locked,
+            AngularZMotion = ConfigurableJointMotion.Locked,
+        });
+        World world = World.Create(SmallScene.Validate(document));
+
+        SmallScene.Run(world, 0.1);
+
+        Vector3d torque = world.Joints[0].CurrentTorque;
+        Assert.That((torque - new Vector3d(0, 0, 0.4 * 3 * 9.81)).Length, Is.LessThan(1e-6), torque.ToString());
+    }
+
+    [TestCase(29.4, true)]
+    [TestCase(29.5, false)]
+    public void BreakForce_WeightOf29_43_BreaksOnceAndFalls(double breakForce, bool breaks)
+    {
+        World world = World.Create(SmallScene.Validate(Hanging(new FixedJoint { BreakForce = breakForce })));
+        var broken = new List<WorldJoint>();
+        world.JointBroken += (_, e) => broken.Add(e.Joint);
+
+        SmallScene.Run(world, 0.5);
+
+        Assert.That(broken, Has.Count.EqualTo(breaks ? 1 : 0));
+        Assert.That(world.Joints[0].IsBroken, Is.EqualTo(breaks));
+        Assert.That(world.Bodies[0].Pose.Position.Y, breaks ? Is.LessThan(-0.5) : Is.EqualTo(0).Within(1e-9));
+    }
+
+    [Test]
+    public void Settings_ChangedWhileRunning_ActFromTheNextStep()
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ });
+        var hinge = (WorldHingeJoint)world.Joints[0];
+        SmallScene.Run(world, 0.2);
+
+        hinge.Settings = new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = true, Motor = new JointMotor { TargetVelocity = -20, Force = 1e6 } };
+        SmallScene.Run(world, 1);
+
+        Assert.That(hinge.Angle, Is.EqualTo(-20).Within(1e-3));
+    }
+
+    [Test]
+    public void Settings_SwapBodiesChanged_Throws()
+    {
+        World world = SmallScene.Create(new ConfigurableJoint());
+
+        Assert.That(() => ((WorldConfigurableJoint)world.Joints[0]).Settings = new ConfigurableJoint { SwapBodies = true }, Throws.ArgumentException);
+    }
+
+    [Test]
+    public void HingeJoint_MotorAndSpring_MotorWins()
+    {
+        World world = SmallScene.Create(new HingeJoint
+        {
+            Axis = Vector3d.UnitZ,
+            UseMotor = true,
+            Motor = new JointMotor { TargetVelocity = 30, Force = 1e6 },
+            UseSpring = true,
+            Spring = new JointSpring { Spring = 1e4, Damper = 10, TargetPosition = -50 },
+        });
+
+        SmallScene.Run(world, 1);
+
+        Assert.That(((WorldHingeJoint)world.Joints[0]).Angle, Is.EqualTo(30).Within(1e-3));
+    }
+
+    [Test]
+    public void KinematicBody_Target_IsReachedAndCarriesTheJoint()
+    {
+        World world = SmallScene.Create(new FixedJoint { ConnectedBody = 1 }, connected: true);
+        Pose start = world.Bodies[1].Pose;
+        Pose relative = start.Inverse() * world.Bodies[0].Pose;
+
+        for (int i = 1; i <= 100; i++)
+        {
+            world.Bodies[1].KinematicTarget = new Pose(start.Position + new Vector3d(0.003 * i, 0, 0), Quaterniond.AxisAngle(Vector3d.UnitY, 0.01 * i) * start.Rotation);
+            world.Step(SmallScene.Dt);
+        }
+
+        Assert.That((world.Bodies[1].Pose.Position - start.Position - new Vector3d(0.3, 0, 0)).Length, Is.LessThan(1e-9));
+        Pose carried = world.Bodies[1].Pose * relative;
+        Assert.That((world.Bodies[0].Pose.Position - carried.Position).Length, Is.LessThan(1e-3));
+    }
+
+    [TestCase(-2.0, 0.0)]
+    [TestCase(0.5, 15.0)]
+    public void Coupling_Gear_HoldsTheAnglesRatio(double ratio, double offset)
+    {
+        World world = Geared(CouplingKind.Gear, ratio, offset);
+
+        SmallScene.Run(world, 2);
+
+        double a = world.Joints[0].Coordinate(Coordinate.Angle);
+        double b = world.Joints[1].Coordinate(Coordinate.Angle);
+        Assert.That(a, Is.EqualTo(200).Within(0.5), "the motor turns it");
+        Assert.That(b, Is.EqualTo(ratio * a + offset).Within(1e-2));
+    }
+
+    [Test]
+    public void Coupling_Screw_TiesSlideAndAngleOfOneJoint()
+    {
+        // A pitch of 5 mm a turn: x = 0.005 / 360 * angle. The free screw starts with a spin.
+        var joint = new ConfigurableJoint
+        {
+            Axis = Vector3d.UnitZ,
+            YMotion = ConfigurableJointMotion.Locked,
+            ZMotion = ConfigurableJointMotion.Locked,
+            AngularYMotion = ConfigurableJointMotion.Locked,
+            AngularZMotion = ConfigurableJointMotion.Locked,
+        };
+        SceneDocument document = SmallScene.Document(joint, new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 100 }, connected: false);
+        var scene = new SceneDocument
+        {
+            Physics = NoGravity,
+            GameObjects = document.GameObjects,
+            Couplings = [new Coupling { Kind = CouplingKind.Screw, A = new JointCoordinate { Component = 1, Coordinate = Coordinate.AngularX }, B = new JointCoordinate { Component = 1, Coordinate = Coordinate.X }, Ratio = 0.005 / 360 }],
+        };
+        World world = World.Create(SmallScene.Validate(scene));
+        world.Bodies[0].AngularVelocity = SmallScene.OwnPose.Rotation * new Vector3d(0, 0, 20);
+
+        SmallScene.Run(world, 2);
+
+        double angle = world.Joints[0].Coordinate(Coordinate.AngularX);
+        Assert.That(angle, Is.GreaterThan(2000));
+        Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.EqualTo(0.005 / 360 * angle).Within(1e-6));
+        Assert.That(SmallScene.Way(world).Z, Is.EqualTo(0.005 / 360 * angle).Within(1e-6), "along +axis for a positive turn");
+    }
+
+    [Test]
+    public void Step_AfterWarmUp_AllocatesNothing()
+    {
+        World world = Geared(CouplingKind.Gear, -2, 0);
+        SmallScene.Run(world, 0.5);
+
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        SmallScene.Run(world, 1);
+        long allocated = GC.GetAllocatedBytesForCurrentThread() - before;
+
+        Assert.That(allocated, Is.Zero);
+    }
+
+    [Test]
+    public void Step_SameScene_GivesTheSameBits()
+    {
+        World a = Geared(CouplingKind.Gear, -2, 0);
+        World b = Geared(CouplingKind.Gear, -2, 0);
+
+        SmallScene.Run(a, 3);
+        SmallScene.Run(b, 3);
+
+        for (int i = 0; i < a.Bodies.Count; i++)
+        {
+            Assert.That(a.Bodies[i].Pose.Position == b.Bodies[i].Pose.Position && a.Bodies[i].Pose.Rotation == b.Bodies[i].Pose.Rotation);
+        }
+    }
+
+    [TestCase(0)]
+    [TestCase(-0.1)]
+    [TestCase(double.NaN)]
+    [TestCase(double.PositiveInfinity)]
+    public void Step_NotAPositiveTime_Throws(double dt) =>
+        Assert.That(() => SmallScene.Create(new FixedJoint()).Step(dt), Throws.InstanceOf<ArgumentOutOfRangeException>());
+
+    private static SceneDocument Hanging(Joint joint) => new()
+    {
+        GameObjects = [new GameObject { Id = "own", Name = "own", Components = [new Rigidbody { Mass = 3, AngularDamping = 0 }, joint] }],
+    };
+
+    /// <summary>Two wheels on the world, the first driven at 100 degrees/s, coupled.</summary>
+    private static World Geared(CouplingKind kind, double ratio, double offset)
+    {
+        GameObject Wheel(string id, double x, bool driven) => new()
+        {
+            Id = id,
+            Name = id,
+            Transform = new Transform { LocalPosition = new Vector3d(x, 0, 0), LocalRotation = Quaterniond.AxisAngle(Vector3d.UnitY, 0.3 * x) },
+            Components =
+            [
+                new Rigidbody { MaxAngularVelocity = 100, InertiaTensor = new Vector3d(0.2, 0.2, 0.3) },
+                new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = driven, Motor = new JointMotor { TargetVelocity = 100, Force = 1e4 } },
+            ],
+        };
+        JointCoordinate Angle(int gameObject) => new() { GameObject = gameObject, Component = 1, Coordinate = Coordinate.Angle };
+        return World.Create(SmallScene.Validate(new SceneDocument
+        {
+            Physics = NoGravity,
+            GameObjects = [Wheel("a", 0, true), Wheel("b", 1, false)],
+            Couplings = [new Coupling { Kind = kind, A = Angle(0), B = Angle(1), Ratio = ratio, Offset = offset }],
+        }));
+    }
+}

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Text;
+using System.Text.Encodings.Web;
 using System.Text.Json;
 using Kinefab.Diagnostics;
 
@@ -33,7 +34,7 @@ internal static class ReportWriter
     internal static void WriteJson(Action<Utf8JsonWriter> fields)
     {
         using var buffer = new MemoryStream();
-        using (var json = new Utf8JsonWriter(buffer, new JsonWriterOptions { Indented = true, NewLine = "\n" }))
+        using (var json = new Utf8JsonWriter(buffer, new JsonWriterOptions { Indented = true, NewLine = "\n", Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }))
         {
             json.WriteStartObject();
             fields(json);
@@ -47,7 +48,7 @@ internal static class ReportWriter
     {
         json.WriteStartObject();
         json.WriteString("code", found.Code);
-        json.WriteString("severity", found.Severity.ToString().ToLowerInvariant());
+        json.WriteString("severity", found.Severity.ToJson());
         json.WriteString("pointer", found.Pointer);
         if (found.Line is int line && found.Column is int column)
         {

@@ -15,7 +15,7 @@ internal static class AnchorRules
     /// <summary>Unity computes connectedAnchor itself while autoConfigureConnectedAnchor is on: another value in the file is lost.</summary>
     internal static void ConnectedAnchorRecomputed(AnchoredJoint joint, WorldTransform own, WorldTransform connected, in Place at)
     {
-        if (joint.AutoConfigureConnectedAnchor && joint.ConnectedAnchor != Vector3d.Zero && Gap(joint, own, connected).Length > Tolerance)
+        if (joint.AutoConfigureConnectedAnchor && joint.ConnectedAnchor != Vector3d.Zero && JointAnchors.Gap(joint, own, connected).Length > Tolerance)
             at.Report("connectedAnchor", DiagnosticCodes.ConnectedAnchorRecomputed);
     }
 
@@ -23,7 +23,7 @@ internal static class AnchorRules
     internal static void Hinge(HingeJoint joint, WorldTransform own, WorldTransform connected, in Place at)
     {
         if (!joint.AutoConfigureConnectedAnchor)
-            Apart(Gap(joint, own, connected).Length, at);
+            Apart(JointAnchors.Gap(joint, own, connected).Length, at);
     }
 
     /// <summary>As for a hinge, along the axes that are locked, and beyond the radius along those that are limited.</summary>
@@ -31,9 +31,7 @@ internal static class AnchorRules
     {
         if (joint.AutoConfigureConnectedAnchor)
             return;
-        Vector3d gap = Gap(joint, own, connected);
-        (Vector3d x, Vector3d y) = Axes(joint, own.Pose.Rotation);
-        Vector3d along = new(Vector3d.Dot(gap, x), Vector3d.Dot(gap, y), Vector3d.Dot(gap, Vector3d.Cross(x, y)));
+        Vector3d along = JointAnchors.GapAlongAxes(joint, own, connected);
         double locked = Length(joint, along, ConfigurableJointMotion.Locked);
         double limited = Length(joint, along, ConfigurableJointMotion.Limited);
         Apart(Math.Max(locked, limited - joint.LinearLimit.Limit), at);
@@ -43,18 +41,6 @@ internal static class AnchorRules
     {
         if (gap > Tolerance)
             at.Report("connectedAnchor", DiagnosticCodes.JointAnchorsApart, ("gap", Invariant.Text(gap)));
-    }
-
-    private static Vector3d Gap(AnchoredJoint joint, WorldTransform own, WorldTransform connected) =>
-        own.Pose.Point(Vector3d.Scale(own.Scale, joint.Anchor))
-        - connected.Pose.Point(Vector3d.Scale(connected.Scale, joint.ConnectedAnchor));
-
-    private static (Vector3d X, Vector3d Y) Axes(ConfigurableJoint joint, Quaterniond own)
-    {
-        Quaterniond frame = joint.ConfiguredInWorldSpace ? Quaterniond.Identity : own;
-        Vector3d x = joint.Axis.Normalized();
-        Vector3d y = joint.SecondaryAxis - Vector3d.Dot(joint.SecondaryAxis, x) * x;
-        return (frame * x, frame * (y.Length > 1e-9 ? y.Normalized() : Vector3d.Perpendicular(x)));
     }
 
     private static double Length(ConfigurableJoint joint, Vector3d along, ConfigurableJointMotion motion) => new Vector3d(

@@ -2,7 +2,6 @@ using System;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
-using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
@@ -222,9 +221,7 @@ public static class SceneValidator
     private static void Anchors(AnchoredJoint joint, ValidScene scene, int index, in Place at)
     {
         WorldTransform own = scene.World(index);
-        WorldTransform connected = joint.ConnectedBody is int body
-            ? scene.World(body)
-            : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
+        WorldTransform connected = scene.Connected(joint);
         AnchorRules.ConnectedAnchorRecomputed(joint, own, connected, at);
         if (joint is HingeJoint hinge)
             AnchorRules.Hinge(hinge, own, connected, at);

@@ -1,6 +1,8 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
+using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
@@ -34,6 +36,19 @@ public sealed class ValidScene
 
     /// <summary>The numbers of a mesh.</summary>
     public MeshData Mesh(int mesh) => new(Document, Document.Meshes[mesh]);
+
+    /// <summary>What a joint leaves to its own body.</summary>
+    /// <param name="gameObject">Index of the GameObject that carries the joint.</param>
+    /// <param name="component">Index of the joint in its components.</param>
+    public IReadOnlyList<JointFreedom> Freedoms(int gameObject, int component)
+    {
+        var joint = (Joint)Document.GameObjects[gameObject].Components[component];
+        return JointFreedoms.Of(joint, World(gameObject), Connected(joint));
+    }
+
+    /// <summary>Where the connected body of a joint stands; the world's own place when there is none.</summary>
+    internal WorldTransform Connected(Joint joint) =>
+        joint.ConnectedBody is int body ? World(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
 
     /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
     public Rigidbody? Body(int gameObject)

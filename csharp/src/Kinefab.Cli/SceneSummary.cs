@@ -1,0 +1,43 @@
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Validation;
+
+namespace Kinefab.Cli;
+
+/// <summary>What is in a scene, counted.</summary>
+internal sealed class SceneSummary
+{
+    internal SceneSummary(ValidScene scene)
+    {
+        Document = scene.Document;
+        for (int i = 0; i < Document.GameObjects.Count; i++)
+        {
+            IReadOnlyList<Component> components = Document.GameObjects[i].Components;
+            Bodies += components.Count(component => component is Rigidbody);
+            Colliders += components.Count(component => component is Collider);
+            for (int c = 0; c < components.Count; c++)
+            {
+                if (components[c] is Joint joint)
+                    Joints.Add(new JointSummary(i, c, joint, scene.Freedoms(i, c)));
+            }
+        }
+    }
+
+    internal SceneDocument Document { get; }
+
+    internal int Bodies { get; }
+
+    internal int Colliders { get; }
+
+    internal List<JointSummary> Joints { get; } = new();
+
+    internal long Vertices => Document.Meshes.Sum(mesh => (long)mesh.VertexCount);
+
+    internal long Triangles => Document.Meshes.Sum(mesh => mesh.Submeshes.Sum(submesh => (long)submesh.IndexCount)) / 3;
+
+    internal int Count(Outcome outcome) => Document.Report.Count(entry => entry.Outcome == outcome);
+}
+
+/// <summary>A joint, where it stands and what it leaves free.</summary>
+internal sealed record JointSummary(int GameObject, int Component, Joint Joint, IReadOnlyList<JointFreedom> Freedoms);

@@ -1,0 +1,75 @@
+using System;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Validation;
+
+namespace Kinefab.Cli;
+
+/// <summary>A summary as people read it.</summary>
+internal static class SummaryText
+{
+    internal static void Write(SceneSummary summary, TextWriter target)
+    {
+        SceneDocument document = summary.Document;
+        Line(target, $"objects    {document.GameObjects.Count}, bodies {summary.Bodies}, colliders {summary.Colliders}");
+        Line(target, $"meshes     {document.Meshes.Count}, vertices {summary.Vertices}, triangles {summary.Triangles}");
+        Line(target, $"joints     {summary.Joints.Count}");
+        foreach (JointSummary joint in summary.Joints)
+            target.WriteLine("  " + Describe(joint, document));
+        Line(target, $"couplings  {document.Couplings.Count}");
+        foreach (Coupling coupling in document.Couplings)
+            target.WriteLine("  " + Describe(coupling, document));
+        if (document.Analysis is Analysis analysis)
+            WriteAnalysis(analysis, target);
+        Line(target, $"source     {summary.Count(Outcome.Kept)} kept, {summary.Count(Outcome.Approximated)} approximated, {summary.Count(Outcome.Dropped)} dropped");
+        foreach (ReportEntry entry in document.Report.Where(entry => entry.Outcome != Outcome.Kept))
+            target.WriteLine("  " + Describe(entry));
+    }
+
+    private static void WriteAnalysis(Analysis analysis, TextWriter target)
+    {
+        string redundant = analysis.Redundant is int rows ? FormattableString.Invariant($", {rows} redundant rows") : "";
+        Line(target, $"mobility   {analysis.Mobility} in {analysis.Islands.Count} islands{redundant}");
+    }
+
+    private static string Describe(JointSummary summary, SceneDocument document)
+    {
+        string other = summary.Joint.ConnectedBody is int body ? document.GameObjects[body].Id : "world";
+        string freedoms = summary.Freedoms.Count == 0 ? "nothing free" : string.Join(", ", summary.Freedoms.Select(Describe));
+        string closure = summary.Joint.Closure ? ", closes a loop" : "";
+        string exact = summary.Joint.Exact ? "" : ", approximated";
+        return $"{summary.Joint.GetType().Name} {document.GameObjects[summary.GameObject].Id} - {other}: {freedoms}{closure}{exact}";
+    }
+
+    private static string Describe(JointFreedom freedom)
+    {
+        string name = freedom.Coordinate.ToJson();
+        if (!freedom.IsLimited)
+            return name + " free";
+        string unit = freedom.IsAngle ? "deg" : "m";
+        return $"{name} {Number(freedom.Lower)}..{Number(freedom.Upper)} {unit}";
+    }
+
+    private static string Describe(Coupling coupling, SceneDocument document)
+    {
+        string offset = coupling.Offset == 0 ? "" : " + " + Number(coupling.Offset);
+        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {Number(coupling.Ratio)} * {Describe(coupling.A, document)}{offset}";
+    }
+
+    private static string Describe(JointCoordinate coordinate, SceneDocument document) =>
+        $"{document.GameObjects[coordinate.GameObject].Id}.{coordinate.Coordinate.ToJson()}";
+
+    private static string Describe(ReportEntry entry)
+    {
+        string code = entry.Code is null ? "" : " " + entry.Code;
+        string message = entry.Message is null ? "" : ": " + entry.Message;
+        string source = entry.Source is null ? "" : $" ({entry.Source})";
+        return $"{entry.Outcome.ToJson()} {entry.Feature}{code}{message}{source}";
+    }
+
+    private static string Number(double value) => value.ToString("0.######", CultureInfo.InvariantCulture);
+
+    private static void Line(TextWriter target, FormattableString text) => target.WriteLine(text.ToString(CultureInfo.InvariantCulture));
+}

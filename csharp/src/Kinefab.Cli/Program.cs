@@ -9,7 +9,7 @@ internal static class Program
 {
     private const int WrongUsage = 2;
 
-    private static int Main(string[] args)
+    internal static int Main(string[] args)
     {
         var root = new RootCommand("Validates and inspects Kinefab scenes.")
         {

@@ -1,0 +1,125 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using Kinefab.Cli;
+using Kinefab.Tests.Conformance;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Cli;
+
+[NonParallelizable]
+public class CommandLineTests
+{
+    private static readonly string Valid = Path.Combine(ConformanceCases.Folder, "valid", "hinge", "limits.kinefab");
+    private static readonly string Invalid = Path.Combine(ConformanceCases.Folder, "invalid", "hinge", "limits_exchanged.kinefab");
+    private static readonly string Unknown = Path.Combine(ConformanceCases.Folder, "invalid", "scene", "unknown_field.kinefab");
+    private static readonly string Described = Path.Combine(ConformanceCases.Folder, "valid", "scene", "every_section.kinefab");
+
+    [Test]
+    public void Validate_ValidScene_SaysSoOnStdoutAndExits0()
+    {
+        (int exit, string data, string findings) = Run("validate", Valid);
+        Assert.That((exit, data.TrimEnd(), findings), Is.EqualTo((0, Valid + ": valid, 0 errors, 0 warnings", "")));
+    }
+
+    [Test]
+    public void Validate_InvalidScene_ListsFindingsOnStderrAndExits1()
+    {
+        (int exit, string data, string findings) = Run("validate", Invalid);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(exit, Is.EqualTo(1));
+            Assert.That(data.TrimEnd(), Does.EndWith("not valid, 1 errors, 0 warnings"));
+            Assert.That(findings, Does.StartWith(Invalid + ":10:").And.Contains("error HINGE_LIMITS_ORDER /gameObjects/1/components/1/limits: "));
+        }
+    }
+
+    [Test]
+    public void Validate_Json_PrintsOneReportAndNothingElse()
+    {
+        (int exit, string data, string findings) = Run("validate", Invalid, "--json");
+        using JsonDocument report = JsonDocument.Parse(data);
+        JsonElement found = report.RootElement.GetProperty("diagnostics").EnumerateArray().Single();
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((exit, findings), Is.EqualTo((1, "")));
+            Assert.That(report.RootElement.GetProperty("valid").GetBoolean(), Is.False);
+            Assert.That(found.EnumerateObject().Select(field => field.Name), Is.EqualTo(["code", "severity", "pointer", "line", "column", "message", "remedy"]));
+            Assert.That(found.GetProperty("line").GetInt32(), Is.EqualTo(10));
+        }
+    }
+
+    [TestCase(0)]
+    [TestCase(1, "--strict")]
+    public void Validate_UnknownField_FailsOnlyWhenStrict(int expected, params string[] options) =>
+        Assert.That(Run(["validate", Unknown, .. options]).Exit, Is.EqualTo(expected));
+
+    [Test]
+    public void Inspect_Scene_ShowsJointsMobilityAndLosses()
+    {
+        (int exit, string data, _) = Run("inspect", Described);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(exit, Is.Zero);
+            Assert.That(data, Does.Contain("HingeJoint Box/Lid:1 - Box/Base:1: angle -10..80 deg"));
+            Assert.That(data, Does.Contain("mobility   1 in 1 islands"));
+            Assert.That(data, Does.Contain("1 kept, 1 approximated, 1 dropped"));
+            Assert.That(data, Does.Contain("dropped joint Cam:1 JOINT_UNKNOWN: No joint expresses it. (box.bundle.json#/joints/3)"));
+        }
+    }
+
+    [Test]
+    public void Inspect_Json_HoldsTheSummary()
+    {
+        (_, string data, _) = Run("inspect", Described, "--json");
+        using JsonDocument report = JsonDocument.Parse(data);
+        JsonElement freedom = report.RootElement.GetProperty("summary").GetProperty("joints")[0].GetProperty("freedoms")[0];
+        Assert.That(freedom.GetRawText().Replace("\n", "", StringComparison.Ordinal).Replace(" ", "", StringComparison.Ordinal), Is.EqualTo("""{"coordinate":"angle","unit":"deg","lower":-10,"upper":80}"""));
+    }
+
+    [TestCase("validate")]
+    [TestCase("validate", "a.kinefab", "b.kinefab")]
+    [TestCase("validate", "--nonsense", "a.kinefab")]
+    [TestCase("explode")]
+    [TestCase]
+    public void AnyCommand_WrongUsage_Exits2(params string[] arguments)
+    {
+        (int exit, string data, string findings) = Run(arguments);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((exit, data), Is.EqualTo((2, "")));
+            Assert.That(findings, Does.Contain("--help"));
+        }
+    }
+
+    [TestCase("validate")]
+    [TestCase("inspect")]
+    public void AnyCommand_NoSuchFile_Exits1WithoutATrace(string command)
+    {
+        (int exit, _, string findings) = Run(command, "no_such.kinefab");
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(exit, Is.EqualTo(1));
+            Assert.That(findings, Does.Contain("SCENE_UNREADABLE").And.Not.Contains("   at "));
+        }
+    }
+
+    private static (int Exit, string Data, string Findings) Run(params string[] arguments)
+    {
+        TextWriter data = Console.Out, findings = Console.Error;
+        using var dataText = new StringWriter();
+        using var findingsText = new StringWriter();
+        try
+        {
+            Console.SetOut(dataText);
+            Console.SetError(findingsText);
+            return (Program.Main(arguments), dataText.ToString(), findingsText.ToString());
+        }
+        finally
+        {
+            Console.SetOut(data);
+            Console.SetError(findings);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+using System;
+using System.IO;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Numerics;
+using Kinefab.Tests.Conformance;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Validation;
+
+public class ValidSceneTests
+{
+    private static readonly float[] TetrahedronPositions = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
+
+    [Test]
+    public void World_TurnedAndScaledParent_PlacesTheChildAsUnityDoes()
+    {
+        ValidScene scene = Validate(
+            new GameObject { Id = "a", Transform = new Transform { LocalPosition = new(1, 2, 3), LocalRotation = new(0, Math.Sqrt(0.5), 0, Math.Sqrt(0.5)), LocalScale = new(2, 2, 2) } },
+            new GameObject { Id = "b", Parent = 0, Transform = new Transform { LocalPosition = new(0, 0, 0.5), LocalScale = new(1, 3, 1) } });
+        WorldTransform child = scene.World(1);
+        // Yaw of 90 degrees turns forward to right: 2 * 0.5 along +X.
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((child.Pose.Position - new Vector3d(2, 2, 3)).Length, Is.LessThan(1e-15));
+            Assert.That(child.Scale, Is.EqualTo(new Vector3d(2, 6, 2)));
+        }
+    }
+
+    [Test]
+    public void BodyOf_ColliderBelowABody_IsTheNearestAncestorsBody()
+    {
+        ValidScene scene = Validate(
+            new GameObject { Id = "loose" },
+            new GameObject { Id = "body", Components = [new Rigidbody()] },
+            new GameObject { Id = "child", Parent = 1, Components = [new SphereCollider()] });
+        Assert.That((scene.BodyOf(0), scene.BodyOf(1), scene.BodyOf(2)), Is.EqualTo(((int?)null, (int?)1, (int?)1)));
+    }
+
+    [Test]
+    public void Mesh_OfALoadedScene_ShowsTheNumbersOfTheBuffer()
+    {
+        ValidScene scene = ValidScene.Load(Path.Combine(ConformanceCases.Folder, "valid", "mesh", "uint32.kinefab"));
+        MeshData mesh = scene.Mesh(0);
+        float[] positions = mesh.Positions.ToArray(), normals = mesh.Normals.ToArray(), uv = mesh.Uv.ToArray();
+        uint[] indices = mesh.Indices32.ToArray();
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(positions, Is.EqualTo(TetrahedronPositions));
+            Assert.That(indices, Is.EqualTo([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]));
+            Assert.That(normals, Is.EqualTo(Enumerable.Repeat<float[]>([0, 0, -1], 4).SelectMany(normal => normal)));
+            Assert.That(uv, Is.EqualTo([0, 0, 1, 0, 0, 1, 1, 1]));
+            Assert.That(scene.Mesh(0).Indices16.Length, Is.Zero);
+        }
+    }
+
+    [Test]
+    public void Mesh_OfALoadedScene_IsNoCopy()
+    {
+        ValidScene scene = ValidScene.Load(Path.Combine(ConformanceCases.Folder, "valid", "mesh", "uint16.kinefab"));
+        ReadOnlySpan<byte> buffer = scene.Document.Buffers[0].Data!.Value.Span;
+        Assert.That(System.Runtime.InteropServices.MemoryMarshal.AsBytes(scene.Mesh(0).Positions).Overlaps(buffer));
+    }
+
+    [Test]
+    public void Freedoms_SliderWithShiftedAnchor_AreTheRangeOfTheCoordinate()
+    {
+        ValidScene scene = ValidScene.Load(Path.Combine(ConformanceCases.Folder, "valid", "configurable", "slider.kinefab"));
+        JointFreedom slide = scene.Freedoms(1, 1).Single();
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((slide.Coordinate, slide.IsAngle), Is.EqualTo((Coordinate.X, false)));
+            Assert.That(slide.Lower, Is.EqualTo(-0.02).Within(1e-12));
+            Assert.That(slide.Upper, Is.EqualTo(0.12).Within(1e-12));
+        }
+    }
+
+    [TestCase(false, -80, 10)]
+    [TestCase(true, -10, 80)]
+    public void Freedoms_AngularXLimits_TurnOverForTheOwnBodyUnlessSwapped(bool swap, double lower, double upper)
+    {
+        var joint = new ConfigurableJoint
+        {
+            XMotion = ConfigurableJointMotion.Locked, YMotion = ConfigurableJointMotion.Locked, ZMotion = ConfigurableJointMotion.Locked,
+            AngularXMotion = ConfigurableJointMotion.Limited, AngularYMotion = ConfigurableJointMotion.Locked, AngularZMotion = ConfigurableJointMotion.Locked,
+            LowAngularXLimit = new SoftJointLimit { Limit = -10 }, HighAngularXLimit = new SoftJointLimit { Limit = 80 }, SwapBodies = swap,
+        };
+        JointFreedom twist = Validate(new GameObject { Id = "a", Components = [new Rigidbody(), joint] }).Freedoms(0, 1).Single();
+        Assert.That((twist.Coordinate, twist.Lower, twist.Upper), Is.EqualTo((Coordinate.AngularX, lower, upper)));
+    }
+
+    [Test]
+    public void Load_SceneWithErrors_ThrowsWithTheReport()
+    {
+        string path = Path.Combine(ConformanceCases.Folder, "invalid", "joint", "axis_zero.kinefab");
+        var thrown = Assert.Throws<SceneFormatException>(() => ValidScene.Load(path))!;
+        Assert.That(thrown.Report.Diagnostics.Single().Code, Is.EqualTo(DiagnosticCodes.JointAxisZero));
+    }
+
+    [TestCase(double.NaN)]
+    [TestCase(double.PositiveInfinity)]
+    [TestCase(-1)]
+    public void Validate_DocumentMadeInCode_ReportsWithoutLines(double mass)
+    {
+        var document = new SceneDocument { GameObjects = [new GameObject { Id = "a", Components = [new Rigidbody { Mass = mass }] }] };
+        Diagnostic found = SceneValidator.Validate(document).Report.Diagnostics.Single();
+        Assert.That(
+            (found.Code, found.Pointer, found.Line),
+            Is.EqualTo((DiagnosticCodes.BodyMassNotPositive, "/gameObjects/0/components/0/mass", (int?)null)));
+    }
+
+    private static ValidScene Validate(params GameObject[] objects) =>
+        SceneValidator.Validate(new SceneDocument { GameObjects = objects }).Scene!;
+}

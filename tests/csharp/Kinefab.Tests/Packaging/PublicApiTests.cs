@@ -33,9 +33,13 @@ public class PublicApiTests
             yield return member;
     }
 
-    /// <summary>Accessors are listed with their property.</summary>
-    private static bool IsListed(MemberInfo member) =>
-        member is not MethodInfo { IsSpecialName: true } method || method.Name.StartsWith("op_", StringComparison.Ordinal);
+    /// <summary>Accessors are listed with their property; an enum's value__ is no one's business.</summary>
+    private static bool IsListed(MemberInfo member) => member switch
+    {
+        MethodInfo { IsSpecialName: true } method => method.Name.StartsWith("op_", StringComparison.Ordinal),
+        FieldInfo field => !field.IsSpecialName,
+        _ => true,
+    };
 
     private static string Describe(MemberInfo member) => member switch
     {

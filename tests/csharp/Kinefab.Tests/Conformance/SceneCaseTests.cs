@@ -10,7 +10,6 @@ namespace Kinefab.Tests.Conformance;
 
 public class SceneCaseTests
 {
-    /// <summary>Cases of other kinds are Python's (bundles) or have a runner of their own (frames, joints).</summary>
     private static IEnumerable<string> ScenePaths => ConformanceCases.All.Where(entry => entry.Kind == "scene").Select(entry => entry.Path);
 
     private static readonly string[] Folders = ["valid", "invalid"];
@@ -42,6 +41,14 @@ public class SceneCaseTests
             .SelectMany(folder => Directory.EnumerateFiles(Path.Combine(ConformanceCases.Folder, folder), "*.kinefab", SearchOption.AllDirectories))
             .Select(file => Path.GetRelativePath(ConformanceCases.Folder, file).Replace('\\', '/'));
         Assert.That(files, Is.EquivalentTo(ScenePaths));
+    }
+
+    [Test]
+    public void Manifest_EveryKind_HasARunner()
+    {
+        // Bundles are read by Python alone.
+        string[] kinds = ["scene", "frames", "joints", "bundle"];
+        Assert.That(ConformanceCases.All.Select(entry => entry.Kind).Distinct(), Is.SubsetOf(kinds));
     }
 
     [Test]

@@ -241,6 +241,19 @@ def test_gear_between_hinges_keeps_its_ratio_in_degrees(tmp_path):
     assert content["couplings"][1]["b"]["coordinate"] == "x"
 
 
+def test_coupling_starts_from_the_angles_at_export(tmp_path):
+    """With q_a = 20 and q_b = 10 degrees at export, q_b = -2 q_a + 50 holds there: no offset is left; 55 leaves 5."""
+    for offset, left in ((50, 0), (55, 5)):
+        scene = kinefab.Scene()
+        for name, angle in (("A", 20), ("B", 10)):
+            part = scene.add_part(name, BOX, rotation=rotation_about(np.array([0.0, 0, 1]), math.radians(angle)))
+            joint = scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 0, 1), name=name)
+            scene.joints[-1] = replace(joint, frame_b=joint.frame_a)  # zero where the part stands unturned
+        scene.couplings.append(Coupling("G", CouplingKind.GEAR, "A", RX, "B", RX, -2.0, math.radians(offset)))
+        content, _ = exported(scene, tmp_path)
+        assert content["couplings"][0].get("offset", 0) == pytest.approx(left)
+
+
 def test_coupling_on_a_missing_joint_is_dropped_with_a_report(tmp_path):
     """A coupling whose joint has no component is named in the report."""
     scene = lid_scene()
@@ -373,3 +386,26 @@ def test_joint_of_six_freedoms_needs_no_component(tmp_path):
     scene.add_joint(JointKind.FREE, None, part, point=(0, 0, 0), name="F")
     _, result = exported(scene, tmp_path)
     assert [o.code for o in result.report.outcomes] == ["JOINT_REMOVES_NOTHING"]
+
+
+def test_bodies_of_a_part_are_children_with_stable_unique_ids(tmp_path):
+    """Several bodies become children of the part, named after themselves even where names repeat."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    names = ("skin", "skin", "skin#2")
+    scene.nodes[part] = replace(scene.nodes[part], bodies=tuple(replace(scene.nodes[part].bodies[0], name=n) for n in names))
+    content, _ = exported(scene, tmp_path)
+    ids = [o["id"] for o in content["gameObjects"]]
+    assert ids == ["P", "P/body:skin", "P/body:skin#2", "P/body:skin#2#2"]
+    assert all(o["parent"] == 0 for o in content["gameObjects"][1:])
+    (body,) = components(content, "P", "Rigidbody")
+    assert body["mass"] == pytest.approx(18)
+
+
+def test_empty_mesh_is_refused_by_the_builder():
+    """A part made of nothing, or with a density of nothing, is a programmer's mistake."""
+    scene = kinefab.Scene()
+    with pytest.raises(ValueError):
+        scene.add_part("P", trimesh.Trimesh())
+    with pytest.raises(ValueError):
+        scene.add_part("P", BOX, density=0.0)

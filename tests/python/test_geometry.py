@@ -10,10 +10,11 @@ import pytest
 import trimesh
 
 from kinefab.diagnostics import Report
-from kinefab.geometry.files import FORMATS, read_mesh_file
+from kinefab.geometry.files import FORMATS, transformed
 from kinefab.geometry.hulls import collision_hulls, hull_of_points
 from kinefab.geometry.loading import MeshFiles, load_geometry
 from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties
+from kinefab.geometry.pieces import Piece
 from kinefab.geometry.weighing import weigh
 from kinefab.model import Body, MassProperties, Mesh, MeshKey, MeshReference, Node, Scene
 from kinefab.spatial import Pose, rotation_exp
@@ -249,6 +250,14 @@ def test_mirrored_part_is_baked_with_its_winding_turned(tmp_path):
     scene = load_geometry(scene, MeshFiles(report), report, lambda *_: None)
     assert volume(scene.meshes[0]) == pytest.approx(8)
     assert scene.meshes[0].vertices[:, 0].min() == -12
+
+
+def test_normals_of_a_stretched_mesh_stay_across_it():
+    """Normals go by the inverse transpose: a slope of 1:1 stretched fourfold in height leans accordingly."""
+    slope = Piece(np.array([[0.0, 0, 0], [1, -1, 0], [0, 0, 1]]), np.array([[0, 1, 2]]), np.full((3, 3), (0.5**0.5, 0.5**0.5, 0)))
+    found = transformed(slope, np.diag([1.0, 4.0, 1.0, 1.0]))
+    assert np.allclose(found.normals, np.array([4, 1, 0]) / 17**0.5)
+    assert np.allclose(found.normals @ (found.vertices[1] - found.vertices[0]), 0)
 
 
 def weighed(vertices, faces, **body):

@@ -14,7 +14,7 @@ from kinefab.model import Drive, Freedom, Joint, JointKind, Motion, Node, Scene,
 from kinefab.rigid import rigid_groups
 from kinefab.spatial import Pose, matrix_from_quaternion
 from kinefab.unity.joints import map_joint
-from unity_semantics import ANGULAR, LINEAR, Live, compose, inverse, matrix, mirrored, turn
+from unity_semantics import ANGULAR, LINEAR, Live, compose, inverse, matrix, mirrored, rotation_vector, turn
 
 NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
 KINDS = [kind for kind in JointKind if kind not in (JointKind.FREE, JointKind.GENERAL, JointKind.FIXED)]
@@ -294,3 +294,127 @@ def test_cone_of_a_ball_joint_is_measured_from_a():
         assert case.violation_at([0, 0, 0, 1.0, math.radians(30), 0]) < 1e-9
         assert case.violation_at([0, 0, 0, 1.0, 0, math.radians(50)]) < 1e-9
         assert case.violation_at([0, 0, 0, 1.0, math.radians(36), 0]) == pytest.approx(0.2, abs=1e-9)
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+def test_drive_targets_count_from_the_middle_of_the_range_and_from_the_exported_angle(grounding):
+    """A limited slide's target is measured from its middle, a turn's from q0: at the target, c meets both."""
+    slide = Freedom(Motion.LIMITED, -0.01, 0.08, Drive(target=0.06, stiffness=5.0))
+    turning = Freedom(Motion.FREE, drive=Drive(target=0.9, stiffness=5.0))
+    case = Case(23, JointKind.CYLINDRICAL, np.full(6, 0.05), grounding, tx=slide, rx=turning)
+    r, d = case.live.c(*case.unity_poses(*case.poses_at([0.06, 0, 0, 0.9, 0, 0])))
+    assert np.allclose(d, case.component["targetPosition"], atol=1e-12)
+    assert np.allclose(r, matrix(case.component["targetRotation"]), atol=1e-12)
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+@pytest.mark.parametrize("kind, freedom", [(kind, i) for kind in KINDS for i in UNLOCKED[kind]])
+def test_coordinate_of_a_coupling_reads_the_own_bodys_motion(kind, freedom, grounding):
+    """sign * (q - zero) is how far the own body moves against the connected one, by the left-hand rule."""
+    case = Case(29, kind, np.zeros(6), grounding)
+    q = np.zeros(6)
+    q[freedom] = 0.3
+    start = case.unity_poses(*case.poses_at(np.zeros(6)))
+    reading = case.mapped.coordinates[freedom]
+    expected = reading.sign * (0.3 - reading.zero)
+    if case.component["type"] == "HingeJoint":
+        angle = case.live.hinge_angle(*case.unity_poses(*case.poses_at(q)))
+        assert reading.name == "angle" and math.radians(angle) == pytest.approx(expected, abs=1e-12)
+        return
+    own_against_connected = 1.0 if case.component.get("swapBodies") else -1.0
+    r, d = case.live.c(*case.unity_poses(*case.poses_at(q)))
+    d = own_against_connected * (d - case.live.c(*start)[1])
+    turning = own_against_connected * rotation_vector(r)
+    found = dict(zip(("x", "y", "z", "angularX", "angularY", "angularZ"), [*d, *turning]))
+    assert found.pop(reading.name) == pytest.approx(expected, abs=1e-12)
+    assert max(map(abs, found.values())) < 1e-12
+
+
+def test_limits_and_readings_of_a_joint_exported_away_from_zero_start_at_zero():
+    """The reading's zero is the coordinate at export, so a coupling starts from what is met there."""
+    case = Case(31, JointKind.CYLINDRICAL, np.array([0.2, 0, 0, 0.4, 0, 0]))
+    assert case.mapped.coordinates[0].zero == pytest.approx(0.2)
+    assert case.mapped.coordinates[3].zero == pytest.approx(0.4)
+
+
+SETS = [[i for i in range(6) if bits >> i & 1] for bits in range(1, 63)]
+
+
+def leaves_slides_uneven(unlocked) -> bool:
+    """Whether two rotations are left and, of the slides across the axis fixed in a, just one."""
+    rotations = [i - 3 for i in unlocked if i > 2]
+    if len(rotations) != 2:
+        return False
+    fixed_in_a = 2 if rotations != [0, 1] else 1
+    return len([i for i in range(3) if i != fixed_in_a and i in unlocked]) == 1
+
+
+@pytest.mark.parametrize("unlocked", SETS)
+def test_any_set_of_freedoms_is_carried_by_one_component(unlocked):
+    """All 62 sets of plain freedoms: what the CAD joint allows, the component allows, freedom for freedom; where
+    that cannot be away from the joint's zero, it is reported."""
+    for seed, grounding in enumerate(GROUNDING):
+        q0 = np.random.default_rng(seed).uniform(-0.6, 0.6, 6) * (0.0 if leaves_slides_uneven(unlocked) else 1.0)
+        case = Case(seed, JointKind.GENERAL, q0, grounding, **{NAMES[i]: Freedom(Motion.FREE) for i in unlocked})
+        assert [o.outcome.value for o in case.report.outcomes] == ["kept"]
+        for _ in range(5):
+            assert case.violation_at(case.random_q()) < 1e-12
+        if case.component["type"] == "ConfigurableJoint":
+            assert len(case.live.unlocked(LINEAR)) + len(case.live.unlocked(ANGULAR)) == len(unlocked)
+
+
+@pytest.mark.parametrize("unlocked", [s for s in SETS if leaves_slides_uneven(s)])
+def test_slides_that_turn_with_the_exported_pose_are_reported(unlocked):
+    """One slide across the axis fixed in a, exported away from zero, fits no component: JOINT_AXES_TURNED."""
+    case = Case(3, JointKind.GENERAL, np.full(6, 0.3), **{NAMES[i]: Freedom(Motion.FREE) for i in unlocked})
+    assert [o.code for o in case.report.outcomes] == ["JOINT_AXES_TURNED"]
+    assert case.component["exact"] is False
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if len([i for i in UNLOCKED[kind] if i > 2]) < 3])
+def test_tilted_pose_is_a_gap_in_degrees(kind):
+    """Two degrees about a locked axis are reported as two degrees, and the component as not exact."""
+    case = Case(37, kind)
+    locked = next(i for i in (4, 5, 3) if i not in UNLOCKED[kind])
+    tilt = Pose(turn(locked - 3, math.radians(2)), np.zeros(3))
+    joint = case.joint
+    moved = case.scene.nodes[0].pose @ joint.frame_a @ tilt @ joint.frame_b.inverse()
+    case.scene.nodes[1] = Node("B", "B", pose=moved)
+    report = Report()
+    mapped = map_joint(joint, case.scene, rigid_groups(case.scene), lambda node: node, report)
+    (finding,) = report.diagnostics
+    assert finding.code == "JOINT_POSE_GAP" and " 2 degrees" in finding.message
+    assert mapped.component["exact"] is False
+
+
+def test_range_of_one_value_is_a_lock_at_that_value():
+    """A slide limited to 0.2..0.2 is a fixed joint, and its pose at 0.2 has no gap."""
+    held = Freedom(Motion.LIMITED, 0.2, 0.2)
+    case = Case(41, JointKind.PRISMATIC, np.full(6, 0.2), tx=held)
+    assert case.component["type"] == "FixedJoint" and case.report.diagnostics == []
+    case = Case(41, JointKind.CYLINDRICAL, np.full(6, 0.2), tx=held)
+    assert case.component["type"] == "HingeJoint" and case.report.diagnostics == []
+    assert case.violation_at([0.2, 0, 0, 1.0, 0, 0]) < 1e-12
+
+
+def test_soft_limit_and_strong_spring_need_a_configurable_joint():
+    """What a HingeJoint lacks (soft limits, a spring's largest torque) goes to a ConfigurableJoint."""
+    soft = Freedom(Motion.LIMITED, -0.2, 1.4, stiffness=30.0, damping=2.0)
+    case = Case(43, JointKind.REVOLUTE, rx=soft)
+    assert case.component["angularXLimitSpring"] == {"spring": 30.0, "damper": 2.0}
+    assert case.violation_at([0, 0, 0, 1.4, 0, 0]) < 1e-12
+    weak = Freedom(Motion.FREE, drive=Drive(target=0.5, stiffness=4.0, max_force=2.0))
+    case = Case(43, JointKind.REVOLUTE, rx=weak)
+    assert case.component["angularXDrive"]["maximumForce"] == 2.0
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+def test_cross_joint_limits_hold_from_any_exported_pose(grounding):
+    """A universal joint exported bent: -10..80 degrees about b's axis and +-20 about a's, counted from its bend."""
+    rz = math.degrees(0.3)
+    q0 = np.array([0, 0, 0, 0.5, 0, 0.3])
+    case = Case(47, JointKind.UNIVERSAL, q0, grounding, rx=between(-10, 80), rz=between(rz - 20, rz + 20))
+    assert [o.outcome.value for o in case.report.outcomes] == ["kept"]
+    for x, z, beyond in ((-10, rz, 0), (80, rz - 20, 0), (83, rz, 3), (0, rz + 24, 4), (-12, rz + 5, 2)):
+        values = [0, 0, 0, math.radians(x), 0, math.radians(z)]
+        assert case.violation_at(values) == pytest.approx(math.radians(beyond), abs=1e-9)

@@ -45,17 +45,24 @@ class Scene(model.Scene):
         parent: index of an assembly, or None.  grounded: fixed to the world.
         density: kg/m^3, None for the export's default.  mass: given instead of computed.
         color: linear red green blue (alpha), 0..1.
+        Raises ValueError for a mesh without triangles or a density that is not above zero.
         """
+        if density is not None and not density > 0.0:
+            raise ValueError(f"the density of {name} is {density}; it must be above zero")
         bodies: tuple[Body, ...] = ()
         if mesh is not None:
+            faces = np.asarray(mesh.faces, dtype=np.int64)
+            if len(faces) == 0:
+                raise ValueError(f"the mesh of {name} has no triangles")
             materials: tuple[int, ...] = ()
             if color is not None:
-                self.materials.append(model.Material(name, (*(float(c) for c in color[:3]), *([1.0, *color[3:]][-1:]))))
+                red, green, blue, alpha = (*map(float, color), 1.0)[:4]
+                self.materials.append(model.Material(name, (red, green, blue, alpha)))
                 materials = (len(self.materials) - 1,)
-            faces = np.asarray(mesh.faces, dtype=np.int64)
             self.meshes.append(Mesh(name, np.asarray(mesh.vertices, dtype=np.float64), faces))
             bodies = (Body(name, len(self.meshes) - 1, materials, density),)
-        return self._add_node(name, NodeKind.PART, parent, translation, rotation, bodies=bodies, mass=mass, grounded=grounded)
+        fields = {"bodies": bodies, "mass": mass, "grounded": grounded}
+        return self._add_node(name, NodeKind.PART, parent, translation, rotation, **fields)
 
     def add_assembly(
         self,
@@ -75,8 +82,10 @@ class Scene(model.Scene):
     ) -> int:
         path = name if parent is None else f"{self.nodes[parent].id}/{name}"
         taken = {node.id for node in self.nodes}
-        copies = (f"{path}:{i}" for i in range(2, len(taken) + 3))
-        node_id = path if path not in taken else next(i for i in copies if i not in taken)
+        node_id, copy = path, 1
+        while node_id in taken:
+            copy += 1
+            node_id = f"{path}:{copy}"
         turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=np.float64)
         self.nodes.append(Node(node_id, name, kind, parent, Pose(turn, vector(translation)), **fields))
         return len(self.nodes) - 1

@@ -203,7 +203,8 @@ class JointKind(str, Enum):
     TRANSLATE_2 = "translate_2"  # ty tz: X the normal
     TRANSLATE_3 = "translate_3"  # tx ty tz
     FREE = "free"
-    GENERAL = "general"  # any other set of freedoms
+    # Any other set of freedoms.  With two rotations X (or Y where X is locked) is fixed in b, the other in a.
+    GENERAL = "general"
 
 
 UNLOCKED: Mapping[JointKind, tuple[int, ...]] = {

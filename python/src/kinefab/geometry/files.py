@@ -41,6 +41,9 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
         return None
     except MemoryError:
         raise
+    except ImportError as error:  # a format whose parser is a package of its own
+        report.add("GEOMETRY_FORMAT_UNKNOWN", where, path=path.name, advice=f"Install it ({error}), or export OBJ or glTF.")
+        return None
     except Exception as error:  # trimesh's parsers raise whatever the damaged bytes lead to
         report.add("GEOMETRY_UNREADABLE", where, path=path.name, detail=_brief(error))
         return None

@@ -20,6 +20,8 @@ from .placement import BASIS_SIGNS, Placement
 
 OPEN_TRAVEL = 100.0
 """Metres of travel written for a slide that ends on one side only: Unity's linear limit has two ends."""
+TURNED = 1e-4
+"""Radians that the frames may be turned against each other before it is reported."""
 MOTOR_DAMPER = 1e9
 """Damper, N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
 
@@ -74,11 +76,12 @@ def configurable_fields(
         if freedom.motion is Motion.LIMITED:
             report_outside(joint, shape.name_of[i], freedom, zeros[i], report)
     motions = [freedom.motion for freedom in shape.freedoms]
+    _report_turned_axes(writing)
     middle = _linear_limits(writing)
     _twist_limits(writing, motions)
     _swing_limits(writing, motions)
-    turned = abs(zeros[RX + 1]) + abs(zeros[RX + 2]) > 1e-6
-    if turned and len(shape.rotations) > 1 and not shape.plain(range(6)):
+    swung = max(abs(zeros[RX + 1]), abs(zeros[RX + 2])) > TURNED
+    if swung and len(shape.rotations) == 3 and not shape.plain(range(RX, RX + 3)):
         # Unity's zero is the exported pose, but a swing there is no shift of the angles.
         writing.approximated("JOINT_ZERO_SHIFTED")
     _linear_drives(writing, middle)
@@ -87,6 +90,18 @@ def configurable_fields(
         writing.fields["swapBodies"] = True
     written = {name: _TITLES[motion] for name, motion in zip(_MOTIONS, motions)}
     return written | writing.fields, middle
+
+
+def _report_turned_axes(w: _Writing) -> None:
+    """With two rotations the component's frame follows b's axis, so it stands turned against a's at export;
+    that is no matter where the slides across the turned axis are both locked or both plain and free."""
+    if len(w.shape.rotations) != 2:
+        return
+    about = w.shape.rotations[1]
+    across = [i for i in range(3) if i != about]
+    alike = len({w.shape.freedoms[i].motion for i in across}) == 1 and w.shape.plain(across)
+    if not alike and abs(w.zeros[RX + about]) > TURNED:
+        w.approximated("JOINT_AXES_TURNED", degrees=f"{math.degrees(w.zeros[RX + about]):.3g}")
 
 
 def _linear_limits(w: _Writing) -> Array:

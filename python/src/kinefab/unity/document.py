@@ -159,12 +159,15 @@ class _Builder:
         parent = self.object_of[index]
         group = self.groups.group_of[index]
         dynamic = group is not None and not self.groups.grounded[group]
-        taken: dict[str, int] = {}
+        taken: set[str] = set()
         for body in bodies:
             holder = entry
             if len(bodies) > 1:
-                count = taken[body.name] = taken.get(body.name, 0) + 1
-                suffix = body.name if count == 1 else f"{body.name}#{count}"
+                suffix, count = body.name, 1
+                while suffix in taken:
+                    count += 1
+                    suffix = f"{body.name}#{count}"
+                taken.add(suffix)
                 holder = self._object(f"{node.id}/body:{suffix}", body.name, parent, Pose())
             mesh = self.scene.meshes[body.mesh]
             materials = list(body.materials) or [self._plain_material()] * max(1, len(mesh.face_counts))

@@ -8,9 +8,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 import kinefab
+from kinefab.diagnostics import schema_directory
 from scenes import lid_scene, read
 
 LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
@@ -90,16 +92,27 @@ def test_missing_source_exits_1_and_writes_nothing(tmp_path):
     done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", tmp_path / "r.json")
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert [p.name for p in tmp_path.iterdir()] == ["r.json"]
-    report = json.loads((tmp_path / "r.json").read_text())
+    report = checked_report(tmp_path / "r.json")
     assert report["diagnostics"][0]["severity"] == "error"
+    assert report["written"] is False and report["errors"] == 1
+
+
+def checked_report(path: Path) -> dict:
+    schema = json.loads((schema_directory() / "export_report.schema.json").read_text(encoding="utf-8"))
+    report = json.loads(path.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(report)
+    return report
 
 
 @pytest.mark.skipif(not LEVER.exists(), reason="the lever's fixture is not here")
 def test_lever_is_exported_with_its_hinges_and_slider(tmp_path):
     """The paper's mechanism from its bundle: three hinges and a slider, nothing approximated, no bar in a pipe."""
-    done = run("export", LEVER, "-o", tmp_path / "lever.kinefab", "--strict")
+    target, found = tmp_path / "lever.kinefab", tmp_path / "r.json"
+    done = run("export", LEVER, "-o", target, "--strict", "--report", found)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "" and len(done.stderr.splitlines()) <= 2 and "\x1b" not in done.stderr
-    content = read(tmp_path / "lever.kinefab")
+    report = checked_report(found)
+    assert report["written"] is True and len(report["outcomes"]) >= 4
+    content = read(target)
     joints = [c["type"] for o in content["gameObjects"] for c in o.get("components", []) if c["type"].endswith("Joint")]
     assert sorted(joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]

@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kinefab.diagnostics import Report, schema_directory
+from kinefab.diagnostics import Report
 from kinefab.model import Freedom, Joint, JointKind, Motion, Node, Scene, freedoms_of
 from kinefab.rigid import rigid_groups
 from kinefab.spatial import Pose, rotation_about
 from kinefab.unity import frames
 from kinefab.unity.joints import map_joint
+from scenes import scene_validator
 from unity_semantics import Live, matrix
 
 ROOT = Path(__file__).parents[1] / "conformance"
@@ -34,12 +35,29 @@ def load(case: dict) -> dict:
     return json.loads((ROOT / case["path"]).read_text(encoding="utf-8"))
 
 
-def test_every_case_on_disk_is_listed_once():
-    """The manifest names each frames and joints file, none twice, and none that is not there."""
-    listed = [entry["path"] for kind in ("frames", "joints") for entry in cases(kind)]
-    found = [path.relative_to(ROOT).as_posix() for folder in ("frames", "joints") for path in (ROOT / folder).glob("*.json")]
+RUNNERS = {"scene": "here", "frames": "here", "joints": "here", "source": "test_sources_conformance.py"}
+
+
+def test_every_case_on_disk_is_listed_once_and_has_a_runner():
+    """The manifest names each case file, none twice, none that is not there, and no kind that nobody runs."""
+    manifest = json.loads((ROOT / "manifest.json").read_text(encoding="utf-8"))["cases"]
+    assert {entry["kind"] for entry in manifest} <= RUNNERS.keys()
+    listed = [entry["path"] for entry in manifest if RUNNERS[entry["kind"]] == "here"]
+    patterns = ("frames/*.json", "joints/*.json", "**/*.kinefab")
+    found = [path.relative_to(ROOT).as_posix() for pattern in patterns for path in ROOT.glob(pattern)]
     assert sorted(listed) == sorted(found)
-    assert len(listed) >= 11
+    assert len(listed) >= 124
+
+
+@each("scene")
+def test_scene_case_is_what_the_schema_says(case):
+    """JSON Schema alone accepts or rejects the text, as the manifest states; faults that it cannot see are C#'s."""
+    try:
+        content = json.loads((ROOT / case["path"]).read_bytes().decode("utf-8"))
+        accepted = scene_validator().is_valid(content)
+    except ValueError:
+        accepted = False
+    assert ("accepts" if accepted else "rejects") == case["schema"]
 
 
 def turn_of(source: dict) -> np.ndarray:
@@ -146,8 +164,3 @@ def check_sample(content: dict, component: dict, sample: dict) -> None:
 def is_start(content: dict, sample: dict) -> bool:
     values = {name: entry["value"] for name, entry in content["joint"]["freedoms"].items()}
     return all(value == values.get(name, 0) for name, value in sample["coordinate"].items())
-
-
-def test_schemas_are_where_the_cases_need_them():
-    """Both languages read the same schemas."""
-    assert (schema_directory() / "scene.schema.json").is_file()

@@ -69,7 +69,7 @@ def export(
     _log(found)
     failed = result is None
     if report is not None:
-        _write_report(report, found, failed)
+        _write_report(report, report_document(found, str(output), not failed))
     if failed:
         typer.echo(f"{output} was not written: {reasons} {'losses or ' if strict else ''}errors.", err=True)
         raise typer.Exit(1)
@@ -107,9 +107,9 @@ def _log(report: Report) -> None:
             console.print(Text(str(found), style=style[found.severity]))
 
 
-def _write_report(path: Path, report: Report, failed: bool) -> None:
+def _write_report(path: Path, content: dict[str, object]) -> None:
     try:
-        path.write_text(json.dumps(report_document(report, not failed), indent=2, ensure_ascii=False) + "\n", "utf-8")
+        path.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
         typer.echo(f"{path} cannot be written: {error.strerror}", err=True)
         raise typer.Exit(1)

@@ -140,8 +140,8 @@ class Report:
             raise KinefabError(errors)
 
 
-def report_document(report: Report, ok: bool) -> dict[str, object]:
-    """A report as ``schemas/report.schema.json`` has it.  ok: whether the run reached its end."""
+def report_document(report: Report, target: str, written: bool) -> dict[str, object]:
+    """A report as ``schemas/export_report.schema.json`` has it.  target: the scene file; written: whether it was."""
     findings = [
         {
             "code": d.code,
@@ -153,7 +153,19 @@ def report_document(report: Report, ok: bool) -> dict[str, object]:
         for d in report.diagnostics
     ]
     outcomes = [
-        {"feature": o.feature, "outcome": o.outcome.value, **({"code": o.code} if o.code else {})}
+        {
+            "feature": o.feature,
+            "outcome": o.outcome.value,
+            **({"code": o.code, "message": o.message} if o.code else {}),
+            **({"where": o.where} if o.where else {}),
+        }
         for o in report.outcomes
     ]
-    return {"ok": ok, "diagnostics": findings, "outcomes": outcomes}
+    return {
+        "file": target,
+        "written": written,
+        "errors": len(report.of(Severity.ERROR)),
+        "warnings": len(report.of(Severity.WARNING)),
+        "diagnostics": findings,
+        "outcomes": outcomes,
+    }

@@ -111,7 +111,8 @@ def relative_path(record: Record, key: str, file: str) -> PurePosixPath | None:
 def read_mass(
     component: Record, placement: Placement, node: int, frame: SourceFrame, index: Mapping[str, int]
 ) -> MassProperties | None:
-    """The mass as the source gives it, brought into the node's frame; None when it gives none."""
+    """The mass as the source gives it, brought into the node's frame (whether a body can have it is asked where all
+    masses are weighed); None when it gives none."""
     record = component.record("mass", MASS)
     if record is None:
         return None
@@ -122,18 +123,8 @@ def read_mass(
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if not record.sound:
         return None
-    if mass <= 0.0:
-        record.fault("MASS_NOT_POSITIVE", "mass", mass=f"{mass:g}")
-    elif not _is_inertia(tensor):
-        record.fault("INERTIA_IMPOSSIBLE", "inertia")
     axes = placement.rotations[node].T @ placement.rotations[inside] @ placement.local[inside]
     return MassProperties(mass, placement.points([node], [inside], [center])[0], axes @ tensor @ axes.T)
-
-
-def _is_inertia(tensor: Array) -> bool:
-    """Whether a body can have this tensor: positive, and no principal moment above the sum of the others."""
-    small, middle, large = np.linalg.eigvalsh(tensor)
-    return small > 0.0 and large <= (small + middle) * (1.0 + 1e-6)
 
 
 def frame_index(record: Record, key: str, own: int, index: Mapping[str, int]) -> int:

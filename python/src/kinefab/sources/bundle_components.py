@@ -97,7 +97,7 @@ def _unique(bundle: Record, log: Log) -> dict[str, Record]:
 
 
 def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[str]:
-    """The ids with every parent before its children, else in the order of the file."""
+    """The ids with every parent before its children, else in the order of the file; cycles are cut."""
     ordered: dict[str, None] = {}
     for name in records:
         chain: dict[str, None] = {}
@@ -105,6 +105,7 @@ def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[
             if name in chain:
                 loop = list(chain)[list(chain).index(name) :]
                 records[name].fault("HIERARCHY_CYCLE", "parent", path=" -> ".join([*loop, name]))
+                parents[name] = ""  # cut, so that nobody walks it for ever
                 break
             chain[name] = None
             if (parent := parents[name]) and parent not in records:

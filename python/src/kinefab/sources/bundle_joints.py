@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..model import LOCKED, UNLOCKED, Freedom, Joint, JointKind, Motion, freedoms_of
+from ..model import UNLOCKED, Freedom, Joint, JointKind, Motion, freedoms_of
 from ..spatial import Array, Pose, perpendicular
 from .bundle_components import Components
 from .joint_draft import JOINT, FrameDraft, JointDraft, read_draft
@@ -64,7 +64,6 @@ def _build(drafts: list[JointDraft], placement: Placement, found: Joints, log: L
         _check_flip(draft, bool(pairs.opposed[i]))
         unlocked, known = UNLOCKED[draft.kind], pairs.known[i]
         here = np.array([pairs.measured[i, k] if k in unlocked and known[k] else 0.0 for k in range(6)])
-        _check_gap(draft, pairs, i)
         wanted, turns = _positions(draft, here, known)
         world_b = np.eye(4)
         world_b[:3, :3], world_b[:3, 3] = pairs.axes_b[i], pairs.origins_b[i]
@@ -78,7 +77,7 @@ def _build(drafts: list[JointDraft], placement: Placement, found: Joints, log: L
                 b=draft.b,
                 frame_a=_in_node(placement, draft.a, pairs.axes_a[i], pairs.origins_a[i]),
                 frame_b=_in_node(placement, draft.b, world_b[:3, :3], world_b[:3, 3]),
-                freedoms=_freedoms(draft, wanted, turns),
+                freedoms=_freedoms(draft, turns),
                 name=draft.name,
                 lead=draft.lead,
                 because=draft.because,
@@ -92,7 +91,7 @@ def _build(drafts: list[JointDraft], placement: Placement, found: Joints, log: L
 class FramePairs:
     """Joint frames in the world, X-main, shapes (n, 3, 3) and (n, 3).  opposed: the z axes as given pointed
     against each other, shape (n,).  known: whether the frames as given say the coordinate, shape (n, 6).
-    measured: coordinates of b's frame in a's, shape (n, 6).  between: b's axes in a's, shape (n, 3, 3).
+    measured: coordinates of b's frame in a's, shape (n, 6).
     """
 
     axes_a: Array
@@ -102,7 +101,6 @@ class FramePairs:
     opposed: np.ndarray
     known: np.ndarray
     measured: Array
-    between: Array
 
 
 def _bring_together(drafts: list[JointDraft], placement: Placement) -> FramePairs:
@@ -123,7 +121,6 @@ def _bring_together(drafts: list[JointDraft], placement: Placement) -> FramePair
     # Without a frame of its own b's coincides with a's now.
     axes_b[~given], origins_b[~given] = axes_a[~given], origins_a[~given]
     back = np.swapaxes(axes_a, 1, 2)
-    between = back @ axes_b
     return FramePairs(
         axes_a,
         origins_a,
@@ -131,8 +128,7 @@ def _bring_together(drafts: list[JointDraft], placement: Placement) -> FramePair
         origins_b,
         opposed,
         known=np.column_stack([given] * 3 + [has_x] * 3),
-        measured=coordinates(between, np.einsum("nij,nj->ni", back, origins_b - origins_a)),
-        between=between,
+        measured=coordinates(back @ axes_b, np.einsum("nij,nj->ni", back, origins_b - origins_a)),
     )
 
 
@@ -157,24 +153,6 @@ def _check_flip(draft: JointDraft, opposed: bool) -> None:
     """The geometry decides; a flag that says otherwise is worth a word."""
     if draft.frame_b is not None and draft.kind not in WITHOUT_AXIS and opposed != draft.flipped:
         draft.record.fault("JOINT_FLIP_MISMATCH", "flipped", feature=f"joint {draft.id}", stated=draft.flipped)
-
-
-def _check_gap(draft: JointDraft, pairs: FramePairs, i: int) -> None:
-    """How far the saved pose misses the joint, in the freedoms it locks."""
-    unlocked, between = UNLOCKED[draft.kind], pairs.between[i]
-    distance = math.hypot(*(pairs.measured[i, k] for k in range(3) if k not in unlocked))
-    if draft.kind is JointKind.SPHERICAL:
-        angle = 0.0
-    elif draft.kind is JointKind.UNIVERSAL:
-        angle = math.asin(min(1.0, abs(between[2, 0])))
-    elif draft.kind in (JointKind.FIXED, JointKind.PRISMATIC) and pairs.known[i, 3]:
-        angle = math.acos(max(-1.0, min(1.0, (np.trace(between) - 1.0) / 2.0)))
-    else:
-        angle = math.atan2(math.hypot(between[1, 0], between[2, 0]), between[0, 0])
-    if distance > GAP_LENGTH or angle > GAP_ANGLE:
-        draft.record.fault(
-            "JOINT_FRAME_GAP", "", feature=f"joint {draft.id}", distance=f"{distance:.3g}", angle=f"{math.degrees(angle):.3g}"
-        )
 
 
 def _positions(draft: JointDraft, here: Array, known: np.ndarray) -> tuple[Array, Array]:
@@ -204,13 +182,10 @@ def _positions(draft: JointDraft, here: Array, known: np.ndarray) -> tuple[Array
     return positions, turns
 
 
-def _freedoms(draft: JointDraft, positions: Array, turns: Array) -> tuple[Freedom, ...]:
+def _freedoms(draft: JointDraft, turns: Array) -> tuple[Freedom, ...]:
     freedoms = list(freedoms_of(draft.kind))
     for freedom, said in draft.dof.items():
         lower, upper = said.lower - turns[freedom], said.upper - turns[freedom]
-        slack = GAP_ANGLE if freedom >= 3 else GAP_LENGTH
-        if not lower - slack <= positions[freedom] <= upper + slack:
-            said.record.fault("LIMITS_WITHOUT_VALUE", "", feature=f"joint {draft.id}")
         if lower > -math.inf or upper < math.inf:
             freedoms[freedom] = Freedom(Motion.LIMITED, lower, upper)
     return tuple(freedoms)

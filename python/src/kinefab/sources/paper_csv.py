@@ -189,7 +189,8 @@ class _Reading:
             "flexible": not parent,
         }
         if parent:
-            component["parent"] = self._named(row, parent, ids) or parent
+            self._check_single(row, parent, ids)
+            component["parent"] = ids.of_name.get(parent, parent)
         return component
 
     def _freedoms(self, row: Row, cell: dict[str, list[str]]) -> dict[str, list[list[object]]]:
@@ -211,18 +212,20 @@ class _Reading:
             point = self._vector(points[i]) if i < len(points) else None
             if direction is None or i < len(points) and point is None:
                 self._unreadable(row, "axes", entry, "a part's name and three numbers, as in Shaft:1 0 0 1")
-            elif partner_id := self._named(row, " ".join(partner).strip(), ids, "PARTNER_UNKNOWN"):
+            elif partner_id := self._partner(row, " ".join(partner).strip(), ids):
                 self.axes.append(Axis(name, partner_id, tuple(direction), point and tuple(point), row.line))
 
-    def _named(self, row: Row, name: str, ids: "_Ids", code: str = "") -> str | None:
+    def _partner(self, row: Row, name: str, ids: "_Ids") -> str | None:
         """The id that a bare name stands for; None, after a report, when that is not clear."""
-        place = f"{self.path.name}:{row.line}"
-        if name in ids.twice:
-            self.report.add("NAME_AMBIGUOUS", place, name=shown(name))
-        elif name not in ids.of_name and code:
+        if name not in ids.of_name:
             near = ", ".join(get_close_matches(name, ids.of_name)) or "none"
-            self.report.add(code, place, name=shown(name), near=near)
-        return ids.of_name.get(name)
+            self.report.add("PARTNER_UNKNOWN", f"{self.path.name}:{row.line}", name=shown(name), near=near)
+        return ids.of_name.get(name) if self._check_single(row, name, ids) else None
+
+    def _check_single(self, row: Row, name: str, ids: "_Ids") -> bool:
+        if name in ids.twice:
+            self.report.add("NAME_AMBIGUOUS", f"{self.path.name}:{row.line}", name=shown(name))
+        return name not in ids.twice
 
     def _numbers(self, row: Row, cell: dict[str, list[str]], key: str) -> list[object] | None:
         text = " ".join(cell.get(key, ()))

@@ -18,7 +18,6 @@ Vector = tuple[float, float, float]
 REQUIRED: object = object()
 """Default of a field that must be there."""
 
-MAX_EXTRAS_DEPTH = 64
 MAX_NUMBER = 1e15
 """Largest magnitude of a number: its cube is still far from overflow, and no length comes near it."""
 MIN_DIRECTION = 1e-9
@@ -235,14 +234,12 @@ class Record:
         if not isinstance(value, dict):
             self.wrong("extras", "an object", value)
             return {}
-        open_values: list[tuple[object, int]] = [(value, 0)]
+        open_values: list[object] = [value]
         while open_values:
-            entry, depth = open_values.pop()
-            inner = [*entry, *entry.values()] if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
-            open_values += [(v, depth + 1) for v in inner]
+            entry = open_values.pop()
+            open_values += [*entry, *entry.values()] if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
             broken_text = isinstance(entry, str) and not is_encodable(entry)
-            broken_number = isinstance(entry, float) and not math.isfinite(entry)
-            if broken_text or broken_number or depth > MAX_EXTRAS_DEPTH:
-                self.fault("BUNDLE_EXTRAS", "extras", limit=MAX_EXTRAS_DEPTH)
+            if broken_text or isinstance(entry, float) and not math.isfinite(entry):
+                self.fault("BUNDLE_EXTRAS", "extras")
                 return {}
         return value

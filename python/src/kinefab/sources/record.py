@@ -68,7 +68,10 @@ def kind_of(value: object) -> str:
         return f"the text '{shown(value)}'"
     if isinstance(value, (int, float)):
         return "a number"
-    return "an array" if isinstance(value, list) else "an object"
+    if isinstance(value, list):
+        odd = next((entry for entry in value if not is_number(entry)), None)
+        return f"an array of {len(value)}" if odd is None else f"an array with {kind_of(odd)}"
+    return "an object"
 
 
 def is_number(value: object) -> bool:

@@ -12,8 +12,7 @@ from ..diagnostics import Report
 DELIMITERS = (";", "\t", ",")
 """In the order they are looked for: a comma may also be a decimal sign, the others mean nothing else."""
 
-COMMA_NUMBER = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
-POINT_NUMBER = re.compile(r"[-+]?\d*\.\d+([eE][-+]?\d+)?")
+COMMA_NUMBER = re.compile(r"(?:^|\s)[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s|$)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +25,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """rows: those with content.  comments: lines that begin with #, without it.  decimal: '.' or ','."""
+    """rows: those with content.  comments: lines that begin with #, without it.  decimal: '.', or ',' beside '.'."""
 
     rows: tuple[Row, ...]
     comments: tuple[Row, ...]
@@ -61,8 +60,8 @@ def read_table(data: bytes, name: str, report: Report) -> Table:
         report.add("CSV_SYNTAX", f"{name}:{line}", detail=error)
         report.raise_for_errors()
     cells = [cell for row in rows for cell in row.cells]
-    # A comma inside a cell can only be a decimal sign, unless the file also writes points.
-    comma = delimiter != "," and any(map(COMMA_NUMBER.fullmatch, cells)) and not any(map(POINT_NUMBER.fullmatch, cells))
+    # Between digits a comma that is no delimiter is a decimal sign; a version like 1.0 may stand beside it.
+    comma = delimiter != "," and any(map(COMMA_NUMBER.search, cells))
     return Table(tuple(rows), tuple(comments), "," if comma else ".")
 
 

@@ -24,7 +24,12 @@ def part(name: str, o=(0, 0, 0), **more) -> dict:
 
 def bundle(*components: dict, up: str = "Y", length: str = "m", angle: str = "rad", **more) -> dict:
     """A bundle of these components, Y up and in metres and radians unless said."""
-    meta = {"format": "kinefab.bundle", "version": "1.0", "units": {"length": length, "angle": angle}, "up": up}
+    meta = {
+        "format": "kinefab.bundle",
+        "version": "1.0",
+        "units": {"length": length, "angle": angle},
+        "up": up,
+    }
     return {"meta": meta, "components": list(components), **more}
 
 

@@ -19,25 +19,27 @@ LEVER = json.loads((FIXTURES / "lever" / "lever.bundle.json").read_text(encoding
 PAPER = (FIXTURES / "lever" / "lever_paper.csv").read_bytes()
 TAGGED = (FIXTURES / "lever" / "lever.csv").read_bytes()
 
-WRONG = [None, True, 0, -1, 2.5, 1e300, 10**400, "", "x", "\ud800", "a\0b", [], [None], [1, 2], [1, 2, "3"], {}, {"o": 1}]
+WRONG = [None, True, 0, -1, 2.5, 1e300, 10**400, "", "x", "\ud800", "a\0b", {}, {"o": 1}]
+WRONG += [[], [None], [1, 2], [1, 2, "3"]]
 
 
 def places(value, path=()):
     """Every path into a JSON value."""
     yield path
-    for key, inner in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+    for key, inner in (
+        value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    ):
         yield from places(inner, (*path, key))
 
 
-PLACES = list(places({**LEVER, "couplings": [{"id": "C", "kind": "gear", "a": {"joint": "Joint:Pin", "dof": "rz"},
-                                                "b": {"joint": "Joint:Shaft", "dof": "rz"}, "ratio": 2}]}))  # fmt: skip
+COUPLING = {"id": "C", "kind": "gear", "ratio": 2}
+COUPLING |= {"a": {"joint": "Joint:Pin", "dof": "rz"}, "b": {"joint": "Joint:Shaft", "dof": "rz"}}
+WHOLE = {**LEVER, "couplings": [COUPLING]}
+PLACES = list(places(WHOLE))
 
 
 def replaced(place, wrong):
-    values = copy.deepcopy(LEVER)
-    values["couplings"] = [
-        {"id": "C", "kind": "gear", "a": {"joint": "Joint:Pin", "dof": "rz"}, "b": {"joint": "Joint:Shaft", "dof": "rz"}, "ratio": 2}
-    ]
+    values = copy.deepcopy(WHOLE)
     if not place:
         return wrong
     at = values

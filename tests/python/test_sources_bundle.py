@@ -27,7 +27,9 @@ def lever():
     return scene
 
 
-@pytest.mark.parametrize("name", ["lever/lever", "hinge_slider_zup/hinge_slider", "hinge_slider_yup/hinge_slider"])
+@pytest.mark.parametrize(
+    "name", ["lever/lever", "hinge_slider_zup/hinge_slider", "hinge_slider_yup/hinge_slider"]
+)
 def test_fixture_obeys_the_schema(name):
     """Every committed bundle is valid by schemas/bundle.schema.json."""
     schema = json.loads((schema_directory() / "bundle.schema.json").read_text(encoding="utf-8"))
@@ -79,7 +81,11 @@ def test_body_reference_takes_world_vertices_to_the_node(lever):
     on_pin = np.array([2.5 * COS30, 2.5 * SIN30, 0.8, 1.0])
     assert reference.to_node @ on_pin == pytest.approx([0, 0, 0, 1], abs=1e-11)
     assert np.linalg.det(reference.to_node[:3, :3]) == pytest.approx(1e-6)
-    assert (reference.path.name, reference.key, reference.keyed_by) == ("lever.obj", "BarC_1_Bar", MeshKey.OBJECT)
+    assert (reference.path.name, reference.key, reference.keyed_by) == (
+        "lever.obj",
+        "BarC_1_Bar",
+        MeshKey.OBJECT,
+    )
 
 
 def test_every_body_is_in_the_mesh_file(lever):
@@ -144,14 +150,21 @@ def test_mass_comes_into_the_node_in_kilograms_and_metres(tmp_path):
     found = scene.nodes[0].mass
     assert found.mass == pytest.approx(0.5)
     assert found.center == pytest.approx([0.01, 0.03, -0.02])
-    # (x, y, z) -> (x, z, -y): Ixx stays, Iyy and Izz change places, Ixy <- Ixz, Ixz <- -Ixy, Iyz <- -Iyz; g mm^2 = 1e-9.
+    # (x, y, z) -> (x, z, -y): Ixx stays, Iyy and Izz change places, Ixy <- Ixz, Ixz <- -Ixy, Iyz <- -Iyz; g
+    # mm^2 = 1e-9.
     expected = 1e-9 * np.array([[1e6, 3e5, -1e5], [3e5, 2.5e6, -2e5], [-1e5, -2e5, 2e6]])
     assert found.inertia == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(
     ("up", "forward", "expected"),
-    [("Y", None, (1, 2, 3)), ("Z", None, (1, 3, -2)), ("Z", "X", (2, 3, 1)), ("X", None, (-2, 1, 3)), ("Y", "-Z", (-1, 2, -3))],
+    [
+        ("Y", None, (1, 2, 3)),
+        ("Z", None, (1, 3, -2)),
+        ("Z", "X", (2, 3, 1)),
+        ("X", None, (-2, 1, 3)),
+        ("Y", "-Z", (-1, 2, -3)),
+    ],
 )
 def test_up_and_forward_turn_the_world(tmp_path, up, forward, expected):
     """The declared up axis becomes +Y and the forward axis +Z, by a rotation."""
@@ -194,6 +207,8 @@ def test_lever_lists_the_instantaneous_pole_of_the_bar(lever):
 def test_reading_twice_gives_the_same_scene():
     """Two runs agree to the last bit."""
     scenes = [sources.read(FIXTURES / "lever" / "lever.bundle.json", Report()) for _ in range(2)]
-    first, second = ([node.pose.rotation.tobytes() + node.pose.translation.tobytes() for node in s.nodes] for s in scenes)
+    first, second = (
+        [node.pose.rotation.tobytes() + node.pose.translation.tobytes() for node in s.nodes] for s in scenes
+    )
     assert first == second
     assert scenes[0].source == scenes[1].source

@@ -17,7 +17,8 @@ TAGGED = FIXTURES / "lever" / "lever.csv"
 
 
 def plain(value):
-    """A scene as nested lists, without places (a line here, a pointer there) and without the file's own name."""
+    """A scene as nested lists, without places (a line here, a pointer there) and without the file's own
+    name."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Source):

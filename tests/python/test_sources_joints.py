@@ -89,7 +89,8 @@ def test_joint_type_leaves_its_freedoms(tmp_path, word, kind):
     ],
 )
 def test_coordinates_are_relabelled_from_z_to_x(tmp_path, word, names, expected):
-    """(x, y, z) of a Z-main joint frame are (Y, Z, X) of the scene's; without frameB b stands at the values."""
+    """(x, y, z) of a Z-main joint frame are (Y, Z, X) of the scene's; without frameB b stands at the
+    values."""
     dof = [{"name": name, "value": value} for name, value in names.items()]
     scene, report = read(two({"type": word, "frameA": frame((1, 2, 3), Y, Z), "dof": dof}), tmp_path)
     translation, angle = coordinates(scene, scene.joints[0])
@@ -107,7 +108,9 @@ def test_opposed_axes_keep_the_sense_of_a(tmp_path):
     """With b's z against a's, the angle still runs from a's x to b's x about a's z, and lengths along it."""
     other = {"in": "world", "o": [0, 0, 0.4], "z": [0, 0, -1], "x": [math.cos(0.3), math.sin(0.3), 0]}
     joint = {"type": "cylindrical", "frameA": frame((0, 0, 0), Z, X), "frameB": other, "flipped": True}
-    scene, report = read(two({**joint, "dof": [{"name": "rz", "value": 0.3}, {"name": "tz", "value": 0.4}]}), tmp_path)
+    scene, report = read(
+        two({**joint, "dof": [{"name": "rz", "value": 0.3}, {"name": "tz", "value": 0.4}]}), tmp_path
+    )
     translation, angle = coordinates(scene, scene.joints[0])
     assert codes(report) == []
     assert (translation, angle) == (pytest.approx([0.4, 0, 0]), pytest.approx(0.3))
@@ -126,7 +129,12 @@ def test_angle_is_measured_about_any_axis(tmp_path_factory, axis, angle, flipped
     x /= np.linalg.norm(x)
     turned = rotation_about(z, angle) @ x
     other = frame((1, 2, 3), (-z if flipped else z).tolist(), turned.tolist())
-    joint = {"type": "revolute", "frameA": frame((1, 2, 3), z.tolist(), x.tolist()), "frameB": other, "flipped": flipped}
+    joint = {
+        "type": "revolute",
+        "frameA": frame((1, 2, 3), z.tolist(), x.tolist()),
+        "frameB": other,
+        "flipped": flipped,
+    }
     scene, report = read(two(joint), tmp_path_factory.mktemp("angle"))
     assert codes(report) == []
     assert coordinates(scene, scene.joints[0])[1] == pytest.approx(angle, abs=1e-9)
@@ -196,7 +204,9 @@ def test_frames_may_be_given_in_any_component(tmp_path):
 
 def test_screw_lead_is_a_length_a_turn(tmp_path):
     """-2 mm a turn, a left-hand thread, is -0.002 m."""
-    scene, _ = read(two({"type": "screw", "frameA": frame((0, 0, 0), Z, X), "lead": -2}, length="mm"), tmp_path)
+    scene, _ = read(
+        two({"type": "screw", "frameA": frame((0, 0, 0), Z, X), "lead": -2}, length="mm"), tmp_path
+    )
     assert scene.joints[0].lead == pytest.approx(-0.002)
 
 
@@ -212,7 +222,14 @@ def test_screw_lead_is_a_length_a_turn(tmp_path):
 def test_coupling_of_two_hinges(tmp_path, sizes, ratio):
     """dq_b/dq_a from teeth, radii or as given; the offset is that of the exported pose."""
     joints = [
-        {"id": name, "type": "revolute", "a": "ground", "b": name, "frameA": frame((0, 0, 0), Z, X), "dof": [{"name": "rz", "value": q}]}
+        {
+            "id": name,
+            "type": "revolute",
+            "a": "ground",
+            "b": name,
+            "frameA": frame((0, 0, 0), Z, X),
+            "dof": [{"name": "rz", "value": q}],
+        }
         for name, q in (("A", 10), ("B", 35))
     ]
     coupling = {"id": "C", "a": {"joint": "A", "dof": "rz"}, "b": {"joint": "B", "dof": "rz"}, **sizes}
@@ -227,13 +244,19 @@ def test_coupling_of_two_hinges(tmp_path, sizes, ratio):
 
 @pytest.mark.parametrize(
     ("sizes", "ratio"),
-    [({"kind": "rack", "radius": 8}, 0.008), ({"kind": "rack", "pitch": 5}, 0.005 / (2 * math.pi)), ({"kind": "linear", "ratio": 0.25}, 0.00025 * 180 / math.pi)],
+    [
+        ({"kind": "rack", "radius": 8}, 0.008),
+        ({"kind": "rack", "pitch": 5}, 0.005 / (2 * math.pi)),
+        ({"kind": "linear", "ratio": 0.25}, 0.00025 * 180 / math.pi),
+    ],
 )
 def test_coupling_of_a_hinge_and_a_slider(tmp_path, sizes, ratio):
     """Metres a radian from a pitch radius, a travel a turn, or millimetres a degree."""
     hinge = {"id": "H", "type": "revolute", "a": "ground", "b": "A", "frameA": frame((0, 0, 0), Z, X)}
     slide = {"id": "S", "type": "slider", "a": "ground", "b": "B", "frameA": frame((0, 0, 0), X, Y)}
     coupling = {"id": "C", "a": {"joint": "H", "dof": "rz"}, "b": {"joint": "S", "dof": "tz"}, **sizes}
-    values = bundle(part("A"), part("B"), joints=[hinge, slide], couplings=[coupling], length="mm", angle="deg")
+    values = bundle(
+        part("A"), part("B"), joints=[hinge, slide], couplings=[coupling], length="mm", angle="deg"
+    )
     scene, _ = read(values, tmp_path)
     assert scene.couplings[0].ratio == pytest.approx(ratio)

@@ -49,16 +49,24 @@ def on_axis(scene, joint, point) -> float:
 
 
 def test_paper_csv_gives_the_same_parts_as_the_bundle():
-    """Names, hierarchy, poses and mesh references are those of the bundle, where the paper's columns say them."""
+    """Names, hierarchy, poses and mesh references are those of the bundle, as far as the columns go."""
     paper, _ = read(PAPER)
     bundle, _ = read(FIXTURES / "lever" / "lever.bundle.json")
     assert [node.id for node in paper.nodes] == [node.id for node in bundle.nodes]
     for ours, theirs in zip(paper.nodes, bundle.nodes):
-        assert (ours.parent, ours.kind, ours.grounded, ours.flexible) == (theirs.parent, theirs.kind, theirs.grounded, theirs.flexible)
+        assert (ours.parent, ours.kind, ours.grounded, ours.flexible) == (
+            theirs.parent,
+            theirs.kind,
+            theirs.grounded,
+            theirs.flexible,
+        )
         assert np.array_equal(ours.pose.rotation, theirs.pose.rotation)
         assert np.array_equal(ours.pose.translation, theirs.pose.translation)
         assert [b.reference.key for b in ours.bodies] == [b.reference.key for b in theirs.bodies]
-        assert all(np.array_equal(b.reference.to_node, t.reference.to_node) for b, t in zip(ours.bodies, theirs.bodies))
+        assert all(
+            np.array_equal(b.reference.to_node, t.reference.to_node)
+            for b, t in zip(ours.bodies, theirs.bodies)
+        )
 
 
 def test_paper_csv_gives_the_same_freedoms_as_the_bundle():
@@ -69,7 +77,9 @@ def test_paper_csv_gives_the_same_freedoms_as_the_bundle():
     for ours, theirs in zip(paper.dof_records, bundle.dof_records):
         assert np.array_equal(ours.translations, theirs.translations)
         assert np.array_equal(ours.rotations, theirs.rotations)
-        assert np.array_equal(ours.center, theirs.center) if theirs.center is not None else ours.center is None
+        assert (
+            np.array_equal(ours.center, theirs.center) if theirs.center is not None else ours.center is None
+        )
 
 
 def test_paper_axes_become_hinges_on_the_mesh_cylinders():
@@ -87,7 +97,7 @@ def test_paper_axes_become_hinges_on_the_mesh_cylinders():
 
 
 def test_bar_hinge_is_never_put_at_its_instantaneous_pole():
-    """The bar's DOF centre is its pole above the slider, no axis in the bar: without meshes a guess is reported."""
+    """The bar's DOF centre is its pole, no axis in the bar: without meshes a guess is reported."""
     scene, report = read(PAPER)
     assert codes(report) == ["AXIS_POINT_FOUND", "AXIS_POINT_GUESSED", "AXIS_POINT_GUESSED"]
     pole = np.array([SLIDER_X, 0.0, -SLIDER_X * math.tan(math.radians(30))])
@@ -99,7 +109,8 @@ def test_bar_hinge_is_never_put_at_its_instantaneous_pole():
     "head",
     [
         "Name;Type;Parent;Bodies;Origin;X;Y;Z;DOF;Axis constraints;Points",
-        "Bauteilname;Typ;Übergeordnete Baugruppe;Körper;Ursprung;X-Achse;Y-Achse;Z-Achse;Freiheitsgrade;Abhängigkeiten;Achspunkte",
+        "Bauteilname;Typ;Übergeordnete Baugruppe;Körper;Ursprung;X-Achse;Y-Achse;Z-Achse;Freiheitsgrade;"
+        "Abhängigkeiten;Achspunkte",
     ],
 )
 def test_columns_are_found_by_english_and_german_names(tmp_path, head):

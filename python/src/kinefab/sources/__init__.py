@@ -1,7 +1,8 @@
 """Readers: one module for each source format, behind one small registry.
 
-A reader turns a file into a ``Scene`` (right-handed, +Y up, +Z forward, metres, radians) and says in the report
-what it found wrong, approximated or dropped.  It names the mesh files (``MeshReference``) and never loads them.
+A reader turns a file into a ``Scene`` (right-handed, +Y up, +Z forward, metres, radians) and says in the
+report what it found wrong, approximated or dropped.  It names the mesh files (``MeshReference``) and never
+loads them.
 """
 
 from __future__ import annotations
@@ -16,13 +17,14 @@ from ..model import MeshReference, Scene
 from ..spatial import Array
 
 Vertices = Callable[[MeshReference], Array]
-"""Loads the vertices of a mesh, shape (n, 3), through its ``to_node``; for a reader that must look at geometry."""
+"""Loads the vertices of a mesh, shape (n, 3), through its ``to_node``; for a reader that must look at
+geometry."""
 
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A source format.  suffixes: lower case.  module: beside this file; it has ``read(path, report, vertices)``
-    and, where formats share a suffix, ``sniff(head)`` that tells by the first bytes."""
+    """A source format.  suffixes: lower case.  module: beside this file; it has ``read(path, report,
+    vertices)`` and, where formats share a suffix, ``sniff(head)`` that tells by the first bytes."""
 
     name: str
     suffixes: tuple[str, ...]
@@ -43,8 +45,8 @@ HEAD_BYTES = 4096
 def read(path: Path | str, report: Report, vertices: Vertices | None = None) -> Scene:
     """Read a source by whichever reader knows it.
 
-    report: receives every finding.  vertices: loads a mesh's vertices, for formats that leave a point to be found
-    in the geometry (None: that step is left out).  Raises KinefabError with every error found.
+    report: receives every finding.  vertices: loads a mesh's vertices, for formats that leave a point to be
+    found in the geometry (None: that step is left out).  Raises KinefabError with every error found.
     """
     path = Path(path)
     found = format_of(path)

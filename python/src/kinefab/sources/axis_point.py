@@ -1,7 +1,8 @@
 """Where an axis of known direction lies: the cylinder that two parts' vertices share along that direction.
 
-Seen along the axis a bore and its pin are two concentric circles of vertices.  Neighbouring vertices of a circle
-give its centre; centres that many vertices agree on are fitted, and one that both parts have is the axis.
+Seen along the axis a bore and its pin are two concentric circles of vertices.  Neighbouring vertices of a
+circle give its centre; centres that many vertices agree on are fitted, and one that both parts have is the
+axis.
 """
 
 from __future__ import annotations
@@ -35,15 +36,17 @@ class Circle:
 def common_axis_point(first: Array, second: Array, direction: Array) -> Array | None:
     """A point on the one cylinder axis that both vertex sets have along ``direction``.
 
-    first, second: vertices in one frame, shape (n, 3).  direction: unit vector, shape (3,).  The point lies at
-    the height of the second set's circle.  None when there is no such axis, or more than one.
+    first, second: vertices in one frame, shape (n, 3).  direction: unit vector, shape (3,).  The point lies
+    at the height of the second set's circle.  None when there is no such axis, or more than one.
     """
     side = perpendicular(direction)
     axes = np.column_stack([side, np.cross(direction, side), direction])
     ours, theirs = circles(first @ axes), circles(second @ axes)
     shared: list[Circle] = []
     for circle in theirs:
-        near = [o for o in ours if np.linalg.norm(o.center - circle.center) <= FINE * min(o.radius, circle.radius)]
+        near = [
+            o for o in ours if np.linalg.norm(o.center - circle.center) <= FINE * min(o.radius, circle.radius)
+        ]
         if near and not any(np.linalg.norm(s.center - circle.center) <= FINE * s.radius for s in shared):
             shared.append(circle)
     if len(shared) != 1:
@@ -74,7 +77,11 @@ def circles(vertices: Array) -> list[Circle]:
         if on.sum() < MIN_VERTICES or _widest_gap(points[on] - center) > MAX_GAP:
             continue
         explained |= on
-        found.append(Circle(center, radius, float(vertices[_on_circle(vertices[:, :2], center, radius, FINE), 2].mean())))
+        found.append(
+            Circle(
+                center, radius, float(vertices[_on_circle(vertices[:, :2], center, radius, FINE), 2].mean())
+            )
+        )
     return found
 
 
@@ -99,7 +106,9 @@ def _fit(points: Array) -> tuple[Array, float]:
     """Least-squares circle (Kasa 1976): x^2 + y^2 = 2 c.p + r^2 - c.c is linear in c and the rest."""
     origin = points.mean(axis=0)
     local = points - origin
-    solution, *_ = np.linalg.lstsq(np.column_stack([2.0 * local, np.ones(len(local))]), np.sum(local**2, axis=1), rcond=None)
+    solution, *_ = np.linalg.lstsq(
+        np.column_stack([2.0 * local, np.ones(len(local))]), np.sum(local**2, axis=1), rcond=None
+    )
     return solution[:2] + origin, math.sqrt(max(0.0, solution[2] + solution[:2] @ solution[:2]))
 
 

@@ -1,7 +1,8 @@
 """The CAD bundle: ``NAME.bundle.json``, what a CAD macro writes beside its mesh export.
 
-Every text form (JSON, tagged CSV, the paper's CSV) becomes the same raw values and is interpreted here, so there
-is one road from a source of records to a ``Scene``.  The format is stated in ``schemas/bundle.schema.json``.
+Every text form (JSON, tagged CSV, the paper's CSV) becomes the same raw values and is interpreted here, so
+there is one road from a source of records to a ``Scene``.  The format is stated in
+``schemas/bundle.schema.json``.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ FORMAT, MAJOR = "kinefab.bundle", 1
 
 
 def read(path: Path, report: Report, vertices: object = None) -> Scene:
-    """The scene of a ``.bundle.json``.  vertices: not needed here.  Raises KinefabError with every error found."""
+    """The scene of a ``.bundle.json``.  vertices: not needed here.  Raises KinefabError with every error
+    found."""
     data = read_bytes(path, report)
     return scene_from_values(parse_json(data, path.name, report), path, data, report)
 
@@ -49,8 +51,8 @@ def scene_from_values(
 ) -> Scene:
     """The scene that raw bundle values describe.
 
-    path, data: the file they come from and its bytes.  lines: line of each record by JSON pointer, for a source
-    of lines.  Raises KinefabError with every error found.
+    path, data: the file they come from and its bytes.  lines: line of each record by JSON pointer, for a
+    source of lines.  Raises KinefabError with every error found.
     """
     log = Log(report, path.name, lines or {})
     if not isinstance(values, dict):
@@ -84,7 +86,13 @@ def _meta(bundle: Record, path: Path) -> tuple[SourceFrame, MeshSource, str]:
         meta.fault("BUNDLE_FORMAT", "format", found=format_name, wanted=FORMAT)
     version = meta.text("version")
     if (match := re.fullmatch(r"(\d{1,6})\.\d{1,6}", version)) is None and version:
-        meta.fault("BUNDLE_FIELD_TYPE", "version", field="version", wanted="a version like 1.0", found=f"'{version[:20]}'")
+        meta.fault(
+            "BUNDLE_FIELD_TYPE",
+            "version",
+            field="version",
+            wanted="a version like 1.0",
+            found=f"'{version[:20]}'",
+        )
     elif match and int(match[1]) != MAJOR:
         meta.fault("BUNDLE_VERSION", "version", found=version, known=f"{MAJOR}.x")
     for key in ("sourceFile", "timestamp"):
@@ -149,7 +157,9 @@ def _materials(bundle: Record, scene: Scene) -> Materials:
             record.fault("SOURCE_ID_DUPLICATE", "name", id=name, first=record.log.place("/materials"))
         density = record.number("density", None)
         color = record.numbers("color", 4, (0.8, 0.8, 0.8, 1.0))
-        shine = {key: record.number(key, default) for key, default in (("metallic", 0.0), ("smoothness", 0.5))}
+        shine = {
+            key: record.number(key, default) for key, default in (("metallic", 0.0), ("smoothness", 0.5))
+        }
         if record.sound and density is not None and density <= 0.0:
             record.fault("DENSITY_NOT_POSITIVE", "density", density=density)
         if record.sound and not all(0.0 <= part <= 1.0 for part in (*color, *shine.values())):

@@ -25,7 +25,8 @@ Materials = Mapping[str, tuple[int, float | None]]
 class MeshSource:
     """What a bundle says of its mesh files.
 
-    folder: of the bundle.  files: relative to it.  layout: one file for "single", one "per_part" or "per_body".
+    folder: of the bundle.  files: relative to it.  layout: one file for "single", one "per_part" or
+    "per_body".
     in_world: the files' coordinates are the world's, else the part's own.
     """
 
@@ -69,7 +70,9 @@ def read_bodies(
         path, mesh_key = _mesh(record, label, part_file, len(records), meshes)
         reference = None
         if path is not None:
-            reference = MeshReference(path, to_node, mesh_key, meshes.keyed_by, record.log.place(record.pointer))
+            reference = MeshReference(
+                path, to_node, mesh_key, meshes.keyed_by, record.log.place(record.pointer)
+            )
         bodies.append(Body(label, None, () if material is None else (material,), density, reference))
     return tuple(bodies)
 
@@ -111,8 +114,8 @@ def relative_path(record: Record, key: str, file: str) -> PurePosixPath | None:
 def read_mass(
     component: Record, placement: Placement, node: int, frame: SourceFrame, index: Mapping[str, int]
 ) -> MassProperties | None:
-    """The mass as the source gives it, brought into the node's frame (whether a body can have it is asked where all
-    masses are weighed); None when it gives none."""
+    """The mass as the source gives it, brought into the node's frame (whether a body can have it is asked
+    where all masses are weighed); None when it gives none."""
     record = component.record("mass", MASS)
     if record is None:
         return None

@@ -25,7 +25,8 @@ GROUND = "ground"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Components:
-    """nodes: parents before children.  index: of a node by its id.  placement: of the nodes, in that order."""
+    """nodes: parents before children.  index: of a node by its id.  placement: of the nodes, in that
+    order."""
 
     nodes: list[Node]
     index: dict[str, int]
@@ -132,7 +133,9 @@ def _axes_and_origins(records: list[Record]) -> tuple[Array, Array]:
 def _check_axes(record: Record, name: str, placement: Placement, i: int) -> None:
     deviation = placement.deviation[i]
     if deviation > SKEWED:
-        record.fault("POSE_NOT_ORTHONORMAL", "pose", component=name, deviation=f"{deviation:.2g}", limit=SKEWED)
+        record.fault(
+            "POSE_NOT_ORTHONORMAL", "pose", component=name, deviation=f"{deviation:.2g}", limit=SKEWED
+        )
         return
     if deviation > ROUNDED:
         record.fault("POSE_ROUNDED", "pose", component=name, deviation=f"{deviation:.2g}")

@@ -1,4 +1,5 @@
-"""A bundle's constraints and DOF records: what the source states, in the frames of the parts, not interpreted."""
+"""A bundle's constraints and DOF records: what the source states, in the frames of the parts, not
+interpreted."""
 
 from __future__ import annotations
 
@@ -24,7 +25,14 @@ SENSES = {sense.value: sense for sense in Sense}
 SIDES = {side.value: side for side in Side}
 
 DIRECTED = frozenset(
-    {FeatureKind.LINE, FeatureKind.PLANE, FeatureKind.CIRCLE, FeatureKind.CYLINDER, FeatureKind.CONE, FeatureKind.FRAME}
+    {
+        FeatureKind.LINE,
+        FeatureKind.PLANE,
+        FeatureKind.CIRCLE,
+        FeatureKind.CYLINDER,
+        FeatureKind.CONE,
+        FeatureKind.FRAME,
+    }
 )
 ONE_SIDED = frozenset({ConstraintKind.GROUND, ConstraintKind.OTHER})
 """Kinds that may do without a second side."""
@@ -48,7 +56,9 @@ class FeatureDraft:
     half_angle: float
 
 
-def read_constraints(bundle: Record, components: Components, frame: SourceFrame, log: Log) -> list[Constraint]:
+def read_constraints(
+    bundle: Record, components: Components, frame: SourceFrame, log: Log
+) -> list[Constraint]:
     """The constraints; those of unknown kind or geometry as OTHER, suppressed ones marked."""
     seen: dict[str, str] = {}
     drafts: list[FeatureDraft] = []
@@ -70,14 +80,21 @@ def read_constraints(bundle: Record, components: Components, frame: SourceFrame,
 
 
 def _fields(
-    record: Record, name: str, components: Components, frame: SourceFrame, drafts: list[FeatureDraft], log: Log
+    record: Record,
+    name: str,
+    components: Components,
+    frame: SourceFrame,
+    drafts: list[FeatureDraft],
+    log: Log,
 ) -> dict[str, object]:
     """Everything of a constraint but its features, which are appended to ``drafts``."""
     feature = f"constraint {name}"
     word = record.text("kind")
     kind = KINDS.get(word, ConstraintKind.OTHER)
     if word and word not in KINDS:
-        log.approximated(feature, "CONSTRAINT_KIND_UNKNOWN", f"{record.pointer}/kind", word=word, known=", ".join(KINDS))
+        log.approximated(
+            feature, "CONSTRAINT_KIND_UNKNOWN", f"{record.pointer}/kind", word=word, known=", ".join(KINDS)
+        )
     sides = {}
     for key in "abc":
         optional = key == "c" or kind in ONE_SIDED and (key == "b" or kind is ConstraintKind.OTHER)

@@ -57,7 +57,11 @@ def _end(
     if joint is None and record.sound and name not in joints.inactive:
         record.fault("JOINT_UNKNOWN", "joint", feature=feature, joint=name)
     freedom = freedom_names(joint.kind).get(word) if joint is not None else None
-    if joint is not None and record.sound and (freedom is None or joint.freedoms[freedom].motion is LOCKED.motion):
+    if (
+        joint is not None
+        and record.sound
+        and (freedom is None or joint.freedoms[freedom].motion is LOCKED.motion)
+    ):
         record.fault("COUPLING_FREEDOM_LOCKED", "dof", feature=feature, joint=name, freedom=word)
     coupling.sound &= record.sound
     return (joint, freedom) if joint is not None and record.sound else None
@@ -95,7 +99,13 @@ def _travel_key(record: Record) -> bool:
 
 
 def _coupling(
-    record: Record, name: str, kind: CouplingKind, ends: list, ratio: float, joints: Joints, frame: SourceFrame
+    record: Record,
+    name: str,
+    kind: CouplingKind,
+    ends: list,
+    ratio: float,
+    joints: Joints,
+    frame: SourceFrame,
 ) -> Coupling:
     (a, freedom_a), (b, freedom_b) = ends
     q_a, q_b = joints.positions[a.id][freedom_a], joints.positions[b.id][freedom_b]
@@ -106,6 +116,10 @@ def _coupling(
         stated = record.number("offset") * unit
         stated += ratio * joints.turns[a.id][freedom_a] - joints.turns[b.id][freedom_b]
         if abs(stated - offset) > slack:
-            record.fault("COUPLING_GAP", "offset", feature=f"coupling {name}", gap=f"{abs(stated - offset):.3g}")
+            record.fault(
+                "COUPLING_GAP", "offset", feature=f"coupling {name}", gap=f"{abs(stated - offset):.3g}"
+            )
         offset = stated
-    return Coupling(name, kind, a.id, freedom_a, b.id, freedom_b, ratio, offset, record.log.place(record.pointer))
+    return Coupling(
+        name, kind, a.id, freedom_a, b.id, freedom_b, ratio, offset, record.log.place(record.pointer)
+    )

@@ -1,7 +1,7 @@
 """The tagged CSV form of a bundle, for macros without a JSON library: one record a line, its tag first.
 
-Each line becomes the object that ``NAME.bundle.json`` would hold, so both forms are interpreted alike.  The columns
-of each tag stand in ``COLUMNS``; trailing ones may be left out, empty cells say nothing.
+Each line becomes the object that ``NAME.bundle.json`` would hold, so both forms are interpreted alike.  The
+columns of each tag stand in ``COLUMNS``; trailing ones may be left out, empty cells say nothing.
 """
 
 from __future__ import annotations
@@ -26,30 +26,37 @@ FRAME_A = "frameA.in frameA.o*3 frameA.z*3 frameA.x*3"
 SIDE_A = "a.component a.geometry a.in a.p*3 a.d*3 a.r"
 
 COLUMNS = {
-    "COMP": "id name kind parent definition pose.o*3 pose.x*3 pose.y*3 pose.z*3 grounded? flexible? suppressed? "
-    "visible? file",
+    "COMP": "id name kind parent definition pose.o*3 pose.x*3 pose.y*3 pose.z*3"
+    " grounded? flexible? suppressed? visible? file",
     "BODY": "component id name meshKey material file density",
     "MASS": "component mass in center*3 inertia*6",
     "MAT": "name density color*4 metallic smoothness",
-    "JOINT": f"id name type a b {FRAME_A} {FRAME_A.replace('A', 'B')} lead flipped? suppressed? because| driver",
+    "JOINT": f"id name type a b {FRAME_A} {FRAME_A.replace('A', 'B')}"
+    " lead flipped? suppressed? because| driver",
     "DOF": "joint name value min max rest minEnabled? maxEnabled? restEnabled?",
-    "COUP": "id name kind a.joint a.dof b.joint b.dof ratio radiusA radiusB teethA teethB radius pitch offset "
-    "reversed? suppressed?",
-    "CONS": f"id name kind {SIDE_A} {SIDE_A.replace('a.', 'b.')} value min max sense side suppressed? rawKind "
-    f"lockRotation? a.halfAngle b.halfAngle a.x*3 b.x*3 {SIDE_A.replace('a.', 'c.')}",
+    "COUP": "id name kind a.joint a.dof b.joint b.dof ratio radiusA radiusB teethA teethB radius pitch"
+    " offset reversed? suppressed?",
+    "CONS": f"id name kind {SIDE_A} {SIDE_A.replace('a.', 'b.')} value min max sense side suppressed?"
+    f" rawKind lockRotation? a.halfAngle b.halfAngle a.x*3 b.x*3 {SIDE_A.replace('a.', 'c.')}",
     "FREE": "component t*3 r*3 center*3",
 }
 """By tag: paths in the record's object; *n takes n columns, ? is true or false, | a list in one cell."""
 
-LISTS = {"COMP": "components", "MAT": "materials", "JOINT": "joints", "COUP": "couplings", "CONS": "constraints"}
-"""Tags whose line is a record of its own, and the list it goes to; the others belong to a line before them."""
+LISTS = {
+    "COMP": "components",
+    "MAT": "materials",
+    "JOINT": "joints",
+    "COUP": "couplings",
+    "CONS": "constraints",
+}
+"""Tags whose line is a record of its own, and the list it goes to; others belong to a line before them."""
 
 OWNED = {"BODY": ("COMP", "bodies"), "MASS": ("COMP", "mass"), "DOF": ("JOINT", "dof")}
 """Tags whose line belongs to the record that its first column names, and the field it goes to."""
 
 TEXTS = frozenset(
-    "id name kind parent definition file component meshKey material in type a b driver dof joint geometry sense "
-    "side rawKind".split()
+    "id name kind parent definition file component meshKey material in type a b driver dof joint geometry"
+    " sense side rawKind".split()
 )
 """Last part of the paths that hold a text, even where it looks like a number."""
 
@@ -86,7 +93,9 @@ class _Reading:
             self._meta(row)
         elif tag not in COLUMNS:
             known = ", ".join(["META", *COLUMNS])
-            self.report.add("CSV_TAG_UNKNOWN", f"{self.name}:{row.line}", tag=shown(row.cells[0]), known=known)
+            self.report.add(
+                "CSV_TAG_UNKNOWN", f"{self.name}:{row.line}", tag=shown(row.cells[0]), known=known
+            )
         elif (record := self._record(tag, row)) is None:
             return
         elif tag in LISTS:
@@ -122,7 +131,8 @@ class _Reading:
             part, at = cells[at : at + count], at + count
             if any(part):
                 convert = self._converter(path, mark)
-                _put(record, path, convert(part[0]) if count == 1 else [self.table.number(cell) for cell in part])
+                numbers = [self.table.number(cell) for cell in part]
+                _put(record, path, convert(part[0]) if count == 1 else numbers)
         return record
 
     def _converter(self, path: str, mark: str) -> Callable[[str], object]:

@@ -1,7 +1,7 @@
 """A bundle's joints: two frames, a coordinate for each freedom, and the limits the designer switched on.
 
-A coordinate is the one the CAD displays, so that its limits hold; the frames are placed so that they read it at
-the exported pose.
+A coordinate is the one the CAD displays, so that its limits hold; the frames are placed so that they read it
+at the exported pose.
 """
 
 from __future__ import annotations
@@ -29,9 +29,11 @@ WITHOUT_AXIS = frozenset({JointKind.FIXED, JointKind.SPHERICAL, JointKind.UNIVER
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Joints:
-    """joints: as read.  positions: coordinates at the exported pose, as the joint's frames read them, shape (6,).
+    """joints: as read.  positions: coordinates at the exported pose, as the joint's frames read them, shape
+    (6,).
     turns: what to add to get the coordinate the CAD displays (whole turns), shape (6,).  Both by joint id.
-    inactive: ids of joints left out because they, or a component of theirs, are suppressed or of unknown type.
+    inactive: ids of joints left out because they, or a component of theirs, are suppressed or of unknown
+    type.
     """
 
     joints: list[Joint] = field(default_factory=list)
@@ -152,7 +154,9 @@ def _in_node(placement: Placement, node: int, axes: Array, origin: Array) -> Pos
 def _check_flip(draft: JointDraft, opposed: bool) -> None:
     """The geometry decides; a flag that says otherwise is worth a word."""
     if draft.frame_b is not None and draft.kind not in WITHOUT_AXIS and opposed != draft.flipped:
-        draft.record.fault("JOINT_FLIP_MISMATCH", "flipped", feature=f"joint {draft.id}", stated=draft.flipped)
+        draft.record.fault(
+            "JOINT_FLIP_MISMATCH", "flipped", feature=f"joint {draft.id}", stated=draft.flipped
+        )
 
 
 def _positions(draft: JointDraft, here: Array, known: np.ndarray) -> tuple[Array, Array]:

@@ -74,11 +74,14 @@ class JointDraft:
 def read_draft(
     record: Record, name: str, components: Components, frame: SourceFrame, inactive: set[str]
 ) -> JointDraft | None:
-    """The joint ``name``; None after a fault, and where it is left out (then its id is put into ``inactive``)."""
+    """The joint ``name``; None after a fault, and where it is left out (then its id is put into
+    ``inactive``)."""
     feature = f"joint {name}"
     word = record.text("type")
     if word and word not in TYPES:
-        record.log.dropped(feature, "JOINT_TYPE_UNKNOWN", f"{record.pointer}/type", word=word, known=", ".join(TYPES))
+        record.log.dropped(
+            feature, "JOINT_TYPE_UNKNOWN", f"{record.pointer}/type", word=word, known=", ".join(TYPES)
+        )
         inactive.add(name)
     if word not in TYPES:
         return None
@@ -153,7 +156,9 @@ def _coordinates(joint: Record, kind: JointKind, word: str, frame: SourceFrame) 
             if lower > upper:
                 record.fault("LIMITS_REVERSED", "min", lower=ends["min"], upper=ends["max"])
             if enabled["rest"]:
-                record.log.dropped(f"rest position of joint {joint.text('id')}", "JOINT_REST_DROPPED", record.pointer)
+                record.log.dropped(
+                    f"rest position of joint {joint.text('id')}", "JOINT_REST_DROPPED", record.pointer
+                )
             found[freedom] = Coordinate(record, None if value is None else value * unit, lower, upper)
         joint.sound &= record.sound
     return found

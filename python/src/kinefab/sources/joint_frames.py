@@ -47,7 +47,8 @@ def relabel(axes: Array, universal: np.ndarray, second: bool) -> Array:
 
 
 def motion(coordinates: Array) -> Array:
-    """Pose (4, 4) of b's frame in a's at the coordinates tx ty tz rx ry rz; at most one rotation, or rx and rz.
+    """Pose (4, 4) of b's frame in a's at the coordinates tx ty tz rx ry rz; at most one rotation, or rx and
+    rz.
 
     Source: the Cardan order of ``JointKind.UNIVERSAL``, R = Rz(rz) Rx(rx), of which a single turn is a case.
     """

@@ -20,7 +20,8 @@ STEP[list(b"[{")], STEP[list(b"]}")] = 1, -1
 
 
 def parse_json(data: bytes, name: str, report: Report) -> object:
-    """The value in ``data``.  name: of the file, for diagnostics.  Raises KinefabError when it is not JSON."""
+    """The value in ``data``.  name: of the file, for diagnostics.  Raises KinefabError when it is not
+    JSON."""
     value = None
     repeated: list[str] = []
 

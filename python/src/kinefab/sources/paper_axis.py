@@ -1,7 +1,8 @@
 """Axis-axis constraints of the paper's CSV: a direction is stated, the point that makes it a line is found.
 
-In this order: a point that the row states; the DOF centre of the one part that moves while the other stands still;
-a mesh cylinder that both parts have along the direction; the part's origin.  The step is reported for every axis.
+In this order: a point that the row states; the DOF centre of the one part that moves while the other stands
+still; a mesh cylinder that both parts have along the direction; the part's origin.  The step is reported for
+every axis.
 The DOF centre serves in that case alone: of a part that hangs on a moving one it is an instantaneous pole.
 """
 
@@ -104,9 +105,15 @@ def axis_records(
 
 
 def _point(
-    axis: Axis, direction: Array, parts: dict[str, Part], values: dict[str, object], path: Path, vertices: object
+    axis: Axis,
+    direction: Array,
+    parts: dict[str, Part],
+    values: dict[str, object],
+    path: Path,
+    vertices: object,
 ) -> tuple[Array, str | None]:
-    """A point on the axis in the source's world, and where it came from; None for the mere origin of the part."""
+    """A point on the axis in the source's world, and where it came from; None for the mere origin of the
+    part."""
     if axis.point is not None:
         return np.array(axis.point), "the point column"
     part, partner = parts[axis.part], parts[axis.partner]
@@ -125,7 +132,7 @@ def _point(
 def _carrier(part: Part, parts: dict[str, Part]) -> Part:
     """The part, or the assembly above it whose freedoms it shares: a rigid sub-assembly moves as one."""
     above = part.id.rpartition("/")[0]
-    if part.fixed or part.translations or part.rotations or above not in parts:
+    if part.fixed or part.translations or part.rotations or not above or above not in parts:
         return part
     return _carrier(parts[above], parts)
 
@@ -137,12 +144,19 @@ def _turns_only_about(part: Part, direction: Array) -> bool:
     return bool(abs(axis @ direction) > ALONG * np.linalg.norm(axis))
 
 
-def _vertices(part: Part, parts: dict[str, Part], values: dict[str, object], path: Path, vertices: object) -> Array:
+def _vertices(
+    part: Part, parts: dict[str, Part], values: dict[str, object], path: Path, vertices: object
+) -> Array:
     """Vertices of a part, or of all parts of an assembly, in the source's world and unit."""
     mesh = values["meta"]["mesh"]
     scale = METRES.get(mesh["units"], 1.0) / METRES.get(values["meta"]["units"]["length"], 1.0)
     to_source = np.diag([scale, scale, scale, 1.0])
-    keys = [key for name, entry in parts.items() if name == part.id or name.startswith(f"{part.id}/") for key in entry.bodies]
+    keys = [
+        key
+        for name, entry in parts.items()
+        if name == part.id or name.startswith(f"{part.id}/")
+        for key in entry.bodies
+    ]
     file = path.parent / mesh["files"][0]
     clouds = [vertices(MeshReference(file, to_source, key)) for key in keys]
     return np.vstack([np.zeros((0, 3)), *clouds])

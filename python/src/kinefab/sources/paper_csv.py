@@ -1,10 +1,11 @@
-"""The extension file of Braun et al. (2020): one row a part or assembly, with its free directions and its axes.
+"""The extension file of Braun et al. (2020): one row a part or assembly, with its free directions and its
+axes.
 
-The paper lists the columns (name, type, parent, bodies, origin, the X, Y and Z direction vectors, free DOF with
-directions, axis-axis constraints) and not their names, so columns are found by what they are called in English or
-German, or else taken in the paper's order.  A vector is one cell of three numbers or three columns.  Entries of
-one cell stand between ``|``.  Comment lines ``# length: cm``, ``# up: Z``, ``# mesh: NAME.obj`` and
-``# mesh length: cm`` state what the paper's file leaves to the reader.
+The paper lists the columns (name, type, parent, bodies, origin, the X, Y and Z direction vectors, free DOF
+with directions, axis-axis constraints) and not their names, so columns are found by what they are called in
+English or German, or else taken in the paper's order.  A vector is one cell of three numbers or three
+columns.  Entries of one cell stand between ``|``.  Comment lines ``# length: cm``, ``# up: Z``, ``# mesh:
+NAME.obj`` and ``# mesh length: cm`` state what the paper's file leaves to the reader.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from ..model import Scene
 from .bundle import FORMAT, scene_from_values
 from .file import read_bytes
 from .paper_axis import Axis, Part, axis_records
-from .record import shown
+from .record import MAX_NUMBER, shown
 from .table import Row, Table, read_table
 
 COLUMNS = {
@@ -45,7 +46,8 @@ KINDS = {"part": "part", "teil": "part", "bauteil": "part", "assembly": "assembl
 FREEDOM = re.compile(r"(t|trans\w*|r|rot\w*)[\s:(]+([^)]*)\)?", re.IGNORECASE)
 
 SETTINGS = {"length": "cm", "up": "Z", "mesh": "", "mesh length": ""}
-"""What a comment line may state, and what holds without: Inventor's programming interface speaks centimetres."""
+"""What a comment line may state, and what holds without: Inventor's programming interface speaks
+centimetres."""
 
 
 def read(path: Path, report: Report, vertices: object = None) -> Scene:
@@ -78,7 +80,10 @@ class _Reading:
         columns, rows = self._columns()
         if columns is None:
             return
-        cells = [(row, {key: [row.cells[i] for i in at if i < len(row.cells)] for key, at in columns.items()}) for row in rows]
+        cells = [
+            (row, {key: [row.cells[i] for i in at if i < len(row.cells)] for key, at in columns.items()})
+            for row in rows
+        ]
         ids = self._ids(cells)
         components = self.values["components"] = []
         for (row, cell), name in zip(cells, ids.of_row):
@@ -133,8 +138,12 @@ class _Reading:
         for key in ("name", "type", "parent", "origin", *AXES):
             if key not in found:
                 place = f"{self.path.name}:{heading.line}"
-                self.report.add("CSV_HEADING_MISSING", place, heading=key, known=COLUMNS[key].replace(" ", ", "))
-        return (found if {"name", "type", "parent", "origin", *AXES} <= found.keys() else None), self.table.rows[1:]
+                self.report.add(
+                    "CSV_HEADING_MISSING", place, heading=key, known=COLUMNS[key].replace(" ", ", ")
+                )
+        return (
+            found if {"name", "type", "parent", "origin", *AXES} <= found.keys() else None
+        ), self.table.rows[1:]
 
     def _positions(self, row: Row) -> dict[str, range]:
         """The paper's order; a vector has three columns unless its first cell holds three numbers."""
@@ -165,12 +174,19 @@ class _Reading:
         kind, parent = _text(cell, "type"), _text(cell, "parent")
         freedoms = self._freedoms(row, cell)
         vectors = {key: self._numbers(row, cell, key) for key in VECTORS}
-        # The DOF analysis counts against the ground: a part of the top assembly without a freedom stands on it.
+        # The DOF analysis counts against the ground: a part of the top assembly without a freedom stands on
+        # it.
         top = bool(parent) and "/" not in ids.of_name.get(parent, "/")
         fixed = top and "dof" in cell and freedoms == {"translations": [], "rotations": []}
         bodies = [body.strip() for body in re.split(r"[|,]", _text(cell, "bodies")) if body.strip()]
         self.parts[name] = Part(
-            name, tuple(bodies), fixed, freedoms["translations"], freedoms["rotations"], vectors["center"], vectors["origin"]
+            name,
+            tuple(bodies),
+            fixed,
+            freedoms["translations"],
+            freedoms["rotations"],
+            vectors["center"],
+            vectors["origin"],
         )
         if freedoms["translations"] or freedoms["rotations"]:
             record = {"component": name, **freedoms}
@@ -238,7 +254,8 @@ class _Reading:
 
     def _vector(self, text: str) -> list[object] | None:
         numbers = [self.table.number(part) for part in re.split(r"[\s;()]+", text) if part]
-        return numbers if len(numbers) == 3 and all(isinstance(n, float) for n in numbers) else None
+        usable = all(isinstance(n, float) and abs(n) <= MAX_NUMBER for n in numbers)
+        return numbers if usable and len(numbers) == 3 else None
 
     def _unreadable(self, row: Row, column: str, text: str, wanted: str) -> None:
         place = f"{self.path.name}:{row.line}"

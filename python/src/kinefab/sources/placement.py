@@ -28,8 +28,8 @@ class Placement:
     """Poses of n nodes and, as the last row, of the ground.
 
     rotations, translations: node frame in the world, scene axes, metres, shapes (n + 1, 3, 3) and (n + 1, 3).
-    local: what takes a vector in the node's own source axes to the node's frame, shape (n + 1, 3, 3): the turn,
-        for a mirrored part also its mirror.
+    local: what takes a vector in the node's own source axes to the node's frame, shape (n + 1, 3, 3): the
+        turn, for a mirrored part also its mirror.
     deviation: largest entry of R'R - 1 of the source's axes, shape (n,).  mirrored: shape (n,).
     length: metres in one unit of the source.
     """
@@ -77,8 +77,8 @@ def _each_inverse(rotations: Array, vectors: Array) -> Array:
 def place(axes: Array, origins: Array, frame: SourceFrame) -> Placement:
     """axes: columns are the parts' x, y, z in the source's world, shape (n, 3, 3).  origins: shape (n, 3).
 
-    Axes off by rounding are replaced by the nearest rotation; a left-handed triad is taken as a mirrored part,
-    its mirror (x to -x in the part) kept in ``local``.
+    Axes off by rounding are replaced by the nearest rotation; a left-handed triad is taken as a mirrored
+    part, its mirror (x to -x in the part) kept in ``local``.
     """
     count = len(axes)
     deviation = np.abs(np.swapaxes(axes, 1, 2) @ axes - np.eye(3)).reshape(count, 9).max(axis=1, initial=0.0)

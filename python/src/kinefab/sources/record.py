@@ -78,6 +78,11 @@ def is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
+def _is_plain(value: object) -> bool:
+    """Whether a value is a number in range, told as fast as Python can."""
+    return type(value) in (float, int) and -MAX_NUMBER <= value <= MAX_NUMBER
+
+
 def is_encodable(text: str) -> bool:
     """Whether a string can be written as UTF-8: JSON's escapes can hold half of a surrogate pair."""
     return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
@@ -118,6 +123,9 @@ class Record:
         return self.values.get(key) is not None
 
     def text(self, key: str, default: object = REQUIRED) -> str:
+        value = self.values.get(key)
+        if type(value) is str and value and value.isascii() and "\0" not in value:
+            return value  # nearly all of them; a bundle has half a million
         value = self._value(key, default)
         if value is default:
             return "" if default is REQUIRED else default
@@ -131,7 +139,9 @@ class Record:
     def texts(self, key: str) -> tuple[str, ...]:
         """An array of texts; empty when absent."""
         values = self._value(key, ())
-        if values and not (isinstance(values, list) and all(isinstance(v, str) and is_encodable(v) for v in values)):
+        if values and not (
+            isinstance(values, list) and all(isinstance(v, str) and is_encodable(v) for v in values)
+        ):
             self.wrong(key, "an array of texts", values)
             return ()
         return tuple(values) if isinstance(values, list) else ()
@@ -152,6 +162,8 @@ class Record:
         return 0.0
 
     def flag(self, key: str, default: bool = False) -> bool:
+        if key not in self.values:
+            return default
         value = self._value(key, default)
         if not isinstance(value, bool):
             self.wrong(key, "true or false", value)
@@ -160,6 +172,9 @@ class Record:
 
     def numbers(self, key: str, count: int, default: object = REQUIRED) -> tuple[float, ...]:
         """``count`` numbers."""
+        value = self.values.get(key)
+        if type(value) is list and len(value) == count and all(map(_is_plain, value)):
+            return tuple(map(float, value))
         value = self._value(key, default)
         if value is default:
             return (0.0,) * count if default is REQUIRED else default
@@ -240,7 +255,13 @@ class Record:
         open_values: list[object] = [value]
         while open_values:
             entry = open_values.pop()
-            open_values += [*entry, *entry.values()] if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
+            open_values += (
+                [*entry, *entry.values()]
+                if isinstance(entry, dict)
+                else entry
+                if isinstance(entry, list)
+                else ()
+            )
             broken_text = isinstance(entry, str) and not is_encodable(entry)
             if broken_text or isinstance(entry, float) and not math.isfinite(entry):
                 self.fault("BUNDLE_EXTRAS", "extras")

@@ -1,4 +1,5 @@
-"""The units and axes of a source, and the turn into the scene's frame: a rotation and a scale, never a mirror."""
+"""The units and axes of a source, and the turn into the scene's frame: a rotation and a scale, never a
+mirror."""
 
 from __future__ import annotations
 
@@ -15,7 +16,13 @@ METRES = {
 }  # fmt: skip
 """Metres in one unit of length.  The international inch is 25.4 mm exactly."""
 
-RADIANS = {"deg": math.pi / 180.0, "degree": math.pi / 180.0, "rad": 1.0, "radian": 1.0, "turn": 2.0 * math.pi}
+RADIANS = {
+    "deg": math.pi / 180.0,
+    "degree": math.pi / 180.0,
+    "rad": 1.0,
+    "radian": 1.0,
+    "turn": 2.0 * math.pi,
+}
 KILOGRAMS = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "oz": 0.45359237 / 16.0}
 
 DIRECTIONS = {

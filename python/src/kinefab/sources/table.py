@@ -1,4 +1,5 @@
-"""Delimited text as CAD macros write it: any of ; tab and comma, decimal point or comma, UTF-8 or Windows-1252."""
+"""Delimited text as CAD macros write it: any of ; tab and comma, decimal point or comma, UTF-8 or
+Windows-1252."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """rows: those with content.  comments: lines that begin with #, without it.  decimal: '.', or ',' beside '.'."""
+    """rows: those with content.  comments: lines that begin with #, without it.  decimal: '.', or ',' beside
+    '.'."""
 
     rows: tuple[Row, ...]
     comments: tuple[Row, ...]
@@ -40,7 +42,8 @@ class Table:
 
 
 def read_table(data: bytes, name: str, report: Report) -> Table:
-    """The rows of a delimited text.  name: of the file.  Raises KinefabError when it cannot be taken apart."""
+    """The rows of a delimited text.  name: of the file.  Raises KinefabError when it cannot be taken
+    apart."""
     text = _decode(data, name, report)
     rows: list[Row] = []
     comments: list[Row] = []

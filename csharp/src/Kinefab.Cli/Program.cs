@@ -15,6 +15,7 @@ internal static class Program
         {
             ValidateCommand.Create(),
             InspectCommand.Create(),
+            SimulateCommand.Create(),
         };
         ParseResult parsed = root.Parse(args);
         if (parsed.Errors.Count == 0)

@@ -54,14 +54,33 @@ public sealed class WorldConfigurableJoint : WorldJoint
     /// <inheritdoc/>
     public override double Coordinate(Coordinate coordinate)
     {
-        if (coordinate < Document.Coordinate.X || coordinate > Document.Coordinate.AngularZ)
-        {
-            throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
-        }
-
-        int i = coordinate - Document.Coordinate.X;
+        int i = Axis(coordinate);
         double value = Raw(i, _unwrapped[i]) - _start[i];
-        return i < (int)CoordinateAxis.AngularX ? value : value * Degrees;
+        return IsAngle(i) ? value * Degrees : value;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target)
+    {
+        int i = Axis(coordinate);
+        var joint = (D6Joint)Solved;
+        ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
+        drive = PositionDrive(drive);
+        double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
+        ConfigurableDrives.SetTarget(joint, i, goal);
+    }
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed)
+    {
+        // A damper this stiff holds the speed to one part in a million within a step of 1 ms.
+        const double damping = 1e9;
+        int i = Axis(coordinate);
+        var joint = (D6Joint)Solved;
+        ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
+        double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;
+        drive = new Kinefab.Joints.JointDrive { Damping = damping, ForceLimit = limit, IsAcceleration = true };
+        ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
     internal override void AfterStep()
@@ -71,6 +90,12 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _unwrapped[i] = Raw(i, _unwrapped[i]);
         }
     }
+
+    private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;
+
+    private static int Axis(Coordinate coordinate) => coordinate >= Document.Coordinate.X && coordinate <= Document.Coordinate.AngularZ
+        ? coordinate - Document.Coordinate.X
+        : throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
 
     private double Raw(int axis, double near) =>
         new Kinefab.Joints.JointCoordinate(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, near, out _);

@@ -42,11 +42,41 @@ public sealed class WorldHingeJoint : WorldJoint
     }
 
     /// <inheritdoc/>
-    public override double Coordinate(Coordinate coordinate) => coordinate == Document.Coordinate.Angle
-        ? UnwrappedAngle
-        : throw new ArgumentException("A HingeJoint has the coordinate angle alone.", nameof(coordinate));
+    public override double Coordinate(Coordinate coordinate)
+    {
+        Check(coordinate);
+        return UnwrappedAngle;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target)
+    {
+        Check(coordinate);
+        var joint = (RevoluteJoint)Solved;
+        joint.MotorEnabled = false;
+        joint.Spring = PositionDrive(joint.Spring);
+        joint.SpringTarget = -target / Degrees;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed)
+    {
+        Check(coordinate);
+        var joint = (RevoluteJoint)Solved;
+        joint.MotorEnabled = true;
+        joint.MotorVelocity = -speed / Degrees;
+        joint.MotorForceLimit = _settings.Motor.Force > 0 ? _settings.Motor.Force : double.PositiveInfinity;
+    }
 
     internal override void AfterStep() => _unwrapped = Near(Wrapped(), _unwrapped);
+
+    private static void Check(Coordinate coordinate)
+    {
+        if (coordinate != Document.Coordinate.Angle)
+        {
+            throw new ArgumentException("A HingeJoint has the coordinate angle alone.", nameof(coordinate));
+        }
+    }
 
     // phi = -twist of c; minus pi becomes plus pi.
     private double Wrapped()

@@ -58,6 +58,30 @@ public abstract class WorldJoint
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
     public abstract double Coordinate(Coordinate coordinate);
 
+    /// <summary>
+    /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, like a 5 Hz
+    /// critically damped spring without force limit. Stands until Settings is set.
+    /// </summary>
+    /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
+    /// <param name="target">Degrees or metres.</param>
+    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    public abstract void DriveTo(Coordinate coordinate, double target);
+
+    /// <summary>Drives a coordinate at a speed, with the component's force limit if it has one. Stands until Settings is set.</summary>
+    /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
+    /// <param name="speed">Degrees/s or metres/s.</param>
+    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    public abstract void DriveAt(Coordinate coordinate, double speed);
+
+    /// <summary>Gains that hold a position where the component states none: 5 Hz, critically damped, per unit of mass.</summary>
+    private protected static Kinefab.Joints.JointDrive PositionDrive(in Kinefab.Joints.JointDrive given)
+    {
+        const double omega = 2 * Math.PI * 5;
+        return given.Stiffness > 0
+            ? given
+            : new Kinefab.Joints.JointDrive { Stiffness = omega * omega, Damping = 2 * omega, ForceLimit = double.PositiveInfinity, IsAcceleration = true };
+    }
+
     /// <summary>Called when the joint has been moved by a step.</summary>
     internal virtual void AfterStep()
     {
@@ -73,7 +97,15 @@ public sealed class WorldFixedJoint : WorldJoint
     }
 
     /// <inheritdoc/>
-    public override double Coordinate(Coordinate coordinate) => throw new ArgumentException("A FixedJoint has no coordinates.", nameof(coordinate));
+    public override double Coordinate(Coordinate coordinate) => throw NoCoordinates();
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target) => throw NoCoordinates();
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed) => throw NoCoordinates();
+
+    private static ArgumentException NoCoordinates() => new("A FixedJoint has no coordinates.");
 }
 
 /// <summary>Where a joint component stands in its scene.</summary>

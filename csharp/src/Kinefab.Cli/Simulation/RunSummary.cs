@@ -1,0 +1,105 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Validation;
+
+namespace Kinefab.Cli.Simulation;
+
+/// <summary>What is worth telling of a run: drift, range, limits and breaking of every joint, and the energy.</summary>
+internal sealed class RunSummary
+{
+    private readonly World world;
+    private readonly ValidScene scene;
+    private readonly JointRecord[] joints;
+    private readonly double startEnergy;
+
+    internal RunSummary(World world, ValidScene scene)
+    {
+        this.world = world;
+        this.scene = scene;
+        joints = world.Joints.Select(j => new JointRecord(j)).ToArray();
+        startEnergy = world.KineticEnergy + world.PotentialEnergy;
+        world.JointBroken += (_, e) => joints[IndexOf(e.Joint)].BrokenAt = world.Time;
+    }
+
+    /// <summary>Takes note of the step just done.</summary>
+    internal void Note()
+    {
+        foreach (JointRecord joint in joints)
+            joint.Note(world.Time);
+    }
+
+    internal void Write(TextWriter target, SolverKind kind, long steps, double dt)
+    {
+        double end = world.KineticEnergy + world.PotentialEnergy;
+        target.WriteLine(Text($"{steps} steps of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
+        target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
+        if (world.Overflows > 0)
+            target.WriteLine(Text($"the solver could not follow: motion left the range of numbers {world.Overflows} times"));
+        foreach (JointRecord joint in joints)
+            joint.Write(target, scene.Document.GameObjects[joint.Joint.GameObject].Name);
+    }
+
+    private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
+
+    private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
+
+    private sealed class JointRecord
+    {
+        private readonly Coordinate[] coordinates;
+        private readonly double[] least;
+        private readonly double[] greatest;
+        private double distance;
+        private double angle;
+        private double? limitAt;
+
+        internal JointRecord(WorldJoint joint)
+        {
+            Joint = joint;
+            coordinates = DriveSetting.FreeCoordinates(joint);
+            least = coordinates.Select(joint.Coordinate).ToArray();
+            greatest = (double[])least.Clone();
+        }
+
+        internal WorldJoint Joint { get; }
+
+        internal double? BrokenAt { get; set; }
+
+        internal void Note(double time)
+        {
+            if (Joint.IsBroken)
+                return;
+            JointDrift drift = Joint.Drift;
+            distance = Math.Max(distance, drift.Distance);
+            angle = Math.Max(angle, drift.Angle);
+            if (limitAt is null && Joint.IsAtLimit)
+                limitAt = time;
+            for (int i = 0; i < coordinates.Length; i++)
+            {
+                double value = Joint.Coordinate(coordinates[i]);
+                least[i] = Math.Min(least[i], value);
+                greatest[i] = Math.Max(greatest[i], value);
+            }
+        }
+
+        internal void Write(TextWriter target, string name)
+        {
+            IEnumerable<string> ranges = coordinates.Select((c, i) => Text(
+                $", {Word(c)} {least[i]:0.#####}..{greatest[i]:0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
+            string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
+            string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
+            target.WriteLine(Text(
+                $"{Joint.Id} ({name}): drift {distance:0.0e+0} m, {angle * 180 / Math.PI:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
+        }
+
+        private static string Word(Coordinate coordinate)
+        {
+            string word = coordinate.ToString();
+            return char.ToLowerInvariant(word[0]) + word[1..];
+        }
+    }
+}

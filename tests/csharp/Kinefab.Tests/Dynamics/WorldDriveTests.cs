@@ -1,0 +1,125 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics;
+
+/// <summary>Joints driven by coordinate: the own body's motion against the connected one, whatever Unity's field would be called.</summary>
+public sealed class WorldDriveTests
+{
+    private const ConfigurableJointMotion Locked = ConfigurableJointMotion.Locked;
+    private const ConfigurableJointMotion Free = ConfigurableJointMotion.Free;
+
+    [Test]
+    public void DriveTo_Hinge_ReachesTheAngleWithoutGainsOfItsOwn()
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ });
+
+        world.Joints[0].DriveTo(Coordinate.Angle, -70);
+        SmallScene.Run(world, 2);
+
+        Assert.That(SmallScene.Turn(world).Z, Is.EqualTo(-70).Within(1e-3));
+    }
+
+    [Test]
+    public void DriveAt_Hinge_HoldsTheSpeed()
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ, ConnectedBody = 1 }, connected: true);
+
+        world.Joints[0].DriveAt(Coordinate.Angle, 45);
+        SmallScene.Run(world, 2);
+
+        Assert.That(SmallScene.Turn(world).Z, Is.EqualTo(90).Within(1e-3));
+    }
+
+    [TestCase(Coordinate.X, false)]
+    [TestCase(Coordinate.Y, true)]
+    [TestCase(Coordinate.Z, false)]
+    public void DriveTo_Slide_ReachesThePlace(Coordinate coordinate, bool swap)
+    {
+        World world = SmallScene.Create(Only(coordinate, swap));
+
+        world.Joints[0].DriveTo(coordinate, 0.23);
+        SmallScene.Run(world, 2);
+
+        Assert.That(SmallScene.Way(world)[coordinate - Coordinate.X], Is.EqualTo(0.23).Within(1e-5));
+    }
+
+    [TestCase(Coordinate.AngularX, true)]
+    [TestCase(Coordinate.AngularY, false)]
+    [TestCase(Coordinate.AngularZ, true)]
+    public void DriveTo_Angle_ReachesTheAngle(Coordinate coordinate, bool swap)
+    {
+        World world = SmallScene.Create(Only(coordinate, swap));
+
+        world.Joints[0].DriveTo(coordinate, 33);
+        SmallScene.Run(world, 2);
+
+        Assert.That(SmallScene.Turn(world)[coordinate - Coordinate.AngularX], Is.EqualTo(33).Within(1e-3));
+    }
+
+    [TestCase(Coordinate.X, false, 0.2)]
+    [TestCase(Coordinate.Z, true, -0.2)]
+    public void DriveAt_Slide_HoldsTheSpeed(Coordinate coordinate, bool swap, double speed)
+    {
+        World world = SmallScene.Create(Only(coordinate, swap));
+
+        world.Joints[0].DriveAt(coordinate, speed);
+        SmallScene.Run(world, 1);
+
+        Assert.That(SmallScene.Way(world)[coordinate - Coordinate.X], Is.EqualTo(speed).Within(1e-4));
+    }
+
+    [TestCase(Coordinate.AngularX, false, 30)]
+    [TestCase(Coordinate.AngularY, true, -30)]
+    public void DriveAt_Angle_HoldsTheSpeed(Coordinate coordinate, bool swap, double speed)
+    {
+        World world = SmallScene.Create(Only(coordinate, swap));
+
+        world.Joints[0].DriveAt(coordinate, speed);
+        SmallScene.Run(world, 1);
+
+        Assert.That(SmallScene.Turn(world)[coordinate - Coordinate.AngularX], Is.EqualTo(speed).Within(1e-2));
+    }
+
+    [Test]
+    public void DriveTo_ShiftedConnectedAnchor_CountsFromTheStart()
+    {
+        // The slide's connected anchor stands 0.1 m beyond the own one, as for an asymmetric range.
+        ConfigurableJoint joint = Only(Coordinate.X, swap: false, SmallScene.OwnPose.Point(new Vector3d(0.1, 0, 0)));
+        World world = SmallScene.Create(joint);
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.Zero);
+        world.Joints[0].DriveTo(Coordinate.X, 0.15);
+        SmallScene.Run(world, 2);
+
+        Assert.That(SmallScene.Way(world).X, Is.EqualTo(0.15).Within(1e-5));
+    }
+
+    [Test]
+    public void DriveTo_CoordinateOfAnotherKind_Throws()
+    {
+        World hinge = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ });
+        World fixedJoint = SmallScene.Create(new FixedJoint());
+        World configurable = SmallScene.Create(Only(Coordinate.X, swap: false));
+
+        Assert.That(() => hinge.Joints[0].DriveTo(Coordinate.X, 1), Throws.ArgumentException);
+        Assert.That(() => fixedJoint.Joints[0].DriveAt(Coordinate.X, 1), Throws.ArgumentException);
+        Assert.That(() => configurable.Joints[0].Coordinate(Coordinate.Angle), Throws.ArgumentException);
+    }
+
+    private static ConfigurableJoint Only(Coordinate coordinate, bool swap, Vector3d? connectedAnchor = null) => new()
+    {
+        SwapBodies = swap,
+        AutoConfigureConnectedAnchor = connectedAnchor is null,
+        ConnectedAnchor = connectedAnchor ?? Vector3d.Zero,
+        XMotion = coordinate == Coordinate.X ? Free : Locked,
+        YMotion = coordinate == Coordinate.Y ? Free : Locked,
+        ZMotion = coordinate == Coordinate.Z ? Free : Locked,
+        AngularXMotion = coordinate == Coordinate.AngularX ? Free : Locked,
+        AngularYMotion = coordinate == Coordinate.AngularY ? Free : Locked,
+        AngularZMotion = coordinate == Coordinate.AngularZ ? Free : Locked,
+    };
+}

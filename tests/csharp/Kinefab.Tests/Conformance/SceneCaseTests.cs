@@ -46,8 +46,7 @@ public class SceneCaseTests
     [Test]
     public void Manifest_EveryKind_HasARunner()
     {
-        // Bundles are read by Python alone.
-        string[] kinds = ["scene", "frames", "joints", "bundle"];
+        string[] kinds = ["scene", "frames", "joints", "source"];
         Assert.That(ConformanceCases.All.Select(entry => entry.Kind).Distinct(), Is.SubsetOf(kinds));
     }
 

@@ -42,7 +42,7 @@ public sealed class GameObject : DocumentObject
                     Transform = new Transform(ref json);
                     break;
                 case "components":
-                    components = json.List(ComponentReader.Read);
+                    SetComponents(json.List(ComponentReader.Read));
                     break;
                 case "extras":
                     Extras = json.Extras();
@@ -70,9 +70,19 @@ public sealed class GameObject : DocumentObject
     public IReadOnlyList<Component> Components
     {
         get => components;
-        init => components = value.ToArray();
+        init => SetComponents(value.ToArray());
     }
 
     /// <summary>The same, without the price of an interface.</summary>
     internal ReadOnlySpan<Component> ComponentSpan => components;
+
+    /// <summary>The first Rigidbody among the components; a valid scene has no second one.</summary>
+    internal Rigidbody? Body { get; private set; }
+
+    private void SetComponents(Component[] value)
+    {
+        components = value;
+        foreach (Component component in value)
+            Body ??= component as Rigidbody;
+    }
 }

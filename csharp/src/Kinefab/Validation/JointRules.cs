@@ -1,3 +1,4 @@
+using System;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -31,22 +32,22 @@ internal static class JointRules
     }
 
     /// <summary>The connected GameObject exists, is another one and has a Rigidbody.</summary>
-    internal static void ConnectedBody(Joint joint, int gameObject, Rigidbody?[] bodies, in Place at)
+    internal static void ConnectedBody(Joint joint, int gameObject, ReadOnlySpan<GameObject> objects, in Place at)
     {
         if (joint.ConnectedBody is not int connected)
             return;
-        if (!NumberRules.Reference(at, "connectedBody", connected, "gameObjects", bodies.Length))
+        if (!NumberRules.Reference(at, "connectedBody", connected, "gameObjects", objects.Length))
             return;
         if (connected == gameObject)
             at.Report("connectedBody", DiagnosticCodes.JointConnectsItself);
-        else if (bodies[connected] is null)
+        else if (objects[connected].Body is null)
             at.Report("connectedBody", DiagnosticCodes.ConnectedBodyWithoutRigidbody, ("gameObject", Invariant.Text(connected)));
     }
 
     /// <summary>Nothing that the solver moves hangs on such a joint.</summary>
-    internal static void Kinematic(Joint joint, Rigidbody? own, Rigidbody?[] bodies, in Place at)
+    internal static void Kinematic(Joint joint, Rigidbody? own, ReadOnlySpan<GameObject> objects, in Place at)
     {
-        bool connectedMoves = joint.ConnectedBody is int connected && (uint)connected < (uint)bodies.Length && bodies[connected] is { IsKinematic: false };
+        bool connectedMoves = joint.ConnectedBody is int connected && (uint)connected < (uint)objects.Length && objects[connected].Body is { IsKinematic: false };
         if (own is { IsKinematic: true } && !connectedMoves)
             at.Report("", DiagnosticCodes.JointBetweenKinematic);
     }

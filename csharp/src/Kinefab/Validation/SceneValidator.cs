@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -16,14 +17,14 @@ public static class SceneValidator
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
         Descriptions(document, findings);
         StructureRules.Ids(document, findings);
-        Rigidbody?[] bodies = Bodies(document.GameObjectSpan);
-        for (int i = 0; i < bodies.Length; i++)
-            GameObject(document, i, bodies, findings);
+        var anchored = new List<(int GameObject, int Component)>();
+        for (int i = 0; i < document.GameObjectSpan.Length; i++)
+            GameObject(document, i, anchored, findings);
         Lists(document, findings);
         Buffers(document, findings);
         ValidScene? scene = findings.Errors == 0 ? new ValidScene(document) : null;
         if (scene is not null)
-            Placement(scene, findings);
+            Placement(scene, anchored, findings);
         return new SceneValidation(scene, FindingPlaces.Resolve(findings, document.Text.Span, hasText: !document.Text.IsEmpty));
     }
 
@@ -36,21 +37,10 @@ public static class SceneValidator
             DescriptionRules.Analysis(analysis, document.GameObjects.Count, new Place(findings, "analysis"));
     }
 
-    private static Rigidbody?[] Bodies(ReadOnlySpan<GameObject> objects)
+    private static void GameObject(SceneDocument document, int index, List<(int GameObject, int Component)> anchored, Findings findings)
     {
-        var bodies = new Rigidbody?[objects.Length];
-        for (int i = 0; i < bodies.Length; i++)
-        {
-            foreach (Component component in objects[i].ComponentSpan)
-                bodies[i] ??= component as Rigidbody;
-        }
-
-        return bodies;
-    }
-
-    private static void GameObject(SceneDocument document, int index, Rigidbody?[] bodies, Findings findings)
-    {
-        GameObject gameObject = document.GameObjectSpan[index];
+        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        GameObject gameObject = objects[index];
         ReadOnlySpan<Component> components = gameObject.ComponentSpan;
         var at = new Place(findings, "gameObjects", index);
         StructureRules.Parent(gameObject, index, at);
@@ -80,16 +70,18 @@ public static class SceneValidator
                     BodyRules.Inertia(body, place);
                     break;
                 case Collider collider:
-                    Collider(collider, document, index, bodies, place);
+                    Collider(collider, document, index, place);
                     break;
                 case Joint joint:
-                    Joint(joint, index, bodies, place);
+                    Joint(joint, index, objects, place);
+                    if (joint is AnchoredJoint)
+                        anchored.Add((index, c));
                     break;
             }
         }
     }
 
-    private static void Collider(Collider collider, SceneDocument document, int index, Rigidbody?[] bodies, in Place at)
+    private static void Collider(Collider collider, SceneDocument document, int index, in Place at)
     {
         switch (collider)
         {
@@ -104,25 +96,25 @@ public static class SceneValidator
                 break;
             case MeshCollider mesh:
                 NumberRules.Reference(at, "mesh", mesh.Mesh, "meshes", document.Meshes.Count);
-                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjectSpan, bodies), at);
+                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjectSpan), at);
                 break;
         }
     }
 
     /// <summary>The nearest Rigidbody on the object or its ancestors; parents may still be wrong, so only earlier ones count.</summary>
-    private static Rigidbody? BodyOf(int index, ReadOnlySpan<GameObject> objects, Rigidbody?[] bodies)
+    private static Rigidbody? BodyOf(int index, ReadOnlySpan<GameObject> objects)
     {
-        while (bodies[index] is null && objects[index].Parent is int parent && parent >= 0 && parent < index)
+        while (objects[index].Body is null && objects[index].Parent is int parent && parent >= 0 && parent < index)
             index = parent;
-        return bodies[index];
+        return objects[index].Body;
     }
 
-    private static void Joint(Joint joint, int index, Rigidbody?[] bodies, in Place at)
+    private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, in Place at)
     {
         JointRules.Numbers(joint, at);
-        JointRules.OwnBody(bodies[index], at);
-        JointRules.ConnectedBody(joint, index, bodies, at);
-        JointRules.Kinematic(joint, bodies[index], bodies, at);
+        JointRules.OwnBody(objects[index].Body, at);
+        JointRules.ConnectedBody(joint, index, objects, at);
+        JointRules.Kinematic(joint, objects[index].Body, objects, at);
         if (joint is AnchoredJoint anchored)
         {
             JointRules.AnchorNumbers(anchored, at);
@@ -202,19 +194,19 @@ public static class SceneValidator
     }
 
     /// <summary>Rules that need every object's place in the world.</summary>
-    private static void Placement(ValidScene scene, Findings findings)
+    private static void Placement(ValidScene scene, List<(int GameObject, int Component)> anchored, Findings findings)
     {
         ReadOnlySpan<GameObject> objects = scene.Document.GameObjectSpan;
         for (int i = 0; i < objects.Length; i++)
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.World(parent).Scale, new Place(findings, "gameObjects", i));
-            ReadOnlySpan<Component> components = objects[i].ComponentSpan;
-            for (int c = 0; c < components.Length; c++)
-            {
-                if (components[c] is AnchoredJoint joint)
-                    Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
-            }
+        }
+
+        foreach ((int index, int component) in anchored)
+        {
+            var joint = (AnchoredJoint)objects[index].ComponentSpan[component];
+            Anchors(joint, scene, index, new Place(findings, "gameObjects", index, component));
         }
     }
 

@@ -51,16 +51,7 @@ public sealed class ValidScene
         joint.ConnectedBody is int body ? World(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
 
     /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
-    public Rigidbody? Body(int gameObject)
-    {
-        foreach (Component component in Document.GameObjects[gameObject].Components)
-        {
-            if (component is Rigidbody body)
-                return body;
-        }
-
-        return null;
-    }
+    public Rigidbody? Body(int gameObject) => Document.GameObjects[gameObject].Body;
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     public int? BodyOf(int gameObject)

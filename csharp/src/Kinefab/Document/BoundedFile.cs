@@ -7,14 +7,22 @@ namespace Kinefab.Document;
 /// <summary>Whole files, but never more than a given size, whatever the file says of itself.</summary>
 internal static class BoundedFile
 {
+    /// <summary>The longest array that .NET allows.</summary>
+    private const long LongestArray = 0x7FFFFFC7;
+
     /// <summary>The bytes; null when there are more than <paramref name="limit"/>, and then <paramref name="size"/> says at least how many.</summary>
     internal static byte[]? Read(string path, long limit, out long size)
     {
+        limit = Math.Min(limit, LongestArray);
         using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
         size = stream.Length;
         if (size > limit)
             return null;
+#if NET5_0_OR_GREATER
+        byte[] bytes = GC.AllocateUninitializedArray<byte>((int)size);
+#else
         byte[] bytes = new byte[size];
+#endif
         int count = 0;
         while (true)
         {

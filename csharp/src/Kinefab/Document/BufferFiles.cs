@@ -6,9 +6,6 @@ namespace Kinefab.Document;
 /// <summary>Reads the buffers of a scene from the folder of its file.</summary>
 internal static class BufferFiles
 {
-    /// <summary>The longest array that .NET allows.</summary>
-    private const long MaxBytes = 0x7FFFFFC7;
-
     internal static void Attach(SceneDocument document, string folder)
     {
         foreach (SceneBuffer buffer in document.Buffers)
@@ -22,7 +19,7 @@ internal static class BufferFiles
     {
         try
         {
-            byte[]? bytes = BoundedFile.Read(path, Math.Min(MaxBytes, Math.Max(0, buffer.ByteLength)), out long size);
+            byte[]? bytes = BoundedFile.Read(path, Math.Max(0, buffer.ByteLength), out long size);
             buffer.Attach(bytes, null, size);
         }
         catch (Exception fault) when (BoundedFile.IsExpected(fault))

@@ -1,10 +1,10 @@
 """Export of a large generated assembly against trimesh alone loading the same meshes and writing a GLB.
 
-    python python/bench/export_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500] [--format glb]
+    python python/bench/export_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500]
 
-Every part stands in one mesh file in world coordinates, as CAD programs export them, so the export has to find
-out by itself which parts are copies of one definition.  Both sides run in a process of their own; the ratio is of
-one run on one machine.
+Every part stands in one mesh file in world coordinates, as CAD programs export them, so the export has to
+find out by itself which parts are copies of one definition.  Both sides run in a process of their own; the
+ratio is of one run on one machine.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ def torus(rng: np.random.Generator, triangles: int) -> tuple[np.ndarray, np.ndar
     vertices = np.stack([ring * np.cos(a), ring * np.sin(a), section * np.sin(b)], axis=-1).reshape(-1, 3)
     at = lambda i, j: (i % n) * m + j % m  # noqa: E731
     quads = [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)]
-    first, second = (np.stack([quads[k] for k in ks], axis=-1).reshape(-1, 3) for ks in ((0, 1, 2), (0, 2, 3)))
+    first, second = (
+        np.stack([quads[k] for k in ks], axis=-1).reshape(-1, 3) for ks in ((0, 1, 2), (0, 2, 3))
+    )
     return vertices, np.concatenate([first, second])
 
 
@@ -67,23 +69,43 @@ def rotation(rng: np.random.Generator) -> np.ndarray:
     return q if np.linalg.det(q) > 0 else q[:, [1, 0, 2]]
 
 
-def generate(folder: Path, parts: int, triangles: int, definitions: int, suffix: str) -> tuple[Path, Path, int]:
+def generate(
+    folder: Path, parts: int, triangles: int, definitions: int, suffix: str
+) -> tuple[Path, Path, int]:
     """Write the bundle and its mesh file; returns both and the triangles written."""
     import trimesh
 
     rng = np.random.default_rng(1)
     shapes = [torus(rng, triangles // parts) for _ in range(definitions)]
     components, scene, count = [], trimesh.Scene(), 0
-    components.append({"id": "Top", "name": "Top", "kind": "assembly", "flexible": True, "pose": pose(np.eye(3), np.zeros(3))})
+    components.append(
+        {
+            "id": "Top",
+            "name": "Top",
+            "kind": "assembly",
+            "flexible": True,
+            "pose": pose(np.eye(3), np.zeros(3)),
+        }
+    )
     for i in range(parts):
         vertices, faces = shapes[i % definitions]
         r, o = rotation(rng), rng.uniform(-5000, 5000, 3)
         name = f"Ring_{i}"
-        scene.add_geometry(trimesh.Trimesh(vertices @ r.T + o, faces, process=False), node_name=name, geom_name=name)
+        scene.add_geometry(
+            trimesh.Trimesh(vertices @ r.T + o, faces, process=False), node_name=name, geom_name=name
+        )
         body = {"id": "b", "name": "b", "meshKey": name}
         definition = f"ring{i % definitions}.ipt"
         components.append(
-            {"id": f"Top/{name}", "name": name, "kind": "part", "parent": "Top", "definition": definition, "pose": pose(r, o), "bodies": [body]}
+            {
+                "id": f"Top/{name}",
+                "name": name,
+                "kind": "part",
+                "parent": "Top",
+                "definition": definition,
+                "pose": pose(r, o),
+                "bodies": [body],
+            }
         )
         count += len(faces)
     mesh = folder / f"bench{suffix}"
@@ -94,7 +116,13 @@ def generate(folder: Path, parts: int, triangles: int, definitions: int, suffix:
         "units": {"length": "mm", "angle": "deg", "mass": "kg"},
         "handed": "right",
         "up": "Z",
-        "mesh": {"files": [mesh.name], "units": "mm", "layout": "single", "coordinates": "world", "key": "object"},
+        "mesh": {
+            "files": [mesh.name],
+            "units": "mm",
+            "layout": "single",
+            "coordinates": "world",
+            "key": "object",
+        },
     }
     bundle = folder / "bench.bundle.json"
     bundle.write_text(json.dumps({"meta": meta, "components": components}))
@@ -122,16 +150,22 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         start = time.perf_counter()
-        bundle, mesh, count = generate(folder, options.parts, options.triangles, options.definitions, "." + options.format)
+        bundle, mesh, count = generate(
+            folder, options.parts, options.triangles, options.definitions, "." + options.format
+        )
         size = mesh.stat().st_size / 1e6
-        print(f"{options.parts} parts, {options.definitions} definitions, {count} triangles, {options.format} of {size:.0f} MB")
+        print(
+            f"{options.parts} parts, {options.definitions} definitions, {count} triangles, {options.format} of {size:.0f} MB"
+        )
         print(f"generated in {time.perf_counter() - start:.1f} s")
         load, write = map(float, run(TRIMESH, mesh, folder / "again.glb"))
         print(f"trimesh alone: load {load:.1f} s, write GLB {write:.1f} s, together {load + write:.1f} s")
         total, meshes, stages = run(EXPORT, bundle, folder / "bench.kinefab")
         print(f"kinefab export: {float(total):.1f} s, {meshes} meshes written ({stages.strip()})")
         peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
-        print(f"ratio: {float(total) / (load + write):.2f} (export / trimesh load and GLB), peak memory {peak:.1f} GB")
+        print(
+            f"ratio: {float(total) / (load + write):.2f} (export / trimesh load and GLB), peak memory {peak:.1f} GB"
+        )
 
 
 if __name__ == "__main__":

@@ -15,6 +15,8 @@ import kinefab
 from kinefab.diagnostics import schema_directory
 from unity_semantics import compose, matrix
 
+BOX = trimesh.creation.box((0.1, 0.2, 0.3))
+
 
 def lid_scene() -> kinefab.Scene:
     """A box on the ground with a lid that opens from 0 to 110 degrees."""
@@ -46,7 +48,9 @@ def mesh_arrays(path: Path, content: dict, index: int):
     """(positions, triangles) of a mesh in a written scene."""
     entry = content["meshes"][index]
     data = (Path(path).parent / content["buffers"][0]["uri"]).read_bytes()
-    positions = np.frombuffer(data, "<f4", 3 * entry["vertexCount"], entry["positions"]["offset"]).reshape(-1, 3)
+    positions = np.frombuffer(data, "<f4", 3 * entry["vertexCount"], entry["positions"]["offset"]).reshape(
+        -1, 3
+    )
     count = sum(s["indexCount"] for s in entry["submeshes"])
     kind = "<u2" if entry["indexFormat"] == "uint16" else "<u4"
     faces = np.frombuffer(data, kind, count, entry["indices"]["offset"]).reshape(-1, 3)
@@ -68,3 +72,8 @@ def components(content: dict, name: str, kind: str) -> list[dict]:
     """Components of one type on the object of that name."""
     (entry,) = [o for o in content["gameObjects"] if o["name"] == name]
     return [c for c in entry.get("components", []) if c["type"] == kind]
+
+
+def exported(scene, tmp_path, **options):
+    result = kinefab.export(scene, tmp_path / "out.kinefab", kinefab.ExportOptions(**options))
+    return read(result.path), result

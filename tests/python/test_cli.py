@@ -76,7 +76,10 @@ def test_inspect_as_json_is_json(lid):
     assert content["joints"][0]["freedoms"] == ["turn X 0 .. 110 deg"]
 
 
-@pytest.mark.parametrize("text", [None, "", "{", '{"format": "else"}', '{"format": "kinefab.scene", "version": "2.0"}', "[" * 100000])
+@pytest.mark.parametrize(
+    "text",
+    [None, "", "{", '{"format": "else"}', '{"format": "kinefab.scene", "version": "2.0"}', "[" * 100000],
+)
 def test_inspect_of_no_scene_exits_1_without_a_traceback(tmp_path, text):
     """Missing, empty, broken, foreign, newer and absurdly nested files each give one diagnostic."""
     path = tmp_path / "x.kinefab"
@@ -89,7 +92,9 @@ def test_inspect_of_no_scene_exits_1_without_a_traceback(tmp_path, text):
 
 def test_missing_source_exits_1_and_writes_nothing(tmp_path):
     """A source that is not there is a diagnostic; so it is in the report file."""
-    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", tmp_path / "r.json")
+    done = run(
+        "export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", tmp_path / "r.json"
+    )
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert [p.name for p in tmp_path.iterdir()] == ["r.json"]
     report = checked_report(tmp_path / "r.json")
@@ -114,5 +119,10 @@ def test_lever_is_exported_with_its_hinges_and_slider(tmp_path):
     report = checked_report(found)
     assert report["written"] is True and len(report["outcomes"]) >= 4
     content = read(target)
-    joints = [c["type"] for o in content["gameObjects"] for c in o.get("components", []) if c["type"].endswith("Joint")]
+    joints = [
+        c["type"]
+        for o in content["gameObjects"]
+        for c in o.get("components", [])
+        if c["type"].endswith("Joint")
+    ]
     assert sorted(joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]

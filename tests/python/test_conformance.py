@@ -19,7 +19,11 @@ from scenes import scene_validator
 from unity_semantics import Live, matrix
 
 ROOT = Path(__file__).parents[1] / "conformance"
-AXES = {sign + name: (1 if sign == "" else -1) * np.eye(3)[i] for sign in ("", "-") for i, name in enumerate("XYZ")}
+AXES = {
+    sign + name: (1 if sign == "" else -1) * np.eye(3)[i]
+    for sign in ("", "-")
+    for i, name in enumerate("XYZ")
+}
 
 
 def cases(kind: str) -> list[dict]:
@@ -153,7 +157,11 @@ def assert_same(got: dict, expected: dict, path: str = "") -> None:
 def check_sample(content: dict, component: dict, sample: dict) -> None:
     start = next(s for s in content["samples"] if is_start(content, s))
     pose = lambda p: (matrix(p["rotation"]), np.array(p["position"], dtype=float))  # noqa: E731
-    bodies = [pose(s[key]) if key in s else (np.eye(3), np.zeros(3)) for s in (start, sample) for key in ("own", "connected")]
+    bodies = [
+        pose(s[key]) if key in s else (np.eye(3), np.zeros(3))
+        for s in (start, sample)
+        for key in ("own", "connected")
+    ]
     live = Live(component, bodies[0], bodies[1])
     violation = live.violation(bodies[2], bodies[3])
     assert violation < 1e-9 if sample["allowed"] else violation > 1e-4, sample

@@ -12,19 +12,21 @@ import trimesh
 import kinefab
 from kinefab.diagnostics import KinefabError, Outcome
 from kinefab.model import (
-    Constraint, ConstraintKind, Coupling, CouplingKind, DofRecord, Drive, Feature, FeatureKind, Freedom, JointKind,
-    MassProperties, Motion, RX, TX,
-)  # fmt: skip
+    RX,
+    TX,
+    Constraint,
+    ConstraintKind,
+    Coupling,
+    CouplingKind,
+    DofRecord,
+    Feature,
+    FeatureKind,
+    JointKind,
+    MassProperties,
+)
 from kinefab.spatial import rotation_about, rotation_exp
-from scenes import components, lid_scene, mesh_arrays, read, world_pose
+from scenes import BOX, components, exported, lid_scene, mesh_arrays, world_pose
 from unity_semantics import M, matrix, mirrored
-
-BOX = trimesh.creation.box((0.1, 0.2, 0.3))
-
-
-def exported(scene, tmp_path, **options):
-    result = kinefab.export(scene, tmp_path / "out.kinefab", kinefab.ExportOptions(**options))
-    return read(result.path), result
 
 
 def test_lid_becomes_a_hinge_on_a_static_box(tmp_path):
@@ -163,7 +165,10 @@ def test_joint_inside_a_rigid_group_is_reported_as_redundant(tmp_path):
     scene.add_hinge(3, 4, point=(1.2, 0, 0), axis=(1, 0, 0), name="Idle")
     content, result = exported(scene, tmp_path)
     assert ("joint Idle", "JOINT_REDUNDANT") in {(o.feature, o.code) for o in result.report.outcomes}
-    assert len([c for o in content["gameObjects"] for c in o.get("components", []) if c["type"] == "HingeJoint"]) == 1
+    assert (
+        len([c for o in content["gameObjects"] for c in o.get("components", []) if c["type"] == "HingeJoint"])
+        == 1
+    )
 
 
 @pytest.mark.parametrize(
@@ -177,12 +182,16 @@ def test_joint_inside_a_rigid_group_is_reported_as_redundant(tmp_path):
         ([[1, 0, 0]], [[0, 0, 1]], "ConfigurableJoint", {"yMotion", "angularXMotion"}),
     ],
 )
-def test_freedoms_listed_for_a_part_become_one_joint_to_the_ground(translations, rotations, kind, unlocked, tmp_path):
+def test_freedoms_listed_for_a_part_become_one_joint_to_the_ground(
+    translations, rotations, kind, unlocked, tmp_path
+):
     """The paper's way: just the listed freedoms are unlocked, whatever axes they are written in."""
     scene = kinefab.Scene()
     part = scene.add_part("Part", BOX, translation=(1, 2, 3))
     turn = rotation_about(np.array([0.0, 0, 1]), 0.4)
-    directions = [np.reshape(v, (-1, 3)) @ turn.T for v in (np.array(translations, float), np.array(rotations, float))]
+    directions = [
+        np.reshape(v, (-1, 3)) @ turn.T for v in (np.array(translations, float), np.array(rotations, float))
+    ]
     scene.dof_records.append(DofRecord(part, *directions, center=np.array([1.0, 2.0, 2.5])))
     content, _ = exported(scene, tmp_path)
     (joint,) = components(content, "Part", kind)
@@ -246,7 +255,9 @@ def test_coupling_starts_from_the_angles_at_export(tmp_path):
     for offset, left in ((50, 0), (55, 5)):
         scene = kinefab.Scene()
         for name, angle in (("A", 20), ("B", 10)):
-            part = scene.add_part(name, BOX, rotation=rotation_about(np.array([0.0, 0, 1]), math.radians(angle)))
+            part = scene.add_part(
+                name, BOX, rotation=rotation_about(np.array([0.0, 0, 1]), math.radians(angle))
+            )
             joint = scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 0, 1), name=name)
             scene.joints[-1] = replace(joint, frame_b=joint.frame_a)  # zero where the part stands unturned
         scene.couplings.append(Coupling("G", CouplingKind.GEAR, "A", RX, "B", RX, -2.0, math.radians(offset)))
@@ -269,7 +280,9 @@ def test_constraints_are_written_through_in_unitys_frame(tmp_path):
     line = Feature(1, FeatureKind.LINE, np.array([0.1, 0.2, 0.3]), np.array([0.6, 0.0, 0.8]))
     plane = Feature(None, FeatureKind.PLANE, np.array([1.0, 0, 0]), np.array([0.0, 1.0, 0]))
     scene.constraints.append(
-        Constraint("Angle:1", ConstraintKind.ANGLE, (line, plane), math.radians(30), raw_kind="Angle", where="x")
+        Constraint(
+            "Angle:1", ConstraintKind.ANGLE, (line, plane), math.radians(30), raw_kind="Angle", where="x"
+        )
     )
     content, _ = exported(scene, tmp_path)
     (entry,) = content["constraints"]
@@ -286,7 +299,13 @@ def test_collider_option_decides_the_shape(shape, moving, static, tmp_path):
     """Each body gets the asked-for collider; a moving body never gets a concave one, and that is reported."""
     content, result = exported(lid_scene(), tmp_path, colliders=kinefab.ColliderShape(shape))
     for name, kind in (("Lid", moving), ("Box", static)):
-        found = [c for o in content["gameObjects"] if o["name"] == name for c in o["components"] if "Collider" in c["type"]]
+        found = [
+            c
+            for o in content["gameObjects"]
+            if o["name"] == name
+            for c in o["components"]
+            if "Collider" in c["type"]
+        ]
         assert [c["type"] for c in found] == ([kind] if kind else [])
     if shape == "mesh":
         assert components(content, "Lid", "MeshCollider")[0]["convex"] is True
@@ -320,80 +339,14 @@ def test_given_mass_is_kept_and_an_impossible_one_refused(tmp_path):
     assert not (tmp_path / "none.kinefab").exists()
 
 
-def test_strict_refuses_what_would_be_approximated(tmp_path):
-    """A one-sided limit is approximated with a warning, and with strict nothing is written."""
-    scene = kinefab.Scene()
-    part = scene.add_part("P", BOX)
-    one_sided = Freedom(Motion.LIMITED, lower=0.0)
-    scene.add_joint(JointKind.PRISMATIC, None, part, point=(0, 0, 0), axis=(1, 0, 0), name="S", tx=one_sided)
-    content, result = exported(scene, tmp_path)
-    assert components(content, "P", "ConfigurableJoint")[0]["exact"] is False
-    assert content["report"][0]["code"] == "JOINT_LIMIT_ONE_SIDED"
-    with pytest.raises(KinefabError):
-        kinefab.export(scene, tmp_path / "strict.kinefab", kinefab.ExportOptions(strict=True))
-    assert not (tmp_path / "strict.kinefab").exists()
-
-
-@pytest.mark.parametrize(
-    "kind, freedoms, code",
-    [
-        (JointKind.CYLINDRICAL, {"rx": Freedom(Motion.LIMITED, -4.0, 4.0)}, "JOINT_LIMIT_BEYOND_TURN"),
-        (JointKind.UNIVERSAL, {"rz": Freedom(Motion.LIMITED, -0.2, 1.4)}, "JOINT_LIMIT_ASYMMETRIC"),
-        (JointKind.SPHERICAL, {"ry": Freedom(Motion.LIMITED, -0.2, 0.2)}, "JOINT_LIMIT_ELEVATION"),
-        (JointKind.PLANAR, {n: Freedom(Motion.LIMITED, -0.2, 0.2) for n in ("ty", "tz")}, "JOINT_LIMITS_SHARED"),
-        (JointKind.SPHERICAL, {"ry": Freedom(Motion.FREE, drive=Drive(stiffness=2.0))}, "JOINT_DRIVE_SHARED"),
-        (JointKind.PRISMATIC, {"tx": Freedom(Motion.FREE, drive=Drive(target_velocity=1.0, motor=True))}, "JOINT_MOTOR_AS_DRIVE"),
-        (JointKind.PRISMATIC, {"tx": Freedom(Motion.LIMITED, 0.3, 0.5)}, None),
-    ],
-)  # fmt: skip
-def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp_path):
-    """Each loss has its code and marks the component as not exact."""
-    scene = kinefab.Scene()
-    part = scene.add_part("P", BOX)
-    scene.add_joint(kind, None, part, point=(0, 0, 0), axis=(1, 0, 0), name="J", **freedoms)
-    content, result = exported(scene, tmp_path)
-    (joint,) = components(content, "P", "ConfigurableJoint")
-    if code is None:
-        assert [d.code for d in result.report.diagnostics] == ["JOINT_OUTSIDE_LIMITS"]
-        return
-    assert [o.code for o in result.report.outcomes] == [code]
-    assert joint["exact"] is False
-
-
-def test_reversed_limits_are_an_error(tmp_path):
-    """A lower limit above the upper one stops the export."""
-    scene = lid_scene()
-    scene.joints[0] = replace(scene.joints[0], freedoms=(*scene.joints[0].freedoms[:3], Freedom(Motion.LIMITED, 1.0, 0.5), *scene.joints[0].freedoms[4:]))
-    with pytest.raises(KinefabError) as caught:
-        kinefab.export(scene, tmp_path / "x.kinefab")
-    assert [d.code for d in caught.value.diagnostics] == ["JOINT_LIMITS_REVERSED"]
-
-
-def test_pose_that_does_not_meet_its_joint_is_reported_in_metres_and_degrees(tmp_path):
-    """A lid lifted by 2 mm off its hinge is a warning that says so."""
-    scene = lid_scene()
-    lifted = scene.nodes[1].pose
-    scene.nodes[1] = replace(scene.nodes[1], pose=type(lifted)(lifted.rotation, lifted.translation + (0, 0.002, 0)))
-    _, result = exported(scene, tmp_path)
-    (finding,) = result.report.diagnostics
-    assert finding.code == "JOINT_POSE_GAP" and "0.002 m" in finding.message
-
-
-def test_joint_of_six_freedoms_needs_no_component(tmp_path):
-    """A free joint is dropped with a remark, not exported as a component that does nothing."""
-    scene = kinefab.Scene()
-    part = scene.add_part("P", BOX)
-    scene.add_joint(JointKind.FREE, None, part, point=(0, 0, 0), name="F")
-    _, result = exported(scene, tmp_path)
-    assert [o.code for o in result.report.outcomes] == ["JOINT_REMOVES_NOTHING"]
-
-
 def test_bodies_of_a_part_are_children_with_stable_unique_ids(tmp_path):
     """Several bodies become children of the part, named after themselves even where names repeat."""
     scene = kinefab.Scene()
     part = scene.add_part("P", BOX)
     names = ("skin", "skin", "skin#2")
-    scene.nodes[part] = replace(scene.nodes[part], bodies=tuple(replace(scene.nodes[part].bodies[0], name=n) for n in names))
+    scene.nodes[part] = replace(
+        scene.nodes[part], bodies=tuple(replace(scene.nodes[part].bodies[0], name=n) for n in names)
+    )
     content, _ = exported(scene, tmp_path)
     ids = [o["id"] for o in content["gameObjects"]]
     assert ids == ["P", "P/body:skin", "P/body:skin#2", "P/body:skin#2#2"]

@@ -1,4 +1,4 @@
-"""Mesh files to bodies: OBJ's traps, names, units, shared meshes, masses and hulls."""
+"""Mesh files to bodies: OBJ's traps, names, units and shared meshes."""
 
 from __future__ import annotations
 
@@ -11,12 +11,10 @@ import trimesh
 
 from kinefab.diagnostics import Report
 from kinefab.geometry.files import FORMATS, transformed
-from kinefab.geometry.hulls import collision_hulls, hull_of_points
 from kinefab.geometry.loading import MeshFiles, load_geometry
-from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties
+from kinefab.geometry.mass import solid_properties
 from kinefab.geometry.pieces import Piece
-from kinefab.geometry.weighing import weigh
-from kinefab.model import Body, MassProperties, Mesh, MeshKey, MeshReference, Node, Scene
+from kinefab.model import Body, Mesh, MeshKey, MeshReference, Node, Scene
 from kinefab.spatial import Pose, rotation_exp
 
 CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -45,7 +43,9 @@ def load(path: Path, *keys, definition=None, unit=1.0, keyed_by=MeshKey.OBJECT, 
             inverse = poses[i].inverse()
             to_node[:3, :3], to_node[:3, 3] = inverse.rotation * unit, inverse.translation
         reference = MeshReference(path, to_node, key, keyed_by, f"bundle#/{i}")
-        nodes.append(Node(f"P{i}", f"P{i}", definition=definition, bodies=(Body(str(key), reference=reference),)))
+        nodes.append(
+            Node(f"P{i}", f"P{i}", definition=definition, bodies=(Body(str(key), reference=reference),))
+        )
     report = Report()
     scene = load_geometry(Scene(nodes=nodes), MeshFiles(report), report, lambda *_: None)
     return scene, report
@@ -138,7 +138,17 @@ def test_obj_normals_and_texture_coordinates_stay_with_their_corners(tmp_path):
     """Corners that differ in vt or vn are different vertices; normals keep their direction."""
     v, _ = cube_lines(1)
     normals = ["vn 1 0 0", "vn 0 1 0"]
-    path = write(tmp_path / "a.obj", "o A", v, "vt 0 0", "vt 1 0", "vt 0 1", normals, "f 5/1/1 7/2/1 8/3/1", "f 3/1/2 4/2/2 8/3/2")
+    path = write(
+        tmp_path / "a.obj",
+        "o A",
+        v,
+        "vt 0 0",
+        "vt 1 0",
+        "vt 0 1",
+        normals,
+        "f 5/1/1 7/2/1 8/3/1",
+        "f 3/1/2 4/2/2 8/3/2",
+    )
     scene, _ = load(path, "A")
     (mesh,) = meshes(scene)
     assert len(mesh.vertices) == 6
@@ -172,7 +182,11 @@ def test_damaged_obj_is_a_diagnostic(tmp_path, lines, code):
 
 def test_missing_and_unknown_files_are_diagnostics(tmp_path):
     """A file that is not there, and formats that nothing here reads, say what to do instead."""
-    for name, code in (("a.obj", "GEOMETRY_UNREADABLE"), ("a.fbx", "GEOMETRY_FORMAT_UNKNOWN"), ("a.step", "GEOMETRY_FORMAT_UNKNOWN")):
+    for name, code in (
+        ("a.obj", "GEOMETRY_UNREADABLE"),
+        ("a.fbx", "GEOMETRY_FORMAT_UNKNOWN"),
+        ("a.step", "GEOMETRY_FORMAT_UNKNOWN"),
+    ):
         _, report = load(tmp_path / name, "A")
         assert [d.code for d in report.diagnostics] == [code]
     assert "kinefab[step]" in report.diagnostics[0].remedy
@@ -180,12 +194,16 @@ def test_missing_and_unknown_files_are_diagnostics(tmp_path):
 
 def test_body_that_is_not_in_the_file_lists_near_names(tmp_path):
     """A misspelt body is an error with what comes close."""
-    scene, report = load(two_cubes(tmp_path / "a.obj", "o Lever_Arm", "o Lever_Grip"), "Lever_Arn", "Lever_Grip", "x")
+    scene, report = load(
+        two_cubes(tmp_path / "a.obj", "o Lever_Arm", "o Lever_Grip"), "Lever_Arn", "Lever_Grip", "x"
+    )
     errors = [d for d in report.diagnostics if d.code == "BODY_NOT_IN_FILE"]
     assert len(errors) == 2 and "Lever_Arm" in errors[0].message
 
 
-@pytest.mark.parametrize("wanted, named", [("Arm:1", "Arm_1"), ("arm 1", "Arm_1"), ("Gr\u00fcn.ipt:1", "Gru\u0308n_1")])
+@pytest.mark.parametrize(
+    "wanted, named", [("Arm:1", "Arm_1"), ("arm 1", "Arm_1"), ("Gr\u00fcn.ipt:1", "Gru\u0308n_1")]
+)
 def test_names_that_differ_in_spelling_only_are_matched_and_reported(tmp_path, wanted, named):
     """Separators, case, Unicode form and file extensions may differ; the report says so."""
     scene, report = load(two_cubes(tmp_path / "a.obj", f"o {named}", "o Other"), wanted, "Other")
@@ -213,8 +231,18 @@ def test_glb_nodes_are_bodies_at_their_place(tmp_path):
     """Two nodes of one geometry are two bodies, each moved by its own transform."""
     scene = trimesh.Scene()
     box = trimesh.creation.box((1, 1, 1))
-    scene.add_geometry(box, node_name="Left", geom_name="Box", transform=trimesh.transformations.translation_matrix((-5, 0, 0)))
-    scene.add_geometry(box, node_name="Right", geom_name="Box", transform=trimesh.transformations.translation_matrix((5, 0, 0)))
+    scene.add_geometry(
+        box,
+        node_name="Left",
+        geom_name="Box",
+        transform=trimesh.transformations.translation_matrix((-5, 0, 0)),
+    )
+    scene.add_geometry(
+        box,
+        node_name="Right",
+        geom_name="Box",
+        transform=trimesh.transformations.translation_matrix((5, 0, 0)),
+    )
     scene.export(tmp_path / "a.glb")
     found, _ = load(tmp_path / "a.glb", "Right", "Left")
     assert [float(m.vertices[:, 0].mean()) for m in meshes(found)] == pytest.approx([5, -5])
@@ -227,10 +255,15 @@ def test_world_coordinates_become_local_and_equal_parts_share_a_mesh(tmp_path):
     poses = [Pose(rotation_exp(rng.normal(size=3)), rng.normal(size=3)) for _ in range(3)]
     lines, first = [], 1
     for i, pose in enumerate(poses):
-        lines += [f"o P{i}", *("v %.6f %.6f %.6f" % tuple(1000 * pose.point(p / 1000)) for p in shape.vertices)]
+        lines += [
+            f"o P{i}",
+            *("v %.6f %.6f %.6f" % tuple(1000 * pose.point(p / 1000)) for p in shape.vertices),
+        ]
         lines += ["f %d %d %d" % tuple(f + first) for f in shape.faces]
         first += len(shape.vertices)
-    scene, report = load(write(tmp_path / "a.obj", lines), "P0", "P1", "P2", definition="ring", unit=1e-3, poses=poses)
+    scene, report = load(
+        write(tmp_path / "a.obj", lines), "P0", "P1", "P2", definition="ring", unit=1e-3, poses=poses
+    )
     assert [b.mesh for n in scene.nodes for b in n.bodies] == [0, 0, 0] and len(scene.meshes) == 1
     assert np.allclose(scene.meshes[0].vertices, shape.vertices / 1000, atol=1e-8)
     assert report.diagnostics == []
@@ -254,110 +287,11 @@ def test_mirrored_part_is_baked_with_its_winding_turned(tmp_path):
 
 def test_normals_of_a_stretched_mesh_stay_across_it():
     """Normals go by the inverse transpose: a slope of 1:1 stretched fourfold in height leans accordingly."""
-    slope = Piece(np.array([[0.0, 0, 0], [1, -1, 0], [0, 0, 1]]), np.array([[0, 1, 2]]), np.full((3, 3), (0.5**0.5, 0.5**0.5, 0)))
+    slope = Piece(
+        np.array([[0.0, 0, 0], [1, -1, 0], [0, 0, 1]]),
+        np.array([[0, 1, 2]]),
+        np.full((3, 3), (0.5**0.5, 0.5**0.5, 0)),
+    )
     found = transformed(slope, np.diag([1.0, 4.0, 1.0, 1.0]))
     assert np.allclose(found.normals, np.array([4, 1, 0]) / 17**0.5)
     assert np.allclose(found.normals @ (found.vertices[1] - found.vertices[0]), 0)
-
-
-def weighed(vertices, faces, **body):
-    report = Report()
-    mesh = Mesh("m", np.array(vertices, float), np.array(faces))
-    scene = Scene(nodes=[Node("P", "P", bodies=(Body("b", 0, **body),))], meshes=[mesh])
-    return weigh(scene, 1000.0, report), report
-
-
-def test_mass_of_a_cylinder_is_its_closed_form():
-    """A fine cylinder approaches m r^2 / 2 about its axis and m (3 r^2 + h^2) / 12 across."""
-    shape = trimesh.creation.cylinder(0.1, 0.4, sections=720)
-    shape.apply_translation((100.0, 0, 0))  # far from the origin
-    scene, _ = weighed(shape.vertices, shape.faces, density=7850.0)
-    mass = scene.nodes[0].mass
-    expected = 7850 * math.pi * 0.01 * 0.4
-    assert mass.mass == pytest.approx(expected, rel=1e-4)
-    across = expected * (3 * 0.01 + 0.16) / 12
-    assert np.allclose(np.diag(mass.inertia), [across, across, expected * 0.01 / 2], rtol=1e-4)
-    assert np.allclose(mass.center, (100, 0, 0), atol=1e-9)
-
-
-def test_open_mesh_takes_the_mass_of_its_hull_with_a_warning():
-    """A cube without its lid weighs what the full cube weighs, and says so."""
-    box = trimesh.creation.box((1, 1, 1))
-    scene, report = weighed(box.vertices, box.faces[2:])
-    assert scene.nodes[0].mass.mass == pytest.approx(1000)
-    assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
-
-
-def test_repeated_vertices_do_not_make_a_mesh_open():
-    """A skin whose every triangle has vertices of its own is closed all the same."""
-    box = trimesh.creation.box((1, 2, 3))
-    scene, report = weighed(box.vertices[box.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
-    assert scene.nodes[0].mass.mass == pytest.approx(6000) and report.diagnostics == []
-
-
-def test_inside_out_mesh_is_turned_with_a_warning():
-    """Negative volume is no mass: the winding is wrong, and is turned."""
-    box = trimesh.creation.box((1, 2, 3))
-    scene, report = weighed(box.vertices, box.faces[:, ::-1])
-    assert scene.nodes[0].mass.mass == pytest.approx(6000) and volume(scene.meshes[0]) == pytest.approx(6)
-    assert [d.code for d in report.diagnostics] == ["MESH_INSIDE_OUT"]
-
-
-def test_flat_mesh_has_no_volume_and_no_hull():
-    """A single rectangle gets a warning instead of a mass, and a box instead of a hull."""
-    scene, report = weighed([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
-    assert scene.nodes[0].mass is None
-    assert [d.code for d in report.diagnostics] == ["MESH_WITHOUT_VOLUME"]
-    assert collision_hulls(scene, [(0, "b")], report) == {}
-    assert report.diagnostics[-1].code == "HULL_FLAT"
-
-
-def test_combined_mass_is_that_of_the_whole():
-    """Two halves of a box, one of them turned in its own frame, weigh as the whole."""
-    whole, half = trimesh.creation.box((2, 0.6, 0.4)), trimesh.creation.box((1, 0.6, 0.4))
-    of = lambda m: solid_properties(np.array(m.vertices), np.array(m.faces), 500.0)  # noqa: E731
-    turned = Pose(rotation_exp(np.array([math.pi, 0, 0])), np.array([-0.5, 0, 0]))
-    total = combined([moved(of(half), turned), moved(of(half), Pose(np.eye(3), np.array([0.5, 0, 0])))])
-    expected = of(whole)
-    assert total.mass == pytest.approx(expected.mass)
-    assert np.allclose(total.inertia, expected.inertia) and np.allclose(total.center, 0)
-
-
-def test_principal_axes_are_a_proper_rotation_near_the_part_frame():
-    """Moments and axes rebuild the tensor; the axes are right-handed and turned as little as can be."""
-    rng = np.random.default_rng(3)
-    for _ in range(50):
-        r = rotation_exp(rng.uniform(-0.3, 0.3, 3))
-        tensor = r @ np.diag([5.0, 1.0, 3.0]) @ r.T
-        moments, axes = principal(tensor)
-        assert np.allclose(axes @ np.diag(moments) @ axes.T, tensor)
-        assert np.linalg.det(axes) == pytest.approx(1.0)
-        assert np.allclose(moments, [5, 1, 3]) and np.allclose(axes, r)
-
-
-def test_inertia_that_no_body_has_is_known():
-    """The largest moment may not exceed the sum of the others, and none may be zero or less."""
-    assert is_possible(np.diag([3.0, 4.0, 5.0])) and is_possible(np.diag([1.0, 1.0, 2.0]))
-    assert not is_possible(np.diag([1.0, 1.0, 2.1])) and not is_possible(np.diag([0.0, 1.0, 1.0]))
-    assert not is_possible(np.diag([-1.0, 4.0, 4.0]))
-
-
-def test_large_hull_is_reduced_to_what_unity_takes():
-    """A fine cylinder's hull ends below 256 triangles, within a hundredth of its radius, and is reported."""
-    shape = trimesh.creation.cylinder(0.1, 0.4, sections=300)
-    mesh = Mesh("m", np.array(shape.vertices), np.array(shape.faces))
-    report = Report()
-    hull = collision_hulls(Scene(meshes=[mesh]), [(0, "P/b")], report)[0]
-    assert 200 < len(hull.faces) <= 255
-    assert volume(hull) == pytest.approx(shape.volume, rel=0.01)
-    (finding,) = report.diagnostics
-    assert finding.code == "HULL_SIMPLIFIED" and "P/b" in finding.message
-
-
-def test_hull_is_wound_outwards():
-    """The hull of random points has the volume that trimesh finds."""
-    points = np.random.default_rng(8).normal(size=(200, 3))
-    vertices, faces = hull_of_points(points)
-    expected = trimesh.convex.convex_hull(points).volume
-    assert solid_properties(vertices, faces, 1.0).mass == pytest.approx(expected)
-    assert isinstance(solid_properties(vertices, faces, 1.0), MassProperties)

@@ -13,14 +13,20 @@ from scenes import read
 
 ROOT = Path(__file__).parents[2]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
-READMES = [path for path in (ROOT / "README.md", ROOT / "python" / "README.md") if BLOCK.search(path.read_text("utf-8"))]
+READMES = [
+    path
+    for path in (ROOT / "README.md", ROOT / "python" / "README.md")
+    if BLOCK.search(path.read_text("utf-8"))
+]
 
 
 @pytest.mark.parametrize("readme", READMES, ids=lambda path: path.parent.name)
 def test_readme_code_runs(readme, tmp_path):
     """The blocks of one README, one after the other, run without an error and write what they say."""
     code = "\n".join(BLOCK.findall(readme.read_text(encoding="utf-8")))
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
     assert done.returncode == 0, done.stderr
     written = list(tmp_path.glob("*.kinefab"))
     assert written and all(read(path)["gameObjects"] for path in written)

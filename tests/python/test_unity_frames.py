@@ -73,7 +73,9 @@ def test_velocity_of_a_turning_point_stays_consistent(seed):
     """v = w x r holds after the mirror with the component formula of the cross product."""
     rng = np.random.default_rng(seed)
     w, r = rng.normal(size=3), rng.normal(size=3)
-    assert np.allclose(frames.direction(np.cross(w, r)), np.cross(frames.axial(w), frames.point(r)), atol=1e-14)
+    assert np.allclose(
+        frames.direction(np.cross(w, r)), np.cross(frames.axial(w), frames.point(r)), atol=1e-14
+    )
 
 
 @given(seeds)
@@ -98,7 +100,9 @@ def test_screw_lead_turns_its_sign():
     axis, lead, angle = np.array([0.6, 0.0, 0.8]), 0.003, 0.7
     advance = frames.direction(axis * lead * angle / (2 * np.pi))
     turn = float(frames.angle(angle))
-    assert np.allclose(advance, frames.direction(axis) * float(frames.lead(lead)) * turn / (2 * np.pi), atol=1e-16)
+    assert np.allclose(
+        advance, frames.direction(axis) * float(frames.lead(lead)) * turn / (2 * np.pi), atol=1e-16
+    )
 
 
 def test_joint_basis_is_what_unity_builds():

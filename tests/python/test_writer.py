@@ -82,7 +82,9 @@ def test_kill_at_any_moment_leaves_a_readable_pair(tmp_path, monkeypatch):
         if not died:
             break
     assert deaths >= 10 and seen == {0.1, 0.7}
-    assert sorted(p.suffix for p in tmp_path.iterdir()) == [".bin", ".kinefab"], "nothing is left over after success"
+    assert sorted(p.suffix for p in tmp_path.iterdir()) == [".bin", ".kinefab"], (
+        "nothing is left over after success"
+    )
 
 
 def test_failed_write_is_a_diagnostic_and_leaves_nothing(tmp_path, monkeypatch):

@@ -1,8 +1,8 @@
 """Kinefab: carries mechanisms out of CAD into Unity, moving as they moved in CAD.
 
-    import kinefab
+import kinefab
 
-    kinefab.export("lever.bundle.json", "lever.kinefab")
+kinefab.export("lever.bundle.json", "lever.kinefab")
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ _HOMES = {
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
-    from .builder import Scene
-    from .diagnostics import KinefabError, Report
-    from .model import Drive, Freedom, JointKind, MassProperties, Motion
-    from .options import ColliderShape, ExportOptions
-    from .pipeline import ExportResult, export
+    from .builder import Scene  # noqa: F401
+    from .diagnostics import KinefabError, Report  # noqa: F401
+    from .model import Drive, Freedom, JointKind, MassProperties, Motion  # noqa: F401
+    from .options import ColliderShape, ExportOptions  # noqa: F401
+    from .pipeline import ExportResult, export  # noqa: F401
 
 
 def __getattr__(name: str) -> Any:

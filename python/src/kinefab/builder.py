@@ -109,7 +109,9 @@ class Scene(model.Scene):
         lead: of a screw, metres a turn.
         freedoms: ``tx`` .. ``rz``, replacing those that the kind leaves (SI, radians).
         """
-        world = Pose(frame_from_axes(vector(axis), None if secondary is None else vector(secondary)), vector(point))
+        world = Pose(
+            frame_from_axes(vector(axis), None if secondary is None else vector(secondary)), vector(point)
+        )
         frames = [self.pose(side).inverse() @ world for side in (a, b)]
         joint_id = name or f"{kind.value}:{len(self.joints) + 1}"
         joint = Joint(joint_id, kind, a, b, *frames, freedoms_of(kind, **freedoms), name=name, lead=lead)

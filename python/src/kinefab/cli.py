@@ -33,8 +33,12 @@ def _show_version(asked: bool) -> None:
 
 @app.callback()
 def _common(
-    version: bool = typer.Option(False, "--version", callback=_show_version, is_eager=True, help="Show the version."),
-    verbose: bool = typer.Option(False, "--verbose", "-v", help="Show remarks too, not only warnings and errors."),
+    version: bool = typer.Option(
+        False, "--version", callback=_show_version, is_eager=True, help="Show the version."
+    ),
+    verbose: bool = typer.Option(
+        False, "--verbose", "-v", help="Show remarks too, not only warnings and errors."
+    ),
     quiet: bool = typer.Option(False, "--quiet", "-q", help="Show errors only."),
 ) -> None:
     """Carry a mechanism out of CAD into Unity, moving as it moved in CAD."""
@@ -45,8 +49,12 @@ def _common(
 @app.command()
 def export(
     source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
-    output: Path = typer.Option(..., "--output", "-o", help="Scene to write: NAME.kinefab.", show_default=False),
-    strict: bool = typer.Option(False, "--strict", help="Fail where anything would be approximated or dropped."),
+    output: Path = typer.Option(
+        ..., "--output", "-o", help="Scene to write: NAME.kinefab.", show_default=False
+    ),
+    strict: bool = typer.Option(
+        False, "--strict", help="Fail where anything would be approximated or dropped."
+    ),
     report: Optional[Path] = typer.Option(None, "--report", help="Write every finding to this JSON file."),
     colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", help="Collider of each body."),
     density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
@@ -89,7 +97,7 @@ def inspect(
         description = describe(read_scene_file(file))
     except KinefabError as error:
         _log(Report(list(error.diagnostics)))
-        raise typer.Exit(1)
+        raise typer.Exit(1) from None
     typer.echo(json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description))
 
 
@@ -112,7 +120,7 @@ def _write_report(path: Path, content: dict[str, object]) -> None:
         path.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
         typer.echo(f"{path} cannot be written: {error.strerror}", err=True)
-        raise typer.Exit(1)
+        raise typer.Exit(1) from None
 
 
 def _summary(result: ExportResult) -> str:

@@ -1,4 +1,4 @@
-"""Reads a written scene back and tells what is in it; the checks of a file are C#'s (``dotnet kinefab validate``)."""
+"""Reads a written scene back and tells what is in it; checking it is ``dotnet kinefab validate``'s task."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FREEDOMS = {
 
 
 def read_scene_file(path: Path) -> Mapping[str, Any]:
-    """The JSON of a scene.  Raises KinefabError when the file is missing, broken or no scene of this major version."""
+    """The JSON of a scene.  Raises KinefabError when it is missing, broken or of another major version."""
     try:
         content = json.loads(Path(path).read_bytes())
     except FileNotFoundError:
@@ -27,14 +27,20 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
     except OSError as error:
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error.strerror)]) from error
     except RecursionError:
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail="it is nested too deeply")]) from None
+        raise KinefabError(
+            [diagnostic("SCENE_UNREADABLE", str(path), detail="it is nested too deeply")]
+        ) from None
     except ValueError as error:
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
     if not isinstance(content, dict) or content.get("format") != "kinefab.scene":
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail="it does not say it is a kinefab.scene")])
+        raise KinefabError(
+            [diagnostic("SCENE_UNREADABLE", str(path), detail="it does not say it is a kinefab.scene")]
+        )
     version = str(content.get("version", ""))
     if version.partition(".")[0] != "1":
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")])
+        raise KinefabError(
+            [diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")]
+        )
     return content
 
 
@@ -65,7 +71,9 @@ def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
                 "id": entry["id"],
                 "name": entry["name"],
                 "parent": entry.get("parent"),
-                "mass": next((c.get("mass", 1) for c in entry.get("components", []) if c["type"] == "Rigidbody"), None),
+                "mass": next(
+                    (c.get("mass", 1) for c in entry.get("components", []) if c["type"] == "Rigidbody"), None
+                ),
                 "components": [component["type"] for component in entry.get("components", [])],
             }
             for entry in objects
@@ -121,7 +129,9 @@ def render(description: Mapping[str, Any]) -> str:
     for joint in description["joints"]:
         freedoms = ", ".join(joint["freedoms"]) or "fixed"
         marks = (" closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else " approximated")
-        lines.append(f"  {joint['object']} -> {joint['connected'] or 'world'}: {joint['type']}, {freedoms}{marks}")
+        lines.append(
+            f"  {joint['object']} -> {joint['connected'] or 'world'}: {joint['type']}, {freedoms}{marks}"
+        )
     if description["couplings"]:
         lines.append("couplings: " + ", ".join(description["couplings"]))
     if description["mobility"] is not None:

@@ -74,10 +74,13 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()
             unite(ground if a is None else a, b)
 
     is_body = [
-        active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded) for i, node in enumerate(nodes)
+        active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded)
+        for i, node in enumerate(nodes)
     ]
     numbers: dict[int, int] = {}
-    group_of = tuple(numbers.setdefault(find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes)))
+    group_of = tuple(
+        numbers.setdefault(find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes))
+    )
     members: list[list[int]] = [[] for _ in numbers]
     for i, group in enumerate(group_of):
         if group is not None:

@@ -42,7 +42,12 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
     except MemoryError:
         raise
     except ImportError as error:  # a format whose parser is a package of its own
-        report.add("GEOMETRY_FORMAT_UNKNOWN", where, path=path.name, advice=f"Install it ({error}), or export OBJ or glTF.")
+        report.add(
+            "GEOMETRY_FORMAT_UNKNOWN",
+            where,
+            path=path.name,
+            advice=f"Install it ({error}), or export OBJ or glTF.",
+        )
         return None
     except Exception as error:  # trimesh's parsers raise whatever the damaged bytes lead to
         report.add("GEOMETRY_UNREADABLE", where, path=path.name, detail=_brief(error))
@@ -66,7 +71,7 @@ def _brief(error: Exception) -> str:
 
 
 def _read_scene(path: Path) -> MeshFile:
-    """Every placed mesh of a trimesh scene as a piece, named by its node, its node's ancestors and its geometry."""
+    """Every placed mesh of a trimesh scene as a piece, named by its node, the nodes above and its geometry."""
     import trimesh
 
     if hasattr(trimesh, "load_scene"):

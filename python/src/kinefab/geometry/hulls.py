@@ -44,7 +44,7 @@ def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Rep
 
 
 def hull_of_points(points: Array) -> Hull | None:
-    """Convex hull of points, shape (n, 3): vertices and outward wound faces; None where they lie in a plane."""
+    """Convex hull of points, shape (n, 3): vertices and outward wound faces; None for a flat cloud."""
     from scipy.spatial import ConvexHull, QhullError
 
     if len(points) < 4 or not _is_solid(points):

@@ -51,7 +51,9 @@ class MeshFiles:
         return transformed(joined([file.pieces[n] for n in numbers]), reference.to_node).vertices
 
 
-def load_geometry(scene: Scene, files: MeshFiles, report: Report, progress: Callable[[str, float], None]) -> Scene:
+def load_geometry(
+    scene: Scene, files: MeshFiles, report: Report, progress: Callable[[str, float], None]
+) -> Scene:
     """The scene with the mesh of every ``Body.reference`` loaded, in its node's frame, metres.
 
     Errors (missing files, bodies that are not in them) are in the report; such bodies stay without a mesh.
@@ -131,7 +133,9 @@ class _Loading:
         alike = self._by_shape.setdefault(key, [])
         first = piece.vertices[0].tolist()
         for known in alike:
-            if all(abs(x - y) <= known.tolerance for x, y in zip(first, known.first)):  # tells most apart at once
+            if all(
+                abs(x - y) <= known.tolerance for x, y in zip(first, known.first)
+            ):  # tells most apart at once
                 mesh = self._meshes[known.mesh]
                 if _deviation(mesh.vertices, piece.vertices) <= known.tolerance and (
                     piece.uv is None or np.allclose(mesh.uv, piece.uv, atol=SAME_SHAPE)
@@ -143,7 +147,7 @@ class _Loading:
         return len(self._meshes) - 1
 
     def _compare_with_definition(self, place: _Place, wanted: Wanted, mesh: int) -> None:
-        """Occurrences of one definition must look alike in the part's frame: a wrong pose or unit shows here."""
+        """Occurrences of one definition look alike in the part's frame, unless a pose or unit is wrong."""
         i, k = place
         node = self._scene.nodes[i]
         if node.definition is None:

@@ -28,8 +28,8 @@ class Wanted:
 def match_bodies(file: MeshFile, wanted: Sequence[Wanted], report: Report) -> list[tuple[int, ...] | None]:
     """For each wanted body the numbers of its pieces, or None with an error in the report.
 
-    A name may be wanted several times: by copies of one part whose mesh stands in the file once, or by as many
-    bodies as the file has of that name, which are then taken in order.
+    A name may be wanted several times: by copies of one part whose mesh stands in the file once, or by as
+    many bodies as the file has of that name, which are then taken in order.
     """
     found: list[tuple[int, ...] | None] = [None] * len(wanted)
     open_ones = []
@@ -102,7 +102,11 @@ def _by_order(file: MeshFile, wanted, open_ones: list[int], found: list, report:
             for occurrence in occurrences
             if not taken.intersection(occurrence)
         ]
-        if not open_ones or len(free) != len(open_ones) or len({wanted[i].reference.key for i in open_ones}) != len(open_ones):
+        if (
+            not open_ones
+            or len(free) != len(open_ones)
+            or len({wanted[i].reference.key for i in open_ones}) != len(open_ones)
+        ):
             continue
         for i, (name, occurrence) in zip(open_ones, sorted(free, key=lambda item: item[1])):
             found[i] = occurrence
@@ -139,6 +143,10 @@ def _report_unused(file: MeshFile, found: Sequence[tuple[int, ...] | None], repo
     unused = [n for n in range(len(file.pieces)) if n not in taken]
     if not unused:
         return
-    named = {number: name for kind in MeshKey for name, os in file.named[kind].items() for o in os for number in o}
+    named = {
+        number: name for kind in MeshKey for name, os in file.named[kind].items() for o in os for number in o
+    }
     shown = [named.get(n, "(no name)") for n in unused[:5]] + ["..."] * (len(unused) > 5)
-    report.add("BODY_UNUSED", str(file.path.name), count=len(unused), path=file.path.name, names=", ".join(shown))
+    report.add(
+        "BODY_UNUSED", str(file.path.name), count=len(unused), path=file.path.name, names=", ".join(shown)
+    )

@@ -57,7 +57,9 @@ def joined(pieces: list[Piece]) -> Piece:
     )
 
 
-def cut(piece: Piece, start: int, stop: int, face_counts: tuple[int, ...], materials: tuple[str, ...]) -> Piece:
+def cut(
+    piece: Piece, start: int, stop: int, face_counts: tuple[int, ...], materials: tuple[str, ...]
+) -> Piece:
     """The faces start..stop of a piece with just the vertices they use."""
     faces = piece.faces[start:stop]
     low, high = int(faces.min()), int(faces.max()) + 1

@@ -33,6 +33,10 @@ def collider_fields(colliders: Colliders, index: int, mesh: Mesh, dynamic: bool)
         return [{"type": "MeshCollider", "mesh": index}]
     if shape is ColliderShape.BOX or index not in colliders.hull_of:
         low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-        box = {"type": "BoxCollider", "center": frames.point(0.5 * (low + high)), "size": np.subtract(high, low)}
+        box = {
+            "type": "BoxCollider",
+            "center": frames.point(0.5 * (low + high)),
+            "size": np.subtract(high, low),
+        }
         return [without_defaults("BoxCollider", rounded(box))]
     return [{"type": "MeshCollider", "mesh": colliders.hull_of[index], "convex": True}]

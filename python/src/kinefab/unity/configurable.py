@@ -54,7 +54,9 @@ class _Writing:
     fields: dict[str, object]
 
     def approximated(self, code: str, **values: object) -> None:
-        self.report.approximated(f"joint {self.joint.id}", code, self.joint.where, joint=self.joint.id, **values)
+        self.report.approximated(
+            f"joint {self.joint.id}", code, self.joint.where, joint=self.joint.id, **values
+        )
 
     def name(self, freedom: int) -> str:
         """The source's name of a freedom."""
@@ -105,7 +107,7 @@ def _report_turned_axes(w: _Writing) -> None:
 
 
 def _linear_limits(w: _Writing) -> Array:
-    """``linearLimit``: one radius about the anchors' meeting point, so that point is the middle of the range."""
+    """``linearLimit``: one radius about where the anchors meet, so that is the middle of the range."""
     middle = np.zeros(3)
     limited = [i for i in w.shape.translations if w.shape.freedoms[i].motion is Motion.LIMITED]
     if not limited:
@@ -162,7 +164,11 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
             continue
         if abs(lower + upper) > 1e-6:
             w.approximated(
-                "JOINT_LIMIT_ASYMMETRIC", freedom=w.name(RX + i), low=f"{lower:g}", high=f"{upper:g}", half=f"{half:g}"
+                "JOINT_LIMIT_ASYMMETRIC",
+                freedom=w.name(RX + i),
+                low=f"{lower:g}",
+                high=f"{upper:g}",
+                half=f"{half:g}",
             )
         key = "angularYLimit" if i == 1 else "angularZLimit"
         w.fields[key] = {"limit": half, "bounciness": freedom.restitution}

@@ -10,7 +10,6 @@ from . import frames
 from .numbers import rounded, without_defaults
 
 
-
 def constraint_entry(constraint: Constraint, object_of: Sequence[int]) -> dict[str, Any]:
     """The scene format's entry of one constraint.  object_of: for each node its GameObject."""
     fields = {

@@ -47,7 +47,7 @@ class CanonicalJoint:
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinates:
     """values: six coordinates at the exported pose, metres and radians, 0 where locked.
-    in_a, in_b: orientation of the component's frame at that pose, in a's and in b's joint frame, shape (3, 3).
+    in_a, in_b: the component's frame at that pose, in a's and in b's joint frame, shape (3, 3).
     gap_length, gap_angle: how far the locked freedoms are from being met, metres and radians.
     """
 
@@ -138,7 +138,7 @@ def _rotation_vector(r: Array) -> Array:
 
 
 def nearest_turn(value: float, freedom: Freedom) -> float:
-    """The angle that ``value`` stands for, which is known only up to whole turns: the one within the range."""
+    """The angle that ``value`` stands for, which is known up to whole turns: the one within the range."""
     turn = 2.0 * math.pi
     if freedom.motion is not Motion.LIMITED:
         return value

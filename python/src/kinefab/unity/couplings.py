@@ -26,7 +26,11 @@ def coupling_entry(
         mapped, index = joints.get(name, (None, -1))
         if mapped is None or freedom not in mapped.coordinates:
             report.dropped(
-                f"coupling {coupling.id}", "COUPLING_WITHOUT_JOINT", coupling.where, coupling=coupling.id, joint=name
+                f"coupling {coupling.id}",
+                "COUPLING_WITHOUT_JOINT",
+                coupling.where,
+                coupling=coupling.id,
+                joint=name,
             )
             return None
         ends.append((mapped.coordinates[freedom], object_of[mapped.owner], index, freedom >= RX))

@@ -131,7 +131,9 @@ class _Builder:
             parent = node.parent
             outer = self.scene.pose(parent)
             local = outer.inverse() @ node.pose
-            entry = self._object(node.id, node.name, None if parent is None else self.object_of[parent], local)
+            entry = self._object(
+                node.id, node.name, None if parent is None else self.object_of[parent], local
+            )
             if not active[i]:
                 entry["active"] = False
             if node.extras:

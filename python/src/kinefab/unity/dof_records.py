@@ -1,4 +1,4 @@
-"""The paper's way: a list of a part's remaining freedoms becomes one joint to the ground that leaves just those."""
+"""The paper's way: the freedoms listed for a part become one joint to the ground that leaves just those."""
 
 from __future__ import annotations
 
@@ -37,7 +37,17 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         kind = next((k for k, unlocked in UNLOCKED.items() if tuple(unlocked) == free), JointKind.GENERAL)
         frame_b = node.pose.inverse() @ world
         joints.append(
-            Joint(f"dof:{node.id}", kind, None, record.node, world, frame_b, freedoms, because=(feature,), where=record.where)
+            Joint(
+                f"dof:{node.id}",
+                kind,
+                None,
+                record.node,
+                world,
+                frame_b,
+                freedoms,
+                because=(feature,),
+                where=record.where,
+            )
         )
     return joints
 
@@ -62,7 +72,9 @@ def _frame_and_freedoms(record: DofRecord, pose: Pose) -> tuple[Array, tuple[int
         return "its slides stand askew to its rotations"
     free = tuple(i for i in range(3) if _lies_in(axes[:, i], slides))
     about = tuple(3 + i for i in range(3) if _lies_in(axes[:, i], turns))
-    if r == 2:  # two rotations are a cross joint: its middle body turns about one axis, the part about the other
+    if (
+        r == 2
+    ):  # two rotations are a cross joint: its middle body turns about one axis, the part about the other
         return "two rotations are no motion of their own"
     return axes, free + about
 

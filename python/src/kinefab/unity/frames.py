@@ -49,7 +49,7 @@ def pose(p: Pose) -> Pose:
 
 
 def inertia(i) -> Array:
-    """F5. Inertia tensors, kg m^2, shape (..., 3, 3): M I M, no further sign.  Principal moments do not change."""
+    """F5. Inertia tensors, kg m^2, shape (..., 3, 3): M I M.  Principal moments stay as they are."""
     return rotation(i)
 
 
@@ -70,7 +70,7 @@ def distance(q):
 
 
 def lead(metres_per_turn):
-    """F8. The lead of a screw against left-handed angles: its sign turns, as the angle's does and the distance's does not."""
+    """F8. The lead of a screw: its sign turns, as the angle's does and the distance's does not."""
     return -np.asarray(metres_per_turn, dtype=np.float64)
 
 

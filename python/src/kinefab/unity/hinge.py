@@ -73,7 +73,11 @@ def _limits(joint: Joint, shape: CanonicalJoint, zero: float, report: Report) ->
     low, high = math.degrees(freedom.lower - zero), math.degrees(freedom.upper - zero)
     if math.isinf(low) or math.isinf(high):
         report.approximated(
-            feature, "JOINT_LIMIT_ONE_SIDED", joint.where, joint=joint.id, stop="360 degrees from the exported pose"
+            feature,
+            "JOINT_LIMIT_ONE_SIDED",
+            joint.where,
+            joint=joint.id,
+            stop="360 degrees from the exported pose",
         )
         low, high = max(low, -360.0), min(high, 360.0)
     if low < -360.0 or high > 360.0:

@@ -3,7 +3,7 @@
 Signs and frames: ``schemas/SPEC.md``, "Joints".  In short, with X Y Z the joint axes in CAD:
 
 * The component's axes are M X, M Y and their cross product, -M Z.
-* A HingeJoint on ``b`` has axis -M X, on ``a`` +M X: its angle is the CAD angle, counted from the exported pose.
+* A HingeJoint on ``b`` has axis -M X, on ``a`` +M X: its angle is the CAD angle less that at export.
 * A ConfigurableJoint limits and drives c, PhysX's "actor1 in actor0".  Where c is "b in a" (the component
   is on ``a``, or on ``b`` with swapBodies) distances keep their sign on X and Y; where it is "a in b" (on
   ``b``) all senses turn round.  Only joints that move alike seen from either side may take the second form.
@@ -73,7 +73,9 @@ def map_joint(
     feature = f"joint {joint.id}"
     unbodied = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
     if unbodied is not None:
-        report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id)
+        report.dropped(
+            feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id
+        )
         return None
     if not _limits_in_order(joint, report):
         return None
@@ -120,7 +122,7 @@ def map_joint(
 
 
 def _frame_fields(frame_a: Pose, frame_b: Pose, placement: Placement, coordinates: Coordinates) -> Component:
-    """Anchors and axes.  frame_a, frame_b: the joint frames in their carriers, with the anchors as origins."""
+    """Anchors and axes.  frame_a, frame_b: the joint frames in their carriers, their origins the anchors."""
     own, other = (frame_a, frame_b) if placement.on_a else (frame_b, frame_a)
     turn = coordinates.in_a if placement.on_a else coordinates.in_b
     basis = frames.joint_basis(own.rotation @ turn)
@@ -191,5 +193,3 @@ def _limits_in_order(joint: Joint, report: Report) -> bool:
         values = {"lower": wrong.lower, "upper": wrong.upper}
         report.dropped(f"joint {joint.id}", "JOINT_LIMITS_REVERSED", joint.where, joint=joint.id, **values)
     return wrong is None
-
-

@@ -1,4 +1,4 @@
-"""Values as they stand in the file: no noise, no negative zero, and nothing that Unity would assume anyway."""
+"""Values as they stand in the file: no noise, no negative zero, nothing that Unity would assume anyway."""
 
 from __future__ import annotations
 

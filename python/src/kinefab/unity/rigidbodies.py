@@ -61,7 +61,9 @@ def place_rigidbodies(scene: Scene, groups: RigidGroups) -> Rigidbodies:
     return Rigidbodies(tuple(carrier_of), dict(sorted(carriers.items())), tuple(fixed))
 
 
-def rigidbody_fields(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> dict[str, object]:
+def rigidbody_fields(
+    scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report
+) -> dict[str, object]:
     """Mass, centre of mass and principal inertia of everything a carrier moves, in the carrier's frame."""
     own = scene.nodes[carrier]
     if own.mass is not None and (own.kind is NodeKind.ASSEMBLY or moved_nodes == (carrier,)):

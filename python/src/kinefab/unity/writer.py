@@ -68,7 +68,9 @@ def write_scene(document: Document, target: Path, progress: Progress = lambda fr
     return buffer_path
 
 
-def _write_buffer(meshes: list[Mesh], target: Path, progress: Progress) -> tuple[Path, dict[str, Any], list[Any]]:
+def _write_buffer(
+    meshes: list[Mesh], target: Path, progress: Progress
+) -> tuple[Path, dict[str, Any], list[Any]]:
     entries = []
     temporary = _temporary(target, "bin")
     try:
@@ -109,7 +111,9 @@ def _mesh_entry(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
     entry["indices"] = buffer.append(frames.winding(mesh.faces), "u2" if short else "u4")
     counts = mesh.face_counts or (len(mesh.faces),)
     starts = np.cumsum([0, *counts])[:-1]
-    entry["submeshes"] = [{"indexStart": 3 * int(s), "indexCount": 3 * int(n)} for s, n in zip(starts, counts)]
+    entry["submeshes"] = [
+        {"indexStart": 3 * int(s), "indexCount": 3 * int(n)} for s, n in zip(starts, counts)
+    ]
     return entry
 
 

@@ -1,0 +1,89 @@
+"""What Unity cannot express is reported, marked, and under strict refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+import kinefab
+from kinefab.diagnostics import KinefabError
+from kinefab.model import Drive, Freedom, JointKind, Motion
+from scenes import BOX, components, exported, lid_scene
+
+
+def test_strict_refuses_what_would_be_approximated(tmp_path):
+    """A one-sided limit is approximated with a warning, and with strict nothing is written."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    one_sided = Freedom(Motion.LIMITED, lower=0.0)
+    scene.add_joint(JointKind.PRISMATIC, None, part, point=(0, 0, 0), axis=(1, 0, 0), name="S", tx=one_sided)
+    content, result = exported(scene, tmp_path)
+    assert components(content, "P", "ConfigurableJoint")[0]["exact"] is False
+    assert content["report"][0]["code"] == "JOINT_LIMIT_ONE_SIDED"
+    with pytest.raises(KinefabError):
+        kinefab.export(scene, tmp_path / "strict.kinefab", kinefab.ExportOptions(strict=True))
+    assert not (tmp_path / "strict.kinefab").exists()
+
+
+@pytest.mark.parametrize(
+    "kind, freedoms, code",
+    [
+        (JointKind.CYLINDRICAL, {"rx": Freedom(Motion.LIMITED, -4.0, 4.0)}, "JOINT_LIMIT_BEYOND_TURN"),
+        (JointKind.UNIVERSAL, {"rz": Freedom(Motion.LIMITED, -0.2, 1.4)}, "JOINT_LIMIT_ASYMMETRIC"),
+        (JointKind.SPHERICAL, {"ry": Freedom(Motion.LIMITED, -0.2, 0.2)}, "JOINT_LIMIT_ELEVATION"),
+        (JointKind.PLANAR, {n: Freedom(Motion.LIMITED, -0.2, 0.2) for n in ("ty", "tz")}, "JOINT_LIMITS_SHARED"),
+        (JointKind.SPHERICAL, {"ry": Freedom(Motion.FREE, drive=Drive(stiffness=2.0))}, "JOINT_DRIVE_SHARED"),
+        (JointKind.PRISMATIC, {"tx": Freedom(Motion.FREE, drive=Drive(target_velocity=1.0, motor=True))}, "JOINT_MOTOR_AS_DRIVE"),
+        (JointKind.PRISMATIC, {"tx": Freedom(Motion.LIMITED, 0.3, 0.5)}, None),
+    ],
+)  # fmt: skip
+def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp_path):
+    """Each loss has its code and marks the component as not exact."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    scene.add_joint(kind, None, part, point=(0, 0, 0), axis=(1, 0, 0), name="J", **freedoms)
+    content, result = exported(scene, tmp_path)
+    (joint,) = components(content, "P", "ConfigurableJoint")
+    if code is None:
+        assert [d.code for d in result.report.diagnostics] == ["JOINT_OUTSIDE_LIMITS"]
+        return
+    assert [o.code for o in result.report.outcomes] == [code]
+    assert joint["exact"] is False
+
+
+def test_reversed_limits_are_an_error(tmp_path):
+    """A lower limit above the upper one stops the export."""
+    scene = lid_scene()
+    scene.joints[0] = replace(
+        scene.joints[0],
+        freedoms=(
+            *scene.joints[0].freedoms[:3],
+            Freedom(Motion.LIMITED, 1.0, 0.5),
+            *scene.joints[0].freedoms[4:],
+        ),
+    )
+    with pytest.raises(KinefabError) as caught:
+        kinefab.export(scene, tmp_path / "x.kinefab")
+    assert [d.code for d in caught.value.diagnostics] == ["JOINT_LIMITS_REVERSED"]
+
+
+def test_pose_that_does_not_meet_its_joint_is_reported_in_metres_and_degrees(tmp_path):
+    """A lid lifted by 2 mm off its hinge is a warning that says so."""
+    scene = lid_scene()
+    lifted = scene.nodes[1].pose
+    scene.nodes[1] = replace(
+        scene.nodes[1], pose=type(lifted)(lifted.rotation, lifted.translation + (0, 0.002, 0))
+    )
+    _, result = exported(scene, tmp_path)
+    (finding,) = result.report.diagnostics
+    assert finding.code == "JOINT_POSE_GAP" and "0.002 m" in finding.message
+
+
+def test_joint_of_six_freedoms_needs_no_component(tmp_path):
+    """A free joint is dropped with a remark, not exported as a component that does nothing."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    scene.add_joint(JointKind.FREE, None, part, point=(0, 0, 0), name="F")
+    _, result = exported(scene, tmp_path)
+    assert [o.code for o in result.report.outcomes] == ["JOINT_REMOVES_NOTHING"]

@@ -1,0 +1,123 @@
+"""Masses, moments of inertia, principal axes and collision hulls, against closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+
+from kinefab.diagnostics import Report
+from kinefab.geometry.hulls import collision_hulls, hull_of_points
+from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties
+from kinefab.geometry.weighing import weigh
+from kinefab.model import Body, MassProperties, Mesh, Node, Scene
+from kinefab.spatial import Pose, rotation_exp
+
+
+def volume(mesh: Mesh) -> float:
+    return solid_properties(mesh.vertices, mesh.faces, 1.0).mass
+
+
+def weighed(vertices, faces, **body):
+    report = Report()
+    mesh = Mesh("m", np.array(vertices, float), np.array(faces))
+    scene = Scene(nodes=[Node("P", "P", bodies=(Body("b", 0, **body),))], meshes=[mesh])
+    return weigh(scene, 1000.0, report), report
+
+
+def test_mass_of_a_cylinder_is_its_closed_form():
+    """A fine cylinder approaches m r^2 / 2 about its axis and m (3 r^2 + h^2) / 12 across."""
+    shape = trimesh.creation.cylinder(0.1, 0.4, sections=720)
+    shape.apply_translation((100.0, 0, 0))  # far from the origin
+    scene, _ = weighed(shape.vertices, shape.faces, density=7850.0)
+    mass = scene.nodes[0].mass
+    expected = 7850 * math.pi * 0.01 * 0.4
+    assert mass.mass == pytest.approx(expected, rel=1e-4)
+    across = expected * (3 * 0.01 + 0.16) / 12
+    assert np.allclose(np.diag(mass.inertia), [across, across, expected * 0.01 / 2], rtol=1e-4)
+    assert np.allclose(mass.center, (100, 0, 0), atol=1e-9)
+
+
+def test_open_mesh_takes_the_mass_of_its_hull_with_a_warning():
+    """A cube without its lid weighs what the full cube weighs, and says so."""
+    box = trimesh.creation.box((1, 1, 1))
+    scene, report = weighed(box.vertices, box.faces[2:])
+    assert scene.nodes[0].mass.mass == pytest.approx(1000)
+    assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
+
+
+def test_repeated_vertices_do_not_make_a_mesh_open():
+    """A skin whose every triangle has vertices of its own is closed all the same."""
+    box = trimesh.creation.box((1, 2, 3))
+    scene, report = weighed(box.vertices[box.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+    assert scene.nodes[0].mass.mass == pytest.approx(6000) and report.diagnostics == []
+
+
+def test_inside_out_mesh_is_turned_with_a_warning():
+    """Negative volume is no mass: the winding is wrong, and is turned."""
+    box = trimesh.creation.box((1, 2, 3))
+    scene, report = weighed(box.vertices, box.faces[:, ::-1])
+    assert scene.nodes[0].mass.mass == pytest.approx(6000) and volume(scene.meshes[0]) == pytest.approx(6)
+    assert [d.code for d in report.diagnostics] == ["MESH_INSIDE_OUT"]
+
+
+def test_flat_mesh_has_no_volume_and_no_hull():
+    """A single rectangle gets a warning instead of a mass, and a box instead of a hull."""
+    scene, report = weighed([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    assert scene.nodes[0].mass is None
+    assert [d.code for d in report.diagnostics] == ["MESH_WITHOUT_VOLUME"]
+    assert collision_hulls(scene, [(0, "b")], report) == {}
+    assert report.diagnostics[-1].code == "HULL_FLAT"
+
+
+def test_combined_mass_is_that_of_the_whole():
+    """Two halves of a box, one of them turned in its own frame, weigh as the whole."""
+    whole, half = trimesh.creation.box((2, 0.6, 0.4)), trimesh.creation.box((1, 0.6, 0.4))
+    of = lambda m: solid_properties(np.array(m.vertices), np.array(m.faces), 500.0)  # noqa: E731
+    turned = Pose(rotation_exp(np.array([math.pi, 0, 0])), np.array([-0.5, 0, 0]))
+    total = combined([moved(of(half), turned), moved(of(half), Pose(np.eye(3), np.array([0.5, 0, 0])))])
+    expected = of(whole)
+    assert total.mass == pytest.approx(expected.mass)
+    assert np.allclose(total.inertia, expected.inertia) and np.allclose(total.center, 0)
+
+
+def test_principal_axes_are_a_proper_rotation_near_the_part_frame():
+    """Moments and axes rebuild the tensor; the axes are right-handed and turned as little as can be."""
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        r = rotation_exp(rng.uniform(-0.3, 0.3, 3))
+        tensor = r @ np.diag([5.0, 1.0, 3.0]) @ r.T
+        moments, axes = principal(tensor)
+        assert np.allclose(axes @ np.diag(moments) @ axes.T, tensor)
+        assert np.linalg.det(axes) == pytest.approx(1.0)
+        assert np.allclose(moments, [5, 1, 3]) and np.allclose(axes, r)
+
+
+def test_inertia_that_no_body_has_is_known():
+    """The largest moment may not exceed the sum of the others, and none may be zero or less."""
+    assert is_possible(np.diag([3.0, 4.0, 5.0])) and is_possible(np.diag([1.0, 1.0, 2.0]))
+    assert not is_possible(np.diag([1.0, 1.0, 2.1])) and not is_possible(np.diag([0.0, 1.0, 1.0]))
+    assert not is_possible(np.diag([-1.0, 4.0, 4.0]))
+
+
+def test_large_hull_is_reduced_to_what_unity_takes():
+    """A fine cylinder's hull ends below 256 triangles, within a hundredth of its radius, and is reported."""
+    shape = trimesh.creation.cylinder(0.1, 0.4, sections=300)
+    mesh = Mesh("m", np.array(shape.vertices), np.array(shape.faces))
+    report = Report()
+    hull = collision_hulls(Scene(meshes=[mesh]), [(0, "P/b")], report)[0]
+    assert 200 < len(hull.faces) <= 255
+    assert volume(hull) == pytest.approx(shape.volume, rel=0.01)
+    (finding,) = report.diagnostics
+    assert finding.code == "HULL_SIMPLIFIED" and "P/b" in finding.message
+
+
+def test_hull_is_wound_outwards():
+    """The hull of random points has the volume that trimesh finds."""
+    points = np.random.default_rng(8).normal(size=(200, 3))
+    vertices, faces = hull_of_points(points)
+    expected = trimesh.convex.convex_hull(points).volume
+    assert solid_properties(vertices, faces, 1.0).mass == pytest.approx(expected)
+    assert isinstance(solid_properties(vertices, faces, 1.0), MassProperties)

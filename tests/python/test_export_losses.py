@@ -87,3 +87,19 @@ def test_joint_of_six_freedoms_needs_no_component(tmp_path):
     scene.add_joint(JointKind.FREE, None, part, point=(0, 0, 0), name="F")
     _, result = exported(scene, tmp_path)
     assert [o.code for o in result.report.outcomes] == ["JOINT_REMOVES_NOTHING"]
+
+
+def test_mass_that_nobody_gives_is_reported(tmp_path):
+    """A lone part of nothing gets Unity's 1 kg with a warning; one that moves with others adds nothing, and says so."""
+    scene = kinefab.Scene()
+    scene.add_part("Ghost")
+    content, result = exported(scene, tmp_path)
+    assert [o.code for o in result.report.outcomes] == ["MASS_UNKNOWN"]
+    assert components(content, "Ghost", "Rigidbody") == [{"type": "Rigidbody"}]
+    scene = kinefab.Scene()
+    pair = scene.add_assembly("Pair", flexible=False)
+    scene.add_part("Solid", BOX, parent=pair)
+    scene.add_part("Label", parent=pair)
+    content, result = exported(scene, tmp_path)
+    assert [d.code for d in result.report.diagnostics] == ["MASS_LEFT_OUT"]
+    assert components(content, "Pair", "Rigidbody")[0]["mass"] == pytest.approx(6)

@@ -75,9 +75,11 @@ def load_geometry(
         file = files.get(path, wanted[0].reference.where)
         if file is None:
             continue
-        for place, body, numbers in zip(bodies, wanted, match_bodies(file, wanted, report)):
+        matches = match_bodies(file, wanted, report)
+        for k, (place, body, numbers) in enumerate(zip(bodies, wanted, matches)):
             if numbers:
                 loading.place(place, body, file, numbers)
+            progress("geometry", (done + (k + 1) / len(bodies)) / len(places))
     progress("geometry", 1.0)
     return loading.finish()
 

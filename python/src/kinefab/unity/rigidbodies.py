@@ -70,8 +70,11 @@ def rigidbody_fields(
         known = [own.mass]
     else:
         to_carrier = own.pose.inverse()
-        nodes = (scene.nodes[i] for i in moved_nodes)
+        nodes = [scene.nodes[i] for i in moved_nodes]
         known = [moved(node.mass, to_carrier @ node.pose) for node in nodes if node.mass is not None]
+        for node in nodes if known else ():
+            if node.mass is None and node.kind is NodeKind.PART:
+                report.add("MASS_LEFT_OUT", node.where, node=node.id, carrier=own.id)
     if not known:
         report.approximated(f"mass {own.id}", "MASS_UNKNOWN", own.where, node=own.id)
     total = combined(known) if known else UNITY_DEFAULT

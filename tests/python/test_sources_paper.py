@@ -85,12 +85,12 @@ def test_paper_csv_gives_the_same_freedoms_as_the_bundle():
 def test_paper_axes_become_hinges_on_the_mesh_cylinders():
     """With the meshes at hand the two pins are found where the mechanism's closed form has them."""
     scene, report = read(PAPER, obj_vertices)
-    assert [joint.kind for joint in scene.joints] == [JointKind.REVOLUTE] * 3
-    shaft, pin, gudgeon = scene.joints
+    assert [joint.kind for joint in scene.joints[:3]] == [JointKind.REVOLUTE] * 3
+    shaft, pin, gudgeon = scene.joints[:3]
     assert on_axis(scene, shaft, np.zeros(3)) < 1e-9
     assert on_axis(scene, pin, PIN) < 1e-6
     assert on_axis(scene, gudgeon, np.array([SLIDER_X, 0.0, 0.0])) < 1e-6
-    assert codes(report) == ["AXIS_POINT_FOUND"] * 3
+    assert codes(report) == ["AXIS_POINT_FOUND"] * 3 + ["SLIDE_FROM_DOF"]
     assert "DOF centre of Lever/Crank:1" in report.diagnostics[0].message
     assert "cylinder" in report.diagnostics[1].message and "cylinder" in report.diagnostics[2].message
     assert [constraint.kind.value for constraint in scene.constraints] == ["concentric"] * 3
@@ -99,10 +99,18 @@ def test_paper_axes_become_hinges_on_the_mesh_cylinders():
 def test_bar_hinge_is_never_put_at_its_instantaneous_pole():
     """The bar's DOF centre is its pole, no axis in the bar: without meshes a guess is reported."""
     scene, report = read(PAPER)
-    assert codes(report) == ["AXIS_POINT_FOUND", "AXIS_POINT_GUESSED", "AXIS_POINT_GUESSED"]
+    assert codes(report) == ["AXIS_POINT_FOUND", "AXIS_POINT_GUESSED", "AXIS_POINT_GUESSED", "SLIDE_FROM_DOF"]
     pole = np.array([SLIDER_X, 0.0, -SLIDER_X * math.tan(math.radians(30))])
-    assert all(on_axis(scene, joint, pole) > 0.05 for joint in scene.joints)
+    assert all(on_axis(scene, joint, pole) > 0.05 for joint in scene.joints[:3])
     assert [outcome.outcome.value for outcome in report.outcomes] == ["approximated"] * 2
+
+
+def test_slider_of_the_paper_slides_on_the_ground():
+    """The slider's only axis is that to the bar; its line comes from its free direction, as the paper has it."""
+    scene, _ = read(PAPER)
+    slide = scene.joints[-1]
+    assert (slide.kind, slide.a, scene.nodes[slide.b].name) == (JointKind.PRISMATIC, None, "SliderD:1")
+    assert slide.frame_a.rotation[:, 0] == pytest.approx([1, 0, 0])
 
 
 @pytest.mark.parametrize(

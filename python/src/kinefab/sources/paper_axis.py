@@ -29,7 +29,7 @@ ALONG = 1.0 - 1e-6
 class Part:
     """A row: its bodies' names in the mesh, its freedoms to ground, DOF centre and origin, source units.
 
-    fixed: it has no freedom and stands on the ground.
+    fixed: it has no freedom and stands on the ground.  line: of the file.
     """
 
     id: str
@@ -39,6 +39,7 @@ class Part:
     rotations: list[list[float]]
     center: list[float] | None
     origin: list[float] | None
+    line: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +102,37 @@ def axis_records(
                 "frameA": {"in": "world", "o": list(point), "z": list(direction)},
                 "because": [f"Axis:{number}"],
             }
+        )
+
+
+def slide_records(
+    axes: list[Axis],
+    parts: dict[str, Part],
+    values: dict[str, object],
+    lines: dict[str, int],
+    name: str,
+    report: Report,
+) -> None:
+    """Append a slider joint to ground for every part that only slides and hangs on the mechanism by one axis.
+
+    What holds such a part on its line is no axis-axis constraint, so the paper's file has its free direction
+    alone.  With a second axis it would be a coupler, whose free direction holds for the moment only.
+    """
+    joints = values["joints"]
+    for part in parts.values():
+        partners = {
+            axis.partner if axis.part == part.id else axis.part
+            for axis in axes
+            if part.id in (axis.part, axis.partner)
+        }
+        slides = len(part.translations) == 1 and not part.rotations and part.origin is not None
+        if not slides or len(partners) != 1 or parts[partners.pop()].fixed:
+            continue
+        report.add("SLIDE_FROM_DOF", f"{name}:{part.line}", part=part.id)
+        lines[f"/joints/{len(joints)}"] = part.line
+        along = {"in": "world", "o": part.origin, "z": part.translations[0]}
+        joints.append(
+            {"id": f"Slide:{part.id}", "type": "slider", "a": "ground", "b": part.id, "frameA": along}
         )
 
 

@@ -20,7 +20,7 @@ from ..diagnostics import Report
 from ..model import Scene
 from .bundle import FORMAT, scene_from_values
 from .file import read_bytes
-from .paper_axis import Axis, Part, axis_records
+from .paper_axis import Axis, Part, axis_records, slide_records
 from .record import MAX_NUMBER, shown
 from .table import Row, Table, read_table
 
@@ -60,6 +60,7 @@ def read(path: Path, report: Report, vertices: object = None) -> Scene:
     reading = _Reading(read_table(data, path.name, report), path, report)
     reading.take_all()
     axis_records(reading.axes, reading.parts, reading.values, reading.lines, path, report, vertices)
+    slide_records(reading.axes, reading.parts, reading.values, reading.lines, path.name, report)
     return scene_from_values(reading.values, path, data, report, reading.lines)
 
 
@@ -187,6 +188,7 @@ class _Reading:
             freedoms["rotations"],
             vectors["center"],
             vectors["origin"],
+            row.line,
         )
         if freedoms["translations"] or freedoms["rotations"]:
             record = {"component": name, **freedoms}

@@ -202,6 +202,27 @@ def test_frames_may_be_given_in_any_component(tmp_path):
     assert all(translation == pytest.approx(0, abs=1e-12) for translation in found)
 
 
+def test_frame_in_a_mirrored_part_follows_the_mirror(tmp_path):
+    """Numbers in a mirrored part's own axes go through its mirror: here x of the part is -x of the world."""
+    mirrored = part("Arm", (1, 2, 3))
+    mirrored["pose"]["x"] = [-1, 0, 0]
+    inside = frame((0.5, 0, 0), (0.6, 0.8, 0), Z, "part")
+    joint = {
+        "id": "J",
+        "type": "slider",
+        "a": "ground",
+        "b": "Arm",
+        "frameA": frame((0.5, 2, 3), (-0.6, 0.8, 0), Z),
+    }
+    scene, report = read(bundle(mirrored, joints=[{**joint, "frameB": inside}]), tmp_path)
+    (found,) = scene.joints
+    assert codes(report) == ["POSE_MIRRORED"]
+    world = scene.pose(found.b) @ found.frame_b
+    assert world.translation == pytest.approx([0.5, 2, 3])
+    assert world.rotation[:, 0] == pytest.approx([-0.6, 0.8, 0])
+    assert np.linalg.det(world.rotation) == pytest.approx(1.0)
+
+
 def test_screw_lead_is_a_length_a_turn(tmp_path):
     """-2 mm a turn, a left-hand thread, is -0.002 m."""
     scene, _ = read(

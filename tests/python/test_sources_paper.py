@@ -106,7 +106,7 @@ def test_bar_hinge_is_never_put_at_its_instantaneous_pole():
 
 
 def test_slider_of_the_paper_slides_on_the_ground():
-    """The slider's only axis is that to the bar; its line comes from its free direction, as the paper has it."""
+    """The slider's only axis is that to the bar; its line comes from its free direction."""
     scene, _ = read(PAPER)
     slide = scene.joints[-1]
     assert (slide.kind, slide.a, scene.nodes[slide.b].name) == (JointKind.PRISMATIC, None, "SliderD:1")

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import Material, MeshKey, Scene, Source
+from . import Vertices
 from .bundle_bodies import Materials, MeshSource, relative_path
 from .bundle_components import read_components
 from .bundle_constraints import read_constraints, read_freedoms
@@ -39,7 +40,7 @@ GENERATOR = frozenset("name version macro".split())
 FORMAT, MAJOR = "kinefab.bundle", 1
 
 
-def read(path: Path, report: Report, vertices: object = None) -> Scene:
+def read(path: Path, report: Report, vertices: Vertices | None = None) -> Scene:
     """The scene of a ``.bundle.json``.  vertices: not needed here.  Raises KinefabError with every error
     found."""
     data = read_bytes(path, report)

@@ -67,7 +67,9 @@ def _end(
     return (joint, freedom) if joint is not None and record.sound else None
 
 
-def _ratio(record: Record, kind: CouplingKind, ends: list, frame: SourceFrame) -> float | None:
+def _ratio(
+    record: Record, kind: CouplingKind, ends: list[tuple[Joint, int]], frame: SourceFrame
+) -> float | None:
     """dq_b / dq_a in metres and radians, from whichever way the source states it; None after a report."""
     turning = [freedom >= RX for _, freedom in ends]
     units = [frame.angle if turns else frame.length for turns in turning]
@@ -102,7 +104,7 @@ def _coupling(
     record: Record,
     name: str,
     kind: CouplingKind,
-    ends: list,
+    ends: list[tuple[Joint, int]],
     ratio: float,
     joints: Joints,
     frame: SourceFrame,

@@ -12,6 +12,7 @@ from typing import Callable
 
 from ..diagnostics import Report
 from ..model import Scene
+from . import Vertices
 from .bundle import scene_from_values
 from .file import read_bytes
 from .record import shown
@@ -67,7 +68,7 @@ def sniff(head: bytes) -> bool:
     return any(line.lstrip(' "').startswith("META") for line in lines)
 
 
-def read(path: Path, report: Report, vertices: object = None) -> Scene:
+def read(path: Path, report: Report, vertices: Vertices | None = None) -> Scene:
     """The scene of a tagged CSV.  vertices: not needed here.  Raises KinefabError with every error found."""
     data = read_bytes(path, report)
     reading = _Reading(read_table(data, path.name, report), path.name, report)

@@ -16,6 +16,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MeshReference
 from ..spatial import Array
+from . import Vertices
 from .axis_point import common_axis_point
 from .source_frame import METRES
 
@@ -60,7 +61,7 @@ def axis_records(
     lines: dict[str, int],
     path: Path,
     report: Report,
-    vertices: object,
+    vertices: Vertices | None,
 ) -> None:
     """Append a concentric constraint and a revolute joint for every axis to the raw bundle ``values``."""
     seen: list[tuple[frozenset[str], Array]] = []
@@ -142,7 +143,7 @@ def _point(
     parts: dict[str, Part],
     values: dict[str, object],
     path: Path,
-    vertices: object,
+    vertices: Vertices | None,
 ) -> tuple[Array, str | None]:
     """A point on the axis in the source's world, and where it came from; None for the mere origin of the
     part."""
@@ -177,7 +178,7 @@ def _turns_only_about(part: Part, direction: Array) -> bool:
 
 
 def _vertices(
-    part: Part, parts: dict[str, Part], values: dict[str, object], path: Path, vertices: object
+    part: Part, parts: dict[str, Part], values: dict[str, object], path: Path, vertices: Vertices
 ) -> Array:
     """Vertices of a part, or of all parts of an assembly, in the source's world and unit."""
     mesh = values["meta"]["mesh"]

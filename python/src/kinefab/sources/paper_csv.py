@@ -18,6 +18,7 @@ from pathlib import Path
 
 from ..diagnostics import Report
 from ..model import Scene
+from . import Vertices
 from .bundle import FORMAT, scene_from_values
 from .file import read_bytes
 from .paper_axis import Axis, Part, axis_records, slide_records
@@ -50,7 +51,7 @@ SETTINGS = {"length": "cm", "up": "Z", "mesh": "", "mesh length": ""}
 centimetres."""
 
 
-def read(path: Path, report: Report, vertices: object = None) -> Scene:
+def read(path: Path, report: Report, vertices: Vertices | None = None) -> Scene:
     """The scene of a CSV with the paper's columns.
 
     vertices: see ``sources.Vertices``; finds the point of an axis in the geometry.  Raises KinefabError with

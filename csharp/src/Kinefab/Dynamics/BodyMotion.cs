@@ -22,10 +22,15 @@ internal static class BodyMotion
         }
 
         Vector3d v = bodies.LinearVelocities[i] + bodies.Forces[i] * (bodies.InverseMasses[i] * dt);
-        Quaterniond q = bodies.Poses[i].Rotation;
-        Vector3d w = bodies.AngularVelocities[i] + q * Vector3d.Scale(bodies.InverseInertias[i], q.InverseRotate(bodies.Torques[i])) * dt;
+        Vector3d w = bodies.AngularVelocities[i];
         bodies.Forces[i] = Vector3d.Zero;
-        bodies.Torques[i] = Vector3d.Zero;
+        if (bodies.Torques[i] != Vector3d.Zero)
+        {
+            Quaterniond q = bodies.Poses[i].Rotation;
+            w += q * Vector3d.Scale(bodies.InverseInertias[i], q.InverseRotate(bodies.Torques[i])) * dt;
+            bodies.Torques[i] = Vector3d.Zero;
+        }
+
         if (bodies.UseGravity[i])
         {
             v += gravity * dt;

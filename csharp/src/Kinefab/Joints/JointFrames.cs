@@ -77,7 +77,8 @@ internal readonly struct JointFrames
 
     public static Quaterniond Negate(Quaterniond q) => new(-q.X, -q.Y, -q.Z, -q.W);
 
-    private static void Axes(Quaterniond q, out Vector3d x, out Vector3d y, out Vector3d z)
+    /// <summary>The columns of a rotation's matrix.</summary>
+    public static void Axes(Quaterniond q, out Vector3d x, out Vector3d y, out Vector3d z)
     {
         double x2 = q.X + q.X, y2 = q.Y + q.Y, z2 = q.Z + q.Z;
         double xx = x2 * q.X, yy = y2 * q.Y, zz = z2 * q.Z;

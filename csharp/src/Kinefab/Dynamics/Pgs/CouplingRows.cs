@@ -72,7 +72,7 @@ internal sealed class CouplingRows
         }
     }
 
-    public void Sweep(Vector3d[] linear, Vector3d[] angular)
+    public void Sweep(Double4[] linear, Double4[] angular)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -81,7 +81,7 @@ internal sealed class CouplingRows
             for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
-                velocity += Vector3d.Dot(part.Linear, linear[part.Body]) + Vector3d.Dot(part.SqrtAngular, angular[part.Body]);
+                velocity += Vector3d.Dot(part.Linear, linear[part.Body].Vector) + Vector3d.Dot(part.SqrtAngular, angular[part.Body].Vector);
             }
 
             double delta = row.Constant - velocity * row.InverseResponse;
@@ -89,8 +89,8 @@ internal sealed class CouplingRows
             for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
-                linear[part.Body] += part.Linear * (delta * part.InverseMass);
-                angular[part.Body] += part.SqrtAngular * delta;
+                linear[part.Body] += new Double4(part.Linear * (delta * part.InverseMass), 0);
+                angular[part.Body] += new Double4(part.SqrtAngular * delta, 0);
             }
         }
     }

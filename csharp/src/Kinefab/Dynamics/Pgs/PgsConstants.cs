@@ -1,6 +1,4 @@
-using System;
 using Kinefab.Joints;
-using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Pgs;
 
@@ -8,26 +6,29 @@ namespace Kinefab.Dynamics.Pgs;
 internal static class PgsConstants
 {
     /// <summary>Fills a row's constants.</summary>
-    /// <param name="result">Linear and angular parts must be set.</param>
-    /// <param name="row">The prepared row.</param>
+    /// <param name="result">Its vectors and what they carry must be set.</param>
+    /// <param name="row">The row as the joint gave it; its error, target and velocity are taken from the result, which preprocessing may have changed.</param>
     /// <param name="keptError">The row's own error before preprocessing when it keeps its bias, else 0.</param>
     /// <param name="response">J M^-1 J^T.</param>
-    /// <param name="velocity">Cdot at the start of the solve.</param>
     /// <param name="driveScale">What makes a drive limit an impulse.</param>
     /// <param name="dt">Step, s.</param>
+    /// <param name="inverseDt">1/dt.</param>
     /// <remarks>
     /// Rigid: lambda += (VelocityTarget - error/dt - Cdot) / response.
     /// Spring, implicit Euler: a = dt^2 k + dt d, b = dt (d vT - k error);
     /// force mode x = 1/(1 + a response), lambda = x b - x a Cdot + (1 - x) lambda;
     /// acceleration mode x = 1/(1 + a), lambda = (x b - x a Cdot)/response + (1 - x) lambda.
     /// </remarks>
-    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double response, double velocity, double driveScale, double dt)
+    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double response, double driveScale, double dt, double inverseDt)
     {
+        double error = result.Linear.W;
+        double target = result.Sqrt0.W;
+        double velocity = result.Sqrt1.W;
         double inverseResponse = response > 0 ? 1 / response : 0;
         if (row.Has(RowFlags.Spring))
         {
             double a = dt * dt * row.Stiffness + dt * row.Damping;
-            double b = dt * (row.Damping * row.VelocityTarget - row.Stiffness * row.GeometricError);
+            double b = dt * (row.Damping * target - row.Stiffness * error);
             double x;
             double scale;
             if (row.Has(RowFlags.AccelerationSpring))
@@ -57,8 +58,8 @@ internal static class PgsConstants
             }
             else
             {
-                result.Constant = inverseResponse * (row.VelocityTarget - row.GeometricError / dt);
-                result.UnbiasedConstant = inverseResponse * (row.VelocityTarget - keptError / dt);
+                result.Constant = inverseResponse * (target - error * inverseDt);
+                result.UnbiasedConstant = inverseResponse * (target - keptError * inverseDt);
             }
         }
 

@@ -1,18 +1,25 @@
-using Kinefab.Numerics;
-
 namespace Kinefab.Dynamics.Pgs;
 
 /// <summary>
-/// A row ready for Gauss-Seidel sweeps. Velocities are changes since the start of the solve, the angular ones in
-/// sqrt(I)-space: w = w_start + I^(-1/2) u, so that one vector per body serves as Jacobian and as response.
-/// One linear part does for both bodies: every joint row has Linear0 = Linear1, and combining rows keeps that.
-/// Source: DySolverConstraint1D.h, SolverConstraint1D.
+/// A row for Gauss-Seidel sweeps. Velocities are changes since the start of the solve, the angular ones in sqrt(I)-space:
+/// w = w_start + I^(-1/2) u, so that one vector per body serves as Jacobian and as response. One linear part does for
+/// both bodies: every joint row has Linear0 = Linear1, and combining rows keeps that.
+/// While a row is prepared the fourth numbers carry what preprocessing combines along with the vectors; the sweeps never
+/// read them. Source: DySolverConstraint1D.h, SolverConstraint1D.
 /// </summary>
 internal struct PgsRow
 {
-    public Vector3d Linear;
-    public Vector3d Angular0;
-    public Vector3d Angular1;
+    /// <summary>Linear part; C.</summary>
+    public Double4 Linear;
+
+    /// <summary>I^(-1/2) Angular0; the target of Cdot.</summary>
+    public Double4 Sqrt0;
+
+    /// <summary>I^(-1/2) Angular1; Cdot at the start of the solve.</summary>
+    public Double4 Sqrt1;
+
+    /// <summary>Angular0 itself, for the reported torque.</summary>
+    public Double4 Angular0;
 
     /// <summary>Impulse that the start velocity and the bias ask for.</summary>
     public double Constant;
@@ -26,4 +33,7 @@ internal struct PgsRow
 
     /// <summary>Accumulated impulse.</summary>
     public double Impulse;
+
+    /// <summary>Whether the impulse counts for breaking and for the reported force.</summary>
+    public bool Counts;
 }

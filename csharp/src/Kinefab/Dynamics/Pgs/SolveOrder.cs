@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using Kinefab.Joints;
 
 namespace Kinefab.Dynamics.Pgs;
@@ -20,7 +19,8 @@ internal sealed class SolveOrder
     private readonly ulong[] _used;
     private readonly int[] _last;
     private readonly int[] _partition;
-    private readonly List<int> _order;
+    private readonly int[] _order;
+    private int _count;
 
     public SolveOrder(Mechanism mechanism)
     {
@@ -28,12 +28,12 @@ internal sealed class SolveOrder
         _used = new ulong[mechanism.Bodies.Count];
         _last = new int[mechanism.Bodies.Count];
         _partition = new int[mechanism.Joints.Length];
-        _order = new List<int>(mechanism.Joints.Length);
+        _order = new int[mechanism.Joints.Length];
         Refresh();
     }
 
     /// <summary>Indices of the joints that are whole, in the order of their sweep.</summary>
-    public IReadOnlyList<int> Joints => _order;
+    public ReadOnlySpan<int> Joints => _order.AsSpan(0, _count);
 
     /// <summary>Colours again, after a joint broke.</summary>
     public void Refresh()
@@ -62,7 +62,7 @@ internal sealed class SolveOrder
             }
         }
 
-        _order.Clear();
+        _count = 0;
         for (int p = 0; p < partitions; p++)
         {
             for (int i = 0; i < _partition.Length; i++)
@@ -70,7 +70,7 @@ internal sealed class SolveOrder
                 Joint joint = _mechanism.Joints[i];
                 if (_partition[i] == p && !joint.IsBroken && (Moves(joint.Body0) || Moves(joint.Body1)))
                 {
-                    _order.Add(i);
+                    _order[_count++] = i;
                 }
             }
         }

@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Pgs;
@@ -8,24 +9,28 @@ internal struct SqrtInertia
 {
     private double _xx, _yy, _zz, _xy, _xz, _yz;
 
-    public static SqrtInertia At(Quaterniond q, Vector3d inverseInertia)
+    /// <param name="q">World frame from principal axes.</param>
+    /// <param name="root">Square roots of the inverse principal moments.</param>
+    public static SqrtInertia At(Quaterniond q, Vector3d root)
     {
-        Vector3d x = q * Vector3d.UnitX;
-        Vector3d y = q * Vector3d.UnitY;
-        Vector3d z = q * Vector3d.UnitZ;
-        double a = Math.Sqrt(inverseInertia.X);
-        double b = Math.Sqrt(inverseInertia.Y);
-        double c = Math.Sqrt(inverseInertia.Z);
+        JointFrames.Axes(q, out Vector3d x, out Vector3d y, out Vector3d z);
+        Vector3d a = x * root.X;
+        Vector3d b = y * root.Y;
+        Vector3d c = z * root.Z;
         return new SqrtInertia
         {
-            _xx = a * x.X * x.X + b * y.X * y.X + c * z.X * z.X,
-            _yy = a * x.Y * x.Y + b * y.Y * y.Y + c * z.Y * z.Y,
-            _zz = a * x.Z * x.Z + b * y.Z * y.Z + c * z.Z * z.Z,
-            _xy = a * x.X * x.Y + b * y.X * y.Y + c * z.X * z.Y,
-            _xz = a * x.X * x.Z + b * y.X * y.Z + c * z.X * z.Z,
-            _yz = a * x.Y * x.Z + b * y.Y * y.Z + c * z.Y * z.Z,
+            _xx = a.X * x.X + b.X * y.X + c.X * z.X,
+            _yy = a.Y * x.Y + b.Y * y.Y + c.Y * z.Y,
+            _zz = a.Z * x.Z + b.Z * y.Z + c.Z * z.Z,
+            _xy = a.X * x.Y + b.X * y.Y + c.X * z.Y,
+            _xz = a.X * x.Z + b.X * y.Z + c.X * z.Z,
+            _yz = a.Y * x.Z + b.Y * y.Z + c.Y * z.Z,
         };
     }
+
+    /// <summary>Square root of each component.</summary>
+    public static Vector3d Root(Vector3d inverseInertia) =>
+        new(Math.Sqrt(inverseInertia.X), Math.Sqrt(inverseInertia.Y), Math.Sqrt(inverseInertia.Z));
 
     public readonly Vector3d Times(Vector3d v) => new(
         _xx * v.X + _xy * v.Y + _xz * v.Z,

@@ -18,33 +18,34 @@ internal sealed class UnitySolver : ISolver
     private readonly CouplingRows _couplings;
 
     // One more than there are bodies: the last stands for the world and never moves.
-    private readonly Vector3d[] _linear;
-    private readonly Vector3d[] _angular;
-    private readonly Vector3d[] _motionLinear;
-    private readonly Vector3d[] _motionAngular;
+    private readonly Vector3d[] _startLinear;
+    private readonly Vector3d[] _startAngular;
+    private readonly Double4[] _linear;
+    private readonly Double4[] _angular;
+    private readonly Double4[] _motionLinear;
+    private readonly Double4[] _motionAngular;
+    private readonly Vector3d[] _rootInertia;
     private readonly SqrtInertia[] _sqrtInertia;
 
     private readonly JointBlock[] _blocks;
     private readonly PgsRow[] _rows;
-    private readonly RowOutput[] _outputs;
     private readonly ConstraintRow[] _scratch = new ConstraintRow[Joint.MaxRows];
 
+    // A joint's rows: springs and motors from Start, then equalities, then inequalities.
     private struct JointBlock
     {
         public int Joint;
         public int Body0;
         public int Body1;
         public int Start;
+        public int Equalities;
+        public int Inequalities;
         public int End;
+        public bool IsOrthogonal;
         public PairMass Mass;
-        public Vector3d Anchor;
-    }
 
-    /// <summary>What is needed of a row to report its force; the angular part before the square root of the inertia.</summary>
-    private struct RowOutput
-    {
-        public Vector3d Angular0;
-        public bool Counts;
+        /// <summary>From body 0's centre of mass to actor 1's anchor.</summary>
+        public Vector3d Lever;
     }
 
     public UnitySolver(Mechanism mechanism)
@@ -55,14 +56,16 @@ internal sealed class UnitySolver : ISolver
         _projection = new ProjectionOrder(mechanism);
         _couplings = new CouplingRows(mechanism);
         int slots = _bodies.Count + 1;
-        _linear = new Vector3d[slots];
-        _angular = new Vector3d[slots];
-        _motionLinear = new Vector3d[slots];
-        _motionAngular = new Vector3d[slots];
+        _startLinear = new Vector3d[slots];
+        _startAngular = new Vector3d[slots];
+        _linear = new Double4[slots];
+        _angular = new Double4[slots];
+        _motionLinear = new Double4[slots];
+        _motionAngular = new Double4[slots];
+        _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
         _sqrtInertia = new SqrtInertia[slots];
         _blocks = new JointBlock[mechanism.Joints.Length];
         _rows = new PgsRow[mechanism.Joints.Length * Joint.MaxRows];
-        _outputs = new RowOutput[_rows.Length];
     }
 
     /// <inheritdoc/>
@@ -73,7 +76,9 @@ internal sealed class UnitySolver : ISolver
         for (int i = 0; i < _bodies.Count; i++)
         {
             BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, dt);
-            _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _bodies.InverseInertias[i]);
+            _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
+            _startLinear[i] = _bodies.LinearVelocities[i];
+            _startAngular[i] = _bodies.AngularVelocities[i];
             positionIterations = Math.Max(positionIterations, _bodies.PositionIterations[i]);
             velocityIterations = Math.Max(velocityIterations, _bodies.VelocityIterations[i]);
         }
@@ -111,78 +116,72 @@ internal sealed class UnitySolver : ISolver
     private int Prepare(double dt)
     {
         Span<int> order = stackalloc int[Joint.MaxRows];
-        Span<Vector3d> s0 = stackalloc Vector3d[Joint.MaxRows];
-        Span<Vector3d> s1 = stackalloc Vector3d[Joint.MaxRows];
         Span<double> kept = stackalloc double[Joint.MaxRows];
+        ReadOnlySpan<int> joints = _order.Joints;
+        double inverseDt = 1 / dt;
         int next = 0;
-        for (int b = 0; b < _order.Joints.Count; b++)
+        for (int b = 0; b < joints.Length; b++)
         {
-            int index = _order.Joints[b];
-            Joint joint = _mechanism.Joints[index];
+            Joint joint = _mechanism.Joints[joints[b]];
             int count = joint.Prepare(_bodies.PoseOf(joint.Body0), _bodies.PoseOf(joint.Body1), _scratch);
             Span<ConstraintRow> rows = _scratch.AsSpan(0, count);
+            Span<PgsRow> results = _rows.AsSpan(next, count);
             ref JointBlock block = ref _blocks[b];
-            block = Block(index, joint, next, next + count);
+            SetBodies(ref block, joints[b], joint);
+            block.Start = next;
+            block.Equalities = next;
+            next += count;
+            block.Inequalities = next;
+            block.End = next;
             Preprocessing.Sort(rows, order);
             for (int i = 0; i < count; i++)
             {
                 ref ConstraintRow row = ref rows[order[i]];
                 kept[i] = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
-                s0[i] = _sqrtInertia[block.Body0].Times(row.Angular0);
-                s1[i] = _sqrtInertia[block.Body1].Times(row.Angular1);
+                Load(ref results[i], row, block.Body0, block.Body1);
+                block.Equalities += row.Hint < SolveHint.Equality ? 1 : 0;
+                block.Inequalities -= row.Hint == SolveHint.Inequality ? 1 : 0;
             }
 
             if (joint.Preprocessing)
             {
-                Preprocessing.Orthogonalize(rows, order.Slice(0, count), s0, s1, block.Mass);
+                Preprocessing.Orthogonalize(
+                    results.Slice(block.Equalities - block.Start), block.Inequalities - block.Equalities, block.Mass);
             }
 
             for (int i = 0; i < count; i++)
             {
                 ref ConstraintRow row = ref rows[order[i]];
-                ref PgsRow result = ref _rows[next];
-                result.Linear = row.Linear0;
-                result.Angular0 = s0[i];
-                result.Angular1 = s1[i];
-                double response = row.Linear0.LengthSquared * (block.Mass.InverseMass0 + block.Mass.InverseMass1)
-                    + s0[i].LengthSquared * block.Mass.InertiaScale0 + s1[i].LengthSquared * block.Mass.InertiaScale1;
                 double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
-                PgsConstants.Set(ref result, row, kept[i], response, StartVelocity(joint, row), driveScale, dt);
-                _outputs[next].Angular0 = row.Angular0;
-                _outputs[next].Counts = row.Has(RowFlags.OutputForce);
-                next++;
+                PgsConstants.Set(ref results[i], row, kept[i], block.Mass.Product(results[i], results[i]), driveScale, dt, inverseDt);
             }
         }
 
-        return _order.Joints.Count;
+        return joints.Length;
     }
 
-    private JointBlock Block(int index, Joint joint, int start, int end)
+    private void SetBodies(ref JointBlock block, int index, Joint joint)
     {
         int world = _bodies.Count;
         double mass0 = joint.Body0 < 0 ? 0 : _bodies.InverseMasses[joint.Body0];
         double mass1 = joint.Body1 < 0 ? 0 : _bodies.InverseMasses[joint.Body1];
-        Vector3d anchor1 = (_bodies.PoseOf(joint.Body1) * joint.Frame1).Position;
-        return new JointBlock
-        {
-            Joint = index,
-            Body0 = joint.Body0 < 0 ? world : joint.Body0,
-            Body1 = joint.Body1 < 0 ? world : joint.Body1,
-            Start = start,
-            End = end,
-            Mass = new PairMass(
-                mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1),
-            Anchor = anchor1 - _bodies.PoseOf(joint.Body0).Position,
-        };
+        block.Joint = index;
+        block.Body0 = joint.Body0 < 0 ? world : joint.Body0;
+        block.Body1 = joint.Body1 < 0 ? world : joint.Body1;
+        block.Mass = new PairMass(
+            mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1);
+        block.IsOrthogonal = joint.Preprocessing;
+        block.Lever = _bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - _bodies.PoseOf(joint.Body0).Position;
     }
 
-    private double StartVelocity(Joint joint, in ConstraintRow row)
+    private void Load(ref PgsRow result, in ConstraintRow row, int body0, int body1)
     {
-        Vector3d v0 = joint.Body0 < 0 ? Vector3d.Zero : _bodies.LinearVelocities[joint.Body0];
-        Vector3d w0 = joint.Body0 < 0 ? Vector3d.Zero : _bodies.AngularVelocities[joint.Body0];
-        Vector3d v1 = joint.Body1 < 0 ? Vector3d.Zero : _bodies.LinearVelocities[joint.Body1];
-        Vector3d w1 = joint.Body1 < 0 ? Vector3d.Zero : _bodies.AngularVelocities[joint.Body1];
-        return row.Velocity(v0, w0, v1, w1);
+        double velocity = row.Velocity(_startLinear[body0], _startAngular[body0], _startLinear[body1], _startAngular[body1]);
+        result.Linear = new Double4(row.Linear0, row.GeometricError);
+        result.Sqrt0 = new Double4(_sqrtInertia[body0].Times(row.Angular0), row.VelocityTarget);
+        result.Sqrt1 = new Double4(_sqrtInertia[body1].Times(row.Angular1), velocity);
+        result.Angular0 = new Double4(row.Angular0, 0);
+        result.Counts = row.Has(RowFlags.OutputForce);
     }
 
     private void Sweep(int blocks)
@@ -190,28 +189,23 @@ internal sealed class UnitySolver : ISolver
         for (int b = 0; b < blocks; b++)
         {
             ref JointBlock block = ref _blocks[b];
-            Vector3d v0 = _linear[block.Body0];
-            Vector3d v1 = _linear[block.Body1];
-            Vector3d u0 = _angular[block.Body0];
-            Vector3d u1 = _angular[block.Body1];
-            for (int i = block.Start; i < block.End; i++)
+            var pair = new PairVelocity(_linear[block.Body0], _angular[block.Body0], _linear[block.Body1], _angular[block.Body1]);
+            pair.SolveInTurn(_rows.AsSpan(block.Start, block.Equalities - block.Start), block.Mass);
+            Span<PgsRow> equalities = _rows.AsSpan(block.Equalities, block.Inequalities - block.Equalities);
+            if (block.IsOrthogonal)
             {
-                ref PgsRow row = ref _rows[i];
-                double velocity = Vector3d.Dot(row.Linear, v0 - v1) + Vector3d.Dot(row.Angular0, u0) - Vector3d.Dot(row.Angular1, u1);
-                double impulse = row.ImpulseMultiplier * row.Impulse + row.VelocityMultiplier * velocity + row.Constant;
-                impulse = Math.Min(row.Maximum, Math.Max(row.Minimum, impulse));
-                double delta = impulse - row.Impulse;
-                row.Impulse = impulse;
-                v0 += row.Linear * (delta * block.Mass.InverseMass0);
-                v1 -= row.Linear * (delta * block.Mass.InverseMass1);
-                u0 += row.Angular0 * (delta * block.Mass.InertiaScale0);
-                u1 -= row.Angular1 * (delta * block.Mass.InertiaScale1);
+                pair.SolveTogether(equalities, block.Mass);
+            }
+            else
+            {
+                pair.SolveInTurn(equalities, block.Mass);
             }
 
-            _linear[block.Body0] = v0;
-            _linear[block.Body1] = v1;
-            _angular[block.Body0] = u0;
-            _angular[block.Body1] = u1;
+            pair.SolveInTurn(_rows.AsSpan(block.Inequalities, block.End - block.Inequalities), block.Mass);
+            _linear[block.Body0] = pair.Linear0;
+            _angular[block.Body0] = pair.Angular0;
+            _linear[block.Body1] = pair.Linear1;
+            _angular[block.Body1] = pair.Angular1;
         }
     }
 
@@ -228,6 +222,7 @@ internal sealed class UnitySolver : ISolver
     // this step and is gone in the next. Source: DySolverConstraints.cpp, writeBack1D.
     private void Report(int blocks, double dt)
     {
+        double inverseDt = 1 / dt;
         bool broken = false;
         for (int b = 0; b < blocks; b++)
         {
@@ -236,17 +231,17 @@ internal sealed class UnitySolver : ISolver
             Vector3d angular = Vector3d.Zero;
             for (int i = block.Start; i < block.End; i++)
             {
-                if (_outputs[i].Counts)
+                if (_rows[i].Counts)
                 {
-                    linear += _rows[i].Linear * _rows[i].Impulse;
-                    angular += _outputs[i].Angular0 * _rows[i].Impulse;
+                    linear += _rows[i].Linear.Vector * _rows[i].Impulse;
+                    angular += _rows[i].Angular0.Vector * _rows[i].Impulse;
                 }
             }
 
-            angular -= Vector3d.Cross(block.Anchor, linear);
+            angular -= Vector3d.Cross(block.Lever, linear);
             Joint joint = _mechanism.Joints[block.Joint];
-            _mechanism.Reactions[block.Joint] = new JointReaction { Force = linear * (1 / dt), Torque = angular * (1 / dt) };
-            if (linear.Length > joint.BreakForce * dt || angular.Length > joint.BreakTorque * dt)
+            _mechanism.Reactions[block.Joint] = new JointReaction { Force = linear * inverseDt, Torque = angular * inverseDt };
+            if (Exceeds(linear, joint.BreakForce * dt) || Exceeds(angular, joint.BreakTorque * dt))
             {
                 joint.IsBroken = true;
                 broken = true;
@@ -260,6 +255,8 @@ internal sealed class UnitySolver : ISolver
         }
     }
 
+    private static bool Exceeds(Vector3d impulse, double limit) => impulse.LengthSquared > limit * limit;
+
     private void Move(int i, double dt)
     {
         if (_bodies.IsKinematic[i])
@@ -268,20 +265,24 @@ internal sealed class UnitySolver : ISolver
             return;
         }
 
+        Vector3d dv = _linear[i].Vector;
+        Vector3d du = _angular[i].Vector;
+        Vector3d motionV = _motionLinear[i].Vector;
+        Vector3d motionU = _motionAngular[i].Vector;
         BodyLocks locks = _bodies.Locks[i];
         if (locks != BodyLocks.None)
         {
-            _motionLinear[i] = BodyMotion.Unlocked(_motionLinear[i], locks, BodyLocks.LinearX, BodyLocks.LinearY, BodyLocks.LinearZ);
-            _linear[i] = BodyMotion.Unlocked(_linear[i], locks, BodyLocks.LinearX, BodyLocks.LinearY, BodyLocks.LinearZ);
-            _motionAngular[i] = BodyMotion.Unlocked(_motionAngular[i], locks, BodyLocks.AngularX, BodyLocks.AngularY, BodyLocks.AngularZ);
-            _angular[i] = BodyMotion.Unlocked(_angular[i], locks, BodyLocks.AngularX, BodyLocks.AngularY, BodyLocks.AngularZ);
+            dv = BodyMotion.Unlocked(dv, locks, BodyLocks.LinearX, BodyLocks.LinearY, BodyLocks.LinearZ);
+            du = BodyMotion.Unlocked(du, locks, BodyLocks.AngularX, BodyLocks.AngularY, BodyLocks.AngularZ);
+            motionV = BodyMotion.Unlocked(motionV, locks, BodyLocks.LinearX, BodyLocks.LinearY, BodyLocks.LinearZ);
+            motionU = BodyMotion.Unlocked(motionU, locks, BodyLocks.AngularX, BodyLocks.AngularY, BodyLocks.AngularZ);
         }
 
-        Vector3d v = _bodies.LinearVelocities[i] + _motionLinear[i];
-        Vector3d w = _bodies.AngularVelocities[i] + _sqrtInertia[i].Times(_motionAngular[i]);
-        Pose pose = BodyMotion.Integrate(_bodies.Poses[i], v, w, dt);
-        v = _bodies.LinearVelocities[i] + _linear[i];
-        w = _bodies.AngularVelocities[i] + _sqrtInertia[i].Times(_angular[i]);
+        Vector3d v = _bodies.LinearVelocities[i];
+        Vector3d w = _bodies.AngularVelocities[i];
+        Pose pose = BodyMotion.Integrate(_bodies.Poses[i], v + motionV, w + _sqrtInertia[i].Times(motionU), dt);
+        v += dv;
+        w += _sqrtInertia[i].Times(du);
         if (!BodyMotion.InRange(pose, v, w))
         {
             _mechanism.Overflows++;

@@ -126,3 +126,28 @@ def test_lever_is_exported_with_its_hinges_and_slider(tmp_path):
         if c["type"].endswith("Joint")
     ]
     assert sorted(joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]
+
+
+def test_draw_writes_a_picture(lid, tmp_path):
+    """draw makes an SVG of a scene that names its joints."""
+    done = run("draw", lid, "-o", tmp_path / "lid.svg")
+    assert done.returncode == 0, done.stderr
+    assert "hinge" in (tmp_path / "lid.svg").read_text("utf-8")
+
+
+def test_draw_tells_of_a_missing_buffer(lid, tmp_path):
+    """A scene without its buffer is a finding, and no picture is written."""
+    for buffer in tmp_path.glob("*.bin"):
+        buffer.unlink()
+    done = run("draw", lid, "-o", tmp_path / "lid.svg")
+    assert done.returncode == 1 and "BUFFER_MISSING" in done.stderr
+    assert not (tmp_path / "lid.svg").exists()
+
+
+def test_draw_tells_of_an_unsound_scene(tmp_path):
+    """A reference to nowhere is a finding, not a traceback."""
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a", "name": "a", "parent": 7}]}
+    (tmp_path / "a.kinefab").write_text(json.dumps(scene))
+    done = run("draw", tmp_path / "a.kinefab", "-o", tmp_path / "a.svg")
+    assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr
+    assert "Traceback" not in done.stderr

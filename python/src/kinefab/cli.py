@@ -101,6 +101,26 @@ def inspect(
     typer.echo(json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description))
 
 
+@app.command()
+def draw(
+    file: Path = typer.Argument(..., help="A NAME.kinefab scene.", show_default=False),
+    output: Path = typer.Option(..., "--output", "-o", help="Picture to write: NAME.svg.", show_default=False),
+) -> None:
+    """Draw a scene: its bodies, its joints and how far they move."""
+    from .inspection import picture
+
+    try:
+        svg = picture(file)
+    except KinefabError as error:
+        _log(Report(list(error.diagnostics)))
+        raise typer.Exit(1)
+    try:
+        output.write_text(svg, "utf-8")
+    except OSError as error:
+        typer.echo(f"{output} cannot be written: {error.strerror}", err=True)
+        raise typer.Exit(1)
+
+
 def _log(report: Report) -> None:
     """Findings on stderr, one a line, coloured on a terminal."""
     from rich.console import Console

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 from typing import Any, Mapping
@@ -42,6 +43,38 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
             [diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")]
         )
     return content
+
+
+def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
+    """The bytes of a scene's buffers, in order; they stand beside it.
+
+    Raises KinefabError when one is missing or not the one that the scene was written with.
+    """
+    buffers = []
+    for entry in scene.get("buffers", []):
+        uri = str(entry["uri"])
+        try:
+            content = (Path(path).parent / Path(uri).name).read_bytes()
+        except OSError as error:
+            raise KinefabError(
+                [diagnostic("BUFFER_MISSING", str(path), uri=uri, detail=error.strerror)]
+            ) from error
+        if hashlib.sha256(content).hexdigest() != entry["sha256"]:
+            raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=f"{uri} is another buffer")])
+        buffers.append(content)
+    return buffers
+
+
+def picture(path: Path) -> str:
+    """A scene file as an SVG.  Raises KinefabError when it or its buffer cannot be read."""
+    from .unity.picture import draw
+
+    scene = read_scene_file(path)
+    try:
+        return draw(scene, read_buffers(path, scene))
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        detail = "it is not a sound scene; dotnet kinefab validate says where"
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=detail)]) from error
 
 
 def describe(scene: Mapping[str, Any]) -> dict[str, Any]:

@@ -88,6 +88,7 @@ def test_inspect_of_no_scene_exits_1_without_a_traceback(tmp_path, text):
     done = run("inspect", path)
     assert done.returncode == 1 and done.stdout == ""
     assert "Traceback" not in done.stderr and len(done.stderr.splitlines()) == 1
+    assert ("SOURCE_NOT_FOUND" if text is None else "SCENE_UNREADABLE") in done.stderr
 
 
 def test_missing_source_exits_1_and_writes_nothing(tmp_path):

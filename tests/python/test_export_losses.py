@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import kinefab
 from kinefab.diagnostics import KinefabError
 from kinefab.model import Drive, Freedom, JointKind, Motion
+from kinefab.spatial import Pose, rotation_about
 from scenes import BOX, components, exported, lid_scene
 
 
@@ -31,6 +34,14 @@ def test_strict_refuses_what_would_be_approximated(tmp_path):
     [
         (JointKind.CYLINDRICAL, {"rx": Freedom(Motion.LIMITED, -4.0, 4.0)}, "JOINT_LIMIT_BEYOND_TURN"),
         (JointKind.UNIVERSAL, {"rz": Freedom(Motion.LIMITED, -0.2, 1.4)}, "JOINT_LIMIT_ASYMMETRIC"),
+        (
+            JointKind.SPHERICAL,
+            {
+                "ry": Freedom(Motion.LIMITED, -0.2, 0.2, stiffness=5.0),
+                "rz": Freedom(Motion.LIMITED, -0.2, 0.2),
+            },
+            "JOINT_LIMIT_SPRING_SHARED",
+        ),
         (JointKind.SPHERICAL, {"ry": Freedom(Motion.LIMITED, -0.2, 0.2)}, "JOINT_LIMIT_ELEVATION"),
         (JointKind.PLANAR, {n: Freedom(Motion.LIMITED, -0.2, 0.2) for n in ("ty", "tz")}, "JOINT_LIMITS_SHARED"),
         (JointKind.SPHERICAL, {"ry": Freedom(Motion.FREE, drive=Drive(stiffness=2.0))}, "JOINT_DRIVE_SHARED"),
@@ -103,3 +114,36 @@ def test_mass_that_nobody_gives_is_reported(tmp_path):
     content, result = exported(scene, tmp_path)
     assert [d.code for d in result.report.diagnostics] == ["MASS_LEFT_OUT"]
     assert components(content, "Pair", "Rigidbody")[0]["mass"] == pytest.approx(6)
+
+
+def test_asymmetric_swing_takes_its_larger_side(tmp_path):
+    """-80..20 degrees becomes +-80, so that nothing the source allows is blocked."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    swing = Freedom(Motion.LIMITED, math.radians(-80), math.radians(20))
+    scene.add_joint(JointKind.UNIVERSAL, None, part, point=(0, 0, 0), name="J", rz=swing)
+    content, _ = exported(scene, tmp_path)
+    assert components(content, "P", "ConfigurableJoint")[0]["angularZLimit"] == {"limit": 80}
+
+
+def test_drive_on_a_locked_freedom_is_mentioned(tmp_path):
+    """A drive that cannot move anything is left out with a remark."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    held = Freedom(drive=Drive(stiffness=3.0))
+    scene.add_joint(JointKind.PRISMATIC, None, part, point=(0, 0, 0), name="J", ty=held)
+    content, result = exported(scene, tmp_path)
+    assert [d.code for d in result.report.diagnostics] == ["JOINT_DRIVE_LOCKED"]
+    assert "yDrive" not in components(content, "P", "ConfigurableJoint")[0]
+
+
+def test_ball_joint_exported_at_a_swing_reports_where_its_limits_start(tmp_path):
+    """Unity's cone stands about the exported pose; away from the joint's zero that is another cone."""
+    scene = kinefab.Scene()
+    part = scene.add_part("P", BOX)
+    cone = Freedom(Motion.LIMITED, -0.9, 0.9)
+    joint = scene.add_joint(JointKind.SPHERICAL, None, part, point=(0, 0, 0), name="J", ry=cone, rz=cone)
+    tilted = Pose(rotation_about(np.array([0.0, 1.0, 0.0]), 0.3), np.zeros(3))
+    scene.joints[0] = replace(joint, frame_b=joint.frame_a @ tilted)
+    _, result = exported(scene, tmp_path)
+    assert "JOINT_ZERO_SHIFTED" in [o.code for o in result.report.outcomes]

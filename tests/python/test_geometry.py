@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from kinefab.diagnostics import Report
+from kinefab.diagnostics import Report, Severity
 from kinefab.geometry.files import FORMATS, transformed
 from kinefab.geometry.loading import MeshFiles, load_geometry
 from kinefab.geometry.mass import solid_properties
@@ -90,6 +90,17 @@ def test_obj_objects_of_one_name_are_taken_in_order_and_reported(tmp_path):
     scene, report = load(two_cubes(tmp_path / "a.obj", "o Solid", "o Solid"), "Solid", "Solid")
     assert [volume(m) for m in meshes(scene)] == pytest.approx([1, 8])
     assert [d.code for d in report.diagnostics] == ["BODY_MATCHED_LOOSELY"] * 2
+
+
+def test_obj_sections_of_one_name_are_one_body_where_one_is_wanted(tmp_path):
+    """A name that opens two sections and is wanted once means both, with a warning; wanted thrice it is an error."""
+    path = two_cubes(tmp_path / "a.obj", "o Solid", "o Solid")
+    scene, report = load(path, "Solid")
+    assert volume(meshes(scene)[0]) == pytest.approx(9)
+    assert [d.code for d in report.diagnostics] == ["BODY_MATCHED_LOOSELY"]
+    scene, report = load(path, "Solid", "Solid", "Solid")
+    assert meshes(scene) == [None] * 3
+    assert {d.code for d in report.diagnostics if d.severity is Severity.ERROR} == {"BODY_NAME_AMBIGUOUS"}
 
 
 def test_obj_negative_indices_count_from_the_face(tmp_path):

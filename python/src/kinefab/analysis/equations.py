@@ -1,0 +1,191 @@
+"""From a scene's constraints, joints and couplings to one ``System`` of equations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import (
+    RX, RY, RZ, TX,
+    Constraint, ConstraintKind, Coupling, FeatureKind, Joint, JointKind, Motion, Scene,
+)
+from .atoms import Atom
+from .constraints import Context, RangedCoordinate, UnknownPairing, build
+from .features import sides_of
+from .rows import NOWHERE, Rows, Side, has_direction
+from .system import System
+
+NEEDED_FEATURES = {ConstraintKind.SYMMETRY: 3, ConstraintKind.GROUND: 0}
+DEFAULT_LENGTH = 0.1
+"""Characteristic length of an assembly whose geometry is all in one point, metres."""
+AXIS_MAKERS = (ConstraintKind.COINCIDENT, ConstraintKind.CONCENTRIC, ConstraintKind.INSERT)
+
+
+@dataclass(slots=True)
+class Equations:
+    """The system and what its rows stand for.
+
+    statements: the constraints, joints and couplings that rows belong to (``System.owner``).
+    ranges: coordinates that the source bounds instead of fixing.
+    """
+
+    system: System
+    statements: list[Constraint | Joint | Coupling]
+    ranges: list[RangedCoordinate] = field(default_factory=list)
+
+
+def equations_of(scene: Scene, report: Report) -> Equations:
+    """All equations, body = node + 1.  What cannot be turned into equations is reported, by name."""
+    usable = [c for c in scene.constraints if _usable(c, scene, report)]
+    sides = sides_of(scene, [f for c in usable for f in c.features])
+    rows, context = Rows(), Context()
+    statements: list[Constraint | Joint | Coupling] = []
+    spans, at = [], 0
+    for constraint in usable:
+        spans.append(sides[at : at + len(constraint.features)])
+        at += len(constraint.features)
+    for constraint, own in zip(usable, spans):
+        _note_axis(constraint, own, context)
+    for constraint, own in zip(usable, spans):
+        rows.owner = len(statements)
+        statements.append(constraint)
+        try:
+            build(rows, constraint, own, context)
+        except UnknownPairing:
+            names = " and ".join(f.kind.value for f in constraint.features)
+            report.dropped(
+                f"constraint {constraint.id}", "CONSTRAINT_PAIRING_UNKNOWN", constraint.where,
+                id=constraint.id, kind=constraint.kind.value, features=names,
+            )
+    by_id = {}
+    for joint in scene.joints:
+        rows.owner = len(statements)
+        statements.append(joint)
+        by_id[joint.id] = joint
+        joint_rows(rows, joint, scene)
+    for coupling in scene.couplings:
+        rows.owner = len(statements)
+        statements.append(coupling)
+        _coupling_rows(rows, coupling, by_id, scene)
+    system = rows.system(len(scene.nodes) + 1, 1.0)
+    system.length = characteristic_length(system, scene)
+    return Equations(system, statements, context.ranges)
+
+
+def characteristic_length(system: System, scene: Scene) -> float:
+    """Radius of the constraints' points and their parts' origins about their middle, metres.
+
+    Moves and scales with the assembly.  0.1 where everything is in one place.
+    """
+    used = np.unique(np.concatenate([system.body_a, system.body_b])) - 1
+    origins = [scene.nodes[i].pose.translation for i in used if i >= 0]
+    on_b, on_a = np.any(system.p_b != 0.0, axis=1), np.any(system.p_a != 0.0, axis=1)
+    points = np.concatenate([system.p_b[on_b], system.p_a[on_a], np.array(origins).reshape(-1, 3)])
+    if not len(points):
+        return DEFAULT_LENGTH
+    radius = float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
+    return radius if radius > 1e-12 * float(np.abs(points).max()) else DEFAULT_LENGTH
+
+
+def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
+    feature = f"constraint {c.id}"
+    if c.suppressed or c.kind is ConstraintKind.GROUND:
+        return False
+    if c.kind is ConstraintKind.OTHER:
+        report.dropped(feature, "CONSTRAINT_NOT_INTERPRETED", c.where, id=c.id, kind=c.raw_kind or "other")
+        return False
+    if len(c.features) < NEEDED_FEATURES.get(c.kind, 2):
+        report.dropped(feature, "CONSTRAINT_FEATURES_MISSING", c.where, id=c.id, count=len(c.features))
+        return False
+    for f in c.features:
+        if f.node is not None and not 0 <= f.node < len(scene.nodes):
+            report.dropped(feature, "CONSTRAINT_NODE_MISSING", c.where, id=c.id, node=f.node)
+            return False
+        numbers = [f.point] + [v for v in (f.direction, f.secondary) if v is not None]
+        if not all(np.all(np.isfinite(v)) for v in numbers) or not np.isfinite([c.value, f.radius, f.half_angle]).all():
+            report.dropped(feature, "CONSTRAINT_NOT_FINITE", c.where, id=c.id)
+            return False
+        if has_direction(f.kind) and (f.direction is None or not np.linalg.norm(f.direction) > 1e-12):
+            report.dropped(feature, "CONSTRAINT_AXIS_ZERO", c.where, id=c.id, kind=f.kind.value)
+            return False
+    if any(f.node is not None and scene.nodes[f.node].suppressed for f in c.features):
+        report.dropped(feature, "CONSTRAINT_PART_SUPPRESSED", c.where, id=c.id)
+        return False
+    if c.features[0].node == c.features[1].node:
+        name = "ground" if c.features[0].node is None else scene.nodes[c.features[0].node].id
+        report.dropped(feature, "CONSTRAINT_WITH_ITSELF", c.where, id=c.id, part=name)
+        return False
+    return True
+
+
+def _note_axis(c: Constraint, sides: list[Side], context: Context) -> None:
+    lines = (FeatureKind.POINT, FeatureKind.SPHERE, FeatureKind.PLANE, FeatureKind.BODY)
+    if c.kind in AXIS_MAKERS and not any(s.kind in lines for s in sides[:2]):
+        pair = (min(sides[0].body, sides[1].body), max(sides[0].body, sides[1].body))
+        context.axes.setdefault(pair, []).append(sides[0].z)
+
+
+def joint_sides(joint: Joint, scene: Scene) -> tuple[Side, Side]:
+    """The joint's two frames in the WORLD at the exported pose, X as the sides' z (main axis)."""
+    result = []
+    for node, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
+        world = scene.pose(node) @ frame
+        x, y, z = world.rotation.T
+        result.append(Side(0 if node is None else node + 1, world.translation, x, y, z, FeatureKind.FRAME, framed=True))
+    return result[0], result[1]
+
+
+def joint_rows(rows: Rows, joint: Joint, scene: Scene) -> None:
+    """Equations of a joint's locked freedoms, as a D6 joint means them (see ``model.Joint``)."""
+    a, b = joint_sides(joint, scene)
+    axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)  # X, Y, Z
+    locked = [f.motion is Motion.LOCKED for f in joint.freedoms]
+    screw = joint.kind is JointKind.SCREW and joint.lead != 0.0
+    for i in range(3):
+        if locked[i]:
+            rows.plane(a, axes_a[i], b)
+    turns = [i for i in range(3) if locked[RX + i]]
+    if len(turns) == 3:
+        rows.parallel(a, b)
+        rows.dot(a, axes_a[1], b, axes_b[2])
+    elif len(turns) == 2:
+        free = 3 - sum(turns)
+        for i in turns:
+            rows.dot(a, axes_a[i], b, axes_b[free])
+    elif turns == [RY - RX]:
+        rows.dot(a, axes_a[2], b, axes_b[0])  # X of b stays across Z of a: the Cardan equation
+    elif turns == [RZ - RX]:
+        rows.dot(a, axes_a[1], b, axes_b[0])
+    elif turns == [0]:
+        rows.dot(a, axes_a[1], b, axes_b[2])
+    if screw:
+        row = rows.row(True)
+        coordinate(rows, row, a, b, TX, 1.0)
+        coordinate(rows, row, a, b, RX, -joint.lead / (2.0 * np.pi))
+
+
+def coordinate(rows: Rows, row: int, a: Side, b: Side, freedom: int, weight: float, offset: float = 0.0) -> None:
+    """weight * (joint coordinate - offset), added to a row."""
+    axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)
+    i = freedom % 3
+    if freedom < RX:
+        rows.atom(row, Atom.PIP, a.body, b.body, p_a=a.p, dir_a=axes_a[i], p_b=b.p, d=offset, weight=weight)
+    else:
+        across = (i + 1) % 3
+        rows.atom(row, Atom.ANG, a.body, b.body, dir_a=axes_a[across], k=axes_a[i], p_b=b.p,
+                  dir_b=axes_b[across], d=offset, weight=weight)
+
+
+def _coupling_rows(rows: Rows, coupling: Coupling, by_id: dict[str, Joint], scene: Scene) -> None:
+    # C = q_b - ratio q_a - offset
+    first, second = by_id.get(coupling.joint_a), by_id.get(coupling.joint_b)
+    if first is None or second is None:
+        return  # the reader has reported the missing joint
+    row = rows.row(coupling.freedom_b < RX)
+    coordinate(rows, row, *joint_sides(second, scene), coupling.freedom_b, 1.0, coupling.offset)
+    coordinate(rows, row, *joint_sides(first, scene), coupling.freedom_a, -coupling.ratio)
+
+
+__all__ = ["Equations", "equations_of", "joint_rows", "joint_sides", "coordinate", "NOWHERE"]

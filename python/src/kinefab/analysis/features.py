@@ -1,0 +1,70 @@
+"""Features of all constraints brought into the world at the exported pose."""
+
+from __future__ import annotations
+
+from typing import Sequence
+
+import numpy as np
+
+from ..model import Feature, FeatureKind, Scene
+from ..spatial import Array
+from .atoms import cross
+from .rows import NOWHERE, Side
+
+
+def sides_of(scene: Scene, features: Sequence[Feature]) -> list[Side]:
+    """Every feature as a ``Side``, in order; body = node + 1, or 0 for ground.
+
+    Directions are made unit vectors here; one of no length stays zero (``constraints`` refuses it).
+    """
+    if not features:
+        return []
+    node = np.array([-1 if f.node is None else f.node for f in features])
+    rotation = np.array([np.eye(3)] + [n.pose.rotation for n in scene.nodes])[node + 1]
+    translation = np.array([NOWHERE] + [n.pose.translation for n in scene.nodes])[node + 1]
+
+    def world(vectors):
+        return np.einsum("nij,nj->ni", rotation, np.array(vectors, dtype=float))
+
+    p = world([f.point for f in features]) + translation
+    z = _unit(world([NOWHERE if f.direction is None else f.direction for f in features]))
+    given = world([NOWHERE if f.secondary is None else f.secondary for f in features])
+    x, framed = _beside(z, given)
+    y = cross(z, x)
+    return [
+        Side(int(node[i]) + 1, p[i], z[i], x[i], y[i], f.kind, f.radius, f.half_angle, bool(framed[i]))
+        for i, f in enumerate(features)
+    ]
+
+
+def _unit(v: Array) -> Array:
+    size = np.linalg.norm(v, axis=1, keepdims=True)
+    return np.divide(v, size, out=np.zeros_like(v), where=size > 0.0)
+
+
+def _beside(z: Array, given: Array) -> tuple[Array, np.ndarray]:
+    """Unit vectors at right angles to z, towards ``given`` where it has a part across z."""
+    across = given - z * np.einsum("ni,ni->n", given, z)[:, None]
+    framed = np.linalg.norm(across, axis=1) > 1e-9
+    helper = np.zeros_like(z)
+    helper[np.arange(len(z)), np.argmin(np.abs(z), axis=1)] = 1.0
+    chosen = np.where(framed[:, None], across, helper - z * np.einsum("ni,ni->n", helper, z)[:, None])
+    return _unit(chosen), framed
+
+
+def family(kind: FeatureKind) -> str:
+    """What a feature is for a constraint: a sphere is its centre, a cylinder or circle its axis."""
+    return _FAMILY[kind]
+
+
+_FAMILY = {
+    FeatureKind.POINT: "point",
+    FeatureKind.SPHERE: "point",
+    FeatureKind.BODY: "point",
+    FeatureKind.LINE: "line",
+    FeatureKind.CIRCLE: "line",
+    FeatureKind.CYLINDER: "line",
+    FeatureKind.CONE: "line",
+    FeatureKind.FRAME: "frame",
+    FeatureKind.PLANE: "plane",
+}

@@ -1,0 +1,136 @@
+"""The test that decides: does a joint's whole finite motion keep the constraints it stands for?
+
+Twists are first order.  A rod, a tangency and a point on a plane have the same ones; which joint it is,
+only finite motions tell.  Equations are analytic, so a few random motions settle it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ..model import RX, RY, RZ, TX, Freedom, JointKind, Motion, freedoms_of
+from ..spatial import Array
+from .atoms import Atom, evaluate
+from .system import TURN, System, exponential
+
+SAMPLES = 24
+REACH = 0.4
+"""Translations sampled, as a fraction of the characteristic length, to either side."""
+TURN_REACH = 0.7
+"""Rotations sampled, radians, to either side."""
+EXACT = 1e-9
+"""Misfit, as a fraction of the characteristic length (or radians), up to which a motion fits."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """A joint that may stand for a pair's constraints.
+
+    axes: joint frame in the WORLD, columns X, Y, Z.  origin: WORLD, metres.
+    first_is_a: the pair's first body is the joint's ``a``.  lead: metres a turn of a SCREW.
+    """
+
+    kind: JointKind
+    axes: Array
+    origin: Array
+    first_is_a: bool = True
+    lead: float = 0.0
+    freedoms: tuple[Freedom, ...] = field(default=())
+
+    @property
+    def six(self) -> tuple[Freedom, ...]:
+        return self.freedoms or freedoms_of(self.kind)
+
+    @property
+    def dof(self) -> int:
+        return sum(f.motion is not Motion.LOCKED for f in self.six) - (self.kind is JointKind.SCREW)
+
+
+def motions(candidate: Candidate, length: float, samples: int, seed: int = 7) -> tuple[Array, Array]:
+    """Random motions of b against a that the joint allows, in the joint frame.
+
+    Returns rotations (samples, 3, 3) and translations (samples, 3): the pose of b's frame in a's, with
+    the semantics of a D6 joint: translations along a's axes; with only Y (Z) locked, X stays fixed in b
+    and Z (Y) in a; with only X locked, the swing is homokinetic.
+    """
+    draw = np.random.default_rng(seed)
+    q = draw.uniform(-1.0, 1.0, (samples, 6)) * np.array([REACH * length] * 3 + [TURN_REACH] * 3)
+    q *= [f.motion is not Motion.LOCKED for f in candidate.six]
+    if candidate.kind is JointKind.SCREW:
+        q[:, TX] = candidate.lead / TURN * q[:, RX]
+    turning = [i for i in (RX, RY, RZ) if candidate.six[i].motion is not Motion.LOCKED]
+    if turning == [RX, RZ]:
+        rotation = _about(2, q[:, RZ]) @ _about(0, q[:, RX])
+    elif turning == [RX, RY]:
+        rotation = _about(1, q[:, RY]) @ _about(0, q[:, RX])
+    else:
+        rotation = exponential(q[:, 3:])
+    return rotation, q[:, :3]
+
+
+def _about(axis: int, angle: Array) -> Array:
+    w = np.zeros((len(angle), 3))
+    w[:, axis] = angle
+    return exponential(w)
+
+
+def world_motions(candidate: Candidate, length: float, samples: int) -> tuple[Array, Array]:
+    """Displacements of the pair's second body (first at rest) about the candidate's origin, in the WORLD."""
+    rotation, shift = motions(candidate, length, samples)
+    rotation = candidate.axes @ rotation @ candidate.axes.T
+    shift = shift @ candidate.axes.T
+    if not candidate.first_is_a:
+        rotation = np.swapaxes(rotation, 1, 2)
+        shift = -np.einsum("sij,sj->si", rotation, shift)
+    return rotation, shift
+
+
+def misfits(system: System, first: np.ndarray, second: np.ndarray, atom_pair: np.ndarray,
+            candidates: list[Candidate], lengths: Array, samples: int = SAMPLES) -> Array:
+    """Largest violation of each pair's rows over its candidate's motions, shape (pairs,).
+
+    system: its atoms all join ``first[p]`` and ``second[p]`` of the pair p = ``atom_pair[atom]``, and its
+    rows hold atoms of one pair each.  lengths: metres, by which each pair's lengths are measured.
+    """
+    moved = [world_motions(c, l, samples) for c, l in zip(candidates, lengths)]
+    rotation = np.array([m[0] for m in moved])
+    shift = np.array([m[1] for m in moved])
+    origin = np.array([c.origin for c in candidates])
+    value = np.zeros((len(system.kind), samples))
+    b_moves = system.body_b == second[atom_pair]
+    for kind in Atom:
+        for b_side in (True, False):
+            atoms = np.flatnonzero((system.kind == kind) & (b_moves == b_side))
+            if not len(atoms):
+                continue
+            p = atom_pair[atoms]
+
+            def turn(v):
+                return np.einsum("nsij,nj->nsi", rotation[p], v)
+
+            def stay(v):
+                return np.broadcast_to(v[:, None], (len(v), samples, 3))
+
+            def move(points):
+                return turn(points - origin[p]) + origin[p][:, None] + shift[p]
+
+            on_a, on_b = (stay, turn) if b_side else (turn, stay)
+            at_a, at_b = (stay, move) if b_side else (move, stay)
+            d = np.broadcast_to(system.d[atoms][:, None], (len(atoms), samples))
+            value[atoms] = evaluate(
+                kind, at_a(system.p_a[atoms]), on_a(system.a[atoms]), on_a(system.k[atoms]),
+                at_b(system.p_b[atoms]), on_b(system.b[atoms]), d,
+            )[0]
+    angles = system.kind == Atom.ANG
+    value[angles] = np.remainder(value[angles] + np.pi, TURN) - np.pi
+    scale = system.weight / np.where(system.is_length[system.row], lengths[atom_pair], 1.0)
+    gather = csr_matrix((scale, (system.row, np.arange(len(scale)))), shape=(system.rows, len(scale)))
+    by_row = np.abs(gather @ value).max(axis=1)
+    worst = np.zeros(len(candidates))
+    row_pair = np.zeros(system.rows, dtype=np.int64)
+    row_pair[system.row] = atom_pair
+    np.maximum.at(worst, row_pair, by_row)
+    return worst

@@ -1,0 +1,220 @@
+"""Every pair of bodies: which twists its constraints leave, and which joint that is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..spatial import Array
+from .atoms import LENGTHS, Atom, cross
+from .candidates import Geometry, candidates
+from .finite import EXACT, Candidate, misfits
+from .rank import SURE_GAP, normalised, rank_of
+from .system import State, System
+from .twists import TwistSpace, twist_space
+
+SLACK = 20.0
+"""A candidate may miss by this many times the misfit that the exported pose already has ..."""
+MOST_SLACK = 1e-4
+"""... up to here, as a fraction of the characteristic length."""
+
+
+@dataclass(slots=True, eq=False)
+class Pairs:
+    """The pairs of bodies that rows join, in the order of (first, second), first < second.
+
+    row_pair: shape (rows,), the row's pair, -1 where it joins more than two bodies, -2 inside one body.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    row_pair: np.ndarray
+    atom_pair: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+
+@dataclass(slots=True, eq=False)
+class Relation:
+    """What the constraints of one pair leave.
+
+    rows, rank: of the pair alone, first order.  basis: scaled twists (v / length, w) of the second body
+    against the first about ``origin``, columns, orthonormal, shape (6, 6 - rank).
+    joint: the one joint with exactly these motions, or None.  misfit: of the best candidate, as a fraction
+    of length.  gap: see ``rank``.  finite: freedoms of finite motion (less than 6 - rank where the
+    pose is singular).
+    """
+
+    first: int
+    second: int
+    rows: np.ndarray
+    rank: int
+    gap: float
+    origin: Array
+    length: float
+    basis: Array
+    finite: int
+    space: TwistSpace
+    geometry: Geometry
+    joint: Candidate | None = None
+    misfit: float = np.inf
+    tried: list[Candidate] = field(default_factory=list)
+
+    @property
+    def sure(self) -> bool:
+        return self.gap >= SURE_GAP
+
+
+def pairs_of(system: System) -> Pairs:
+    """Group the rows by the pair of bodies they join."""
+    low = np.minimum(system.body_a, system.body_b)
+    high = np.maximum(system.body_a, system.body_b)
+    n = system.bodies
+    key = low * n + high
+    key[low == high] = -2
+    row_key = np.full(system.rows, -3, dtype=np.int64)
+    row_key[system.row] = key
+    mixed = np.zeros(system.rows, dtype=bool)
+    np.logical_or.at(mixed, system.row, row_key[system.row] != key)
+    row_key[mixed] = -1
+    keys = np.unique(row_key[row_key >= 0])
+    row_pair = np.where(row_key >= 0, np.searchsorted(keys, row_key), row_key)
+    return Pairs(keys // n, keys % n, row_pair, row_pair[system.row])
+
+
+def relative_rows(system: System, pairs: Pairs, state: State):
+    """Rows of each pair as scaled wrenches on the second body's twist, about the pair's own middle.
+
+    Returns (rows (m, 6), origin (pairs, 3), length (pairs,)) with zero rows for rows of no pair.
+    """
+    value, f, c, tau = system._values(state)
+    inside = system.row.copy() * 0 + pairs.atom_pair
+    used = inside >= 0
+    p = inside[used]
+    pointed = np.isin(system.kind[used], LENGTHS)
+    count = np.bincount(p[pointed], minlength=len(pairs))
+    p_a, _, _, p_b, _, _ = system._current(state, np.flatnonzero(used))
+    middle = 0.5 * (p_a + p_b)
+    origin = np.zeros((len(pairs), 3))
+    for i in range(3):
+        origin[:, i] = np.bincount(p[pointed], middle[pointed, i], minlength=len(pairs)) / np.maximum(count, 1)
+    reach = np.zeros(len(pairs))
+    for points in (p_a, p_b):
+        np.maximum.at(reach, p[pointed], np.linalg.norm(points[pointed] - origin[p[pointed]], axis=1))
+    length = np.where(reach > 1e-6 * system.length, reach, 0.1 * system.length)
+    sign = np.where(system.body_b == np.where(used, pairs.second[np.maximum(inside, 0)], -1), 1.0, -1.0)
+    scale = (system.scale() * sign)[used, None]
+    lever = c[used] - origin[p]
+    wrench = np.concatenate(
+        [f[used] * scale, (cross(lever, f[used]) + tau[used]) * scale / length[p][:, None]], axis=1
+    )
+    rows = np.zeros((system.rows, 6))
+    np.add.at(rows, system.row[used], wrench)
+    return normalised(rows), origin, length
+
+
+def batched_null_spaces(rows: Array, row_pair: np.ndarray, count: int):
+    """Rank (count,), gap (count,) and V' (count, 6, 6) of each pair's rows; the null space is V'[rank:]."""
+    used = np.flatnonzero(row_pair >= 0)
+    used = used[np.argsort(row_pair[used], kind="stable")]
+    sizes = np.bincount(row_pair[used], minlength=count)
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    rank, gap, vt = np.zeros(count, dtype=np.int64), np.zeros(count), np.zeros((count, 6, 6))
+    height = np.maximum(6, 2 ** np.ceil(np.log2(np.maximum(sizes, 1))).astype(int))
+    for h in np.unique(height):
+        group = np.flatnonzero(height == h)
+        block = np.zeros((len(group), h, 6))
+        for i, pair in enumerate(group):
+            block[i, : sizes[pair]] = rows[used[starts[pair] : starts[pair + 1]]]
+        _, s, v = np.linalg.svd(block, full_matrices=False)
+        rank[group], gap[group] = rank_of(s)
+        vt[group] = v
+    return rank, gap, vt, used, starts
+
+
+def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
+    """Every pair's twists, not yet its joint."""
+    rows, origin, length = relative_rows(system, pairs, state)
+    rank, gap, vt, order, starts = batched_null_spaces(rows, pairs.row_pair, len(pairs))
+    atoms_of = np.argsort(pairs.atom_pair, kind="stable")
+    atom_starts = np.searchsorted(pairs.atom_pair[atoms_of], np.arange(len(pairs) + 1))
+    found = []
+    for i in range(len(pairs)):
+        basis = vt[i, rank[i] :].T
+        atoms = atoms_of[atom_starts[i] : atom_starts[i + 1]]
+        found.append(
+            Relation(
+                int(pairs.first[i]), int(pairs.second[i]), order[starts[i] : starts[i + 1]],
+                int(rank[i]), float(gap[i]), origin[i], float(length[i]), basis, 6 - int(rank[i]),
+                twist_space(basis, origin[i], float(length[i])), _geometry(system, atoms, int(pairs.first[i]), float(length[i])),
+            )
+        )
+    return found
+
+
+def _geometry(system: System, atoms: np.ndarray, first: int, length: float) -> Geometry:
+    """The pair's points and directions; the system must stand at its start pose."""
+    pointed = atoms[np.isin(system.kind[atoms], LENGTHS)]
+    points = _distinct(np.concatenate([system.p_b[pointed], system.p_a[pointed]]), 1e-6 * length)
+    on_a = np.concatenate([system.a[atoms], system.k[atoms]])
+    sides = []
+    for mine in (True, False):
+        a_here = (system.body_a[atoms] == first) == mine
+        here = np.concatenate([on_a[np.concatenate([a_here, a_here])], system.b[atoms[~a_here]]])
+        sides.append(_distinct(here[np.linalg.norm(here, axis=1) > 0.5], 1e-6))
+    return Geometry(points if len(points) else np.zeros((1, 3)), *sides)
+
+
+def _distinct(vectors: Array, tolerance: float) -> Array:
+    kept: list[Array] = []
+    for v in vectors[:64]:
+        if all(abs(v - w).max() > tolerance for w in kept):
+            kept.append(v)
+    return np.array(kept).reshape(-1, 3)
+
+
+def find_joints(system: System, pairs: Pairs, relations: list[Relation], residual: Array) -> None:
+    """Give each relation the first candidate whose finite motions keep all its rows.
+
+    residual: of the start pose, shape (rows,), scaled by ``system.length``.
+    """
+    waiting = [(i, candidates(r.space, r.geometry, r.length)) for i, r in enumerate(relations) if r.joint is None]
+    turn = 0
+    while waiting:
+        waiting = [(i, offers) for i, offers in waiting if turn < len(offers)]
+        chosen = [i for i, _ in waiting]
+        if not chosen:
+            break
+        worst = _try(system, pairs, relations, chosen, [offers[turn] for _, offers in waiting])
+        for (i, offers), misfit in zip(waiting, worst):
+            relation = relations[i]
+            if misfit < relation.misfit:
+                relation.misfit = float(misfit)
+                relation.tried.append(offers[turn])
+            scaled = np.abs(residual[relation.rows]).max(initial=0.0) * system.length / relation.length
+            allowed = max(EXACT, min(SLACK * scaled, MOST_SLACK))
+            if misfit <= allowed and offers[turn].dof == relation.finite:
+                relation.joint = offers[turn]
+        waiting = [(i, offers) for i, offers in waiting if relations[i].joint is None]
+        turn += 1
+
+
+def _try(system: System, pairs: Pairs, relations: list[Relation], chosen: list[int], offers: list[Candidate]) -> Array:
+    worst = np.zeros(len(chosen))
+    for at in range(0, len(chosen), 1000):  # bounds the memory of the samples
+        part = np.array(chosen[at : at + 1000])
+        rows = np.sort(np.concatenate([relations[i].rows for i in part]))
+        number = np.full(len(pairs), -1)
+        number[part] = np.arange(len(part))
+        sub = system.select(rows)
+        atom_pair = number[pairs.row_pair[rows][sub.row]]
+        lengths = np.array([relations[i].length for i in part])
+        worst[at : at + 1000] = misfits(
+            sub, pairs.first[part], pairs.second[part], atom_pair, offers[at : at + 1000], lengths
+        )
+    return worst
+
+
+__all__ = ["Atom", "Pairs", "Relation", "find_joints", "pairs_of", "relations_of"]

@@ -1,0 +1,168 @@
+"""All equations of an assembly as arrays, and their residuals and Jacobians at any pose.
+
+A body is whatever moves as one.  Its state is a displacement from the start pose: a point x of it is
+at R (x - g) + g + u, with g a fixed point near the body's own geometry, so that lever arms stay short
+in assemblies far from the origin.  Body 0 never moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..spatial import Array
+from .atoms import LENGTHS, Atom, cross, evaluate
+
+TURN = 2.0 * np.pi
+
+
+@dataclass(slots=True, eq=False)
+class State:
+    """Displacements of the bodies from the start pose.
+
+    rotation: shape (n, 3, 3).  shift: shape (n, 3), metres, of the bodies' own points g.
+    angle: shape (atoms,), radians, the last value of each ANG, so that a coupling counts whole turns.
+    """
+
+    rotation: Array
+    shift: Array
+    angle: Array
+
+    def copy(self) -> "State":
+        return State(self.rotation.copy(), self.shift.copy(), self.angle.copy())
+
+
+@dataclass(slots=True, eq=False)
+class System:
+    """Equations sum(weight * atom) = 0, one for each row.
+
+    kind, row, body_a, body_b: shape (atoms,).  p_a, a, k, p_b, b: shape (atoms, 3), WORLD at the start
+    pose.  d, weight: shape (atoms,); the weight turns an atom's unit into the row's.
+    owner: shape (rows,), the constraint a row belongs to.  is_length: shape (rows,), whether its
+    residual is in metres (else radians or a cosine).  center: shape (bodies, 3), the points g.
+    length: metres, the characteristic length that balances lengths against angles.
+    """
+
+    kind: np.ndarray
+    row: np.ndarray
+    weight: Array
+    body_a: np.ndarray
+    body_b: np.ndarray
+    p_a: Array
+    a: Array
+    k: Array
+    p_b: Array
+    b: Array
+    d: Array
+    owner: np.ndarray
+    is_length: np.ndarray
+    center: Array
+    length: float
+
+    @property
+    def rows(self) -> int:
+        return len(self.owner)
+
+    @property
+    def bodies(self) -> int:
+        return len(self.center)
+
+    def start(self) -> State:
+        n = self.bodies
+        state = State(np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind)))
+        state.angle = self._values(state)[0] + self.d
+        return state
+
+    def select(self, rows: np.ndarray) -> "System":
+        """The same bodies with some of the rows (a mask or sorted indices)."""
+        chosen = np.zeros(self.rows, dtype=bool)
+        chosen[rows] = True
+        number = np.cumsum(chosen) - 1
+        atoms = chosen[self.row]
+        part = {f: getattr(self, f)[atoms] for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")}
+        return replace(
+            self, row=number[self.row[atoms]], owner=self.owner[chosen], is_length=self.is_length[chosen], **part
+        )
+
+    def relabel(self, body: np.ndarray, center: Array) -> "System":
+        """Other body numbers: ``body[old]``; ``center``: of the new ones."""
+        return replace(self, body_a=body[self.body_a], body_b=body[self.body_b], center=center)
+
+    def _current(self, state: State, atoms: np.ndarray):
+        i, j = self.body_a[atoms], self.body_b[atoms]
+        ra, rb = state.rotation[i], state.rotation[j]
+        ca, cb = self.center[i], self.center[j]
+
+        def turned(r, v):
+            return np.einsum("nij,nj->ni", r, v)
+
+        p_a = turned(ra, self.p_a[atoms] - ca) + ca + state.shift[i]
+        p_b = turned(rb, self.p_b[atoms] - cb) + cb + state.shift[j]
+        return p_a, turned(ra, self.a[atoms]), turned(ra, self.k[atoms]), p_b, turned(rb, self.b[atoms]), self.d[atoms]
+
+    def _values(self, state: State, kinds=tuple(Atom)):
+        """Residuals and wrenches of every atom in its own unit."""
+        m = len(self.kind)
+        value, f, c, tau = np.zeros(m), np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((m, 3))
+        for kind in kinds:
+            atoms = np.flatnonzero(self.kind == kind)
+            if len(atoms):
+                value[atoms], f[atoms], c[atoms], tau[atoms] = evaluate(kind, *self._current(state, atoms))
+                if kind is Atom.ANG:
+                    last = state.angle[atoms] - self.d[atoms]
+                    value[atoms] = last + np.remainder(value[atoms] - last + np.pi, TURN) - np.pi
+        return value, f, c, tau
+
+    def remember(self, state: State) -> None:
+        """Note the angles of this pose as the ones further motion is counted from."""
+        state.angle = self._values(state)[0] + self.d
+
+    def scale(self) -> Array:
+        """Factor from each atom's unit to its row's scaled residual, shape (atoms,)."""
+        return self.weight / np.where(self.is_length[self.row], self.length, 1.0)
+
+    def residual(self, state: State) -> Array:
+        """Shape (rows,): lengths as fractions of ``length``, angles in radians."""
+        return np.bincount(self.row, self.scale() * self._values(state)[0], minlength=self.rows)
+
+    def linearise(self, state: State) -> tuple[Array, Array, Array]:
+        """Residual (rows,) and each atom's Jacobian blocks (atoms, 6) for bodies a and b.
+
+        The blocks act on scaled twists (v / length, w) of the bodies about their own points g.
+        """
+        value, f, c, tau = self._values(state)
+        s = self.scale()
+        origin = self.center + state.shift
+        force = f * (s * self.length)[:, None]
+
+        def block(body):
+            return np.concatenate([force, (cross(c - origin[body], f) + tau) * s[:, None]], axis=1)
+
+        residual = np.bincount(self.row, s * value, minlength=self.rows)
+        return residual, -block(self.body_a), block(self.body_b)
+
+    def moved(self, state: State, body: np.ndarray, twist: Array) -> State:
+        """The state after scaled twists (len(body), 6) of the bodies ``body``."""
+        rotation, shift = state.rotation.copy(), state.shift.copy()
+        shift[body] += twist[:, :3] * self.length
+        rotation[body] = exponential(twist[:, 3:]) @ rotation[body]
+        return State(rotation, shift, state.angle)
+
+    def rebased(self, state: State) -> "System":
+        """The same equations with ``state`` as the start pose."""
+        values = {}
+        everything = np.arange(len(self.kind))
+        values["p_a"], values["a"], values["k"], values["p_b"], values["b"], _ = self._current(state, everything)
+        return replace(self, center=self.center + state.shift, **values)
+
+
+def exponential(w: Array) -> Array:
+    """Rotation matrices of rotation vectors, shape (..., 3) to (..., 3, 3) (Rodrigues)."""
+    angle = np.sqrt(np.einsum("...i,...i->...", w, w))
+    k = np.zeros(w.shape + (3,))
+    k[..., 0, 1], k[..., 0, 2], k[..., 1, 2] = -w[..., 2], w[..., 1], -w[..., 0]
+    k[..., 1, 0], k[..., 2, 0], k[..., 2, 1] = w[..., 2], -w[..., 1], w[..., 0]
+    s = np.sinc(angle / np.pi)[..., None, None]
+    half = np.sinc(angle / TURN)[..., None, None]
+    return np.eye(3) + s * k + 0.5 * half * half * (k @ k)

@@ -29,11 +29,13 @@ class Equations:
 
     statements: the constraints, joints and couplings that rows belong to (``System.owner``).
     ranges: coordinates that the source bounds instead of fixing.
+    length: metres, the assembly's characteristic length.
     """
 
     system: System
     statements: list[Constraint | Joint | Coupling]
     ranges: list[RangedCoordinate] = field(default_factory=list)
+    length: float = DEFAULT_LENGTH
 
 
 def equations_of(scene: Scene, report: Report) -> Equations:
@@ -69,9 +71,8 @@ def equations_of(scene: Scene, report: Report) -> Equations:
         rows.owner = len(statements)
         statements.append(coupling)
         _coupling_rows(rows, coupling, by_id, scene)
-    system = rows.system(len(scene.nodes) + 1, 1.0)
-    system.length = characteristic_length(system, scene)
-    return Equations(system, statements, context.ranges)
+    system = rows.system(len(scene.nodes) + 1)
+    return Equations(system, statements, context.ranges, characteristic_length(system, scene))
 
 
 def characteristic_length(system: System, scene: Scene) -> float:

@@ -72,7 +72,7 @@ def large_null_space(system: System, state: State, bodies: np.ndarray, atoms: np
     size = np.sqrt(np.asarray(jacobian.multiply(jacobian).sum(axis=1)).ravel())
     jacobian = diags(np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)) @ jacobian
     tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian)
-    point = (system.center + state.shift)[bodies] / system.length
+    point = (system.center + state.shift)[bodies] / system.length[bodies, None]
     carried = np.zeros((len(bodies), 6, sum(basis.shape[1] for _, _, basis in tree)))
     at = 0
     for parent, body, basis in tree:

@@ -103,9 +103,10 @@ def relative_rows(system: System, pairs: Pairs, state: State):
     reach = np.zeros(len(pairs))
     for points in (p_a, p_b):
         np.maximum.at(reach, p[pointed], np.linalg.norm(points[pointed] - origin[p[pointed]], axis=1))
-    length = np.where(reach > 1e-6 * system.length, reach, 0.1 * system.length)
+    whole = system.length[pairs.second]
+    length = np.where(reach > 1e-6 * whole, reach, whole)
     sign = np.where(system.body_b == np.where(used, pairs.second[np.maximum(inside, 0)], -1), 1.0, -1.0)
-    scale = (system.scale() * sign)[used, None]
+    scale = (system.weight * sign)[used, None]
     lever = c[used] - origin[p]
     wrench = np.concatenate(
         [f[used] * scale, (cross(lever, f[used]) + tau[used]) * scale / length[p][:, None]], axis=1
@@ -193,7 +194,7 @@ def find_joints(system: System, pairs: Pairs, relations: list[Relation], residua
             if misfit < relation.misfit:
                 relation.misfit = float(misfit)
                 relation.tried.append(offers[turn])
-            scaled = np.abs(residual[relation.rows]).max(initial=0.0) * system.length / relation.length
+            scaled = np.abs(residual[relation.rows]).max(initial=0.0)
             allowed = max(EXACT, min(SLACK * scaled, MOST_SLACK))
             if misfit <= allowed and offers[turn].dof == relation.finite:
                 relation.joint = offers[turn]

@@ -79,7 +79,7 @@ class Rows:
         """Angle from a direction of a to one of b about an axis of a, radians."""
         self.atom(self.row(False), Atom.ANG, a.body, b.body, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d)
 
-    def system(self, bodies: int, length: float) -> System:
+    def system(self, bodies: int) -> System:
         """Everything collected, for bodies 0..bodies-1 (body 0: ground)."""
         count = len(self._numbers)
         numbers = np.array(self._numbers, dtype=float).reshape(count, 6).T
@@ -96,7 +96,8 @@ class Rows:
             owner=np.array(self._owners, dtype=np.int64),
             is_length=np.array(self._is_length, dtype=bool),
             center=np.zeros((bodies, 3)),
-            length=length,
+            length=np.ones(bodies),
+            row_length=np.ones(len(self._owners)),
         )
 
 

@@ -15,6 +15,8 @@ from ..spatial import Array
 from .atoms import LENGTHS, Atom, cross, evaluate
 
 TURN = 2.0 * np.pi
+DEFAULT_SHARE = 0.1
+"""Length of a part whose geometry is in one place, as a fraction of the whole assembly's."""
 
 
 @dataclass(slots=True, eq=False)
@@ -41,7 +43,8 @@ class System:
     pose.  d, weight: shape (atoms,); the weight turns an atom's unit into the row's.
     owner: shape (rows,), the constraint a row belongs to.  is_length: shape (rows,), whether its
     residual is in metres (else radians or a cosine).  center: shape (bodies, 3), the points g.
-    length: metres, the characteristic length that balances lengths against angles.
+    length: shape (bodies,), metres, the size of each body's surroundings; it balances lengths against
+    angles in a body's twist (v / length, w).  row_length: shape (rows,), the same for residuals.
     """
 
     kind: np.ndarray
@@ -58,7 +61,8 @@ class System:
     owner: np.ndarray
     is_length: np.ndarray
     center: Array
-    length: float
+    length: Array
+    row_length: Array
 
     @property
     def rows(self) -> int:
@@ -82,12 +86,40 @@ class System:
         atoms = chosen[self.row]
         part = {f: getattr(self, f)[atoms] for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")}
         return replace(
-            self, row=number[self.row[atoms]], owner=self.owner[chosen], is_length=self.is_length[chosen], **part
+            self, row=number[self.row[atoms]], owner=self.owner[chosen], is_length=self.is_length[chosen],
+            row_length=self.row_length[chosen], **part,
         )
 
-    def relabel(self, body: np.ndarray, center: Array) -> "System":
-        """Other body numbers: ``body[old]``; ``center``: of the new ones."""
-        return replace(self, body_a=body[self.body_a], body_b=body[self.body_b], center=center)
+    def relabel(self, body: np.ndarray) -> "System":
+        """Other body numbers: ``body[old]``.  Sizes and own points are to be set anew (``fit``)."""
+        count = int(body.max()) + 1
+        return replace(
+            self, body_a=body[self.body_a], body_b=body[self.body_b], center=np.zeros((count, 3)), length=np.ones(count)
+        )
+
+    def fit(self, row_part: np.ndarray, body_part: np.ndarray, default: float) -> None:
+        """Set own points, lengths and row lengths from the geometry at the start pose.
+
+        row_part, body_part: the independent part that each row and body belongs to, -1 for none.
+        default: metres, for parts whose geometry is all in one place.
+        """
+        pointed = np.isin(self.kind, LENGTHS)
+        part = row_part[self.row]
+        count = max(int(row_part.max(initial=-1)), int(body_part.max(initial=-1))) + 2
+        sides = [(self.p_a, self.body_a), (self.p_b, self.body_b)]
+        points = np.concatenate([p[pointed] for p, _ in sides])
+        for group, target in ((np.concatenate([b[pointed] for _, b in sides]), self.center),):
+            size = np.maximum(np.bincount(group, minlength=self.bodies), 1)
+            for i in range(3):
+                target[:, i] = np.bincount(group, points[:, i], minlength=self.bodies) / size
+        where = np.concatenate([part[pointed]] * 2) + 1
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, where, points)
+        np.maximum.at(high, where, points)
+        reach = 0.5 * np.linalg.norm(np.maximum(high - low, 0.0), axis=1)
+        size = np.where(reach > 1e-6 * default, reach, DEFAULT_SHARE * default)
+        self.length = size[body_part + 1]
+        self.row_length = size[row_part + 1]
 
     def _current(self, state: State, atoms: np.ndarray):
         i, j = self.body_a[atoms], self.body_b[atoms]
@@ -120,10 +152,10 @@ class System:
 
     def scale(self) -> Array:
         """Factor from each atom's unit to its row's scaled residual, shape (atoms,)."""
-        return self.weight / np.where(self.is_length[self.row], self.length, 1.0)
+        return self.weight / np.where(self.is_length, self.row_length, 1.0)[self.row]
 
     def residual(self, state: State) -> Array:
-        """Shape (rows,): lengths as fractions of ``length``, angles in radians."""
+        """Shape (rows,): lengths as fractions of ``row_length``, angles in radians."""
         return np.bincount(self.row, self.scale() * self._values(state)[0], minlength=self.rows)
 
     def linearise(self, state: State) -> tuple[Array, Array, Array]:
@@ -134,18 +166,22 @@ class System:
         value, f, c, tau = self._values(state)
         s = self.scale()
         origin = self.center + state.shift
-        force = f * (s * self.length)[:, None]
 
         def block(body):
+            force = f * (s * self.length[body])[:, None]
             return np.concatenate([force, (cross(c - origin[body], f) + tau) * s[:, None]], axis=1)
 
         residual = np.bincount(self.row, s * value, minlength=self.rows)
         return residual, -block(self.body_a), block(self.body_b)
 
+    def displacement(self, state: State) -> tuple[Array, Array]:
+        """The bodies' displacements as x -> R x + t: rotations (bodies, 3, 3), translations (bodies, 3)."""
+        return state.rotation, self.center + state.shift - np.einsum("nij,nj->ni", state.rotation, self.center)
+
     def moved(self, state: State, body: np.ndarray, twist: Array) -> State:
         """The state after scaled twists (len(body), 6) of the bodies ``body``."""
         rotation, shift = state.rotation.copy(), state.shift.copy()
-        shift[body] += twist[:, :3] * self.length
+        shift[body] += twist[:, :3] * self.length[body, None]
         rotation[body] = exponential(twist[:, 3:]) @ rotation[body]
         return State(rotation, shift, state.angle)
 

@@ -1,0 +1,132 @@
+"""How far first order can be trusted: which velocities grow into finite motions.
+
+At a change point, a dead centre or on a mechanism that is singular all along its path, the null space of
+the Jacobian is larger than the set of motions.  A velocity counts when a step along it, brought back onto
+the constraints, is still there: an obstructed one shrinks with the square root of the closing tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..spatial import Array
+from .freedom import BlockFreedom, block_freedoms
+from .solve import Solver
+from .system import State
+
+STEP = 1e-3
+"""Size of a trial step, radians or fractions of the length."""
+SURVIVES = 0.03
+"""Relative change of a random step by which the whole null space still counts as motions."""
+DIRECTION = 0.05
+"""Share of its length that a step must keep to count as a motion of its own."""
+WALK = 3
+WALK_STEP = 0.05
+
+
+@dataclass(slots=True, eq=False)
+class FiniteFreedom:
+    """A block's finite motions.
+
+    mobility: their number.  tangent: scaled twists that lead into them, shape (6 n, mobility), near the
+    start pose; exact (the null space) where nothing is obstructed.  singular: whether something is.
+    """
+
+    mobility: int
+    tangent: Array
+    singular: bool
+
+
+def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: State) -> list[FiniteFreedom]:
+    """Finite mobility of every part.
+
+    Rows that are independent at a pose make a smooth set of poses there, so only parts with redundant
+    rows (and something to move) need a trial.
+    """
+    found = [FiniteFreedom(f.mobility, f.basis, False) for f in first_order]
+    doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
+    if doubtful.any():
+        draw = np.random.default_rng(11)
+        directions = {int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)}
+        moved = _trial(solver, first_order, start, directions)
+        for part, direction in directions.items():
+            if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
+                found[part] = _searched(solver, part, first_order[part], start)
+    return found
+
+
+def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
+    direction = basis @ draw.standard_normal(basis.shape[1])
+    return direction / np.abs(direction).max()
+
+
+def _floor(solver: Solver, state: State) -> Array:
+    """A pose that cannot be closed further is asked for no more than it has."""
+    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
+
+
+def _trial(solver: Solver, first_order: list[BlockFreedom], start: State, directions: dict[int, Array]):
+    """Displacements over STEP (6 n of each part) after a step along each direction and back onto the rows."""
+    bodies = np.concatenate([first_order[p].bodies for p in directions])
+    twists = STEP * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
+    active = np.zeros(solver.parts, dtype=bool)
+    active[list(directions)] = True
+    state = solver.system.moved(start, bodies, twists)
+    state, _ = solver.project(state, active, _floor(solver, start))
+    return {p: _displacement(solver, first_order[p].bodies, start, state) / STEP for p in directions}
+
+
+def _displacement(solver: Solver, bodies: np.ndarray, start: State, end: State) -> Array:
+    """Scaled twist that takes the bodies from one state to a near one, to second order, shape (6 n,)."""
+    turn = end.rotation[bodies] @ np.swapaxes(start.rotation[bodies], 1, 2)
+    w = 0.5 * np.stack(
+        [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+    )
+    v = (end.shift[bodies] - start.shift[bodies]) / solver.system.length[bodies, None]
+    return np.concatenate([v, w], axis=1).ravel()
+
+
+def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, seed: int = 5) -> State:
+    """A pose some random steps away, to leave an isolated singular one."""
+    draw = np.random.default_rng(seed)
+    active = np.arange(solver.parts) == part
+    state, basis = start, first_order.basis
+    for _ in range(WALK):
+        if not basis.shape[1]:
+            break
+        twist = WALK_STEP * _random_direction(basis, draw).reshape(-1, 6)
+        state, _ = solver.project(solver.system.moved(state, first_order.bodies, twist), active, _floor(solver, start))
+        basis = block_freedoms(solver, state)[part].basis
+    return state
+
+
+def _searched(solver: Solver, part: int, first_order: BlockFreedom, start: State) -> FiniteFreedom:
+    """Walk away from the pose, then try every direction of the null space there."""
+    solver, part = Solver(solver.system.select(first_order.rows)), 0
+    away = walked(solver, part, first_order, start)
+    there = block_freedoms(solver, away)
+    tangent = _survivors(solver, part, there[part], away)
+    if tangent.shape[1] == 0:
+        return FiniteFreedom(0, tangent, True)
+    here = _survivors(solver, part, first_order, start)
+    return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
+
+
+def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
+    """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
+    kept = []
+    listed: list = [None] * solver.parts
+    listed[part] = freedom
+    for direction in freedom.basis.T:
+        direction = direction / np.abs(direction).max()
+        there = _trial(solver, listed, state, {part: direction})[part]
+        back = _trial(solver, listed, state, {part: -direction})[part]
+        kept.append(0.5 * (there - back) / np.linalg.norm(direction))
+    if not kept:
+        return np.zeros((len(freedom.bodies) * 6, 0))
+    u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
+    return u[:, s > DIRECTION]
+
+

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Iterable
-
 import numpy as np
 
-from ..model import ConstraintKind, NodeKind, Scene
+from ..model import ConstraintKind, Scene
+from ..rigid import RigidGroups, rigid_groups
 
 
 class Partition:
@@ -32,39 +31,24 @@ class Partition:
         return np.unique(roots, return_inverse=True)[1].reshape(-1)
 
 
-def document_root(scene: Scene) -> int | None:
-    """The node that stands for the document itself: an assembly that is the only root."""
-    roots = [i for i, n in enumerate(scene.nodes) if n.parent is None]
-    if len(roots) == 1 and scene.nodes[roots[0]].kind is NodeKind.ASSEMBLY:
-        return roots[0]
-    return None
+def stated_bodies(scene: Scene) -> tuple[np.ndarray, RigidGroups]:
+    """Body of each node as the source states it, shape (nodes + 1,): entry 0 is ground, body 0.
 
-
-def stated_partition(scene: Scene) -> Partition:
-    """Bodies as the source states them; body = node + 1, body 0 is ground.
-
-    * The document's own assembly node is ground; its parts move.
-    * Any other assembly that is not flexible is one rigid group with everything below it.
-    * ``grounded`` fixes a node in its parent: in the world at the top, in a flexible subassembly below.
+    Flexible assemblies are no bodies: the geometry of the document's own assembly stands on the ground,
+    that of one further down is a body of its own, held by nothing.
     """
+    fixed = [
+        (None, f.node)
+        for c in scene.constraints
+        if c.kind is ConstraintKind.GROUND and not c.suppressed
+        for f in c.features
+        if f.node is not None
+    ]
+    groups = rigid_groups(scene, fixed)
     bodies = Partition(len(scene.nodes) + 1)
-    root = document_root(scene)
     for i, node in enumerate(scene.nodes):
-        if i == root:
+        if groups.is_ground(i) or (groups.group_of[i] is None and node.parent is None):
             bodies.join(0, i + 1)
-            continue
-        parent = node.parent
-        held = parent is not None and parent != root and scene.nodes[parent].kind is NodeKind.ASSEMBLY
-        if held and not scene.nodes[parent].flexible:
-            bodies.join(parent + 1, i + 1)
-        elif node.grounded:
-            bodies.join(parent + 1 if held else 0, i + 1)
-    for constraint in scene.constraints:
-        if constraint.kind is ConstraintKind.GROUND and not constraint.suppressed:
-            for node in _nodes(constraint.features):
-                bodies.join(0, node + 1)
-    return bodies
-
-
-def _nodes(features: Iterable) -> Iterable[int]:
-    return (f.node for f in features if f.node is not None)
+        elif groups.group_of[i] is not None:
+            bodies.join(groups.members[groups.group_of[i]][0] + 1, i + 1)
+    return bodies.labels(), groups

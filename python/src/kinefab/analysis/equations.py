@@ -30,12 +30,15 @@ class Equations:
     statements: the constraints, joints and couplings that rows belong to (``System.owner``).
     ranges: coordinates that the source bounds instead of fixing.
     length: metres, the assembly's characteristic length.
+    directions: for each constraint between two directions the cosine of the angle between them at the
+        exported pose, by statement number.
     """
 
     system: System
     statements: list[Constraint | Joint | Coupling]
     ranges: list[RangedCoordinate] = field(default_factory=list)
     length: float = DEFAULT_LENGTH
+    directions: dict[int, float] = field(default_factory=dict)
 
 
 def equations_of(scene: Scene, report: Report) -> Equations:
@@ -44,6 +47,7 @@ def equations_of(scene: Scene, report: Report) -> Equations:
     sides = sides_of(scene, [f for c in usable for f in c.features])
     rows, context = Rows(), Context()
     statements: list[Constraint | Joint | Coupling] = []
+    directions: dict[int, float] = {}
     spans, at = [], 0
     for constraint in usable:
         spans.append(sides[at : at + len(constraint.features)])
@@ -53,6 +57,8 @@ def equations_of(scene: Scene, report: Report) -> Equations:
     for constraint, own in zip(usable, spans):
         rows.owner = len(statements)
         statements.append(constraint)
+        if len(own) > 1:
+            directions[rows.owner] = float(own[0].z @ own[1].z)
         try:
             build(rows, constraint, own, context)
         except UnknownPairing:
@@ -72,7 +78,7 @@ def equations_of(scene: Scene, report: Report) -> Equations:
         statements.append(coupling)
         _coupling_rows(rows, coupling, by_id, scene)
     system = rows.system(len(scene.nodes) + 1)
-    return Equations(system, statements, context.ranges, characteristic_length(system, scene))
+    return Equations(system, statements, context.ranges, characteristic_length(system, scene), directions)
 
 
 def characteristic_length(system: System, scene: Scene) -> float:

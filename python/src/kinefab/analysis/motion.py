@@ -57,6 +57,13 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     return found
 
 
+def displaced(solver: Solver, part: int, first_order: BlockFreedom, start: State) -> Array:
+    """Displacements over STEP of a part's bodies after a random small motion, shape (6 n,)."""
+    listed: list = [None] * solver.parts
+    listed[part] = first_order
+    return _trial(solver, listed, start, {part: _random_direction(first_order.basis, np.random.default_rng(11))})[part]
+
+
 def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
     direction = basis @ draw.standard_normal(basis.shape[1])
     return direction / np.abs(direction).max()

@@ -90,6 +90,12 @@ class System:
             row_length=self.row_length[chosen], **part,
         )
 
+    def joining(self) -> np.ndarray:
+        """Rows that join different bodies (a mask); the others are inside one."""
+        across = np.zeros(self.rows, dtype=bool)
+        across[self.row[self.body_a != self.body_b]] = True
+        return across
+
     def relabel(self, body: np.ndarray) -> "System":
         """Other body numbers: ``body[old]``.  Sizes and own points are to be set anew (``fit``)."""
         count = int(body.max()) + 1

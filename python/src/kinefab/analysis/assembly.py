@@ -1,0 +1,191 @@
+"""The whole assembly: closed, merged into rigid groups, and split into blocks with their freedoms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import Scene
+from ..rigid import RigidGroups
+from ..spatial import Array
+from .blocks import Blocks, blocks_of, edges_of, relative_system
+from .bodies import Partition, stated_bodies
+from .closing import Closing, closed
+from .duplicates import without_duplicates
+from .equations import Equations, equations_of
+from .freedom import BlockFreedom, block_freedoms
+from .motion import FiniteFreedom, displaced, finite_freedoms
+from .pairs import Pairs, batched_null_spaces, pairs_of, relative_rows
+from .solve import Solver
+from .system import State, System
+
+SAME = 1e-7
+"""Difference of two bodies' twists (or displacements over a trial step) up to which they move as one."""
+
+
+@dataclass(slots=True, eq=False)
+class Assembly:
+    """An assembly at its closed pose.
+
+    body: shape (nodes + 1,), the body of each node (entry 0: ground, body 0).
+    system: all rows between bodies.  relative: the same, each block against its root at rest.
+    freedoms, finite: of each block, in the order of ``solver``'s parts.
+    stated: the rigid groups the source itself states.  duplicates: constraints that an explicit joint
+    already stands for; their rows are left out.
+    """
+
+    scene: Scene
+    equations: Equations
+    stated: RigidGroups
+    closing: Closing
+    duplicates: dict[int, int]
+    body: np.ndarray
+    system: System
+    pairs: Pairs
+    blocks: Blocks
+    relative: System
+    solver: Solver
+    start: State
+    freedoms: list[BlockFreedom]
+    finite: list[FiniteFreedom]
+
+    @property
+    def floating(self) -> int:
+        """Islands that hang on nothing: each adds six freedoms."""
+        return len(self.blocks.island_root) - 1
+
+
+def assemble(scene: Scene, report: Report) -> Assembly:
+    """Bring a scene's constraints to the point where every question about freedoms can be answered."""
+    equations = equations_of(scene, report)
+    body, stated = stated_bodies(scene)
+    closing = closed(equations, body, report)
+    system, duplicates = without_duplicates(closing.system, equations, report)
+    while True:
+        body, system = _merge_rigid_pairs(body, system, equations.length)
+        edges = edges_of(system)
+        blocks = blocks_of(system.bodies, edges)
+        relative = relative_system(system, blocks)
+        solver = Solver(relative)
+        relative.fit(solver.row_part, solver.part, equations.length)
+        start = relative.start()
+        freedoms = block_freedoms(solver, start)
+        finite = finite_freedoms(solver, freedoms, start)
+        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges)
+        if together is None:
+            break
+        body, system = together[body], _merged(system, together)
+    system.center, system.length = relative.center, relative.length
+    system.row_length = relative.row_length
+    pairs = pairs_of(system)
+    return Assembly(
+        scene, equations, stated, closing, duplicates, body, system, pairs, blocks, relative, solver, start,
+        freedoms, finite,
+    )
+
+
+def _merged(system: System, label: np.ndarray) -> System:
+    merged = system.relabel(label)
+    return merged.select(merged.joining())
+
+
+def _merge_rigid_pairs(body: np.ndarray, system: System, length: float) -> tuple[np.ndarray, System]:
+    """Merge bodies whose common rows leave nothing, and again, until none are left."""
+    while True:
+        system.length = np.full(system.bodies, length)
+        pairs = pairs_of(system)
+        if not len(pairs):
+            return body, system
+        rows, _, _ = relative_rows(system, pairs, system.start())
+        rank = batched_null_spaces(rows, pairs.row_pair, len(pairs))[0]
+        rigid = np.flatnonzero(rank == 6)
+        if not len(rigid):
+            return body, system
+        partition = Partition(system.bodies)
+        for i in rigid:
+            partition.join(int(pairs.first[i]), int(pairs.second[i]))
+        label = partition.labels()
+        body, system = label[body], _merged(system, label)
+
+
+def _moving_as_one(relative: System, solver: Solver, start: State, freedoms: list[BlockFreedom],
+                   finite: list[FiniteFreedom], blocks: Blocks, edges: np.ndarray) -> np.ndarray | None:
+    """New body numbers that merge what a block's loops hold together, or None where there is nothing.
+
+    Equal twists are not enough at a dead centre, where a crank's velocity vanishes and its motion does
+    not: a trial step of finite size decides.
+    """
+    draw = np.random.default_rng(3)
+    partition = Partition(relative.bodies)
+    neighbours: dict[int, set[int]] = {}
+    for i, j in edges.tolist():
+        neighbours.setdefault(i, set()).add(j)
+        neighbours.setdefault(j, set()).add(i)
+    found = False
+    for part, (first, last) in enumerate(zip(freedoms, finite)):
+        root = int(blocks.root[blocks.block[first.bodies[0]]])
+        if last.mobility == 0:
+            groups = [np.concatenate([[root], first.bodies])]
+        elif len(first.bodies) > 1 or first.mobility == 0:
+            twist = (first.basis @ draw.standard_normal(first.mobility)).reshape(-1, 6)
+            groups = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
+            if groups and last.singular or groups and len(first.rows) > first.rank:
+                shift = displaced(solver, part, first, start)
+                groups = [g for g in groups if _stays_one(relative, root, first.bodies, g, shift)]
+        else:
+            continue
+        for group in groups:
+            found = True
+            for other in group[1:]:
+                partition.join(int(group[0]), int(other))
+    return partition.labels() if found else None
+
+
+def _at_origin(relative: System, bodies: np.ndarray, twist: Array) -> Array:
+    """Twists (v / length, w) about one common point, that of the block's first body, unscaled by lever arm."""
+    length = relative.length[bodies[0]]
+    arm = (relative.center[bodies] - relative.center[bodies[0]]) / length
+    return np.concatenate([twist[:, :3] - np.cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)
+
+
+def _same_twists(relative: System, root: int, bodies: np.ndarray, twist: Array) -> list[np.ndarray]:
+    """Groups of two or more bodies (the root at rest among them) with the same twist."""
+    common = np.concatenate([np.zeros((1, 6)), _at_origin(relative, bodies, twist)])
+    names = np.concatenate([[root], bodies])
+    near = np.abs(common[:, None] - common[None]).max(axis=2) < SAME * np.abs(common).max()
+    groups, seen = [], np.zeros(len(names), dtype=bool)
+    for i in range(len(names)):
+        if not seen[i]:
+            seen |= near[i]
+            if near[i].sum() > 1:
+                groups.append(names[near[i]])
+    return groups
+
+
+def _adjoining(groups: list[np.ndarray], neighbours: dict[int, set[int]]) -> list[np.ndarray]:
+    """The groups, split where they do not hang together by themselves.
+
+    The rods of a parallelogram chain keep step without being joined; they stay parts of their own.
+    """
+    split = []
+    for group in groups:
+        left = set(group.tolist())
+        while left:
+            reached, queue = set(), [min(left)]
+            for body in queue:
+                if body in left:
+                    left.discard(body)
+                    reached.add(body)
+                    queue.extend(sorted(neighbours.get(body, set()) & left))
+            if len(reached) > 1:
+                split.append(np.array(sorted(reached)))
+    return split
+
+
+def _stays_one(relative: System, root: int, bodies: np.ndarray, group: np.ndarray, shift: Array) -> bool:
+    common = dict(zip(bodies.tolist(), _at_origin(relative, bodies, shift.reshape(-1, 6))))
+    common[root] = np.zeros(6)
+    values = np.array([common[int(b)] for b in group])
+    return bool(np.ptp(values, axis=0).max() < 1e-5)

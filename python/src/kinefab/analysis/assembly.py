@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import Scene
 from ..rigid import RigidGroups
-from ..spatial import Array
+from ..spatial import Array, Pose
 from .blocks import Blocks, blocks_of, edges_of, relative_system
 from .bodies import Partition, stated_bodies
 from .closing import Closing, closed
@@ -25,7 +26,7 @@ SAME = 1e-7
 """Difference of two bodies' twists (or displacements over a trial step) up to which they move as one."""
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(eq=False)
 class Assembly:
     """An assembly at its closed pose.
 
@@ -50,6 +51,12 @@ class Assembly:
     start: State
     freedoms: list[BlockFreedom]
     finite: list[FiniteFreedom]
+
+    @cached_property
+    def poses(self) -> list[Pose]:
+        """World poses of the nodes with every constraint closed."""
+        shifted = self.closing
+        return [shifted.displacement(shifted.body[i + 1]) @ n.pose for i, n in enumerate(self.scene.nodes)]
 
     @property
     def floating(self) -> int:

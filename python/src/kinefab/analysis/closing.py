@@ -38,6 +38,7 @@ class Closing:
 
     system: the equations with the closed pose as their start, bodies as stated.  gaps: constraints that
     the exported pose misses by more than rounding.  worst: (metres, degrees) over all constraints.
+    body: shape (nodes + 1,), the stated body of each node.
     rotation, translation: of each body, the displacement that closes the pose.
     contradictory: constraints that cannot hold together.
     """
@@ -45,6 +46,7 @@ class Closing:
     system: System
     gaps: list[Gap]
     worst: tuple[float, float]
+    body: np.ndarray
     rotation: Array
     translation: Array
     contradictory: list[str]
@@ -62,7 +64,7 @@ def closed(equations: Equations, body: np.ndarray, report: Report) -> Closing:
     contradictory = _held_fast(whole, equations, report)
     system = whole.select(whole.joining())
     if not system.rows:
-        return Closing(system, [], (0.0, 0.0), rotation, translation, contradictory)
+        return Closing(system, [], (0.0, 0.0), body, rotation, translation, contradictory)
     blocks = blocks_of(n, edges_of(system))
     relative = relative_system(system, blocks)
     solver = Solver(relative)
@@ -83,7 +85,7 @@ def closed(equations: Equations, body: np.ndarray, report: Report) -> Closing:
                 translation[i] = rotation[root] @ translation[i] + translation[root]
                 rotation[i] = rotation[root] @ rotation[i]
         system = _displaced(system, rotation, translation)
-    return Closing(system, gaps, worst, rotation, translation, contradictory)
+    return Closing(system, gaps, worst, body, rotation, translation, contradictory)
 
 
 def _displaced(system: System, rotation: Array, translation: Array) -> System:

@@ -137,6 +137,8 @@ def batched_null_spaces(rows: Array, row_pair: np.ndarray, count: int):
 
 def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
     """Every pair's twists, not yet its joint."""
+    if not len(pairs):
+        return []
     rows, origin, length = relative_rows(system, pairs, state)
     rank, gap, vt, order, starts = batched_null_spaces(rows, pairs.row_pair, len(pairs))
     atoms_of = np.argsort(pairs.atom_pair, kind="stable")

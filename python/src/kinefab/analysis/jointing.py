@@ -1,0 +1,278 @@
+"""From the relations between bodies to the joints that a Unity scene can have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import (
+    RX, TX, TY, TZ,
+    Constraint, Coupling, Feature, Freedom, Joint, JointKind, Motion, Node, freedoms_of,
+)
+from ..spatial import Array, Pose
+from .assembly import Assembly
+from .candidates import candidates
+from .finite import Candidate
+from .freedom import block_freedoms
+from .middle import middle_body
+from .motion import finite_freedoms
+from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
+from .solve import Solver
+from .system import System
+from .twists import twist_space
+
+MANY = 200
+"""Constraints between one pair from which the report mentions their number."""
+MIDDLE_MASS = 0.1
+"""Mass of a middle body, kilograms, where the source gives none to compare with."""
+
+
+@dataclass(slots=True, eq=False)
+class Link:
+    """A joint and the bodies it joins (numbers of the assembly; middle bodies come after them)."""
+
+    a: int
+    b: int
+    joint: Joint
+
+
+@dataclass(slots=True, eq=False)
+class Links:
+    """All joints of an assembly.  nodes: added middle bodies.  bodies: number of bodies with them."""
+
+    links: list[Link]
+    nodes: list[Node]
+    bodies: int
+    relations: list[Relation]
+
+
+def links_of(assembly: Assembly, report: Report) -> Links:
+    """A joint for every pair of bodies that constraints join; explicit joints stay as they are."""
+    return _Jointing(assembly, report).run()
+
+
+class _Jointing:
+    def __init__(self, assembly: Assembly, report: Report):
+        self.assembly, self.report = assembly, report
+        self.depth = np.empty(assembly.system.bodies, dtype=np.int64)
+        self.depth[assembly.blocks.order] = np.arange(assembly.system.bodies)
+        self.links: list[Link] = []
+        self.nodes: list[Node] = []
+        self.names: set[str] = set()
+
+    def run(self) -> Links:
+        assembly = self.assembly
+        system, pairs = assembly.system, assembly.pairs
+        relations = relations_of(system, pairs, system.start())
+        explicit = [self._explicit(r) for r in relations]
+        open_ = [r for r, joint in zip(relations, explicit) if joint is None]
+        find_joints(system, pairs, open_, system.residual(system.start()))
+        for relation, joint in zip(relations, explicit):
+            names = self._names(relation)
+            if joint is not None:
+                body = assembly.body
+                a, b = (int(body[0 if n is None else n + 1]) for n in (joint.a, joint.b))
+                self.names.add(joint.id)
+                self.links.append(Link(a, b, replace(joint, because=tuple(dict.fromkeys([*joint.because, *self._doubled(joint)])))))
+                continue
+            if len(names) >= MANY:
+                a, b = (self._label(body) for body in (relation.first, relation.second))
+                self.report.add("CONSTRAINTS_MANY", count=len(names), a=a, b=b, first=names[0], last=names[-1])
+            if not relation.sure:
+                self.report.add("PAIR_RANK_UNCERTAIN", names=", ".join(names[:12]), rank=relation.rank, gap=f"{relation.gap:.3g}")
+            if relation.joint is None:
+                self._resolve(relation)
+            if relation.joint is not None:
+                self._add(relation.first, relation.second, relation.joint, relation, names)
+        return Links(self.links, self.nodes, system.bodies + len(self.nodes), relations)
+
+    def _explicit(self, relation: Relation) -> Joint | None:
+        """The source's own joint, where it alone makes the relation."""
+        statements = self.assembly.equations.statements
+        owners = np.unique(self.assembly.system.owner[relation.rows])
+        if len(owners) == 1 and isinstance(statements[owners[0]], Joint):
+            return statements[owners[0]]
+        return None
+
+    def _doubled(self, joint: Joint) -> list[str]:
+        statements = self.assembly.equations.statements
+        return [statements[i].id for i, by in self.assembly.duplicates.items() if statements[by] is joint]
+
+    def _names(self, relation: Relation) -> list[str]:
+        owners = np.unique(self.assembly.system.owner[relation.rows])
+        return [self.assembly.equations.statements[i].id for i in owners]
+
+    def _label(self, body: int) -> str:
+        nodes = np.flatnonzero(self.assembly.body[1:] == body)
+        return "ground" if body == 0 else self.assembly.scene.nodes[nodes[0]].id
+
+    def _resolve(self, relation: Relation) -> None:
+        """What no candidate of the first-order twists expresses: finite motions, middle bodies, or a report."""
+        self._by_finite_motions(relation)
+        if relation.joint is not None:
+            return
+        system = self.assembly.system
+        owners = np.unique(system.owner[relation.rows])
+        parts = []
+        for owner in owners:
+            rows = relation.rows[system.owner[relation.rows] == owner]
+            single = self._single(rows) if len(owners) > 1 else relation
+            if single.joint is None:
+                middle = middle_body(system, rows, relation)
+                if middle is None:
+                    self._approximate(relation)
+                    return
+                parts.append((middle, self.assembly.equations.statements[owner].id))
+            else:
+                parts.append((single, self.assembly.equations.statements[owner].id))
+        for part, name in parts:
+            if isinstance(part, Relation):
+                self._add(relation.first, relation.second, part.joint, part, [name])
+                continue
+            near, far = part
+            body = self._middle_node(near.origin, far.origin, name)
+            self.report.add("RELATION_BY_MIDDLE_BODY", names=name, body=self.nodes[-1].id)
+            self._add(relation.first, body, near, relation, [name])
+            self._add(body, relation.second, far, relation, [name])
+
+    def _single(self, rows: np.ndarray) -> Relation:
+        """The relation that some of a pair's rows make by themselves."""
+        system = self.assembly.system.select(rows)
+        pairs = pairs_of(system)
+        relation = relations_of(system, pairs, system.start())[0]
+        find_joints(system, pairs, [relation], system.residual(system.start()))
+        return replace(relation, rows=np.sort(rows))
+
+    def _by_finite_motions(self, relation: Relation) -> None:
+        """At a singular pose the twists promise too much: classify what really moves."""
+        if len(relation.rows) == relation.rank:
+            return
+        system = self.assembly.system.select(relation.rows)
+        label = np.zeros(system.bodies, dtype=np.int64)
+        label[relation.second] = 1
+        alone = system.relabel(label)
+        solver = Solver(alone)
+        alone.fit(solver.row_part, solver.part, relation.length)
+        start = alone.start()
+        finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
+        if not finite.singular:
+            return
+        relation.finite = finite.mobility
+        arm = (relation.origin - alone.center[1]) / relation.length
+        v = finite.tangent[:3] * alone.length[1] / relation.length + np.cross(finite.tangent[3:].T, arm).T
+        basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
+        relation.space = twist_space(basis, relation.origin, relation.length)
+        pairs = Pairs(np.array([0]), np.array([1]), np.zeros(alone.rows, dtype=np.int64), np.zeros(len(alone.kind), dtype=np.int64))
+        local = replace(relation, first=0, second=1, rows=np.arange(alone.rows))
+        find_joints(alone, pairs, [local], alone.residual(start))
+        relation.joint, relation.misfit, relation.tried = local.joint, local.misfit, local.tried
+
+    def _approximate(self, relation: Relation) -> None:
+        names = ", ".join(self._names(relation)[:12])
+        if relation.tried:
+            relation.joint = relation.tried[-1]
+            self.report.approximated(
+                f"constraint {names}", "RELATION_APPROXIMATED", names=names,
+                kind=relation.joint.kind.value, misfit=f"{relation.misfit:.2g}",
+            )
+        else:
+            self.report.dropped(f"constraint {names}", "RELATION_DROPPED", names=names)
+
+    def _middle_node(self, near: Array, far: Array, name: str) -> int:
+        self.nodes.append(
+            Node(self._unique(f"middle:{name}"), f"middle {name}", pose=Pose(np.eye(3), 0.5 * (near + far)), visible=False)
+        )
+        return self.assembly.system.bodies + len(self.nodes) - 1
+
+    def _unique(self, name: str) -> str:
+        candidate, count = name, 2
+        while candidate in self.names:
+            candidate, count = f"{name}#{count}", count + 1
+        self.names.add(candidate)
+        return candidate
+
+    def _add(self, first: int, second: int, candidate: Candidate, relation: Relation, names: list[str]) -> None:
+        """Write a candidate between two bodies as a joint of the model."""
+        bodies = (first, second)
+        first_is_a = candidate.first_is_a
+        if not order_matters(candidate.six) and self._rank(second) < self._rank(first):
+            first_is_a = False
+        elif not order_matters(candidate.six):
+            first_is_a = True
+        a, b = bodies if first_is_a else bodies[::-1]
+        axes = _along(candidate.axes, relation) if candidate.kind is not JointKind.UNIVERSAL else candidate.axes
+        world = Pose(axes, candidate.origin)
+        node_a, node_b = self._node(a, relation), self._node(b, relation)
+        joint = Joint(
+            self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}"), candidate.kind, node_a, node_b,
+            self._pose(node_a).inverse() @ world, self._pose(node_b).inverse() @ world, candidate.six,
+            lead=candidate.lead, because=tuple(names), where=self._where(names),
+        )
+        self.links.append(Link(a, b, joint))
+
+    def _rank(self, body: int) -> int:
+        return int(self.depth[body]) if body < len(self.depth) else body
+
+    def _node(self, body: int, relation: Relation) -> int | None:
+        """The node of a body that the relation's own constraints name."""
+        if body >= self.assembly.system.bodies:
+            return len(self.assembly.scene.nodes) + body - self.assembly.system.bodies
+        for owner in np.unique(self.assembly.system.owner[relation.rows]):
+            for node in nodes_of(self.assembly.equations.statements[owner]):
+                if node is not None and self.assembly.body[node + 1] == body:
+                    return node
+        return None
+
+    def _label_of(self, node: int | None) -> str:
+        if node is None:
+            return "ground"
+        nodes = self.assembly.scene.nodes
+        return nodes[node].id if node < len(nodes) else self.nodes[node - len(nodes)].id
+
+    def _pose(self, node: int | None) -> Pose:
+        nodes = self.assembly.scene.nodes
+        if node is None:
+            return Pose()
+        return self.assembly.poses[node] if node < len(nodes) else self.nodes[node - len(nodes)].pose
+
+    def _where(self, names: list[str]) -> str:
+        for statement in self.assembly.equations.statements:
+            if statement.id == names[0]:
+                return statement.where
+        return ""
+
+
+def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]:
+    """The nodes that a statement joins."""
+    if isinstance(statement, Constraint):
+        return tuple(f.node for f in statement.features if isinstance(f, Feature))
+    if isinstance(statement, Joint):
+        return (statement.a, statement.b)
+    return ()
+
+
+def order_matters(freedoms: tuple[Freedom, ...]) -> bool:
+    """Whether a joint moves differently when its two bodies change places (plain freedoms)."""
+    free = [f.motion is not Motion.LOCKED for f in freedoms]
+    slides, turns = free[:3], free[3:]
+    if not any(turns):
+        return False
+    if turns == [True, False, False]:
+        return slides[TY] != slides[TZ]
+    if all(turns):
+        return any(slides) and not all(slides)
+    return True
+
+
+def _along(axes: Array, relation: Relation) -> Array:
+    """The frame with X towards the first body's own direction rather than against it."""
+    for direction in relation.geometry.first:
+        cosine = float(direction @ axes[:, 0])
+        if abs(cosine) > 1.0 - 1e-6:
+            return axes if cosine > 0.0 else axes @ np.diag([-1.0, 1.0, -1.0])
+    return axes
+
+
+__all__ = ["Link", "Links", "links_of", "order_matters", "freedoms_of", "candidates", "System", "RX", "TX"]

@@ -1,0 +1,97 @@
+"""Relations that no single joint expresses, as two joints with a light body between the parts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import FREE, LOCKED, RX, RZ, TZ, JointKind
+from ..spatial import Array, frame_from_axes, perpendicular
+from .atoms import Atom
+from .finite import Candidate
+from .pairs import Relation
+from .system import System
+
+CARRIED = tuple(FREE if i in (TZ, RX, RZ) else LOCKED for i in range(6))
+
+
+def middle_body(system: System, rows: np.ndarray, relation: Relation) -> tuple[Candidate, Candidate] | None:
+    """(first body to middle, middle to second body) for one constraint's rows, or None.
+
+    The pair of joints has exactly the freedoms of the rows, without an idle spin of the middle body.
+    """
+    atoms = np.flatnonzero(np.isin(system.row, rows))
+    kinds = tuple(sorted(Atom(k) for k in system.kind[atoms]))
+    recipe = _RECIPES.get(kinds)
+    if recipe is None:
+        return None
+    last = atoms[np.argmax(system.kind[atoms])]
+    first_is_a = system.body_a[last] == relation.first
+    on_a, on_b = recipe(system.p_a[last], system.a[last], system.p_b[last], system.b[last], system.k[last])
+    # recipes speak of the atom's own body a first
+    return (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
+
+
+def _joint(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = True, freedoms=()):
+    """A candidate between an outer body and the middle one.
+
+    outer_is_a: the outer body carries the joint's translations and Z axis.  The returned function takes
+    whether the joint is the one at body a of the atom (its outer body then comes first, else last).
+    """
+
+    def place(outer_first: bool) -> Candidate:
+        return Candidate(kind, axes, origin, outer_is_a == outer_first, freedoms=freedoms)
+
+    return place
+
+
+def _rod(p_a, a, p_b, b, k):
+    along = (p_b - p_a) / np.linalg.norm(p_b - p_a)
+    z = perpendicular(along)
+    cross = np.column_stack([np.cross(along, z), along, z])  # Y, the rod's own axis, is the locked one
+    return _joint(JointKind.UNIVERSAL, cross, p_a), _far(JointKind.SPHERICAL, np.eye(3), p_b)
+
+
+def _far(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = False, freedoms=()):
+    """As ``_joint``, for the joint at the atom's body b: there the middle body comes first."""
+
+    def place(middle_first: bool) -> Candidate:
+        return Candidate(kind, axes, origin, outer_is_a != middle_first, freedoms=freedoms)
+
+    return place
+
+
+def _point_round_line(p_a, a, p_b, b, k):
+    foot = p_a + a * (a @ (p_b - p_a))
+    return _joint(JointKind.CYLINDRICAL, frame_from_axes(a), foot), _far(JointKind.SPHERICAL, np.eye(3), p_b)
+
+
+def _line_round_line(p_a, a, p_b, b, k):
+    foot = p_a + a * (a @ (p_b - p_a))
+    return _joint(JointKind.REVOLUTE, frame_from_axes(a), foot), _far(JointKind.CYLINDRICAL, frame_from_axes(a), p_b)
+
+
+def _skew_lines(p_a, a, p_b, b, k):
+    normal = np.cross(a, b)
+    size = normal @ normal
+    offset = p_b - p_a
+    foot_a = p_a + a * (np.cross(offset, b) @ normal / size)
+    foot_b = p_b + b * (np.cross(offset, a) @ normal / size)
+    z, x = b, normal / np.sqrt(size)
+    carried = np.column_stack([x, np.cross(z, x), z])  # slides along b and turns about b, all swinging about n
+    return (
+        _joint(JointKind.CYLINDRICAL, frame_from_axes(a), foot_a),
+        _far(JointKind.GENERAL, carried, foot_b, outer_is_a=True, freedoms=CARRIED),
+    )
+
+
+def _angled(p_a, a, p_b, b, k):
+    return _joint(JointKind.PARALLEL_PLANES, frame_from_axes(a), p_b), _far(JointKind.REVOLUTE, frame_from_axes(b), p_b)
+
+
+_RECIPES = {
+    (Atom.DIST,): _rod,
+    (Atom.PLD,): _point_round_line,
+    (Atom.DOT, Atom.DOT, Atom.PLD): _line_round_line,
+    (Atom.LLD,): _skew_lines,
+    (Atom.DOT,): _angled,
+}

@@ -34,7 +34,7 @@ class Assembly:
     system: all rows between bodies.  relative: the same, each block against its root at rest.
     freedoms, finite: of each block, in the order of ``solver``'s parts.
     stated: the rigid groups the source itself states.  duplicates: constraints that an explicit joint
-    already stands for; their rows are left out.
+    already stands for; their rows are left out.  counted: rows between the source's bodies without them.
     """
 
     scene: Scene
@@ -42,6 +42,7 @@ class Assembly:
     stated: RigidGroups
     closing: Closing
     duplicates: dict[int, int]
+    counted: int
     body: np.ndarray
     system: System
     pairs: Pairs
@@ -58,6 +59,10 @@ class Assembly:
         shifted = self.closing
         return [shifted.displacement(shifted.body[i + 1]) @ n.pose for i, n in enumerate(self.scene.nodes)]
 
+    def blocks_with(self, edges: list[tuple[int, int]], bodies: int) -> Blocks:
+        """The blocks of the same bodies, and further ones, joined by these edges."""
+        return blocks_of(bodies, np.unique(np.sort(np.array(edges), axis=1), axis=0))
+
     @property
     def floating(self) -> int:
         """Islands that hang on nothing: each adds six freedoms."""
@@ -70,6 +75,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     body, stated = stated_bodies(scene)
     closing = closed(equations, body, report)
     system, duplicates = without_duplicates(closing.system, equations, report)
+    counted = system.rows
     while True:
         body, system = _merge_rigid_pairs(body, system, equations.length)
         edges = edges_of(system)
@@ -88,7 +94,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     system.row_length = relative.row_length
     pairs = pairs_of(system)
     return Assembly(
-        scene, equations, stated, closing, duplicates, body, system, pairs, blocks, relative, solver, start,
+        scene, equations, stated, closing, duplicates, counted, body, system, pairs, blocks, relative, solver, start,
         freedoms, finite,
     )
 

@@ -72,7 +72,7 @@ def equations_of(scene: Scene, report: Report) -> Equations:
         rows.owner = len(statements)
         statements.append(joint)
         by_id[joint.id] = joint
-        joint_rows(rows, joint, scene)
+        joint_rows(rows, joint, *joint_sides(joint, scene))
     for coupling in scene.couplings:
         rows.owner = len(statements)
         statements.append(coupling)
@@ -144,9 +144,11 @@ def joint_sides(joint: Joint, scene: Scene) -> tuple[Side, Side]:
     return result[0], result[1]
 
 
-def joint_rows(rows: Rows, joint: Joint, scene: Scene) -> None:
-    """Equations of a joint's locked freedoms, as a D6 joint means them (see ``model.Joint``)."""
-    a, b = joint_sides(joint, scene)
+def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:
+    """Equations of a joint's locked freedoms, as a D6 joint means them (see ``model.Joint``).
+
+    a, b: its two frames as ``joint_sides`` gives them.
+    """
     axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)  # X, Y, Z
     locked = [f.motion is Motion.LOCKED for f in joint.freedoms]
     screw = joint.kind is JointKind.SCREW and joint.lead != 0.0

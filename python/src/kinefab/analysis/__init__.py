@@ -1,0 +1,6 @@
+"""From constraints to freedoms, to the joint between any two parts."""
+
+from .analyse import AnalysisOptions, Closures, analyse
+from .result import Analysis, Island, NodeFreedom
+
+__all__ = ["Analysis", "AnalysisOptions", "Closures", "Island", "NodeFreedom", "analyse"]

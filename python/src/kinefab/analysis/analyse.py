@@ -1,0 +1,173 @@
+"""The analysis, read like a sentence: assemble, joint, span, close, limit, couple, count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import Scene
+from ..rigid import rigid_groups
+from .assembly import Assembly, assemble
+from .couplings import couplings_of
+from .effective import effective
+from .freedoms import check_records, idle_freedoms, node_freedoms
+from .jointing import Links, links_of
+from .loops import Tree, spanning_tree
+from .minimal import minimal_closures
+from .ranges import with_ranges
+from .result import Analysis, Island
+
+
+class Closures(str, Enum):
+    """How a loop-closing joint is written: whole, or with its independent rows only."""
+
+    EXACT = "exact"
+    MINIMAL = "minimal"
+
+
+@dataclass(frozen=True, slots=True)
+class AnalysisOptions:
+    """closures: see ``Closures``."""
+
+    closures: Closures = Closures.MINIMAL
+
+
+def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analysis:
+    """Find the mechanism in a scene's constraints, joints and couplings.
+
+    What is wrong with the data is in the result's report, by name; nothing is raised for it.
+    """
+    report = Report()
+    assembly = assemble(scene, report)
+    found = links_of(assembly, report)
+    tree = spanning_tree(found)
+    closed = _closed_scene(assembly, found)
+    links = tree.links
+    if options.closures is Closures.MINIMAL:
+        links = minimal_closures(assembly, tree, closed, report)
+    links = with_ranges(assembly, links, closed, report)
+    couplings = couplings_of(assembly, links, closed, report)
+    fixed = _fixed(assembly)
+    groups = rigid_groups(scene, fixed)
+    analysis = Analysis(
+        source=scene,
+        mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating,
+        first_order=sum(f.mobility for f in assembly.freedoms) + 6 * assembly.floating,
+        rows=assembly.counted,
+        rank=_rank(assembly),
+        groups=groups,
+        fixed=fixed,
+        islands=_islands(assembly, tree),
+        idle=idle_freedoms(assembly),
+        joints=[link.joint for link in links],
+        couplings=couplings,
+        nodes=found.nodes,
+        poses=assembly.poses,
+        gaps=assembly.closing.gaps,
+        worst_gap=assembly.closing.worst,
+        contradictory=assembly.closing.contradictory,
+        report=report,
+        find_freedoms=lambda: node_freedoms(assembly),
+        find_relation=lambda a, b: effective(assembly, int(assembly.body[a + 1]), int(assembly.body[b + 1])),
+    )
+    _report_singular(assembly, report)
+    if scene.dof_records:
+        check_records(assembly, analysis.freedoms, report)
+    _report_outcomes(assembly, analysis, report)
+    return analysis
+
+
+def _closed_scene(assembly: Assembly, found: Links) -> Scene:
+    scene = assembly.scene.with_poses(assembly.poses)
+    return replace(scene, nodes=[*scene.nodes, *found.nodes])
+
+
+def _rank(assembly: Assembly) -> int:
+    """Rows that remove something, over the bodies as the source states them."""
+    bodies = int(assembly.closing.body.max()) + 1
+    return 6 * (bodies - 1) - sum(f.mobility for f in assembly.freedoms) - 6 * assembly.floating
+
+
+def _fixed(assembly: Assembly) -> tuple[tuple[int | None, int], ...]:
+    """For each body one pair a node, from its first node (or ground) to each one that constraints fix to it."""
+    first: dict[int, int | None] = {0: None}
+    pairs: list[tuple[int | None, int]] = []
+    for node in range(len(assembly.scene.nodes)):
+        body = int(assembly.body[node + 1])
+        if assembly.stated.group_of[node] is None:
+            continue
+        if body not in first:
+            first[body] = node
+        elif not assembly.stated.together(first[body], node):
+            pairs.append((first[body], node))
+    return tuple(pairs)
+
+
+def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
+    """Connected by joints without ground: on ground, every branch from it is an island of its own."""
+    branch = np.full(len(tree.parent), -1)
+    for body in tree.order:
+        link = None if tree.parent[body] < 0 else tree.links[tree.parent[body]]
+        if link is None:
+            branch[body] = body if body > 0 else -1
+            continue
+        other = link.a if link.b == body else link.b
+        branch[body] = body if other == 0 else branch[other]
+    leader = {int(b): int(b) for b in branch if b >= 0}
+
+    def find(i: int) -> int:
+        while leader[i] != i:
+            i = leader[i]
+        return i
+
+    ties = [(tree.links[i].a, tree.links[i].b) for i in tree.closures]
+    ties += [(int(f.bodies[0]), int(b)) for f in assembly.freedoms for b in f.bodies[1:]]
+    for a, b in ties:
+        if a and b and branch[a] >= 0 and branch[b] >= 0:
+            i, j = sorted((find(int(branch[a])), find(int(branch[b]))))
+            leader[j] = i
+    island = np.array([find(int(b)) if b >= 0 else -1 for b in branch])
+    floating = {int(r) for r in assembly.blocks.island_root[1:]}
+    nodes_of: dict[int, list[int]] = {}
+    for node in range(len(assembly.scene.nodes)):
+        body = int(assembly.body[node + 1])
+        if body and island[body] >= 0:
+            nodes_of.setdefault(int(island[body]), []).append(node)
+    loops = dict.fromkeys(nodes_of, 0)
+    for i in tree.closures:
+        ends = [int(island[b]) for b in (tree.links[i].a, tree.links[i].b) if island[b] >= 0]
+        if ends and ends[0] in loops:
+            loops[ends[0]] += 1
+    counts = {key: [0, 0, 0, 0] for key in nodes_of}
+    for first, finite in zip(assembly.freedoms, assembly.finite):
+        key = int(island[first.bodies[0]])
+        if key in counts:
+            for k, value in enumerate((finite.mobility, first.mobility, len(first.rows), len(first.rows) - first.rank)):
+                counts[key][k] += value
+    return [
+        Island(
+            tuple(nodes), counts[key][0] + (6 if key in floating else 0), counts[key][1] + (6 if key in floating else 0),
+            counts[key][2], counts[key][3], loops[key], key in floating,
+        )
+        for key, nodes in nodes_of.items()
+    ]
+
+
+def _report_singular(assembly: Assembly, report: Report) -> None:
+    for first, finite in zip(assembly.freedoms, assembly.finite):
+        if finite.mobility < first.mobility:
+            nodes = [n.id for i, n in enumerate(assembly.scene.nodes) if int(assembly.body[i + 1]) in first.bodies[:4]]
+            report.add("MECHANISM_SINGULAR", parts=", ".join(nodes[:4]), first=first.mobility, finite=finite.mobility)
+
+
+def _report_outcomes(assembly: Assembly, analysis: Analysis, report: Report) -> None:
+    """Constraints that nothing was said about are kept: in a joint, or by the rigid group they make."""
+    said = {o.feature for o in report.outcomes}
+    for constraint in assembly.scene.constraints:
+        feature = f"constraint {constraint.id}"
+        if not constraint.suppressed and feature not in said:
+            report.kept(feature, constraint.where)
+

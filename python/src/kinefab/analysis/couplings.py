@@ -1,0 +1,67 @@
+"""Gear-like constraints as couplings between the coordinates of the joints that were found."""
+
+from __future__ import annotations
+
+from ..diagnostics import Report
+from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Motion, Scene
+from .assembly import Assembly
+from .jointing import Link
+
+_KINDS = {
+    ConstraintKind.GEAR: (CouplingKind.GEAR, RX, RX),
+    ConstraintKind.BELT: (CouplingKind.BELT, RX, RX),
+    ConstraintKind.RACK: (CouplingKind.RACK, RX, TX),
+    ConstraintKind.LINEAR: (CouplingKind.LINEAR, TX, TX),
+}
+ALONG = 1.0 - 1e-6
+
+
+def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Coupling]:
+    """Explicit couplings as they are, and one for each gear, belt, rack and linear constraint.
+
+    scene: with middle bodies, at the closed pose, where every found joint's coordinates are zero.
+    """
+    by_pair = {}
+    for link in links:
+        by_pair.setdefault((min(link.a, link.b), max(link.a, link.b)), link)
+    found = list(scene.couplings)
+    for statement in assembly.equations.statements:
+        if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
+            continue
+        kind, *freedoms = _KINDS[statement.kind]
+        carrier = _body(assembly, statement.features[2].node) if len(statement.features) > 2 else 0
+        ends = []
+        for feature, first in zip(statement.features, freedoms):
+            end = _coordinate(assembly, by_pair, scene, feature, carrier, first)
+            if end is None:
+                part = "ground" if feature.node is None else scene.nodes[feature.node].id
+                report.dropped(f"constraint {statement.id}", "COUPLING_UNPLACED", statement.where, id=statement.id, part=part)
+                break
+            ends.append(end)
+        else:
+            (joint_a, freedom_a, sign_a), (joint_b, freedom_b, sign_b) = ends
+            found.append(
+                Coupling(statement.id, kind, joint_a, freedom_a, joint_b, freedom_b,
+                         statement.value * sign_a * sign_b, where=statement.where)
+            )
+    return found
+
+
+def _body(assembly: Assembly, node: int | None) -> int:
+    return int(assembly.body[0 if node is None else node + 1])
+
+
+def _coordinate(assembly: Assembly, by_pair: dict, scene: Scene, feature, carrier: int, first: int):
+    """(joint id, freedom, sign) of the joint coordinate along or about a feature's direction, or None."""
+    body = _body(assembly, feature.node)
+    link: Link | None = by_pair.get((min(body, carrier), max(body, carrier)))
+    if link is None:
+        return None
+    direction = scene.pose(feature.node).direction(feature.direction)
+    axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
+    for i in range(3):
+        cosine = float(direction @ axes[:, i])
+        if abs(cosine) > ALONG and link.joint.freedoms[first + i].motion is not Motion.LOCKED:
+            sign = (1.0 if cosine > 0.0 else -1.0) * (1.0 if link.b == body else -1.0)
+            return link.joint.id, first + i, sign
+    return None

@@ -1,0 +1,138 @@
+"""Each part's remaining freedoms against ground, as a CAD program's DOF analysis lists them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import NodeKind
+from ..spatial import Array
+from .assembly import Assembly
+from .rank import rank_of
+from .result import IdleFreedom, NodeFreedom
+from .twists import twist_space
+
+TOO_FEW = 1e-7
+
+
+def body_twists(assembly: Assembly) -> list[Array]:
+    """Scaled twists (v / length, w) of every body about its own point, orthonormal columns, shape (6, d).
+
+    Blocks move independently: a body's twists are those of its block's root, carried along, and its own.
+    """
+    relative, blocks = assembly.relative, assembly.blocks
+    own: list[Array] = [np.zeros((6, 0))] * relative.bodies
+    for freedom in assembly.freedoms:
+        for body, rows in zip(freedom.bodies, freedom.basis.reshape(len(freedom.bodies), 6, -1)):
+            own[body] = rows
+    floating = set(blocks.island_root[1:].tolist())
+    found: list[Array] = [np.zeros((6, 0))] * relative.bodies
+    for body in blocks.order.tolist():
+        if blocks.block[body] < 0:
+            found[body] = np.eye(6) if body in floating else np.zeros((6, 0))
+            continue
+        root = int(blocks.root[blocks.block[body]])
+        carried = found[root]
+        if carried.shape[1] == 6:
+            found[body] = carried
+            continue
+        if carried.shape[1]:
+            arm = relative.center[body] - relative.center[root]
+            v = carried[:3] * relative.length[root] + np.cross(carried[3:].T, arm).T
+            carried = np.concatenate([v / relative.length[body], carried[3:]])
+        found[body] = _orthonormal(np.concatenate([carried, own[body]], axis=1))
+    return found
+
+
+def _orthonormal(columns: Array) -> Array:
+    """Basis of a span; columns without length (bodies at rest) are left out first."""
+    if not columns.shape[1]:
+        return columns
+    size = np.linalg.norm(columns, axis=0)
+    columns = columns[:, size > TOO_FEW]
+    if columns.shape[1] == 0:
+        return columns
+    columns = columns / np.linalg.norm(columns, axis=0)
+    if columns.shape[1] == 1:
+        return columns
+    u, s, _ = np.linalg.svd(columns, full_matrices=False)
+    return u[:, : int(rank_of(s)[0])]
+
+
+def node_freedoms(assembly: Assembly) -> list[NodeFreedom]:
+    """Of every part of the scene."""
+    twists = body_twists(assembly)
+    relative = assembly.relative
+    spaces = {}
+    found = []
+    for i, node in enumerate(assembly.scene.nodes):
+        if node.kind is not NodeKind.PART or node.suppressed:
+            continue
+        body = int(assembly.body[i + 1])
+        if body not in spaces:
+            space = twist_space(twists[body], relative.center[body], float(relative.length[body]))
+            spaces[body] = space
+        space = spaces[body]
+        found.append(NodeFreedom(i, space.translations, space.rotations, space.center))
+    return found
+
+
+def check_records(assembly: Assembly, freedoms: list[NodeFreedom], report: Report) -> None:
+    """Warn where the source's own DOF records say otherwise."""
+    by_node = {f.node: f for f in freedoms}
+    for record in assembly.scene.dof_records:
+        mine = by_node.get(record.node)
+        if mine is None:
+            continue
+        stated = (len(record.translations), len(record.rotations))
+        if stated != (len(mine.translations), len(mine.rotations)):
+            report.add(
+                "DOF_RECORD_DIFFERS", record.where, node=assembly.scene.nodes[record.node].id,
+                stated_t=stated[0], stated_r=stated[1],
+                found_t=len(mine.translations), found_r=len(mine.rotations),
+            )
+
+
+def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
+    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else."""
+    neighbours: dict[int, set[int]] = {}
+    low, high = assembly.system.body_a, assembly.system.body_b
+    for i, j in set(zip(low.tolist(), high.tolist())):
+        neighbours.setdefault(i, set()).add(j)
+        neighbours.setdefault(j, set()).add(i)
+    found = []
+    for freedom in assembly.freedoms:
+        if freedom.mobility < 2 or len(freedom.bodies) < 2:
+            continue
+        place = {int(b): k for k, b in enumerate(freedom.bodies)}
+        for leg in _legs(freedom.bodies.tolist(), neighbours):
+            if len(leg) == len(freedom.bodies):
+                continue
+            others = np.ones(len(freedom.basis), dtype=bool)
+            for body in leg:
+                others[6 * place[body] : 6 * place[body] + 6] = False
+            s = np.linalg.svd(freedom.basis[others], compute_uv=False)
+            count = freedom.mobility - int(np.sum(s > 1e-6))
+            if count:
+                nodes = [n for n in range(len(assembly.scene.nodes)) if int(assembly.body[n + 1]) in leg]
+                found.append(IdleFreedom(tuple(nodes), count))
+    return found
+
+
+def _legs(bodies: list[int], neighbours: dict[int, set[int]]) -> list[list[int]]:
+    """Chains of bodies with two neighbours each, as long as they go; other bodies by themselves."""
+    inside, seen, legs = set(bodies), set(), []
+    for body in bodies:
+        if body in seen:
+            continue
+        leg = [body]
+        seen.add(body)
+        if len(neighbours[body]) == 2:
+            for start in sorted(neighbours[body]):
+                following = start
+                while following in inside and following not in seen and len(neighbours[following]) == 2:
+                    seen.add(following)
+                    leg.append(following)
+                    following = next((n for n in sorted(neighbours[following]) if n not in seen), -1)
+        legs.append(leg)
+    return legs

@@ -1,0 +1,92 @@
+"""Which joints span the assembly and which close its loops."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..model import RX, JointKind, Motion
+from .jointing import Link, Links
+
+
+@dataclass(slots=True, eq=False)
+class Tree:
+    """A spanning tree of the joints.
+
+    links: all of them, closures marked, in their own order.  parent: shape (bodies,), index into links of
+    the joint that holds each body, -1 for roots.  order: bodies outwards.  closures: indices of the joints
+    left over, one for each independent loop.
+    """
+
+    links: list[Link]
+    parent: np.ndarray
+    order: list[int]
+    closures: list[int]
+
+    def loops_of(self, bodies: np.ndarray) -> int:
+        inside = set(bodies.tolist())
+        return sum(self.links[i].a in inside or self.links[i].b in inside for i in self.closures)
+
+
+def spanning_tree(links: Links) -> Tree:
+    """Grow from ground (then from the first body of each floating island), best joints first.
+
+    A joint that carries limits or a drive is wanted in the tree, where its coordinate is exact; so is one
+    with few freedoms, which leaves the freest (ball before hinge) to close loops.  Among equals the tree
+    stays shallow and follows what turns rather than what slides, since a crank drives and a slide follows.
+    """
+    near: dict[int, list[int]] = {}
+    for i, link in enumerate(links.links):
+        near.setdefault(link.a, []).append(i)
+        near.setdefault(link.b, []).append(i)
+    parent = np.full(links.bodies, -1)
+    seen = np.zeros(links.bodies, dtype=bool)
+    depth = np.zeros(links.bodies, dtype=np.int64)
+    slides = np.zeros(links.bodies, dtype=np.int64)
+    order: list[int] = []
+    used: set[int] = set()
+    for start in range(links.bodies):
+        if seen[start] or (start > 0 and start not in near):
+            continue
+        seen[start] = True
+        order.append(start)
+        heap: list[tuple] = []
+        _offer(heap, links, near, start, depth, slides, used)
+        while heap:
+            *_, index, body = heapq.heappop(heap)
+            if seen[body]:
+                continue
+            link = links.links[index]
+            from_ = link.a if link.b == body else link.b
+            seen[body] = True
+            parent[body] = index
+            depth[body] = depth[from_] + 1
+            slides[body] = slides[from_] + (link.joint.freedoms[RX].motion is Motion.LOCKED)
+            used.add(index)
+            order.append(body)
+            _offer(heap, links, near, body, depth, slides, used)
+    closures = [i for i in range(len(links.links)) if i not in used]
+    marked = [
+        replace_link(link, closure=i not in used) if (i not in used) != link.joint.closure else link
+        for i, link in enumerate(links.links)
+    ]
+    return Tree(marked, parent, order, closures)
+
+
+def _offer(heap: list, links: Links, near: dict, body: int, depth: np.ndarray, slides: np.ndarray, used: set) -> None:
+    for i in near.get(body, []):
+        if i in used:
+            continue
+        link = links.links[i]
+        other = link.b if link.a == body else link.a
+        free = [f for f in link.joint.freedoms if f.motion is not Motion.LOCKED]
+        plain = not any(f.motion is Motion.LIMITED or f.drive is not None for f in free)
+        dof = len(free) - (link.joint.kind is JointKind.SCREW)
+        heapq.heappush(heap, (plain, dof, int(depth[body]) + 1, int(slides[body]), i, other))
+
+
+def replace_link(link: Link, **changes) -> Link:
+    """The link with another joint, changed so."""
+    return Link(link.a, link.b, replace(link.joint, **changes))

@@ -1,0 +1,50 @@
+"""Bounded distances and angles as limits of the joints that were found."""
+
+from __future__ import annotations
+
+import math
+
+from ..diagnostics import Report
+from ..model import RX, TX, Freedom, Motion, Scene
+from .assembly import Assembly
+from .jointing import Link
+from .loops import replace_link
+
+ALONG = 1.0 - 1e-6
+
+
+def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Link]:
+    """The links with the source's ranges as limits; what is no coordinate of a joint is reported."""
+    links = list(links)
+    by_pair = {(min(l.a, l.b), max(l.a, l.b)): i for i, l in reversed(list(enumerate(links)))}
+    for coordinate in assembly.equations.ranges:
+        constraint = coordinate.constraint
+        bodies = (int(assembly.body[coordinate.body_a]), int(assembly.body[coordinate.body_b]))
+        index = by_pair.get((min(bodies), max(bodies)))
+        place = None if index is None else _freedom(links[index], scene, coordinate, bodies)
+        if place is None:
+            report.dropped(f"constraint {constraint.id}", "CONSTRAINT_RANGE_DROPPED", constraint.where, id=constraint.id)
+            continue
+        freedom, sign = place
+        low = -math.inf if constraint.lower is None else constraint.lower - coordinate.measured
+        high = math.inf if constraint.upper is None else constraint.upper - coordinate.measured
+        if sign < 0.0:
+            low, high = -high, -low
+        joint = links[index].joint
+        old = joint.freedoms[freedom]
+        freedoms = list(joint.freedoms)
+        freedoms[freedom] = Freedom(Motion.LIMITED, max(old.lower, low), min(old.upper, high), old.drive)
+        links[index] = replace_link(links[index], freedoms=tuple(freedoms), because=(*joint.because, constraint.id))
+        report.add("CONSTRAINT_RANGE_KEPT", constraint.where, id=constraint.id, joint=joint.id)
+    return links
+
+
+def _freedom(link: Link, scene: Scene, coordinate, bodies: tuple[int, int]) -> tuple[int, float] | None:
+    """The joint's freedom that measures the coordinate, and its sign."""
+    axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
+    first = RX if coordinate.is_angle else TX
+    for i in range(3):
+        cosine = float(coordinate.axis @ axes[:, i])
+        if abs(cosine) > ALONG and link.joint.freedoms[first + i].motion is not Motion.LOCKED:
+            return first + i, math.copysign(1.0, cosine) * (1.0 if link.b == bodies[1] else -1.0)
+    return None

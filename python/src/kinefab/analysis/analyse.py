@@ -12,8 +12,8 @@ from ..model import Scene
 from ..rigid import rigid_groups
 from .assembly import Assembly, assemble
 from .couplings import couplings_of
-from .effective import effective
-from .freedoms import check_records, idle_freedoms, node_freedoms
+from .freedoms import check_records
+from .idle import idle_freedoms
 from .jointing import Links, links_of
 from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
@@ -70,8 +70,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         worst_gap=assembly.closing.worst,
         contradictory=assembly.closing.contradictory,
         report=report,
-        find_freedoms=lambda: node_freedoms(assembly),
-        find_relation=lambda a, b: effective(assembly, int(assembly.body[a + 1]), int(assembly.body[b + 1])),
+        assembly=assembly,
     )
     _report_singular(assembly, report)
     if scene.dof_records:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..diagnostics import Report
@@ -9,10 +11,27 @@ from ..model import NodeKind
 from ..spatial import Array
 from .assembly import Assembly
 from .rank import rank_of
-from .result import IdleFreedom, NodeFreedom
 from .twists import twist_space
 
 TOO_FEW = 1e-7
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NodeFreedom:
+    """What is left of a node's six freedoms against ground, first order at the closed pose.
+
+    translations: shape (t, 3), unit, WORLD, pure translations.  rotations: shape (r, 3), unit, WORLD.
+    center: WORLD, a point of the rotation axes, or None where they have none in common.
+    """
+
+    node: int
+    translations: Array
+    rotations: Array
+    center: Array | None = None
+
+    @property
+    def dof(self) -> int:
+        return len(self.translations) + len(self.rotations)
 
 
 def body_twists(assembly: Assembly) -> list[Array]:
@@ -91,48 +110,3 @@ def check_records(assembly: Assembly, freedoms: list[NodeFreedom], report: Repor
                 stated_t=stated[0], stated_r=stated[1],
                 found_t=len(mine.translations), found_r=len(mine.rotations),
             )
-
-
-def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
-    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else."""
-    neighbours: dict[int, set[int]] = {}
-    low, high = assembly.system.body_a, assembly.system.body_b
-    for i, j in set(zip(low.tolist(), high.tolist())):
-        neighbours.setdefault(i, set()).add(j)
-        neighbours.setdefault(j, set()).add(i)
-    found = []
-    for freedom in assembly.freedoms:
-        if freedom.mobility < 2 or len(freedom.bodies) < 2:
-            continue
-        place = {int(b): k for k, b in enumerate(freedom.bodies)}
-        for leg in _legs(freedom.bodies.tolist(), neighbours):
-            if len(leg) == len(freedom.bodies):
-                continue
-            others = np.ones(len(freedom.basis), dtype=bool)
-            for body in leg:
-                others[6 * place[body] : 6 * place[body] + 6] = False
-            s = np.linalg.svd(freedom.basis[others], compute_uv=False)
-            count = freedom.mobility - int(np.sum(s > 1e-6))
-            if count:
-                nodes = [n for n in range(len(assembly.scene.nodes)) if int(assembly.body[n + 1]) in leg]
-                found.append(IdleFreedom(tuple(nodes), count))
-    return found
-
-
-def _legs(bodies: list[int], neighbours: dict[int, set[int]]) -> list[list[int]]:
-    """Chains of bodies with two neighbours each, as long as they go; other bodies by themselves."""
-    inside, seen, legs = set(bodies), set(), []
-    for body in bodies:
-        if body in seen:
-            continue
-        leg = [body]
-        seen.add(body)
-        if len(neighbours[body]) == 2:
-            for start in sorted(neighbours[body]):
-                following = start
-                while following in inside and following not in seen and len(neighbours[following]) == 2:
-                    seen.add(following)
-                    leg.append(following)
-                    following = next((n for n in sorted(neighbours[following]) if n not in seen), -1)
-        legs.append(leg)
-    return legs

@@ -7,26 +7,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import (
-    RX, TX, TY, TZ,
-    Constraint, Coupling, Feature, Freedom, Joint, JointKind, Motion, Node, freedoms_of,
-)
+from ..model import TY, TZ, Constraint, Coupling, Freedom, Joint, JointKind, Motion, Node
 from ..spatial import Array, Pose
 from .assembly import Assembly
-from .candidates import candidates
 from .finite import Candidate
 from .freedom import block_freedoms
 from .middle import middle_body
 from .motion import finite_freedoms
 from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
 from .solve import Solver
-from .system import System
 from .twists import twist_space
 
 MANY = 200
 """Constraints between one pair from which the report mentions their number."""
-MIDDLE_MASS = 0.1
-"""Mass of a middle body, kilograms, where the source gives none to compare with."""
 
 
 @dataclass(slots=True, eq=False)
@@ -202,7 +195,9 @@ class _Jointing:
         elif not order_matters(candidate.six):
             first_is_a = True
         a, b = bodies if first_is_a else bodies[::-1]
-        axes = _along(candidate.axes, relation) if candidate.kind is not JointKind.UNIVERSAL else candidate.axes
+        axes = candidate.axes
+        if candidate.kind is not JointKind.UNIVERSAL:
+            axes = _along(axes, self._directions(relation))
         world = Pose(axes, candidate.origin)
         node_a, node_b = self._node(a, relation), self._node(b, relation)
         joint = Joint(
@@ -211,6 +206,15 @@ class _Jointing:
             lead=candidate.lead, because=tuple(names), where=self._where(names),
         )
         self.links.append(Link(a, b, joint))
+
+    def _directions(self, relation: Relation) -> list[Array]:
+        """Directions that the relation's constraints name, in their order, WORLD at the closed pose."""
+        found = []
+        for owner in np.unique(self.assembly.system.owner[relation.rows]):
+            for feature in getattr(self.assembly.equations.statements[owner], "features", ()):
+                if feature.direction is not None:
+                    found.append(self._pose(feature.node).direction(feature.direction))
+        return found
 
     def _rank(self, body: int) -> int:
         return int(self.depth[body]) if body < len(self.depth) else body
@@ -247,7 +251,7 @@ class _Jointing:
 def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]:
     """The nodes that a statement joins."""
     if isinstance(statement, Constraint):
-        return tuple(f.node for f in statement.features if isinstance(f, Feature))
+        return tuple(f.node for f in statement.features)
     if isinstance(statement, Joint):
         return (statement.a, statement.b)
     return ()
@@ -266,13 +270,10 @@ def order_matters(freedoms: tuple[Freedom, ...]) -> bool:
     return True
 
 
-def _along(axes: Array, relation: Relation) -> Array:
-    """The frame with X towards the first body's own direction rather than against it."""
-    for direction in relation.geometry.first:
+def _along(axes: Array, directions: list[Array]) -> Array:
+    """The frame with X along the first of the source's own directions that it is parallel to."""
+    for direction in directions:
         cosine = float(direction @ axes[:, 0])
         if abs(cosine) > 1.0 - 1e-6:
             return axes if cosine > 0.0 else axes @ np.diag([-1.0, 1.0, -1.0])
     return axes
-
-
-__all__ = ["Link", "Links", "links_of", "order_matters", "freedoms_of", "candidates", "System", "RX", "TX"]

@@ -4,39 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Callable
 
 from ..diagnostics import Report
 from ..model import Coupling, Joint, Node, Scene
 from ..rigid import RigidGroups
-from ..spatial import Array, Pose
+from ..spatial import Pose
+from .assembly import Assembly
 from .closing import Gap
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class NodeFreedom:
-    """What is left of a node's six freedoms against ground, first order at the closed pose.
-
-    translations: shape (t, 3), unit, WORLD, pure translations.  rotations: shape (r, 3), unit, WORLD.
-    center: WORLD, a point of the rotation axes, or None where they have none in common.
-    """
-
-    node: int
-    translations: Array
-    rotations: Array
-    center: Array | None = None
-
-    @property
-    def dof(self) -> int:
-        return len(self.translations) + len(self.rotations)
-
-
-@dataclass(frozen=True, slots=True)
-class IdleFreedom:
-    """Freedoms of some nodes that move nothing else, such as a rod's spin."""
-
-    nodes: tuple[int, ...]
-    count: int
+from .drive import Drive
+from .effective import Effective, effective
+from .freedoms import NodeFreedom, node_freedoms
+from .idle import IdleFreedom
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,8 +62,7 @@ class Analysis:
     worst_gap: tuple[float, float]
     contradictory: list[str]
     report: Report
-    find_freedoms: Callable[[], list[NodeFreedom]] = field(repr=False)
-    find_relation: Callable[[int, int], object] = field(repr=False)
+    assembly: Assembly = field(repr=False)
 
     @property
     def redundant(self) -> int:
@@ -94,11 +71,16 @@ class Analysis:
     @cached_property
     def freedoms(self) -> list[NodeFreedom]:
         """Of every part, in scene order."""
-        return self.find_freedoms()
+        return node_freedoms(self.assembly)
 
-    def between(self, a: int, b: int):
-        """The effective joint of node ``b`` against node ``a`` (see ``effective.Effective``)."""
-        return self.find_relation(a, b)
+    def between(self, a: int, b: int) -> Effective:
+        """The effective joint of node ``b`` against node ``a``."""
+        return effective(self.assembly, *(int(self.assembly.body[node + 1]) for node in (a, b)))
+
+    def drive(self, *coordinates: tuple[str, int]) -> Drive:
+        """The mechanism held by coordinates of its joints: (joint id, TX..RZ)."""
+        joints = {joint.id: joint for joint in self.joints}
+        return Drive(self.assembly, [(joints[name], freedom) for name, freedom in coordinates])
 
     def scene(self, solved: bool = False) -> Scene:
         """The scene to export: the found joints instead of the given ones, middle bodies added.

@@ -199,6 +199,19 @@ class System:
         return replace(self, center=self.center + state.shift, **values)
 
 
+def joined(first: System, second: System) -> System:
+    """The rows of both, over the bodies of the first; owners of the second count on from the first's."""
+    arrays = {
+        f: np.concatenate([getattr(first, f), getattr(second, f)])
+        for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d", "is_length", "row_length")
+    }
+    offset = int(first.owner.max(initial=-1)) + 1
+    return replace(
+        first, row=np.concatenate([first.row, second.row + first.rows]),
+        owner=np.concatenate([first.owner, second.owner + offset]), **arrays,
+    )
+
+
 def exponential(w: Array) -> Array:
     """Rotation matrices of rotation vectors, shape (..., 3) to (..., 3, 3) (Rodrigues)."""
     angle = np.sqrt(np.einsum("...i,...i->...", w, w))

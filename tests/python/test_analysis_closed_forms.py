@@ -1,0 +1,163 @@
+"""Mechanisms driven through the angles whose positions are known in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from mechanism_cases import analysed, node, table
+
+from kinefab.model import RX, TX
+
+TOLERANCE = 1e-9
+
+
+def joint(found, a, b):
+    """The joint between two parts, whichever way round."""
+    names = {f"{a} - {b}", f"{b} - {a}"}
+    return next(j for j in found.joints if j.id in names)
+
+
+def turned(pose):
+    """Angle of a part's x axis in the plane, degrees."""
+    return math.degrees(math.atan2(pose.rotation[1, 0], pose.rotation[0, 0]))
+
+
+def planar(id, part, start, measures):
+    """A crank on the base: (case, joint's part, freedom, start value, name to measure)."""
+    return id, part, RX, start, measures
+
+
+def link_angle(name):
+    return lambda found, poses: turned(poses[node(found.source, name)])
+
+
+def place(name, axis):
+    return lambda found, poses: float(poses[node(found.source, name)].translation[axis])
+
+
+DRIVEN = {
+    "M01": ("crank", 60.0, {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")}),
+    "M02": ("crank", 60.0, {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")}),
+    "M07": ("crank", 40.0, {"slider x": place("slider", 0)}),
+    "M08": ("crank", 40.0, {"slider x": place("slider", 0)}),
+    "M09": ("shaft", 30.0, {"slider D x": place("sliderD", 0), "bar C angle deg": link_angle("barC")}),
+    "M10": ("crank", 40.0, {"yoke x": place("yoke", 0)}),
+    "M13": ("rod1", 0.0, {f"P3 {axis}": place("rod3", i) for i, axis in enumerate("xyz")} | {}),
+    "M23": ("in", 25.0, {"disc centre x = e cos^2": place("disc", 0), "disc centre y = e sin cos": place("disc", 1)}),
+    "M24": ("screw", 0.0, {"nut travel, lead .05, 2 turns": lambda f, p: float(p[node(f.source, "nut")].translation[2] - 0.4)}),
+    "M25": ("g1", 0.0, {"driven gear deg (20:50)": link_angle("g2")}),
+    "M26": ("pinion", 0.0, {"rack x = rp*theta": place("rack", 0)}),
+    "M27": ("sun", 0.0, {"carrier deg = 24/84*sun": link_angle("carrier"), "planet abs deg = (1-60/18)*carrier": link_angle("planet")}),
+    "M32": ("arm1", 35.0, {"platform height L sin": place("platform", 1)}),
+}
+ROWS = [r for r in table("closed_forms") if r["id"] in DRIVEN and r["quantity"] in DRIVEN[r["id"]][2]]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[f"{r['id']}-{r['quantity'].split()[0]}-{r['driver']}" for r in ROWS])
+def test_driven_position_is_that_of_the_closed_form(row):
+    """Turning the crank to the stated angle puts every part where trigonometry puts it, within 1e-9."""
+    part, start, measures = DRIVEN[row["id"]]
+    found = analysed(row["id"])
+    drive = found.drive((joint(found, "base", part).id, RX))
+    drive.to([math.radians(float(row["driver"]) - start)])
+    value, expected = measures[row["quantity"]](found, drive.poses()), float(row["value"])
+    if "deg" in row["quantity"]:
+        value = expected + math.remainder(value - expected, 360.0)
+        assert math.radians(abs(value - expected)) < TOLERANCE
+    else:
+        assert abs(value - expected) < TOLERANCE
+
+
+def test_sarrus_platform_rises_as_twice_the_sine():
+    """The platform of a Sarrus linkage is at 2 l sin(phi) when a lower link stands at phi."""
+    found = analysed("M11")
+    for row in (r for r in table("closed_forms") if r["id"] == "M11"):
+        drive = found.drive((joint(found, "base", "lo_x").id, RX))
+        drive.to([-math.radians(float(row["driver"]) - 50.0)])
+        assert abs(drive.poses()[node(found.source, "platform")].translation[2] - float(row["value"])) < TOLERANCE
+
+
+def test_bennett_output_follows_its_ratio_of_half_angle_tangents():
+    """tan(t1/2) tan(t2/2) stays constant along the motion of the Bennett linkage."""
+    found = analysed("M12")
+    start, second = 80.0, None
+    for row in (r for r in table("closed_forms") if r["id"] == "M12" and "theta2" in r["quantity"]):
+        drive = found.drive((joint(found, "base", "link1").id, RX))
+        drive.to([math.radians(float(row["driver"]) - start)])
+        poses = drive.poses()
+        one, two = (poses[node(found.source, name)].rotation for name in ("link1", "link2"))
+        # link2's frame is link1's, twisted by alpha about x and turned by theta2 about the next axis
+        alpha = math.radians(30.0)
+        twist = np.array([[1, 0, 0], [0, math.cos(alpha), -math.sin(alpha)], [0, math.sin(alpha), math.cos(alpha)]])
+        relative = (one @ twist).T @ two
+        second = math.atan2(relative[1, 0], relative[0, 0])
+        assert abs(math.remainder(second - math.radians(float(row["value"])), math.tau)) < TOLERANCE
+    assert second is not None
+
+
+def test_cardan_output_angle_and_speed():
+    """tan(out) = tan(in) cos(beta), and the speed ratio of its derivative."""
+    found = analysed("M21")
+    ratio = {r["driver"]: float(r["value"]) for r in table("closed_forms") if r["id"] == "M21" and "ratio" in r["quantity"]}
+    for row in (r for r in table("closed_forms") if r["id"] == "M21" and "angle" in r["quantity"]):
+        drive = found.drive((joint(found, "base", "in").id, RX))
+        output = found.drive((joint(found, "base", "out").id, RX))
+        start = math.degrees(math.atan(math.tan(math.radians(20.0)) * math.cos(math.radians(30.0))))
+        drive.to([math.radians(float(row["driver"]) - 20.0)])
+        output.to([math.radians(float(row["value"]) - start)])
+        for driven, followed in zip(drive.poses(), output.poses()):
+            assert np.abs(driven.rotation - followed.rotation).max() < TOLERANCE
+        step = 1e-4
+        angles = []
+        for sign in (1.0, -1.0):
+            drive.to([math.radians(float(row["driver"]) - 20.0) + sign * step])
+            axis = np.array([math.cos(math.radians(30.0)), math.sin(math.radians(30.0)), 0.0])
+            out = drive.poses()[node(found.source, "out")].rotation @ found.source.nodes[node(found.source, "out")].pose.rotation.T
+            vector = np.array([out[2, 1] - out[1, 2], out[0, 2] - out[2, 0], out[1, 0] - out[0, 1]])
+            angles.append(math.atan2(axis @ vector, np.trace(out) - 1.0))
+        assert abs((angles[0] - angles[1]) / (2 * step) - ratio[row["driver"]]) < 1e-7
+
+
+def test_wedge_lowers_its_follower():
+    """dx of the wedge lowers the follower by dx tan(20 deg)."""
+    found = analysed("M30")
+    row = next(r for r in table("closed_forms") if r["id"] == "M30")
+    drive = found.drive((joint(found, "base", "wedge").id, TX))
+    drive.to([float(row["driver"])])
+    assert abs(drive.poses()[node(found.source, "follower")].translation[1] - 0.3 - float(row["value"])) < TOLERANCE
+
+
+def test_delta_platform_follows_its_three_arms():
+    """Arms at 10, 25 and 40 degrees below the horizontal put the Delta's platform where three spheres meet."""
+    found = analysed("M18")
+    expected = [float(r["value"]) for r in table("closed_forms") if r["id"] == "M18" and "(10, 25, 40)" in r["quantity"]]
+    joints = [joint(found, "base", f"arm{k}") for k in range(3)]
+    drive = found.drive(*[(j.id, RX) for j in joints])
+    drive.to([math.radians(a - 30.0) for a in (10.0, 25.0, 40.0)])
+    assert np.abs(drive.poses()[node(found.source, "platform")].translation - expected).max() < TOLERANCE
+
+
+def test_stewart_platform_follows_its_six_legs():
+    """The six leg lengths of a stated pose bring the platform to that pose."""
+    found = analysed("M14")
+    lengths = [float(r["value"]) for r in table("closed_forms") if r["id"] == "M14"]
+    home = 1.3714031749
+    legs = [joint(found, f"lo{i}", f"up{i}") for i in range(1, 7)]
+    drive = found.drive(*[(j.id, TX) for j in legs])
+    signs = []
+    for i, leg in enumerate(legs, start=1):
+        poses = found.poses
+        out = poses[node(found.source, f"up{i}")].translation - poses[node(found.source, f"lo{i}")].translation
+        axis = (found.scene(solved=True).pose(leg.a) @ leg.frame_a).rotation[:, 0]
+        signs.append(math.copysign(1.0, axis @ out) * (1.0 if found.source.nodes[leg.b].name == f"up{i}" else -1.0))
+    drive.to([s * (length - home) for s, length in zip(signs, lengths)])
+    pose = drive.poses()[node(found.source, "platform")]
+    z, y, x = (math.radians(a) for a in (12.0, -7.0, 5.0))
+    rz = np.array([[math.cos(z), -math.sin(z), 0], [math.sin(z), math.cos(z), 0], [0, 0, 1]])
+    ry = np.array([[math.cos(y), 0, math.sin(y)], [0, 1, 0], [-math.sin(y), 0, math.cos(y)]])
+    rx = np.array([[1, 0, 0], [0, math.cos(x), -math.sin(x)], [0, math.sin(x), math.cos(x)]])
+    # the table's lengths have ten digits, so the pose is known to a few of the tenth
+    assert np.abs(pose.rotation - rz @ ry @ rx).max() < 2e-9
+    assert np.abs(pose.translation - [0.08, -0.05, 1.25]).max() < 2e-9

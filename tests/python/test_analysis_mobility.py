@@ -1,0 +1,47 @@
+"""Mobility, redundancy and freedoms of every mechanism of the table."""
+
+from __future__ import annotations
+
+import pytest
+from mechanism_cases import analysed, table
+
+EXPECTED = table("mobility")
+
+
+@pytest.mark.parametrize("row", EXPECTED, ids=[r["id"] for r in EXPECTED])
+def test_rows_rank_and_mobility_are_those_of_the_table(row):
+    """Rows, rank, redundancy, first-order and finite mobility agree with the independent computation."""
+    found = analysed(row["id"])
+    bodies = len([g for g, grounded in zip(found.assembly.stated.members, found.assembly.stated.grounded) if not grounded]) + 1
+    assert (bodies, found.rows, found.rank, found.first_order, found.redundant, found.mobility) == tuple(
+        int(row[key]) for key in ("bodies", "rows", "rank", "first_order", "redundant", "finite")
+    )
+
+
+LISTED = [r for r in EXPECTED if r["freedoms"]]
+
+
+@pytest.mark.parametrize("row", LISTED, ids=[r["id"] for r in LISTED])
+def test_each_part_has_the_freedoms_of_the_table(row):
+    """Every part that the table names keeps that many freedoms against ground (legs by their first part)."""
+    found = analysed(row["id"])
+    left = {found.source.nodes[f.node].name: f.dof for f in found.freedoms}
+    for entry in row["freedoms"].split():
+        name, dof = entry.split("=")
+        parts = [n for n in left if n == name or n.startswith(name) and n[len(name):].strip("_abxy0123456789") == ""]
+        assert parts and all(left[n] == int(dof) for n in parts), (name, left)
+
+
+def test_leg_spins_are_idle_freedoms():
+    """Each leg between two balls has one freedom that moves nothing else (M15), each Delta rod too (M19)."""
+    assert [i.count for i in analysed("M15").idle] == [1] * 6
+    assert [i.count for i in analysed("M19").idle] == [1] * 6
+    assert analysed("M14").idle == []
+
+
+@pytest.mark.parametrize(("id", "loops"), [("M01", 1), ("M06", 2), ("M09", 1), ("M14", 5), ("M19", 5), ("M32", 2), ("M40", 40)])
+def test_loops_are_joints_minus_moving_bodies(id, loops):
+    """One closing joint for each independent loop."""
+    found = analysed(id)
+    assert sum(j.closure for j in found.joints) == loops
+    assert sum(i.loops for i in found.islands) == loops

@@ -54,6 +54,7 @@ class _Jointing:
         self.links: list[Link] = []
         self.nodes: list[Node] = []
         self.names: set[str] = set()
+        self.where = {s.id: s.where for s in assembly.equations.statements}
 
     def run(self) -> Links:
         assembly = self.assembly
@@ -203,7 +204,7 @@ class _Jointing:
         joint = Joint(
             self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}"), candidate.kind, node_a, node_b,
             self._pose(node_a).inverse() @ world, self._pose(node_b).inverse() @ world, candidate.six,
-            lead=candidate.lead, because=tuple(names), where=self._where(names),
+            lead=candidate.lead, because=tuple(names), where=self.where.get(names[0], ""),
         )
         self.links.append(Link(a, b, joint))
 
@@ -240,12 +241,6 @@ class _Jointing:
         if node is None:
             return Pose()
         return self.assembly.poses[node] if node < len(nodes) else self.nodes[node - len(nodes)].pose
-
-    def _where(self, names: list[str]) -> str:
-        for statement in self.assembly.equations.statements:
-            if statement.id == names[0]:
-                return statement.where
-        return ""
 
 
 def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]:

@@ -3,35 +3,35 @@
 from __future__ import annotations
 
 import csv
-import sys
 from functools import lru_cache
 from pathlib import Path
 
+from kinefab.analysis import Analysis, analyse
+from kinefab.diagnostics import Report
+from kinefab.model import Scene
+from kinefab.sources import read
+
 ROOT = Path(__file__).parents[2]
 DATA = Path(__file__).parent / "data" / "mechanisms"
-sys.path.insert(0, str(ROOT / "fixtures"))
-
-from generator.case import Case  # noqa: E402
-from generator.mechanisms import all_mechanisms  # noqa: E402
-from generator.pairs import all_pairs  # noqa: E402
-from generator.scene import scene_of  # noqa: E402
-
-from kinefab.analysis import Analysis, analyse  # noqa: E402
-from kinefab.model import Scene  # noqa: E402
+FOLDERS = {"P": "pairs", "M": "mechanisms"}
 
 
-@lru_cache(maxsize=1)
-def cases() -> dict[str, Case]:
-    return {case.id: case for case in [*all_pairs(), *all_mechanisms()]}
-
-
+@lru_cache(maxsize=None)
 def scene(id: str) -> Scene:
-    return scene_of(cases()[id])
+    """The scene of a fixture, read from its bundle.  Treat as read-only."""
+    report = Report()
+    found = read(ROOT / "fixtures" / FOLDERS[id[0]] / f"{id}.bundle.json", report)
+    report.raise_for_errors()
+    return found
 
 
 @lru_cache(maxsize=None)
 def analysed(id: str) -> Analysis:
     return analyse(scene(id))
+
+
+def all_ids() -> list[str]:
+    return [row["id"] for row in table("mobility")]
 
 
 def table(name: str) -> list[dict[str, str]]:

@@ -18,8 +18,10 @@ from .system import State
 
 STEP = 1e-3
 """Size of a trial step, radians or fractions of the length."""
-SURVIVES = 0.03
-"""Relative change of a random step by which the whole null space still counts as motions."""
+SURVIVES = 0.005
+"""Relative change of a random step by which the whole null space still counts as motions (the motions'
+own curvature changes it by about STEP)."""
+TRIALS = 2
 DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
 WALK = 3
@@ -49,11 +51,13 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
     if doubtful.any():
         draw = np.random.default_rng(11)
-        directions = {int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)}
-        moved = _trial(solver, first_order, start, directions)
-        for part, direction in directions.items():
-            if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
-                found[part] = _searched(solver, part, first_order[part], start)
+        for _ in range(TRIALS):
+            directions = {int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)}
+            moved = _trial(solver, first_order, start, directions) if directions else {}
+            for part, direction in directions.items():
+                if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
+                    found[part] = _searched(solver, part, first_order[part], start)
+                    doubtful[part] = False
     return found
 
 

@@ -11,7 +11,7 @@ from .atoms import LENGTHS, Atom, cross
 from .candidates import Geometry, candidates
 from .finite import EXACT, Candidate, misfits
 from .rank import SURE_GAP, normalised, rank_of
-from .system import State, System
+from .system import IN_ONE_PLACE, State, System
 from .twists import TwistSpace, twist_space
 
 SLACK = 20.0
@@ -104,7 +104,7 @@ def relative_rows(system: System, pairs: Pairs, state: State):
     for points in (p_a, p_b):
         np.maximum.at(reach, p[pointed], np.linalg.norm(points[pointed] - origin[p[pointed]], axis=1))
     whole = system.length[pairs.second]
-    length = np.where(reach > 1e-6 * whole, reach, whole)
+    length = np.where(reach > IN_ONE_PLACE * whole, reach, whole)
     sign = np.where(system.body_b == np.where(used, pairs.second[np.maximum(inside, 0)], -1), 1.0, -1.0)
     scale = (system.weight * sign)[used, None]
     lever = c[used] - origin[p]

@@ -33,7 +33,7 @@ def rank_of(s: Array) -> tuple[np.ndarray, Array]:
     rank = np.where(np.any(allowed, axis=-1), last + 1, 0)
     kept = np.take_along_axis(relative, last[..., None], axis=-1)[..., 0]
     dropped = np.take_along_axis(after, last[..., None], axis=-1)[..., 0]
-    gap = np.divide(kept, dropped, out=np.full(kept.shape, np.inf), where=dropped > 0.0)
+    gap = np.divide(kept, dropped, out=np.full(kept.shape, np.inf), where=dropped > 1e-30)
     return rank, gap
 
 

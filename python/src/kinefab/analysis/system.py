@@ -15,6 +15,8 @@ from ..spatial import Array
 from .atoms import LENGTHS, Atom, cross, evaluate
 
 TURN = 2.0 * np.pi
+IN_ONE_PLACE = 1e-5
+"""Geometry within this fraction of the assembly's size, a few roundings of the export, is one point."""
 DEFAULT_SHARE = 0.1
 """Length of a part whose geometry is in one place, as a fraction of the whole assembly's."""
 
@@ -123,7 +125,7 @@ class System:
         np.minimum.at(low, where, points)
         np.maximum.at(high, where, points)
         reach = 0.5 * np.linalg.norm(np.maximum(high - low, 0.0), axis=1)
-        size = np.where(reach > 1e-6 * default, reach, DEFAULT_SHARE * default)
+        size = np.where(reach > IN_ONE_PLACE * default, reach, DEFAULT_SHARE * default)
         self.length = size[body_part + 1]
         self.row_length = size[row_part + 1]
 

@@ -15,6 +15,7 @@ from .couplings import couplings_of
 from .freedoms import check_records
 from .idle import idle_freedoms
 from .jointing import Links, links_of
+from .limits import found_ranges, with_found_ranges
 from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
 from .ranges import with_ranges
@@ -30,9 +31,10 @@ class Closures(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class AnalysisOptions:
-    """closures: see ``Closures``."""
+    """closures: see ``Closures``.  limits: sweep the mechanisms and write the ranges found into the joints."""
 
     closures: Closures = Closures.MINIMAL
+    limits: bool = False
 
 
 def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analysis:
@@ -49,6 +51,8 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
     if options.closures is Closures.MINIMAL:
         links = minimal_closures(assembly, tree, closed, report)
     links = with_ranges(assembly, links, closed, report)
+    ranges = found_ranges(assembly, links, closed, report) if options.limits else []
+    links = with_found_ranges(assembly, links, ranges, report)
     couplings = couplings_of(assembly, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)
@@ -66,6 +70,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         couplings=couplings,
         nodes=found.nodes,
         poses=assembly.poses,
+        ranges=ranges,
         gaps=assembly.closing.gaps,
         worst_gap=assembly.closing.worst,
         contradictory=assembly.closing.contradictory,

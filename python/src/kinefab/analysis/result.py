@@ -15,6 +15,7 @@ from .drive import Drive
 from .effective import Effective, effective
 from .freedoms import NodeFreedom, node_freedoms
 from .idle import IdleFreedom
+from .limits import JointRange
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ class Analysis:
     groups: the rigid groups, with what the constraints fix.  fixed: pairs of nodes that constraints fix to
     each other (None: ground).  joints, couplings: what to export.  nodes: middle bodies, to be appended to
     the scene's.  poses: of the scene's own nodes with every constraint closed.
-    because: for nodes fixed to others, the constraints that do it.
+    ranges: of the joints of one-freedom mechanisms, when asked for.
     """
 
     source: Scene
@@ -58,6 +59,7 @@ class Analysis:
     couplings: list[Coupling]
     nodes: list[Node]
     poses: list[Pose]
+    ranges: list[JointRange]
     gaps: list[Gap]
     worst_gap: tuple[float, float]
     contradictory: list[str]

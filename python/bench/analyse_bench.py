@@ -71,7 +71,10 @@ def chain(assembly: Assembly, frame: Pose, base: int, links: int) -> None:
     last = base
     for i in range(links):
         body = assembly.part(Pose(frame.rotation, frame.point(np.array([i, 0.0, 0.0]))))
-        tilt = Pose(frame.rotation @ rotation_about(np.array([1.0, 0.0, 0.0]), 0.7 * i), frame.point(np.array([i, 0.0, 0.0])))
+        tilt = Pose(
+            frame.rotation @ rotation_about(np.array([1.0, 0.0, 0.0]), 0.7 * i),
+            frame.point(np.array([i, 0.0, 0.0])),
+        )
         assembly.hinge(last, body, tilt, (0, 0, 0))
         last = body
 
@@ -82,7 +85,9 @@ def large(parts: int) -> Scene:
     draw = np.random.default_rng(1)
     while len(assembly.nodes) <= parts // 2:
         axis = draw.standard_normal(3)
-        frame = Pose(rotation_about(axis / np.linalg.norm(axis), float(draw.uniform(0, 6))), draw.uniform(-20, 20, 3))
+        frame = Pose(
+            rotation_about(axis / np.linalg.norm(axis), float(draw.uniform(0, 6))), draw.uniform(-20, 20, 3)
+        )
         four_bar(assembly, frame, 0)
     while len(assembly.nodes) < parts + 1:
         links = min(200, parts + 1 - len(assembly.nodes))
@@ -111,10 +116,18 @@ def measure(name: str, scene: Scene) -> dict[str, object]:
     found = analyse(scene)
     listed = sum(f.dof for f in found.freedoms)
     seconds = time.perf_counter() - begin
-    print(f"{name}: {len(scene.nodes) - 1} parts, {len(scene.constraints)} constraints, {seconds:.2f} s, "
-          f"mobility {found.mobility}, {found.redundant} redundant rows, {listed} freedoms listed", flush=True)
-    return {"name": name, "parts": len(scene.nodes) - 1, "constraints": len(scene.constraints),
-            "seconds": round(seconds, 3), "mobility": found.mobility}
+    print(
+        f"{name}: {len(scene.nodes) - 1} parts, {len(scene.constraints)} constraints, {seconds:.2f} s, "
+        f"mobility {found.mobility}, {found.redundant} redundant rows, {listed} freedoms listed",
+        flush=True,
+    )
+    return {
+        "name": name,
+        "parts": len(scene.nodes) - 1,
+        "constraints": len(scene.constraints),
+        "seconds": round(seconds, 3),
+        "mobility": found.mobility,
+    }
 
 
 def main() -> int:
@@ -124,7 +137,9 @@ def main() -> int:
     options = arguments.parse_args()
     analyse(large(50))  # the first call imports and warms up
     rows = [measure("assembly", large(options.parts // 10)), measure("assembly", large(options.parts))]
-    exponent = math.log(rows[1]["seconds"] / rows[0]["seconds"]) / math.log(rows[1]["parts"] / rows[0]["parts"])
+    exponent = math.log(rows[1]["seconds"] / rows[0]["seconds"]) / math.log(
+        rows[1]["parts"] / rows[0]["parts"]
+    )
     rows.append(measure("one block", block(401)))
     rows.append(measure("M40", block(81)))
     print(f"growth exponent {exponent:.2f} from {rows[0]['parts']} to {rows[1]['parts']} parts")

@@ -11,24 +11,46 @@ from mechanism_cases import scene
 
 from kinefab.analysis import analyse
 from kinefab.diagnostics import Severity
-from kinefab.model import Constraint, ConstraintKind as C, Feature, FeatureKind as F, Joint, JointKind, Node, Scene, Sense, freedoms_of
+from kinefab.model import (
+    Constraint,
+    ConstraintKind as C,
+    Feature,
+    FeatureKind as F,
+    Joint,
+    JointKind,
+    Node,
+    Scene,
+    Sense,
+    freedoms_of,
+)
 from kinefab.spatial import Pose
 
 X, Y, Z = np.eye(3)
 
 
 def two_parts(*constraints) -> Scene:
-    nodes = [Node("base", "base", grounded=True), Node("part", "part", pose=Pose(np.eye(3), np.array([0.1, 0.2, 0.3])))]
+    nodes = [
+        Node("base", "base", grounded=True),
+        Node("part", "part", pose=Pose(np.eye(3), np.array([0.1, 0.2, 0.3]))),
+    ]
     return Scene(nodes=nodes, constraints=list(constraints))
 
 
 def on(node, kind, world, direction=None, **more) -> Feature:
     """A feature given in the world on one of the two parts."""
-    return Feature(node, kind, np.asarray(world, dtype=float) - (np.array([0.1, 0.2, 0.3]) if node == 1 else 0.0), direction, **more)
+    return Feature(
+        node,
+        kind,
+        np.asarray(world, dtype=float) - (np.array([0.1, 0.2, 0.3]) if node == 1 else 0.0),
+        direction,
+        **more,
+    )
 
 
 def planes(id, kind, normal_a, normal_b, **more) -> Constraint:
-    return Constraint(id, kind, (on(0, F.PLANE, (0, 0, 0), normal_a), on(1, F.PLANE, (0, 0, 0), normal_b)), **more)
+    return Constraint(
+        id, kind, (on(0, F.PLANE, (0, 0, 0), normal_a), on(1, F.PLANE, (0, 0, 0), normal_b)), **more
+    )
 
 
 def codes(found) -> list[str]:
@@ -93,7 +115,9 @@ def test_missing_side_is_an_error():
 def test_unknown_pairing_and_unknown_kind_are_dropped_with_a_warning():
     """What has no equations is reported dropped, and removes nothing."""
     point_angle = Constraint("angle", C.ANGLE, (on(0, F.POINT, (0, 0, 0)), on(1, F.POINT, (0, 0, 0))))
-    path = Constraint("path", C.OTHER, (on(0, F.BODY, (0, 0, 0)), on(1, F.BODY, (0, 0, 0))), raw_kind="PathMate")
+    path = Constraint(
+        "path", C.OTHER, (on(0, F.BODY, (0, 0, 0)), on(1, F.BODY, (0, 0, 0))), raw_kind="PathMate"
+    )
     found = analyse(two_parts(point_angle, path))
     assert sorted(codes(found)) == ["CONSTRAINT_NOT_INTERPRETED", "CONSTRAINT_PAIRING_UNKNOWN"]
     assert found.mobility == 6 and found.joints == []
@@ -122,8 +146,15 @@ def test_a_joint_and_the_constraints_that_make_it_count_once():
     source = scene("P03")
     at = np.array([0.1, -0.2, 0.3])
     axes = np.column_stack([Z, X, Y])
-    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, Pose(axes, at), source.nodes[1].pose.inverse() @ Pose(axes, at),
-                  freedoms_of(JointKind.REVOLUTE))
+    hinge = Joint(
+        "hinge",
+        JointKind.REVOLUTE,
+        0,
+        1,
+        Pose(axes, at),
+        source.nodes[1].pose.inverse() @ Pose(axes, at),
+        freedoms_of(JointKind.REVOLUTE),
+    )
     found = analyse(replace(source, joints=[hinge]))
     assert (found.rows, found.redundant, found.mobility) == (5, 0, 1)
     assert [j.id for j in found.joints] == ["hinge"] and found.joints[0].because == ("insert:1",)
@@ -134,8 +165,15 @@ def test_a_joint_that_its_constraints_contradict_in_freedoms_is_reported():
     source = scene("P03")
     at = np.array([0.1, -0.2, 0.3])
     axes = np.column_stack([Z, X, Y])
-    joint = Joint("tube", JointKind.CYLINDRICAL, 0, 1, Pose(axes, at), source.nodes[1].pose.inverse() @ Pose(axes, at),
-                  freedoms_of(JointKind.CYLINDRICAL))
+    joint = Joint(
+        "tube",
+        JointKind.CYLINDRICAL,
+        0,
+        1,
+        Pose(axes, at),
+        source.nodes[1].pose.inverse() @ Pose(axes, at),
+        freedoms_of(JointKind.CYLINDRICAL),
+    )
     found = analyse(replace(source, joints=[joint]))
     assert codes(found) == ["JOINT_CONSTRAINTS_DISAGREE"]
     assert [j.kind for j in found.joints] == [JointKind.REVOLUTE] and found.mobility == 1

@@ -38,24 +38,49 @@ def place(name, axis):
 
 
 DRIVEN = {
-    "M01": ("crank", 60.0, {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")}),
-    "M02": ("crank", 60.0, {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")}),
+    "M01": (
+        "crank",
+        60.0,
+        {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")},
+    ),
+    "M02": (
+        "crank",
+        60.0,
+        {"coupler angle deg": link_angle("coupler"), "rocker angle deg": link_angle("rocker")},
+    ),
     "M07": ("crank", 40.0, {"slider x": place("slider", 0)}),
     "M08": ("crank", 40.0, {"slider x": place("slider", 0)}),
     "M09": ("shaft", 30.0, {"slider D x": place("sliderD", 0), "bar C angle deg": link_angle("barC")}),
     "M10": ("crank", 40.0, {"yoke x": place("yoke", 0)}),
     "M13": ("rod1", 0.0, {f"P3 {axis}": place("rod3", i) for i, axis in enumerate("xyz")} | {}),
-    "M23": ("in", 25.0, {"disc centre x = e cos^2": place("disc", 0), "disc centre y = e sin cos": place("disc", 1)}),
-    "M24": ("screw", 0.0, {"nut travel, lead .05, 2 turns": lambda f, p: float(p[node(f.source, "nut")].translation[2] - 0.4)}),
+    "M23": (
+        "in",
+        25.0,
+        {"disc centre x = e cos^2": place("disc", 0), "disc centre y = e sin cos": place("disc", 1)},
+    ),
+    "M24": (
+        "screw",
+        0.0,
+        {"nut travel, lead .05, 2 turns": lambda f, p: float(p[node(f.source, "nut")].translation[2] - 0.4)},
+    ),
     "M25": ("g1", 0.0, {"driven gear deg (20:50)": link_angle("g2")}),
     "M26": ("pinion", 0.0, {"rack x = rp*theta": place("rack", 0)}),
-    "M27": ("sun", 0.0, {"carrier deg = 24/84*sun": link_angle("carrier"), "planet abs deg = (1-60/18)*carrier": link_angle("planet")}),
+    "M27": (
+        "sun",
+        0.0,
+        {
+            "carrier deg = 24/84*sun": link_angle("carrier"),
+            "planet abs deg = (1-60/18)*carrier": link_angle("planet"),
+        },
+    ),
     "M32": ("arm1", 35.0, {"platform height L sin": place("platform", 1)}),
 }
 ROWS = [r for r in table("closed_forms") if r["id"] in DRIVEN and r["quantity"] in DRIVEN[r["id"]][2]]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[f"{r['id']}-{r['quantity'].split()[0]}-{r['driver']}" for r in ROWS])
+@pytest.mark.parametrize(
+    "row", ROWS, ids=[f"{r['id']}-{r['quantity'].split()[0]}-{r['driver']}" for r in ROWS]
+)
 def test_driven_position_is_that_of_the_closed_form(row):
     """Turning the crank to the stated angle puts every part where trigonometry puts it, within 1e-9."""
     part, start, measures = DRIVEN[row["id"]]
@@ -76,7 +101,10 @@ def test_sarrus_platform_rises_as_twice_the_sine():
     for row in (r for r in table("closed_forms") if r["id"] == "M11"):
         drive = found.drive((joint(found, "base", "lo_x").id, RX))
         drive.to([-math.radians(float(row["driver"]) - 50.0)])
-        assert abs(drive.poses()[node(found.source, "platform")].translation[2] - float(row["value"])) < TOLERANCE
+        assert (
+            abs(drive.poses()[node(found.source, "platform")].translation[2] - float(row["value"]))
+            < TOLERANCE
+        )
 
 
 def test_bennett_output_follows_its_ratio_of_half_angle_tangents():
@@ -90,7 +118,9 @@ def test_bennett_output_follows_its_ratio_of_half_angle_tangents():
         one, two = (poses[node(found.source, name)].rotation for name in ("link1", "link2"))
         # link2's frame is link1's, twisted by alpha about x and turned by theta2 about the next axis
         alpha = math.radians(30.0)
-        twist = np.array([[1, 0, 0], [0, math.cos(alpha), -math.sin(alpha)], [0, math.sin(alpha), math.cos(alpha)]])
+        twist = np.array(
+            [[1, 0, 0], [0, math.cos(alpha), -math.sin(alpha)], [0, math.sin(alpha), math.cos(alpha)]]
+        )
         relative = (one @ twist).T @ two
         second = math.atan2(relative[1, 0], relative[0, 0])
         assert abs(math.remainder(second - math.radians(float(row["value"])), math.tau)) < TOLERANCE
@@ -100,7 +130,11 @@ def test_bennett_output_follows_its_ratio_of_half_angle_tangents():
 def test_cardan_output_angle_and_speed():
     """tan(out) = tan(in) cos(beta), and the speed ratio of its derivative."""
     found = analysed("M21")
-    ratio = {r["driver"]: float(r["value"]) for r in table("closed_forms") if r["id"] == "M21" and "ratio" in r["quantity"]}
+    ratio = {
+        r["driver"]: float(r["value"])
+        for r in table("closed_forms")
+        if r["id"] == "M21" and "ratio" in r["quantity"]
+    }
     for row in (r for r in table("closed_forms") if r["id"] == "M21" and "angle" in r["quantity"]):
         drive = found.drive((joint(found, "base", "in").id, RX))
         output = found.drive((joint(found, "base", "out").id, RX))
@@ -114,7 +148,10 @@ def test_cardan_output_angle_and_speed():
         for sign in (1.0, -1.0):
             drive.to([math.radians(float(row["driver"]) - 20.0) + sign * step])
             axis = np.array([math.cos(math.radians(30.0)), math.sin(math.radians(30.0)), 0.0])
-            out = drive.poses()[node(found.source, "out")].rotation @ found.source.nodes[node(found.source, "out")].pose.rotation.T
+            out = (
+                drive.poses()[node(found.source, "out")].rotation
+                @ found.source.nodes[node(found.source, "out")].pose.rotation.T
+            )
             vector = np.array([out[2, 1] - out[1, 2], out[0, 2] - out[2, 0], out[1, 0] - out[0, 1]])
             angles.append(math.atan2(axis @ vector, np.trace(out) - 1.0))
         assert abs((angles[0] - angles[1]) / (2 * step) - ratio[row["driver"]]) < 1e-7
@@ -126,13 +163,20 @@ def test_wedge_lowers_its_follower():
     row = next(r for r in table("closed_forms") if r["id"] == "M30")
     drive = found.drive((joint(found, "base", "wedge").id, TX))
     drive.to([float(row["driver"])])
-    assert abs(drive.poses()[node(found.source, "follower")].translation[1] - 0.3 - float(row["value"])) < TOLERANCE
+    assert (
+        abs(drive.poses()[node(found.source, "follower")].translation[1] - 0.3 - float(row["value"]))
+        < TOLERANCE
+    )
 
 
 def test_delta_platform_follows_its_three_arms():
     """Arms at 10, 25 and 40 degrees below the horizontal put the Delta's platform where three spheres meet."""
     found = analysed("M18")
-    expected = [float(r["value"]) for r in table("closed_forms") if r["id"] == "M18" and "(10, 25, 40)" in r["quantity"]]
+    expected = [
+        float(r["value"])
+        for r in table("closed_forms")
+        if r["id"] == "M18" and "(10, 25, 40)" in r["quantity"]
+    ]
     joints = [joint(found, "base", f"arm{k}") for k in range(3)]
     drive = found.drive(*[(j.id, RX) for j in joints])
     drive.to([math.radians(a - 30.0) for a in (10.0, 25.0, 40.0)])
@@ -149,9 +193,13 @@ def test_stewart_platform_follows_its_six_legs():
     signs = []
     for i, leg in enumerate(legs, start=1):
         poses = found.poses
-        out = poses[node(found.source, f"up{i}")].translation - poses[node(found.source, f"lo{i}")].translation
+        out = (
+            poses[node(found.source, f"up{i}")].translation - poses[node(found.source, f"lo{i}")].translation
+        )
         axis = (found.scene(solved=True).pose(leg.a) @ leg.frame_a).rotation[:, 0]
-        signs.append(math.copysign(1.0, axis @ out) * (1.0 if found.source.nodes[leg.b].name == f"up{i}" else -1.0))
+        signs.append(
+            math.copysign(1.0, axis @ out) * (1.0 if found.source.nodes[leg.b].name == f"up{i}" else -1.0)
+        )
     drive.to([s * (length - home) for s, length in zip(signs, lengths)])
     pose = drive.poses()[node(found.source, "platform")]
     z, y, x = (math.radians(a) for a in (12.0, -7.0, 5.0))

@@ -34,7 +34,11 @@ def components(found):
 
 
 def unity_pose(scene, node):
-    return (np.eye(3), np.zeros(3)) if node is None else unity_d6.mirrored(scene.pose(node).rotation, scene.pose(node).translation)
+    return (
+        (np.eye(3), np.zeros(3))
+        if node is None
+        else unity_d6.mirrored(scene.pose(node).rotation, scene.pose(node).translation)
+    )
 
 
 def chained(scene, parts, rng, reach):
@@ -47,7 +51,9 @@ def chained(scene, parts, rng, reach):
             if (own in moved) == (connected in moved):
                 left.append((own, connected, component))
                 continue
-            step = unity_d6.displaced(component, unity_pose(scene, own), unity_pose(scene, connected), rng, reach)
+            step = unity_d6.displaced(
+                component, unity_pose(scene, own), unity_pose(scene, connected), rng, reach
+            )
             r, t = unity_d6.mirrored(*step)
             if own in moved:  # the connected body moves the other way
                 own_r, own_t = moved[own]

@@ -24,8 +24,14 @@ R = 0.13
 def geometry(kind, frame: Pose, radius=0.0, half_angle=0.0):
     """A feature in the world: z of ``frame`` is its direction."""
     bare = kind in (F.POINT, F.SPHERE)
-    return (kind, frame.translation, None if bare else frame.rotation[:, 2], frame.rotation[:, 0] if kind is F.FRAME else None,
-            radius, half_angle)
+    return (
+        kind,
+        frame.translation,
+        None if bare else frame.rotation[:, 2],
+        frame.rotation[:, 0] if kind is F.FRAME else None,
+        radius,
+        half_angle,
+    )
 
 
 def shifted(frame: Pose, x=0.0, y=0.0, z=0.0, turn=None, about=2) -> Pose:
@@ -52,25 +58,60 @@ def case(elements, relation, rng):
     pair = tuple(F(e) if e != "body" else F.FRAME for e in elements)
     free = {
         "parallel": (C.PARALLEL, f, shifted(f, 0.3, 0.2, 0.5, spin), {}),
-        "perpendicular": (C.PERPENDICULAR, f, z_towards(shifted(f, 0.3, 0.2, 0.5), (math.cos(1.1), math.sin(1.1), 0.0)), {}),
+        "perpendicular": (
+            C.PERPENDICULAR,
+            f,
+            z_towards(shifted(f, 0.3, 0.2, 0.5), (math.cos(1.1), math.sin(1.1), 0.0)),
+            {},
+        ),
         "angle": (C.ANGLE, f, tilted, {"value": 0.6}),
     }
     by_pair = {
-        (("point", "point"), "coincident"): (C.COINCIDENT, f, Pose(random_pose(rng).rotation, f.translation), {}),
+        (("point", "point"), "coincident"): (
+            C.COINCIDENT,
+            f,
+            Pose(random_pose(rng).rotation, f.translation),
+            {},
+        ),
         (("point", "point"), "distance"): (C.DISTANCE, f, shifted(f, 0.3), {"value": 0.3}),
         (("line", "point"), "coincident"): (C.COINCIDENT, f, slid, {}),
         (("line", "point"), "distance"): (C.DISTANCE, f, shifted(f, x=0.3, z=0.2), {"value": 0.3}),
         (("plane", "point"), "coincident"): (C.COINCIDENT, f, in_plane, {}),
         (("plane", "point"), "distance"): (C.DISTANCE, f, shifted(f, 0.2, 0.1, -0.3), {"value": 0.3}),
         (("line", "line"), "coincident"): (C.COINCIDENT, f, slid, {}),
-        (("line", "line"), "intersect"): (C.DISTANCE, f, z_towards(shifted(f, z=0.3), (0.6, 0.0, 0.8)), {"value": 0.0, "reading": {"line_line_distance": "skew"}}),
-        (("line", "line"), "distance (skew)"): (C.DISTANCE, f, z_towards(shifted(f, y=0.3, z=0.2), (0.6, 0.0, 0.8)), {"value": 0.3}),
-        (("line", "line"), "distance (parallel)"): (C.DISTANCE, f, shifted(f, 0.3, 0.0, 0.2, spin), {"value": 0.3}),
+        (("line", "line"), "intersect"): (
+            C.DISTANCE,
+            f,
+            z_towards(shifted(f, z=0.3), (0.6, 0.0, 0.8)),
+            {"value": 0.0, "reading": {"line_line_distance": "skew"}},
+        ),
+        (("line", "line"), "distance (skew)"): (
+            C.DISTANCE,
+            f,
+            z_towards(shifted(f, y=0.3, z=0.2), (0.6, 0.0, 0.8)),
+            {"value": 0.3},
+        ),
+        (("line", "line"), "distance (parallel)"): (
+            C.DISTANCE,
+            f,
+            shifted(f, 0.3, 0.0, 0.2, spin),
+            {"value": 0.3},
+        ),
         (("plane", "line"), "coincident"): (C.COINCIDENT, f, lying, {}),
-        (("plane", "line"), "parallel"): (C.PARALLEL, f, z_towards(shifted(f, 0, 0, 0.4), (0.6, 0.8, 0.0)), {}),
+        (("plane", "line"), "parallel"): (
+            C.PARALLEL,
+            f,
+            z_towards(shifted(f, 0, 0, 0.4), (0.6, 0.8, 0.0)),
+            {},
+        ),
         (("plane", "line"), "angle"): (C.ANGLE, f, tilted, {"value": math.pi / 2 - 0.6}),
         (("plane", "line"), "perpendicular"): (C.PERPENDICULAR, f, shifted(f, 0.1, 0.2, 0.3, spin), {}),
-        (("plane", "line"), "distance"): (C.DISTANCE, f, z_towards(shifted(f, 0, 0, 0.3), (0.6, 0.8, 0.0)), {"value": 0.3}),
+        (("plane", "line"), "distance"): (
+            C.DISTANCE,
+            f,
+            z_towards(shifted(f, 0, 0, 0.3), (0.6, 0.8, 0.0)),
+            {"value": 0.3},
+        ),
         (("plane", "plane"), "mate/flush (coincident)"): (C.COINCIDENT, f, in_plane, {}),
         (("plane", "plane"), "distance"): (C.DISTANCE, f, shifted(in_plane, z=0.3), {"value": 0.3}),
         (("plane", "sphere"), "tangent"): (C.TANGENT, f, shifted(f, 0.2, 0.1, R), {}),
@@ -78,24 +119,57 @@ def case(elements, relation, rng):
         (("sphere", "sphere"), "concentric"): (C.CONCENTRIC, f, f, {}),
         (("cylinder", "sphere"), "tangent"): (C.TANGENT, f, shifted(f, 2 * R, 0.0, 0.4), {}),
         (("cylinder", "sphere"), "concentric"): (C.CONCENTRIC, f, slid, {}),
-        (("plane", "cylinder"), "tangent"): (C.TANGENT, f, z_towards(shifted(f, 0.2, 0.1, R), (0.6, 0.8, 0.0)), {}),
-        (("cylinder", "cylinder"), "tangent (parallel)"): (C.TANGENT, f, shifted(f, 2 * R, 0.0, 0.4, spin), {}),
-        (("cylinder", "cylinder"), "tangent (skew)"): (C.TANGENT, f, z_towards(shifted(f, 0.0, 2 * R, 0.4), (0.6, 0.0, 0.8)), {}),
+        (("plane", "cylinder"), "tangent"): (
+            C.TANGENT,
+            f,
+            z_towards(shifted(f, 0.2, 0.1, R), (0.6, 0.8, 0.0)),
+            {},
+        ),
+        (("cylinder", "cylinder"), "tangent (parallel)"): (
+            C.TANGENT,
+            f,
+            shifted(f, 2 * R, 0.0, 0.4, spin),
+            {},
+        ),
+        (("cylinder", "cylinder"), "tangent (skew)"): (
+            C.TANGENT,
+            f,
+            z_towards(shifted(f, 0.0, 2 * R, 0.4), (0.6, 0.0, 0.8)),
+            {},
+        ),
         (("plane", "cone"), "tangent"): (C.TANGENT, f, z_towards(f, (math.cos(0.4), 0.0, math.sin(0.4))), {}),
-        (("plane", "circle"), "tangent (edge)"): (C.TANGENT, f, z_towards(shifted(f, 0.1, 0.2, R * math.sin(0.7)), (math.sin(0.7), 0.0, math.cos(0.7))), {}),
+        (("plane", "circle"), "tangent (edge)"): (
+            C.TANGENT,
+            f,
+            z_towards(shifted(f, 0.1, 0.2, R * math.sin(0.7)), (math.sin(0.7), 0.0, math.cos(0.7))),
+            {},
+        ),
         (("cylinder", "cylinder"), "concentric"): (C.CONCENTRIC, f, slid, {}),
         (("circle", "circle"), "concentric"): (C.CONCENTRIC, f, slid, {}),
         (("circle", "circle"), "insert"): (C.INSERT, f, shifted(f, turn=spin), {}),
-        (("circle", "circle"), "insert + lock rotation"): (C.INSERT, f, shifted(f, turn=spin), {"lock_rotation": True}),
+        (("circle", "circle"), "insert + lock rotation"): (
+            C.INSERT,
+            f,
+            shifted(f, turn=spin),
+            {"lock_rotation": True},
+        ),
         (("body", "body"), "lock/rigid/fastened"): (C.LOCK, f, f, {}),
-        (("body", "body"), "lock orientation"): (C.LOCK_ORIENTATION, f, Pose(f.rotation, f.translation + 0.3), {}),
+        (("body", "body"), "lock orientation"): (
+            C.LOCK_ORIENTATION,
+            f,
+            Pose(f.rotation, f.translation + 0.3),
+            {},
+        ),
         (("body", "body"), "slider"): (C.SLIDER, f, shifted(f, z=0.3), {}),
         (("body", "body"), "pin-slot"): (C.PIN_SLOT, f, shifted(f, x=0.3, turn=spin), {}),
         (("body", "body"), "universal"): (C.UNIVERSAL, f, z_towards(f, (0.6, 0.8, 0.0)), {}),
         (("body", "body"), "screw"): (C.SCREW, f, f, {"value": 0.05}),
     }
     kind, a, b, fields = by_pair.get((tuple(elements), relation)) or free[relation.split()[0]]
-    sized = [geometry(k, p, R if k in (F.SPHERE, F.CYLINDER, F.CIRCLE) else 0.0, 0.4 if k is F.CONE else 0.0) for k, p in zip(pair, (a, b))]
+    sized = [
+        geometry(k, p, R if k in (F.SPHERE, F.CYLINDER, F.CIRCLE) else 0.0, 0.4 if k is F.CONE else 0.0)
+        for k, p in zip(pair, (a, b))
+    ]
     return kind, *sized, fields
 
 
@@ -159,7 +233,14 @@ def test_coupled_rows_have_the_right_derivative_too(seed):
     kind = [C.GEAR, C.RACK, C.LINEAR, C.SYMMETRY][int(rng.integers(4))]
     if kind is C.SYMMETRY:
         mirrored = f.point(np.array([0.3, 0.1, -0.2]))
-        scene = scene_with(kind, geometry(F.POINT, shifted(f, 0.3, 0.1, 0.2)), geometry(F.POINT, Pose(f.rotation, mirrored)), {}, rng, geometry(F.PLANE, f))
+        scene = scene_with(
+            kind,
+            geometry(F.POINT, shifted(f, 0.3, 0.1, 0.2)),
+            geometry(F.POINT, Pose(f.rotation, mirrored)),
+            {},
+            rng,
+            geometry(F.PLANE, f),
+        )
     else:
         scene = scene_with(kind, geometry(F.LINE, f), geometry(F.LINE, other), {"value": -0.4}, rng)
     check_derivative(scene, rng)
@@ -181,7 +262,9 @@ def check_derivative(scene, rng):
             twist = np.zeros((1, 6))
             twist[0, i] = step
             one = np.array([body])
-            difference = system.residual(system.moved(state, one, twist)) - system.residual(system.moved(state, one, -twist))
+            difference = system.residual(system.moved(state, one, twist)) - system.residual(
+                system.moved(state, one, -twist)
+            )
             assert np.abs(difference / (2 * step) - jacobian[:, body, i]).max() < 1e-7
 
 
@@ -201,7 +284,9 @@ def test_one_vendors_distance_of_lines_is_three_rows_and_anothers_one():
 def test_tangent_spheres_touch_from_the_stated_side(side, apart):
     """Spheres of 0.3 and 0.2 touch outside at 0.5 and inside at 0.1."""
     f = Pose(np.eye(3), np.array([0.1, 0.2, 0.3]))
-    scene = scene_with(C.TANGENT, geometry(F.SPHERE, f, 0.3), geometry(F.SPHERE, shifted(f, apart), 0.2), {"side": side})
+    scene = scene_with(
+        C.TANGENT, geometry(F.SPHERE, f, 0.3), geometry(F.SPHERE, shifted(f, apart), 0.2), {"side": side}
+    )
     found = analyse(scene)
     assert found.gaps == [] and found.mobility == 5
 
@@ -212,5 +297,11 @@ def test_angle_zero_between_axes_needs_a_reference_or_a_common_axis():
     x_axis = z_towards(f, (1, 0, 0))
     bare = scene_with(C.ANGLE, geometry(F.PLANE, x_axis), geometry(F.PLANE, x_axis), {"value": 0.0})
     assert equations_of(bare, Report()).system.rows == 2
-    with_vector = scene_with(C.ANGLE, geometry(F.PLANE, x_axis), geometry(F.PLANE, x_axis), {"value": 0.0}, third=geometry(F.LINE, f))
+    with_vector = scene_with(
+        C.ANGLE,
+        geometry(F.PLANE, x_axis),
+        geometry(F.PLANE, x_axis),
+        {"value": 0.0},
+        third=geometry(F.LINE, f),
+    )
     assert equations_of(with_vector, Report()).system.rows == 1

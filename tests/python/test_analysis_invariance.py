@@ -25,8 +25,16 @@ def summary(found) -> tuple:
     """What must not change: the counts, and each part's freedoms and each joint's kind."""
     names = Counter(j.kind.value for j in found.joints if not j.closure)
     freedoms = sorted((len(f.translations), len(f.rotations)) for f in found.freedoms)
-    return (found.mobility, found.first_order, found.rows, found.rank, len(found.joints),
-            sum(j.closure for j in found.joints), freedoms, sorted(names.items()))
+    return (
+        found.mobility,
+        found.first_order,
+        found.rows,
+        found.rank,
+        len(found.joints),
+        sum(j.closure for j in found.joints),
+        freedoms,
+        sorted(names.items()),
+    )
 
 
 def transformed(source: Scene, by: Pose, scale: float = 1.0) -> Scene:
@@ -36,8 +44,15 @@ def transformed(source: Scene, by: Pose, scale: float = 1.0) -> Scene:
         return replace(f, point=f.point * scale, radius=f.radius * scale)
 
     def constraint(c: Constraint) -> Constraint:
-        length = c.kind in (ConstraintKind.DISTANCE, ConstraintKind.SCREW, ConstraintKind.RACK, ConstraintKind.INSERT)
-        return replace(c, features=tuple(map(feature, c.features)), value=c.value * (scale if length else 1.0))
+        length = c.kind in (
+            ConstraintKind.DISTANCE,
+            ConstraintKind.SCREW,
+            ConstraintKind.RACK,
+            ConstraintKind.INSERT,
+        )
+        return replace(
+            c, features=tuple(map(feature, c.features)), value=c.value * (scale if length else 1.0)
+        )
 
     nodes = [replace(n, pose=by @ Pose(n.pose.rotation, n.pose.translation * scale)) for n in source.nodes]
     return replace(source, nodes=nodes, constraints=[constraint(c) for c in source.constraints])
@@ -52,11 +67,14 @@ def reordered(source: Scene, rng) -> Scene:
         replace(c, id=f"c{k}", features=tuple(replace(f, node=number[f.node]) for f in c.features))
         for k, c in enumerate(source.constraints)
     ]
-    return replace(source, nodes=nodes, constraints=[constraints[i] for i in rng.permutation(len(constraints))])
+    return replace(
+        source, nodes=nodes, constraints=[constraints[i] for i in rng.permutation(len(constraints))]
+    )
 
 
 def swapped(source: Scene) -> Scene:
     """The two sides of each constraint exchanged, where they mean the same."""
+
     def turn(c: Constraint) -> Constraint:
         if c.kind in SENSITIVE:
             return c
@@ -68,7 +86,15 @@ def swapped(source: Scene) -> Scene:
 def shaken(source: Scene, size: float, rng) -> Scene:
     """Every pose but ground's with an error of ``size`` (metres, radians)."""
     nodes = [
-        n if n.grounded else replace(n, pose=Pose(rotation_exp(size * rng.uniform(-1, 1, 3)) @ n.pose.rotation, n.pose.translation + size * rng.uniform(-1, 1, 3)))
+        n
+        if n.grounded
+        else replace(
+            n,
+            pose=Pose(
+                rotation_exp(size * rng.uniform(-1, 1, 3)) @ n.pose.rotation,
+                n.pose.translation + size * rng.uniform(-1, 1, 3),
+            ),
+        )
         for n in source.nodes
     ]
     return replace(source, nodes=nodes)
@@ -88,7 +114,9 @@ def test_names_and_order_change_nothing(id, seed):
     """Renaming and re-ordering parts and constraints leaves the counts, freedoms and kinds of joints."""
     found, expected = analyse(reordered(scene(id), np.random.default_rng(seed))), analysed(id)
     assert summary(found)[:7] == summary(expected)[:7]
-    assert Counter(j.kind for j in found.joints if not j.closure).total() == len([j for j in expected.joints if not j.closure])
+    assert Counter(j.kind for j in found.joints if not j.closure).total() == len(
+        [j for j in expected.joints if not j.closure]
+    )
 
 
 @settings(max_examples=20, deadline=None)
@@ -99,7 +127,12 @@ def test_swapped_sides_change_nothing(id):
 
 
 @settings(max_examples=20, deadline=None)
-@given(st.sampled_from([f"P{i:02d}" for i in range(1, 31)] + ["M01", "M04", "M09", "M11", "M12", "M14", "M21", "M32"]), seeds)
+@given(
+    st.sampled_from(
+        [f"P{i:02d}" for i in range(1, 31)] + ["M01", "M04", "M09", "M11", "M12", "M14", "M21", "M32"]
+    ),
+    seeds,
+)
 def test_noise_of_a_millionth_changes_no_class(id, seed):
     """Poses rounded to 1e-6 give the same classes, and no gap is worth reporting."""
     rng = np.random.default_rng(seed)
@@ -142,5 +175,3 @@ def test_solving_moves_parts_to_the_nearest_closed_pose():
     assert again.worst_gap[0] < 1e-12 and again.worst_gap[1] < 1e-9
     for before, after in zip(found.source.nodes, solved.nodes):
         assert np.linalg.norm(before.pose.translation - after.pose.translation) < 5e-3
-
-

@@ -35,8 +35,17 @@ def test_crank_that_turns_all_round_has_no_limits_and_its_rocker_has():
     """M01: the crank turns fully; the rocker's inner angle (from the ground line) swings between 51.31781255
     (coupler over crank) and 125.09963220 degrees (coupler and crank in line)."""
     found, by_joint = ranges("M01")
-    folded, extended = (float(r["value"]) for word in ("folded", "extended") for r in table("closed_forms") if word in r["quantity"])
-    start = next(float(r["value"]) for r in table("closed_forms") if r["id"] == "M01" and "rocker" in r["quantity"] and r["driver"] == "60")
+    folded, extended = (
+        float(r["value"])
+        for word in ("folded", "extended")
+        for r in table("closed_forms")
+        if word in r["quantity"]
+    )
+    start = next(
+        float(r["value"])
+        for r in table("closed_forms")
+        if r["id"] == "M01" and "rocker" in r["quantity"] and r["driver"] == "60"
+    )
     assert math.isinf(by_joint["base - crank"].upper)
     rocker = by_joint["base - rocker"]
     assert math.degrees(rocker.lower) + start == pytest.approx(180.0 - extended, abs=1e-6)
@@ -44,7 +53,10 @@ def test_crank_that_turns_all_round_has_no_limits_and_its_rocker_has():
     assert next(j for j in found.joints if j.id == "base - crank").freedoms[3].motion is Motion.FREE
 
 
-@pytest.mark.parametrize(("id", "slide", "stroke"), [("M07", "base - slider", 1.0), ("M08", "base - slider", 1.01017898), ("M09", "base - sliderD", 0.5)])
+@pytest.mark.parametrize(
+    ("id", "slide", "stroke"),
+    [("M07", "base - slider", 1.0), ("M08", "base - slider", 1.01017898), ("M09", "base - sliderD", 0.5)],
+)
 def test_slider_stroke_is_that_of_the_closed_form(id, slide, stroke):
     """Crank radius twice, more with an offset; the lever's slider runs from 0.65 to 1.15."""
     found = ranges(id)[1][slide]

@@ -12,7 +12,16 @@ EXPECTED = table("mobility")
 def test_rows_rank_and_mobility_are_those_of_the_table(row):
     """Rows, rank, redundancy, first-order and finite mobility agree with the independent computation."""
     found = analysed(row["id"])
-    bodies = len([g for g, grounded in zip(found.assembly.stated.members, found.assembly.stated.grounded) if not grounded]) + 1
+    bodies = (
+        len(
+            [
+                g
+                for g, grounded in zip(found.assembly.stated.members, found.assembly.stated.grounded)
+                if not grounded
+            ]
+        )
+        + 1
+    )
     assert (bodies, found.rows, found.rank, found.first_order, found.redundant, found.mobility) == tuple(
         int(row[key]) for key in ("bodies", "rows", "rank", "first_order", "redundant", "finite")
     )
@@ -28,7 +37,11 @@ def test_each_part_has_the_freedoms_of_the_table(row):
     left = {found.source.nodes[f.node].name: f.dof for f in found.freedoms}
     for entry in row["freedoms"].split():
         name, dof = entry.split("=")
-        parts = [n for n in left if n == name or n.startswith(name) and n[len(name):].strip("_abxy0123456789") == ""]
+        parts = [
+            n
+            for n in left
+            if n == name or n.startswith(name) and n[len(name) :].strip("_abxy0123456789") == ""
+        ]
         assert parts and all(left[n] == int(dof) for n in parts), (name, left)
 
 
@@ -39,7 +52,9 @@ def test_leg_spins_are_idle_freedoms():
     assert analysed("M14").idle == []
 
 
-@pytest.mark.parametrize(("id", "loops"), [("M01", 1), ("M06", 2), ("M09", 1), ("M14", 5), ("M19", 5), ("M32", 2), ("M40", 40)])
+@pytest.mark.parametrize(
+    ("id", "loops"), [("M01", 1), ("M06", 2), ("M09", 1), ("M14", 5), ("M19", 5), ("M32", 2), ("M40", 40)]
+)
 def test_loops_are_joints_minus_moving_bodies(id, loops):
     """One closing joint for each independent loop."""
     found = analysed(id)

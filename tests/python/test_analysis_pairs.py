@@ -68,7 +68,10 @@ def test_pair_has_its_class_axis_anchor_and_rank(id):
         off = [value - wanted for value, wanted in zip(frame.translation, anchor) if wanted is not None]
         assert np.abs(off).max() < 1e-9
     b = found.scene(solved=True).pose(joint.b) @ joint.frame_b
-    assert np.abs(b.rotation - frame.rotation).max() < 1e-12 and np.abs(b.translation - frame.translation).max() < 1e-12
+    assert (
+        np.abs(b.rotation - frame.rotation).max() < 1e-12
+        and np.abs(b.translation - frame.translation).max() < 1e-12
+    )
 
 
 def test_a_rod_is_not_a_point_on_a_plane():
@@ -109,5 +112,9 @@ def test_every_joint_names_its_constraints():
     """``because`` of a joint holds every constraint of its pair, and nothing else."""
     assert analysed("P09").joints[0].because == ("insert:1", "insert:2")
     assert {name for j in analysed("M09").joints for name in j.because} == {
-        "insert:1", "insert:6", "insert:7", "coincident:8", "coincident:9"
+        "insert:1",
+        "insert:6",
+        "insert:7",
+        "coincident:8",
+        "coincident:9",
     }

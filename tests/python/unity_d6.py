@@ -38,7 +38,9 @@ def frame(component: dict):
         y = np.eye(3)[np.argmin(np.abs(x))]
         y = y - x * (x @ y)
     y = y / np.linalg.norm(y)
-    return np.column_stack([x, y, np.cross(x, y)]), np.asarray(component.get("anchor", (0, 0, 0)), dtype=float)
+    return np.column_stack([x, y, np.cross(x, y)]), np.asarray(
+        component.get("anchor", (0, 0, 0)), dtype=float
+    )
 
 
 def about(axis: int, angle: float):

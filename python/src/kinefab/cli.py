@@ -16,7 +16,7 @@ import typer
 
 from . import __version__
 from .diagnostics import KinefabError, Report, Severity, report_document
-from .options import DEFAULT_DENSITY, ColliderShape, ExportOptions
+from .options import DEFAULT_DENSITY, Closures, ColliderShape, ExportOptions
 
 if TYPE_CHECKING:
     from .pipeline import ExportResult
@@ -58,6 +58,9 @@ def export(
     report: Optional[Path] = typer.Option(None, "--report", help="Write every finding to this JSON file."),
     colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", help="Collider of each body."),
     density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
+    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", help="Equations of loop-closing joints to write."),
+    solve: bool = typer.Option(False, "--solve", help="Move the parts to the nearest pose that fits the constraints."),
+    limits: bool = typer.Option(False, "--limits", help="Search how far joints can move and write it as limits."),
 ) -> None:
     """Export a CAD assembly as a Unity scene."""
     if not density > 0.0 or density == float("inf"):
@@ -70,7 +73,7 @@ def export(
     reasons = 0
     try:
         with _progress_bar() as progress:
-            result = run(source, output, ExportOptions(colliders, density, strict), progress)
+            result = run(source, output, ExportOptions(colliders, density, strict, closures, solve, limits), progress)
         found = result.report
     except KinefabError as error:
         found, reasons = error.report or Report(list(error.diagnostics)), len(error.diagnostics)
@@ -83,6 +86,32 @@ def export(
         raise typer.Exit(1)
     if _verbosity >= 0:
         typer.echo(_summary(result), err=True)
+
+
+@app.command()
+def analyse(
+    source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
+    as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
+    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", help="Equations of loop-closing joints to keep."),
+    limits: bool = typer.Option(False, "--limits", help="Search how far joints can move."),
+) -> None:
+    """Show what an assembly's constraints leave free, and which joint connects what."""
+    from .analysis import AnalysisOptions
+    from .analysis import analyse as run
+    from .analysis.summary import document, table
+    from .sources import read
+
+    found = Report()
+    try:
+        analysis = run(read(source, found), AnalysisOptions(closures, limits))
+    except KinefabError as error:
+        _log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1)
+    found.extend(analysis.report)
+    _log(found)
+    typer.echo(json.dumps(document(analysis), indent=2, ensure_ascii=False) if as_json else table(analysis))
+    if found.of(Severity.ERROR):
+        raise typer.Exit(1)
 
 
 @app.command()

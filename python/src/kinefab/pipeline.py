@@ -1,4 +1,4 @@
-"""The export, read like a sentence: read, load the geometry, weigh, group, map to Unity, write."""
+"""The export, read like a sentence: read, load the geometry, weigh, analyse, map to Unity, write."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Callable
 
+from .analysis import AnalysisOptions, analyse
+from .analysis.summary import scene_entry
 from .diagnostics import KinefabError, Outcome, Report, Severity, diagnostic
 from .geometry.hulls import collision_hulls
 from .geometry.loading import MeshFiles, load_geometry
@@ -51,9 +53,16 @@ def export(
         scene = load_geometry(scene, files, report, progress)
         scene = weigh(scene, options.density, report)
         report.raise_for_errors()
-        groups = rigid_groups(scene)
-        scene = replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, groups, report)])
-        document = build_document(scene, groups, _colliders(scene, groups, options.colliders, report), report)
+        progress("analyse", 0.0)
+        scene = replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, rigid_groups(scene), report)])
+        found = analyse(scene, AnalysisOptions(options.closures, options.limits))
+        report.extend(found.report)
+        report.raise_for_errors()
+        scene = found.scene(options.solve)
+        groups = rigid_groups(scene, found.fixed)
+        progress("analyse", 1.0)
+        colliders = _colliders(scene, groups, options.colliders, report)
+        document = build_document(scene, groups, colliders, report, scene_entry(found))
         _refuse_losses(report, options.strict)
         buffer = _write(document, Path(target), progress)
     except KinefabError as error:

@@ -1,6 +1,7 @@
 """From constraints to freedoms, to the joint between any two parts."""
 
-from .analyse import AnalysisOptions, Closures, analyse
+from ..options import Closures
+from .analyse import AnalysisOptions, analyse
 from .result import Analysis, Island, NodeFreedom
 
 __all__ = ["Analysis", "AnalysisOptions", "Closures", "Island", "NodeFreedom", "analyse"]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import Scene
+from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly import Assembly, assemble
 from .couplings import couplings_of
@@ -20,13 +20,6 @@ from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
 from .ranges import with_ranges
 from .result import Analysis, Island
-
-
-class Closures(str, Enum):
-    """How a loop-closing joint is written: whole, or with its independent rows only."""
-
-    EXACT = "exact"
-    MINIMAL = "minimal"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +59,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         fixed=fixed,
         islands=_islands(assembly, tree),
         idle=idle_freedoms(assembly),
-        joints=[link.joint for link in links],
+        joints=[*(link.joint for link in links), *found.aside],
         couplings=couplings,
         nodes=found.nodes,
         poses=assembly.poses,
@@ -149,12 +142,19 @@ def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         key = int(island[first.bodies[0]])
         if key in counts:
-            for k, value in enumerate((finite.mobility, first.mobility, len(first.rows), len(first.rows) - first.rank)):
+            for k, value in enumerate(
+                (finite.mobility, first.mobility, len(first.rows), len(first.rows) - first.rank)
+            ):
                 counts[key][k] += value
     return [
         Island(
-            tuple(nodes), counts[key][0] + (6 if key in floating else 0), counts[key][1] + (6 if key in floating else 0),
-            counts[key][2], counts[key][3], loops[key], key in floating,
+            tuple(nodes),
+            counts[key][0] + (6 if key in floating else 0),
+            counts[key][1] + (6 if key in floating else 0),
+            counts[key][2],
+            counts[key][3],
+            loops[key],
+            key in floating,
         )
         for key, nodes in nodes_of.items()
     ]
@@ -163,8 +163,14 @@ def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
 def _report_singular(assembly: Assembly, report: Report) -> None:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         if finite.mobility < first.mobility:
-            nodes = [n.id for i, n in enumerate(assembly.scene.nodes) if int(assembly.body[i + 1]) in first.bodies[:4]]
-            report.add("MECHANISM_SINGULAR", parts=", ".join(nodes[:4]), first=first.mobility, finite=finite.mobility)
+            nodes = [
+                n.id
+                for i, n in enumerate(assembly.scene.nodes)
+                if int(assembly.body[i + 1]) in first.bodies[:4]
+            ]
+            report.add(
+                "MECHANISM_SINGULAR", parts=", ".join(nodes[:4]), first=first.mobility, finite=finite.mobility
+            )
 
 
 def _report_outcomes(assembly: Assembly, analysis: Analysis, report: Report) -> None:
@@ -174,4 +180,3 @@ def _report_outcomes(assembly: Assembly, analysis: Analysis, report: Report) -> 
         feature = f"constraint {constraint.id}"
         if not constraint.suppressed and feature not in said:
             report.kept(feature, constraint.where)
-

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Scene
+from ..model import Joint, Scene
 from ..rigid import RigidGroups
 from ..spatial import Array, Pose
 from .blocks import Blocks, blocks_of, edges_of, relative_system
@@ -76,8 +76,9 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     closing = closed(equations, body, report)
     system, duplicates = without_duplicates(closing.system, equations, report)
     counted = system.rows
+    breakable = np.array([_can_break(s) for s in equations.statements], dtype=bool)
     while True:
-        body, system = _merge_rigid_pairs(body, system, equations.length)
+        body, system = _merge_rigid_pairs(body, system, breakable, equations.length)
         edges = edges_of(system)
         blocks = blocks_of(system.bodies, edges)
         relative = relative_system(system, blocks)
@@ -86,7 +87,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
         start = relative.start()
         freedoms = block_freedoms(solver, start)
         finite = finite_freedoms(solver, freedoms, start)
-        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges)
+        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges, breakable)
         if together is None:
             break
         body, system = together[body], _merged(system, together)
@@ -94,8 +95,21 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     system.row_length = relative.row_length
     pairs = pairs_of(system)
     return Assembly(
-        scene, equations, stated, closing, duplicates, counted, body, system, pairs, blocks, relative, solver, start,
-        freedoms, finite,
+        scene,
+        equations,
+        stated,
+        closing,
+        duplicates,
+        counted,
+        body,
+        system,
+        pairs,
+        blocks,
+        relative,
+        solver,
+        start,
+        freedoms,
+        finite,
     )
 
 
@@ -104,7 +118,14 @@ def _merged(system: System, label: np.ndarray) -> System:
     return merged.select(merged.joining())
 
 
-def _merge_rigid_pairs(body: np.ndarray, system: System, length: float) -> tuple[np.ndarray, System]:
+def _can_break(statement: object) -> bool:
+    """A joint that may break keeps its two bodies apart, however rigid it is."""
+    return isinstance(statement, Joint) and min(statement.break_force, statement.break_torque) < np.inf
+
+
+def _merge_rigid_pairs(
+    body: np.ndarray, system: System, breakable: np.ndarray, length: float
+) -> tuple[np.ndarray, System]:
     """Merge bodies whose common rows leave nothing, and again, until none are left."""
     while True:
         system.length = np.full(system.bodies, length)
@@ -113,6 +134,7 @@ def _merge_rigid_pairs(body: np.ndarray, system: System, length: float) -> tuple
             return body, system
         rows, _, _ = relative_rows(system, pairs, system.start())
         rank = batched_null_spaces(rows, pairs.row_pair, len(pairs))[0]
+        rank[pairs.row_pair[breakable[system.owner] & (pairs.row_pair >= 0)]] = 0
         rigid = np.flatnonzero(rank == 6)
         if not len(rigid):
             return body, system
@@ -123,8 +145,16 @@ def _merge_rigid_pairs(body: np.ndarray, system: System, length: float) -> tuple
         body, system = label[body], _merged(system, label)
 
 
-def _moving_as_one(relative: System, solver: Solver, start: State, freedoms: list[BlockFreedom],
-                   finite: list[FiniteFreedom], blocks: Blocks, edges: np.ndarray) -> np.ndarray | None:
+def _moving_as_one(
+    relative: System,
+    solver: Solver,
+    start: State,
+    freedoms: list[BlockFreedom],
+    finite: list[FiniteFreedom],
+    blocks: Blocks,
+    edges: np.ndarray,
+    breakable: np.ndarray,
+) -> np.ndarray | None:
     """New body numbers that merge what a block's loops hold together, or None where there is nothing.
 
     Equal twists are not enough at a dead centre, where a crank's velocity vanishes and its motion does
@@ -138,6 +168,8 @@ def _moving_as_one(relative: System, solver: Solver, start: State, freedoms: lis
         neighbours.setdefault(j, set()).add(i)
     found = False
     for part, (first, last) in enumerate(zip(freedoms, finite)):
+        if breakable[relative.owner[first.rows]].any():
+            continue
         root = int(blocks.root[blocks.block[first.bodies[0]]])
         if last.mobility == 0:
             groups = [np.concatenate([[root], first.bodies])]

@@ -48,7 +48,9 @@ def edges_of(system: System) -> np.ndarray:
         by_row: dict[int, set[int]] = {}
         for atom in atoms:
             by_row.setdefault(int(system.row[atom]), set()).update((int(low[atom]), int(high[atom])))
-        extra = [(i, j) for bodies in by_row.values() if len(bodies) > 2 for i in bodies for j in bodies if i < j]
+        extra = [
+            (i, j) for bodies in by_row.values() if len(bodies) > 2 for i in bodies for j in bodies if i < j
+        ]
         if extra:
             pairs.append(np.array(extra))
     return np.unique(np.concatenate(pairs), axis=0)

@@ -13,7 +13,7 @@ from typing import Iterable, Iterator
 
 import numpy as np
 
-from ..model import FREE, LOCKED, RX, RZ, TX, TY, TZ, JointKind
+from ..model import FREE, LOCKED, RX, RZ, TX, TY, JointKind
 from ..spatial import Array, frame_from_axes
 from .finite import Candidate
 from .twists import TwistSpace, revolving_point
@@ -98,7 +98,11 @@ def _turning_twice(space: TwistSpace, geometry: Geometry, length: float) -> Iter
             yield from _both_orders(JointKind.LINE_IN_PLANE, axes, geometry.points)
         return
     kind = {0: JointKind.UNIVERSAL, 1: JointKind.GENERAL, 3: JointKind.PERPENDICULAR}[space.t]
-    points = geometry.points if space.center is None or space.t else np.concatenate([space.center[None], geometry.points])
+    points = (
+        geometry.points
+        if space.center is None or space.t
+        else np.concatenate([space.center[None], geometry.points])
+    )
     for first_is_a in (True, False):
         on_a, on_b = (geometry.first, geometry.second) if first_is_a else (geometry.second, geometry.first)
         for z in _within(on_a, normal):
@@ -128,10 +132,14 @@ def _turning_freely(space: TwistSpace, geometry: Geometry, length: float) -> Ite
         if space.center is not None:
             yield Candidate(JointKind.SPHERICAL, np.eye(3), space.center)
     elif space.t == 1:
-        yield from _both_orders(JointKind.POINT_ON_LINE, frame_from_axes(space.translations[0]), geometry.points)
+        yield from _both_orders(
+            JointKind.POINT_ON_LINE, frame_from_axes(space.translations[0]), geometry.points
+        )
     else:
         x, y = space.translations
-        yield from _both_orders(JointKind.POINT_ON_PLANE, np.column_stack([x, y, np.cross(x, y)]), geometry.points)
+        yield from _both_orders(
+            JointKind.POINT_ON_PLANE, np.column_stack([x, y, np.cross(x, y)]), geometry.points
+        )
 
 
 _OFFERS = {0: _sliding, 1: _turning_once, 2: _turning_twice, 3: _turning_freely}
@@ -156,6 +164,3 @@ def _within(directions: Array, normal: Array) -> Iterable[Array]:
         if abs(d @ normal) < ALIGNED and not any(np.linalg.norm(np.cross(d, e)) < ALIGNED for e in seen):
             seen.append(d)
     return seen
-
-
-__all__ = ["Candidate", "Geometry", "candidates", "TZ"]

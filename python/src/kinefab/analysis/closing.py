@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Constraint, ConstraintKind, Sense
+from ..model import Constraint, ConstraintKind, Joint, Sense
 from ..spatial import Array, Pose
 from .atoms import Atom
 from .blocks import blocks_of, edges_of, relative_system
@@ -30,6 +30,7 @@ class Gap:
     metres: float
     degrees: float
     where: str = ""
+    of_joint: bool = False
 
 
 @dataclass(slots=True, eq=False)
@@ -73,11 +74,21 @@ def closed(equations: Equations, body: np.ndarray, report: Report) -> Closing:
     residual = relative.residual(start)
     gaps, worst = _gaps(relative, residual, equations)
     for gap in gaps:
-        report.add("CONSTRAINT_GAP", gap.where, id=gap.constraint, metres=f"{gap.metres:.4g}", degrees=f"{gap.degrees:.4g}")
+        if gap.of_joint:
+            continue  # the export says how far an explicit joint's frames are apart
+        report.add(
+            "CONSTRAINT_GAP",
+            gap.where,
+            id=gap.constraint,
+            metres=f"{gap.metres:.4g}",
+            degrees=f"{gap.degrees:.4g}",
+        )
     if np.abs(residual).max(initial=0.0) > TIGHT:
         state, left = solver.project(start)
         for part in np.flatnonzero(left > ABSORBED):
-            contradictory += _contradiction(relative, solver, part, relative.residual(state), equations, report)
+            contradictory += _contradiction(
+                relative, solver, part, relative.residual(state), equations, report
+            )
         rotation, translation = relative.displacement(state)
         for i in blocks.order:
             if blocks.block[i] >= 0:
@@ -97,8 +108,12 @@ def _displaced(system: System, rotation: Array, translation: Array) -> System:
 
     a, b = system.body_a, system.body_b
     return replace(
-        system, p_a=point(a, system.p_a), a=direction(a, system.a), k=direction(a, system.k),
-        p_b=point(b, system.p_b), b=direction(b, system.b),
+        system,
+        p_a=point(a, system.p_a),
+        a=direction(a, system.a),
+        k=direction(a, system.k),
+        p_b=point(b, system.p_b),
+        b=direction(b, system.b),
     )
 
 
@@ -109,14 +124,26 @@ def _gaps(system: System, residual: Array, equations: Equations) -> tuple[list[G
     by_metres, by_degrees, scaled = np.zeros(count), np.zeros(count), np.zeros(count)
     np.maximum.at(by_metres, system.owner, metres)
     np.maximum.at(by_degrees, system.owner, degrees)
-    np.maximum.at(scaled, system.owner, np.maximum(np.where(system.is_length, np.abs(residual), 0.0), np.radians(degrees)))
+    np.maximum.at(
+        scaled,
+        system.owner,
+        np.maximum(np.where(system.is_length, np.abs(residual), 0.0), np.radians(degrees)),
+    )
     wrong = _wrong_way_round(system, equations)
     for i in wrong:
         by_degrees[i], scaled[i] = 180.0, np.pi
     gaps = []
     for i in np.flatnonzero(scaled > ABSORBED):
         statement = equations.statements[i]
-        gaps.append(Gap(statement.id, float(by_metres[i]), float(by_degrees[i]), statement.where))
+        gaps.append(
+            Gap(
+                statement.id,
+                float(by_metres[i]),
+                float(by_degrees[i]),
+                statement.where,
+                isinstance(statement, Joint),
+            )
+        )
     return gaps, (float(by_metres.max(initial=0.0)), float(by_degrees.max(initial=0.0)))
 
 
@@ -132,8 +159,13 @@ def _angles(system: System, residual: Array) -> Array:
     return angle
 
 
-_SENSED = (ConstraintKind.COINCIDENT, ConstraintKind.CONCENTRIC, ConstraintKind.INSERT, ConstraintKind.PARALLEL,
-           ConstraintKind.DISTANCE)
+_SENSED = (
+    ConstraintKind.COINCIDENT,
+    ConstraintKind.CONCENTRIC,
+    ConstraintKind.INSERT,
+    ConstraintKind.PARALLEL,
+    ConstraintKind.DISTANCE,
+)
 
 
 def _wrong_way_round(system: System, equations: Equations) -> list[int]:
@@ -144,7 +176,11 @@ def _wrong_way_round(system: System, equations: Equations) -> list[int]:
     wrong = []
     for i, sign in equations.directions.items():
         statement = equations.statements[i]
-        if isinstance(statement, Constraint) and statement.kind in _SENSED and statement.sense is not Sense.EITHER:
+        if (
+            isinstance(statement, Constraint)
+            and statement.kind in _SENSED
+            and statement.sense is not Sense.EITHER
+        ):
             if sign * (1.0 if statement.sense is Sense.ALIGNED else -1.0) < 0.0:
                 wrong.append(i)
     return wrong
@@ -156,19 +192,27 @@ def _held_fast(system: System, equations: Equations, report: Report) -> list[str
     fast = ~system.joining() & (residual > ABSORBED)
     names = _names(system.owner[fast], equations)
     if names:
-        report.add("CONSTRAINTS_CONTRADICT", names=", ".join(names[:MOST_NAMES]), gap=f"{residual[fast].max():.3g}")
+        report.add(
+            "CONSTRAINTS_CONTRADICT", names=", ".join(names[:MOST_NAMES]), gap=f"{residual[fast].max():.3g}"
+        )
     return names
 
 
-def _contradiction(system: System, solver: Solver, part: int, residual: Array, equations: Equations, report: Report) -> list[str]:
+def _contradiction(
+    system: System, solver: Solver, part: int, residual: Array, equations: Equations, report: Report
+) -> list[str]:
     """The constraints of a part that pull against each other.
 
     At a least-squares pose J' r = 0: the residual is itself a state of self-stress, and the constraints
     that carry it are the ones that cannot hold together.
     """
-    mine = (solver.row_part == part) & (np.abs(residual) > 0.01 * np.abs(residual[solver.row_part == part]).max())
+    mine = (solver.row_part == part) & (
+        np.abs(residual) > 0.01 * np.abs(residual[solver.row_part == part]).max()
+    )
     names = _names(system.owner[mine], equations)
-    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
+    shown = ", ".join(names[:MOST_NAMES]) + (
+        f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    )
     report.add("CONSTRAINTS_CONTRADICT", names=shown, gap=f"{np.abs(residual[mine]).max():.3g}")
     return names
 

@@ -13,18 +13,14 @@ from typing import Callable, Mapping
 
 import numpy as np
 
-from ..model import Constraint, ConstraintKind, FeatureKind, Sense, Side as Surface
+from ..model import Constraint, ConstraintKind, FeatureKind
 from ..spatial import Array
 from .atoms import Atom
-from .features import family
+from .coupled import coupled, screw
+from .distances import PARALLEL_SINE, apart, lines_apart, off_line
+from .features import UnknownPairing, need_directions, plain_family
 from .rows import Rows, Side
-
-PARALLEL_SINE = 1e-3
-"""Below this sine two directions of the exported pose count as meant to be parallel."""
-
-
-class UnknownPairing(Exception):
-    """There are no equations for this verb between these features."""
+from .tangency import tangent
 
 
 @dataclass(slots=True)
@@ -62,15 +58,10 @@ def build(rows: Rows, constraint: Constraint, sides: list[Side], context: Contex
 
 def _ordered(a: Side, b: Side, *order: str) -> tuple[Side, Side, tuple[str, str]]:
     """The two sides so that the first one's family stands earlier in ``order``."""
-    fa, fb = (_plain(s) for s in (a, b))
+    fa, fb = (plain_family(s) for s in (a, b))
     if order.index(fa) <= order.index(fb):
         return a, b, (fa, fb)
     return b, a, (fb, fa)
-
-
-def _plain(side: Side) -> str:
-    name = family(side.kind)
-    return "line" if name == "frame" else name
 
 
 def _ranged(c: Constraint) -> bool:
@@ -81,7 +72,9 @@ def _nearest_sign(value: float, measured: float) -> float:
     return value if abs(measured - value) <= abs(measured + value) else -value
 
 
-def _offset(rows: Rows, c: Constraint, plane: Side, other: Side, context: Context, value: float | None = None) -> None:
+def _offset(
+    rows: Rows, c: Constraint, plane: Side, other: Side, context: Context, value: float | None = None
+) -> None:
     """A signed distance along the plane's normal: an equation, or a range that is only noted."""
     measured = float(plane.z @ (other.p - plane.p))
     if _ranged(c):
@@ -137,7 +130,9 @@ def _perpendicular(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Cont
         rows.dot(first, first.z, second, second.z)
 
 
-def _angle(rows: Rows, c: Constraint, a: Side, b: Side, reference: Side | None = None, *, context: Context) -> None:
+def _angle(
+    rows: Rows, c: Constraint, a: Side, b: Side, reference: Side | None = None, *, context: Context
+) -> None:
     first, second, pair = _ordered(a, b, "plane", "line", "point")
     if "point" in pair:
         raise UnknownPairing
@@ -180,101 +175,15 @@ def _distance(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) 
     elif _ranged(c):
         raise UnknownPairing
     elif pair == ("point", "point"):
-        _apart(rows, first, second, abs(c.value))
+        apart(rows, first, second, abs(c.value))
     elif pair == ("line", "point"):
-        _off_line(rows, first, second, abs(c.value))
+        off_line(rows, first, second, abs(c.value))
     else:
-        _lines_apart(rows, first, second, abs(c.value), c.reading.get("line_line_distance"))
-
-
-def _apart(rows: Rows, a: Side, b: Side, d: float) -> None:
-    if d == 0.0:
-        rows.point(a, b)
-    else:
-        rows.atom(rows.row(True), Atom.DIST, a.body, b.body, p_a=a.p, p_b=b.p, d=d)
-
-
-def _off_line(rows: Rows, line: Side, point: Side, d: float) -> None:
-    if d == 0.0:
-        rows.on_line(line, point)
-    else:
-        rows.atom(rows.row(True), Atom.PLD, line.body, point.body, p_a=line.p, dir_a=line.z, p_b=point.p, d=d)
-
-
-def _lines_apart(rows: Rows, a: Side, b: Side, d: float, reading: str | None) -> None:
-    normal = np.cross(a.z, b.z)
-    if reading is None:
-        reading = "parallel" if np.linalg.norm(normal) < PARALLEL_SINE else "skew"
-    if reading == "parallel":
-        rows.parallel(a, b)
-        _off_line(rows, a, b, d)
-    else:
-        measured = float(normal @ (b.p - a.p))
-        rows.atom(
-            rows.row(True), Atom.LLD, a.body, b.body,
-            p_a=a.p, dir_a=a.z, p_b=b.p, dir_b=b.z, d=math.copysign(d, measured),
-        )
-
-
-def _tangent(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    order = (FeatureKind.PLANE, FeatureKind.CYLINDER, FeatureKind.LINE, FeatureKind.CONE,
-             FeatureKind.CIRCLE, FeatureKind.SPHERE, FeatureKind.POINT)
-    if a.kind not in order or b.kind not in order:
-        raise UnknownPairing
-    first, second = (a, b) if order.index(a.kind) <= order.index(b.kind) else (b, a)
-    kinds = (_plain(first), second.kind)
-    height = float(first.z @ (second.p - first.p))
-    if first.kind is FeatureKind.PLANE and second.kind in (FeatureKind.SPHERE, FeatureKind.POINT):
-        rows.plane(first, first.z, second, _side_of_plane(c, second.radius, height))
-    elif first.kind is FeatureKind.PLANE and second.kind in (FeatureKind.CYLINDER, FeatureKind.LINE):
-        rows.dot(first, first.z, second, second.z)
-        rows.plane(first, first.z, second, _side_of_plane(c, second.radius, height))
-    elif first.kind is FeatureKind.PLANE and second.kind is FeatureKind.CONE:
-        # the plane holds the apex and a generator: n.axis = +-sin(half angle)
-        sine = math.copysign(math.sin(second.half_angle), float(first.z @ second.z))
-        rows.dot(first, first.z, second, second.z, sine)
-        rows.plane(first, first.z, second)
-    elif first.kind is FeatureKind.PLANE and second.kind is FeatureKind.CIRCLE:
-        rows.atom(
-            rows.row(True), Atom.CPT, first.body, second.body, p_a=first.p, dir_a=first.z,
-            k=second.x * second.radius, p_b=second.p, dir_b=second.z, d=_side_of_plane(c, 1.0, height),
-        )
-    elif kinds == ("line", FeatureKind.SPHERE) or kinds == ("line", FeatureKind.POINT):
-        offset = second.p - first.p
-        measured = float(np.linalg.norm(offset - first.z * (offset @ first.z)))
-        _off_line(rows, first, second, _radii(c, first.radius, second.radius, measured))
-    elif {first.kind, second.kind} <= {FeatureKind.CYLINDER, FeatureKind.LINE}:
-        normal = np.cross(first.z, second.z)
-        size = float(np.linalg.norm(normal))
-        offset = second.p - first.p
-        reading = c.reading.get("tangent_cylinders") or ("parallel" if size < PARALLEL_SINE else "skew")
-        if reading == "parallel":
-            measured = float(np.linalg.norm(offset - first.z * (offset @ first.z)))
-        else:
-            measured = abs(float(normal @ offset)) / max(size, PARALLEL_SINE)
-        _lines_apart(rows, first, second, _radii(c, first.radius, second.radius, measured), reading)
-    elif {first.kind, second.kind} <= {FeatureKind.SPHERE, FeatureKind.POINT}:
-        measured = float(np.linalg.norm(second.p - first.p))
-        _apart(rows, first, second, _radii(c, first.radius, second.radius, measured))
-    else:
-        raise UnknownPairing
-
-
-def _side_of_plane(c: Constraint, radius: float, height: float) -> float:
-    if c.side is Surface.EITHER:
-        return math.copysign(radius, height)
-    return radius if c.side is Surface.OUTSIDE else -radius
-
-
-def _radii(c: Constraint, first: float, second: float, measured: float) -> float:
-    outside, inside = first + second, abs(first - second)
-    if c.side is Surface.EITHER:
-        return outside if abs(measured - outside) <= abs(measured - inside) else inside
-    return outside if c.side is Surface.OUTSIDE else inside
+        lines_apart(rows, first, second, abs(c.value), c.reading.get("line_line_distance"))
 
 
 def _insert(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    if "point" in (_plain(a), _plain(b)):
+    if "point" in (plain_family(a), plain_family(b)):
         raise UnknownPairing
     rows.parallel(a, b)
     rows.on_line(a, b)
@@ -311,15 +220,15 @@ def _lock(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> N
 
 
 def _concentric(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    if "plane" in (_plain(a), _plain(b)):
+    if "plane" in (plain_family(a), plain_family(b)):
         raise UnknownPairing
     _coincident(rows, c, a, b, context=context)
-    if c.lock_rotation and _plain(a) == _plain(b) == "line":
+    if c.lock_rotation and plain_family(a) == plain_family(b) == "line":
         _lock_spin(rows, a, b)
 
 
 def _slider(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    _need_lines(a, b)
+    need_directions(a, b)
     rows.parallel(a, b)
     _lock_spin(rows, a, b)
     rows.on_line(a, b)
@@ -327,7 +236,7 @@ def _slider(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) ->
 
 def _pin_slot(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
     """a: the slot, along its direction (or its secondary, where the direction is the pin's); b: the pin."""
-    _need_lines(a, b)
+    need_directions(a, b)
     slot = a.z if abs(a.z @ b.z) < 0.5 else a.x
     normal = b.z - slot * (slot @ b.z)
     normal /= np.linalg.norm(normal)
@@ -339,39 +248,14 @@ def _pin_slot(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) 
 
 
 def _universal(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    _need_lines(a, b)
+    need_directions(a, b)
     rows.point(a, b)
     rows.dot(a, a.z, b, b.z)
 
 
-def _screw(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
-    _need_lines(a, b)
-    rows.parallel(a, b)
-    rows.on_line(a, b)
-    # C = z - lead/(2 pi) theta - const: one axial translation per turn, counted from the exported pose
-    row = rows.row(True)
-    slide(rows, row, a, b, 1.0)
-    spin(rows, row, a, b, -c.value / math.tau)
-
-
-def slide(rows: Rows, row: int, a: Side, b: Side, weight: float) -> None:
-    """weight * (translation of b along a's direction since the exported pose), added to a row."""
-    rows.atom(row, Atom.PIP, a.body, b.body, p_a=a.p, dir_a=a.z, p_b=b.p, d=float(a.z @ (b.p - a.p)), weight=weight)
-
-
-def spin(rows: Rows, row: int, a: Side, b: Side, weight: float) -> None:
-    """weight * (rotation of b about a's direction since the exported pose), added to a row."""
-    rows.atom(row, Atom.ANG, a.body, b.body, dir_a=a.x, k=a.z, p_b=b.p, dir_b=a.x, d=0.0, weight=weight)
-
-
-def _need_lines(*sides: Side) -> None:
-    if any(_plain(s) == "point" for s in sides):
-        raise UnknownPairing
-
-
 def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, context: Context) -> None:
     """b is the mirror image of a in the plane (Householder H = I - 2 n n', n fixed on the plane's body)."""
-    if plane.kind is not FeatureKind.PLANE or _plain(a) != _plain(b):
+    if plane.kind is not FeatureKind.PLANE or plain_family(a) != plain_family(b):
         raise UnknownPairing
 
     def mirrored_offset(direction: Array, point_a: Side, point_b: Side) -> None:
@@ -379,7 +263,9 @@ def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, conte
         row = rows.row(True)
         image = direction - 2.0 * plane.z * (plane.z @ direction)
         rows.atom(row, Atom.PIP, plane.body, point_b.body, p_a=plane.p, dir_a=direction, p_b=point_b.p)
-        rows.atom(row, Atom.PIP, plane.body, point_a.body, p_a=plane.p, dir_a=image, p_b=point_a.p, weight=-1.0)
+        rows.atom(
+            row, Atom.PIP, plane.body, point_a.body, p_a=plane.p, dir_a=image, p_b=point_a.p, weight=-1.0
+        )
 
     def mirrored_direction(direction: Array, sense: float) -> None:
         # C = e.z_b - sense (H e).z_a
@@ -388,23 +274,11 @@ def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, conte
         rows.atom(row, Atom.DOT, plane.body, b.body, dir_a=direction, p_b=b.p, dir_b=b.z)
         rows.atom(row, Atom.DOT, plane.body, a.body, dir_a=image, p_b=a.p, dir_b=a.z, weight=-sense)
 
-    if _plain(a) == "point":
+    if plain_family(a) == "point":
         for direction in (plane.z, plane.x, plane.y):
             mirrored_offset(direction, a, b)
         return
     raise UnknownPairing
-
-
-def _coupled(rows: Rows, c: Constraint, a: Side, b: Side, carrier: Side | None = None, *, context: Context) -> None:
-    """q_b = value * q_a, counted from the exported pose; the axes are carried by ``carrier`` (ground)."""
-    _need_lines(a, b)
-    body = carrier.body if carrier is not None else 0
-    turning = {ConstraintKind.GEAR: (spin, spin), ConstraintKind.BELT: (spin, spin),
-               ConstraintKind.RACK: (spin, slide), ConstraintKind.LINEAR: (slide, slide)}[c.kind]
-    row = rows.row(turning[1] is slide)
-    for coordinate, side, weight in ((turning[0], a, -c.value), (turning[1], b, 1.0)):
-        fixed = Side(body, side.p, side.z, side.x, side.y)
-        coordinate(rows, row, fixed, side, weight)
 
 
 _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
@@ -414,7 +288,7 @@ _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
     ConstraintKind.PERPENDICULAR: _perpendicular,
     ConstraintKind.ANGLE: _angle,
     ConstraintKind.DISTANCE: _distance,
-    ConstraintKind.TANGENT: _tangent,
+    ConstraintKind.TANGENT: tangent,
     ConstraintKind.INSERT: _insert,
     ConstraintKind.SYMMETRY: _symmetry,
     ConstraintKind.LOCK: _lock,
@@ -422,9 +296,9 @@ _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
     ConstraintKind.SLIDER: _slider,
     ConstraintKind.PIN_SLOT: _pin_slot,
     ConstraintKind.UNIVERSAL: _universal,
-    ConstraintKind.SCREW: _screw,
-    ConstraintKind.GEAR: _coupled,
-    ConstraintKind.BELT: _coupled,
-    ConstraintKind.RACK: _coupled,
-    ConstraintKind.LINEAR: _coupled,
+    ConstraintKind.SCREW: screw,
+    ConstraintKind.GEAR: coupled,
+    ConstraintKind.BELT: coupled,
+    ConstraintKind.RACK: coupled,
+    ConstraintKind.LINEAR: coupled,
 }

@@ -35,14 +35,28 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
             end = _coordinate(assembly, by_pair, scene, feature, carrier, first)
             if end is None:
                 part = "ground" if feature.node is None else scene.nodes[feature.node].id
-                report.dropped(f"constraint {statement.id}", "COUPLING_UNPLACED", statement.where, id=statement.id, part=part)
+                report.dropped(
+                    f"constraint {statement.id}",
+                    "COUPLING_UNPLACED",
+                    statement.where,
+                    id=statement.id,
+                    part=part,
+                )
                 break
             ends.append(end)
         else:
             (joint_a, freedom_a, sign_a), (joint_b, freedom_b, sign_b) = ends
             found.append(
-                Coupling(statement.id, kind, joint_a, freedom_a, joint_b, freedom_b,
-                         statement.value * sign_a * sign_b, where=statement.where)
+                Coupling(
+                    statement.id,
+                    kind,
+                    joint_a,
+                    freedom_a,
+                    joint_b,
+                    freedom_b,
+                    statement.value * sign_a * sign_b,
+                    where=statement.where,
+                )
             )
     return found
 

@@ -43,8 +43,10 @@ def without_duplicates(system: System, equations: Equations, report: Report) -> 
         else:
             names = ", ".join(equations.statements[i].id for i in doubles)
             report.add(
-                "JOINT_CONSTRAINTS_DISAGREE", equations.statements[speaker].where,
-                joint=equations.statements[speaker].id, constraints=names,
+                "JOINT_CONSTRAINTS_DISAGREE",
+                equations.statements[speaker].where,
+                joint=equations.statements[speaker].id,
+                constraints=names,
                 more=int(both[pair] - alone[pair]),
             )
     return system.select(kept), left_out

@@ -49,7 +49,13 @@ def effective(assembly: Assembly, body_a: int, body_b: int) -> Effective:
     for candidate in candidates(space, Geometry(point[None], np.zeros((0, 3)), np.zeros((0, 3))), length):
         if candidate.dof == basis.shape[1]:
             stays = _stays(assembly, body_a, body_b, candidate, length)
-            return Effective(candidate.kind if stays else JointKind.GENERAL, basis.shape[1], candidate.axes, candidate.origin, not stays)
+            return Effective(
+                candidate.kind if stays else JointKind.GENERAL,
+                basis.shape[1],
+                candidate.axes,
+                candidate.origin,
+                not stays,
+            )
     return Effective(JointKind.GENERAL, basis.shape[1], np.eye(3), origin, _has_pole(space))
 
 

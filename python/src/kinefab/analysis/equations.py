@@ -8,13 +8,23 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import (
-    RX, RY, RZ, TX,
-    Constraint, ConstraintKind, Coupling, FeatureKind, Joint, JointKind, Motion, Scene,
+    RX,
+    RY,
+    RZ,
+    TX,
+    Constraint,
+    ConstraintKind,
+    Coupling,
+    FeatureKind,
+    Joint,
+    JointKind,
+    Motion,
+    Scene,
 )
 from .atoms import Atom
-from .constraints import Context, RangedCoordinate, UnknownPairing, build
-from .features import sides_of
-from .rows import NOWHERE, Rows, Side, has_direction
+from .constraints import Context, RangedCoordinate, build
+from .features import UnknownPairing, sides_of
+from .rows import Rows, Side, has_direction
 from .system import System
 
 NEEDED_FEATURES = {ConstraintKind.SYMMETRY: 3, ConstraintKind.GROUND: 0}
@@ -64,8 +74,12 @@ def equations_of(scene: Scene, report: Report) -> Equations:
         except UnknownPairing:
             names = " and ".join(f.kind.value for f in constraint.features)
             report.dropped(
-                f"constraint {constraint.id}", "CONSTRAINT_PAIRING_UNKNOWN", constraint.where,
-                id=constraint.id, kind=constraint.kind.value, features=names,
+                f"constraint {constraint.id}",
+                "CONSTRAINT_PAIRING_UNKNOWN",
+                constraint.where,
+                id=constraint.id,
+                kind=constraint.kind.value,
+                features=names,
             )
     by_id = {}
     for joint in scene.joints:
@@ -111,7 +125,10 @@ def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
             report.dropped(feature, "CONSTRAINT_NODE_MISSING", c.where, id=c.id, node=f.node)
             return False
         numbers = [f.point] + [v for v in (f.direction, f.secondary) if v is not None]
-        if not all(np.all(np.isfinite(v)) for v in numbers) or not np.isfinite([c.value, f.radius, f.half_angle]).all():
+        if (
+            not all(np.all(np.isfinite(v)) for v in numbers)
+            or not np.isfinite([c.value, f.radius, f.half_angle]).all()
+        ):
             report.dropped(feature, "CONSTRAINT_NOT_FINITE", c.where, id=c.id)
             return False
         if has_direction(f.kind) and (f.direction is None or not np.linalg.norm(f.direction) > 1e-12):
@@ -140,7 +157,9 @@ def joint_sides(joint: Joint, scene: Scene) -> tuple[Side, Side]:
     for node, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
         world = scene.pose(node) @ frame
         x, y, z = world.rotation.T
-        result.append(Side(0 if node is None else node + 1, world.translation, x, y, z, FeatureKind.FRAME, framed=True))
+        result.append(
+            Side(0 if node is None else node + 1, world.translation, x, y, z, FeatureKind.FRAME, framed=True)
+        )
     return result[0], result[1]
 
 
@@ -175,7 +194,9 @@ def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:
         coordinate(rows, row, a, b, RX, -joint.lead / (2.0 * np.pi))
 
 
-def coordinate(rows: Rows, row: int, a: Side, b: Side, freedom: int, weight: float, offset: float = 0.0) -> None:
+def coordinate(
+    rows: Rows, row: int, a: Side, b: Side, freedom: int, weight: float, offset: float = 0.0
+) -> None:
     """weight * (joint coordinate - offset), added to a row."""
     axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)
     i = freedom % 3
@@ -183,8 +204,18 @@ def coordinate(rows: Rows, row: int, a: Side, b: Side, freedom: int, weight: flo
         rows.atom(row, Atom.PIP, a.body, b.body, p_a=a.p, dir_a=axes_a[i], p_b=b.p, d=offset, weight=weight)
     else:
         across = (i + 1) % 3
-        rows.atom(row, Atom.ANG, a.body, b.body, dir_a=axes_a[across], k=axes_a[i], p_b=b.p,
-                  dir_b=axes_b[across], d=offset, weight=weight)
+        rows.atom(
+            row,
+            Atom.ANG,
+            a.body,
+            b.body,
+            dir_a=axes_a[across],
+            k=axes_a[i],
+            p_b=b.p,
+            dir_b=axes_b[across],
+            d=offset,
+            weight=weight,
+        )
 
 
 def _coupling_rows(rows: Rows, coupling: Coupling, by_id: dict[str, Joint], scene: Scene) -> None:
@@ -195,6 +226,3 @@ def _coupling_rows(rows: Rows, coupling: Coupling, by_id: dict[str, Joint], scen
     row = rows.row(coupling.freedom_b < RX)
     coordinate(rows, row, *joint_sides(second, scene), coupling.freedom_b, 1.0, coupling.offset)
     coordinate(rows, row, *joint_sides(first, scene), coupling.freedom_a, -coupling.ratio)
-
-
-__all__ = ["Equations", "equations_of", "joint_rows", "joint_sides", "coordinate", "NOWHERE"]

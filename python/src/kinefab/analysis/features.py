@@ -68,3 +68,19 @@ _FAMILY = {
     FeatureKind.FRAME: "frame",
     FeatureKind.PLANE: "plane",
 }
+
+
+def plain_family(side: Side) -> str:
+    """As ``family``, with a frame taken for its main axis."""
+    name = family(side.kind)
+    return "line" if name == "frame" else name
+
+
+class UnknownPairing(Exception):
+    """There are no equations for this verb between these features."""
+
+
+def need_directions(*sides: Side) -> None:
+    """Raise UnknownPairing when one of the sides is a point."""
+    if any(plain_family(s) == "point" for s in sides):
+        raise UnknownPairing

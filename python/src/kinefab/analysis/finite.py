@@ -88,8 +88,15 @@ def world_motions(candidate: Candidate, length: float, samples: int) -> tuple[Ar
     return rotation, shift
 
 
-def misfits(system: System, first: np.ndarray, second: np.ndarray, atom_pair: np.ndarray,
-            candidates: list[Candidate], lengths: Array, samples: int = SAMPLES) -> Array:
+def misfits(
+    system: System,
+    first: np.ndarray,
+    second: np.ndarray,
+    atom_pair: np.ndarray,
+    candidates: list[Candidate],
+    lengths: Array,
+    samples: int = SAMPLES,
+) -> Array:
     """Largest violation of each pair's rows over its candidate's motions, shape (pairs,).
 
     system: its atoms all join ``first[p]`` and ``second[p]`` of the pair p = ``atom_pair[atom]``, and its
@@ -121,8 +128,13 @@ def misfits(system: System, first: np.ndarray, second: np.ndarray, atom_pair: np
             at_a, at_b = (stay, move) if b_side else (move, stay)
             d = np.broadcast_to(system.d[atoms][:, None], (len(atoms), samples))
             value[atoms] = evaluate(
-                kind, at_a(system.p_a[atoms]), on_a(system.a[atoms]), on_a(system.k[atoms]),
-                at_b(system.p_b[atoms]), on_b(system.b[atoms]), d,
+                kind,
+                at_a(system.p_a[atoms]),
+                on_a(system.a[atoms]),
+                on_a(system.k[atoms]),
+                at_b(system.p_b[atoms]),
+                on_b(system.b[atoms]),
+                d,
             )[0]
     angles = system.kind == Atom.ANG
     value[angles] = np.remainder(value[angles] + np.pi, TURN) - np.pi

@@ -87,7 +87,9 @@ def large_null_space(system: System, state: State, bodies: np.ndarray, atoms: np
     loops = jacobian[rest] @ flat
     if len(rest) > at:
         loops = np.linalg.qr(loops, mode="r")
-    _, s, vt = np.linalg.svd(np.concatenate([loops, np.zeros((max(0, at - len(loops)), at))]), full_matrices=False)
+    _, s, vt = np.linalg.svd(
+        np.concatenate([loops, np.zeros((max(0, at - len(loops)), at))]), full_matrices=False
+    )
     rank, gap = rank_of(s)
     moving = np.linalg.qr(flat @ vt[int(rank) :].T)[0]
     return width - moving.shape[1], moving, float(gap)

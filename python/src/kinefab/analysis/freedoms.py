@@ -106,7 +106,11 @@ def check_records(assembly: Assembly, freedoms: list[NodeFreedom], report: Repor
         stated = (len(record.translations), len(record.rotations))
         if stated != (len(mine.translations), len(mine.rotations)):
             report.add(
-                "DOF_RECORD_DIFFERS", record.where, node=assembly.scene.nodes[record.node].id,
-                stated_t=stated[0], stated_r=stated[1],
-                found_t=len(mine.translations), found_r=len(mine.rotations),
+                "DOF_RECORD_DIFFERS",
+                record.where,
+                node=assembly.scene.nodes[record.node].id,
+                stated_t=stated[0],
+                stated_r=stated[1],
+                found_t=len(mine.translations),
+                found_r=len(mine.rotations),
             )

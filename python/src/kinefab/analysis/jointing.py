@@ -33,9 +33,11 @@ class Link:
 
 @dataclass(slots=True, eq=False)
 class Links:
-    """All joints of an assembly.  nodes: added middle bodies.  bodies: number of bodies with them."""
+    """All joints of an assembly.  nodes: added middle bodies.  bodies: number of bodies with them.
+    aside: explicit joints inside one body or without equations, which the export reports."""
 
     links: list[Link]
+    aside: list[Joint]
     nodes: list[Node]
     bodies: int
     relations: list[Relation]
@@ -69,18 +71,41 @@ class _Jointing:
                 body = assembly.body
                 a, b = (int(body[0 if n is None else n + 1]) for n in (joint.a, joint.b))
                 self.names.add(joint.id)
-                self.links.append(Link(a, b, replace(joint, because=tuple(dict.fromkeys([*joint.because, *self._doubled(joint)])))))
+                self.links.append(
+                    Link(
+                        a,
+                        b,
+                        replace(joint, because=tuple(dict.fromkeys([*joint.because, *self._doubled(joint)]))),
+                    )
+                )
                 continue
             if len(names) >= MANY:
                 a, b = (self._label(body) for body in (relation.first, relation.second))
-                self.report.add("CONSTRAINTS_MANY", count=len(names), a=a, b=b, first=names[0], last=names[-1])
+                self.report.add(
+                    "CONSTRAINTS_MANY", count=len(names), a=a, b=b, first=names[0], last=names[-1]
+                )
             if not relation.sure:
-                self.report.add("PAIR_RANK_UNCERTAIN", names=", ".join(names[:12]), rank=relation.rank, gap=f"{relation.gap:.3g}")
+                self.report.add(
+                    "PAIR_RANK_UNCERTAIN",
+                    names=", ".join(names[:12]),
+                    rank=relation.rank,
+                    gap=f"{relation.gap:.3g}",
+                )
             if relation.joint is None:
                 self._resolve(relation)
             if relation.joint is not None:
                 self._add(relation.first, relation.second, relation.joint, relation, names)
-        return Links(self.links, self.nodes, system.bodies + len(self.nodes), relations)
+        return Links(
+            self.links, self._aside(relations), self.nodes, system.bodies + len(self.nodes), relations
+        )
+
+    def _aside(self, relations: list[Relation]) -> list[Joint]:
+        spoken = {int(o) for r in relations for o in np.unique(self.assembly.system.owner[r.rows])}
+        return [
+            s
+            for i, s in enumerate(self.assembly.equations.statements)
+            if isinstance(s, Joint) and i not in spoken
+        ]
 
     def _explicit(self, relation: Relation) -> Joint | None:
         """The source's own joint, where it alone makes the relation."""
@@ -158,7 +183,12 @@ class _Jointing:
         v = finite.tangent[:3] * alone.length[1] / relation.length + np.cross(finite.tangent[3:].T, arm).T
         basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
         relation.space = twist_space(basis, relation.origin, relation.length)
-        pairs = Pairs(np.array([0]), np.array([1]), np.zeros(alone.rows, dtype=np.int64), np.zeros(len(alone.kind), dtype=np.int64))
+        pairs = Pairs(
+            np.array([0]),
+            np.array([1]),
+            np.zeros(alone.rows, dtype=np.int64),
+            np.zeros(len(alone.kind), dtype=np.int64),
+        )
         local = replace(relation, first=0, second=1, rows=np.arange(alone.rows))
         find_joints(alone, pairs, [local], alone.residual(start))
         relation.joint, relation.misfit, relation.tried = local.joint, local.misfit, local.tried
@@ -168,15 +198,23 @@ class _Jointing:
         if relation.tried:
             relation.joint = relation.tried[-1]
             self.report.approximated(
-                f"constraint {names}", "RELATION_APPROXIMATED", names=names,
-                kind=relation.joint.kind.value, misfit=f"{relation.misfit:.2g}",
+                f"constraint {names}",
+                "RELATION_APPROXIMATED",
+                names=names,
+                kind=relation.joint.kind.value,
+                misfit=f"{relation.misfit:.2g}",
             )
         else:
             self.report.dropped(f"constraint {names}", "RELATION_DROPPED", names=names)
 
     def _middle_node(self, near: Array, far: Array, name: str) -> int:
         self.nodes.append(
-            Node(self._unique(f"middle:{name}"), f"middle {name}", pose=Pose(np.eye(3), 0.5 * (near + far)), visible=False)
+            Node(
+                self._unique(f"middle:{name}"),
+                f"middle {name}",
+                pose=Pose(np.eye(3), 0.5 * (near + far)),
+                visible=False,
+            )
         )
         return self.assembly.system.bodies + len(self.nodes) - 1
 
@@ -187,7 +225,9 @@ class _Jointing:
         self.names.add(candidate)
         return candidate
 
-    def _add(self, first: int, second: int, candidate: Candidate, relation: Relation, names: list[str]) -> None:
+    def _add(
+        self, first: int, second: int, candidate: Candidate, relation: Relation, names: list[str]
+    ) -> None:
         """Write a candidate between two bodies as a joint of the model."""
         bodies = (first, second)
         first_is_a = candidate.first_is_a
@@ -202,9 +242,16 @@ class _Jointing:
         world = Pose(axes, candidate.origin)
         node_a, node_b = self._node(a, relation), self._node(b, relation)
         joint = Joint(
-            self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}"), candidate.kind, node_a, node_b,
-            self._pose(node_a).inverse() @ world, self._pose(node_b).inverse() @ world, candidate.six,
-            lead=candidate.lead, because=tuple(names), where=self.where.get(names[0], ""),
+            self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}"),
+            candidate.kind,
+            node_a,
+            node_b,
+            self._pose(node_a).inverse() @ world,
+            self._pose(node_b).inverse() @ world,
+            candidate.six,
+            lead=candidate.lead,
+            because=tuple(names),
+            where=self.where.get(names[0], ""),
         )
         self.links.append(Link(a, b, joint))
 

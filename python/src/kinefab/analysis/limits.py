@@ -64,7 +64,11 @@ def found_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Re
         bodies = set(first.bodies.tolist())
         if len(bodies) < 2:
             continue
-        inside = [l for l in links if _in_block(assembly, l, bodies) and _single(l) is not None and not l.joint.closure]
+        inside = [
+            l
+            for l in links
+            if _in_block(assembly, l, bodies) and _single(l) is not None and not l.joint.closure
+        ]
         if not inside:
             continue
         if finite.mobility != 1:
@@ -76,7 +80,9 @@ def found_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Re
     return ranges
 
 
-def with_found_ranges(assembly: Assembly, links: list[Link], ranges: list[JointRange], report: Report) -> list[Link]:
+def with_found_ranges(
+    assembly: Assembly, links: list[Link], ranges: list[JointRange], report: Report
+) -> list[Link]:
     """The links with the ranges of the joints on each block's root as limits, where the source has none."""
     by_id = {(r.joint, r.freedom): r for r in ranges}
     roots = {int(r) for r in assembly.blocks.root}
@@ -88,11 +94,19 @@ def with_found_ranges(assembly: Assembly, links: list[Link], ranges: list[JointR
             result.append(link)
             continue
         unit, factor = ("degrees", math.degrees(1.0)) if freedom >= RX else ("m", 1.0)
-        report.add("LIMITS_FOUND", link.joint.where, joint=link.joint.id, unit=unit,
-                   lower=f"{found.lower * factor:.6f}", upper=f"{found.upper * factor:.6f}")
+        report.add(
+            "LIMITS_FOUND",
+            link.joint.where,
+            joint=link.joint.id,
+            unit=unit,
+            lower=f"{found.lower * factor:.6f}",
+            upper=f"{found.upper * factor:.6f}",
+        )
         freedoms = list(link.joint.freedoms)
         old = freedoms[freedom]
-        freedoms[freedom] = Freedom(Motion.LIMITED, max(found.lower, old.lower), min(found.upper, old.upper), old.drive)
+        freedoms[freedom] = Freedom(
+            Motion.LIMITED, max(found.lower, old.lower), min(found.upper, old.upper), old.drive
+        )
         result.append(replace_link(link, freedoms=tuple(freedoms)))
     return result
 
@@ -112,7 +126,9 @@ def _in_block(assembly: Assembly, link: Link, bodies: set[int]) -> bool:
 class _Curve:
     """The poses of one block with one freedom, followed from the exported one both ways."""
 
-    def __init__(self, assembly: Assembly, rows: np.ndarray, bodies: np.ndarray, links: list[Link], scene: Scene):
+    def __init__(
+        self, assembly: Assembly, rows: np.ndarray, bodies: np.ndarray, links: list[Link], scene: Scene
+    ):
         self.system: System = assembly.relative.select(rows)
         self.solver = Solver(self.system)
         self.bodies = bodies
@@ -136,7 +152,9 @@ class _Curve:
             if came_round:
                 break
         return [
-            JointRange(l.joint.id, f, *((-math.inf, math.inf) if endless[i] else (float(low[i]), float(high[i]))))
+            JointRange(
+                l.joint.id, f, *((-math.inf, math.inf) if endless[i] else (float(low[i]), float(high[i])))
+            )
             for i, (l, f) in enumerate(zip(self.links, self.freedoms))
         ]
 
@@ -214,11 +232,14 @@ class _Curve:
     def _back(self, state: State) -> bool:
         """Whether every body is where it began, within a step."""
         turn = np.abs(state.rotation[self.bodies] - self.start.rotation[self.bodies]).max()
-        shift = np.abs((state.shift - self.start.shift)[self.bodies] / self.system.length[self.bodies, None]).max()
+        shift = np.abs(
+            (state.shift - self.start.shift)[self.bodies] / self.system.length[self.bodies, None]
+        ).max()
         return max(turn, shift) < STEP
 
     def _turning_point(self, state: State, tangent: Array, step: float, i: int) -> float:
         """The coordinate where its rate vanishes between two poses."""
+
         def rate(s: float) -> float:
             there = self._moved(state, tangent, s)
             return float(self._coordinates(there, self._tangent(there, tangent))[1][i])
@@ -232,8 +253,11 @@ class _Curve:
         hits = []
         for i, (link, freedom) in enumerate(zip(self.links, self.freedoms)):
             limits = link.joint.freedoms[freedom]
-            bound = limits.upper if new_q[i] > limits.upper else limits.lower if new_q[i] < limits.lower else None
+            bound = (
+                limits.upper if new_q[i] > limits.upper else limits.lower if new_q[i] < limits.lower else None
+            )
             if limits.motion is Motion.LIMITED and bound is not None:
+
                 def beyond(s: float, i=i, bound=bound) -> float:
                     there = self._moved(state, tangent, s)
                     return float(self._coordinates(there, tangent)[0][i]) - bound

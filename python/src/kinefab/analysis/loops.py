@@ -75,7 +75,9 @@ def spanning_tree(links: Links) -> Tree:
     return Tree(marked, parent, order, closures)
 
 
-def _offer(heap: list, links: Links, near: dict, body: int, depth: np.ndarray, slides: np.ndarray, used: set) -> None:
+def _offer(
+    heap: list, links: Links, near: dict, body: int, depth: np.ndarray, slides: np.ndarray, used: set
+) -> None:
     for i in near.get(body, []):
         if i in used:
             continue

@@ -67,7 +67,9 @@ def _point_round_line(p_a, a, p_b, b, k):
 
 def _line_round_line(p_a, a, p_b, b, k):
     foot = p_a + a * (a @ (p_b - p_a))
-    return _joint(JointKind.REVOLUTE, frame_from_axes(a), foot), _far(JointKind.CYLINDRICAL, frame_from_axes(a), p_b)
+    return _joint(JointKind.REVOLUTE, frame_from_axes(a), foot), _far(
+        JointKind.CYLINDRICAL, frame_from_axes(a), p_b
+    )
 
 
 def _skew_lines(p_a, a, p_b, b, k):
@@ -77,7 +79,9 @@ def _skew_lines(p_a, a, p_b, b, k):
     foot_a = p_a + a * (np.cross(offset, b) @ normal / size)
     foot_b = p_b + b * (np.cross(offset, a) @ normal / size)
     z, x = b, normal / np.sqrt(size)
-    carried = np.column_stack([x, np.cross(z, x), z])  # slides along b and turns about b, all swinging about n
+    carried = np.column_stack(
+        [x, np.cross(z, x), z]
+    )  # slides along b and turns about b, all swinging about n
     return (
         _joint(JointKind.CYLINDRICAL, frame_from_axes(a), foot_a),
         _far(JointKind.GENERAL, carried, foot_b, outer_is_a=True, freedoms=CARRIED),
@@ -85,7 +89,9 @@ def _skew_lines(p_a, a, p_b, b, k):
 
 
 def _angled(p_a, a, p_b, b, k):
-    return _joint(JointKind.PARALLEL_PLANES, frame_from_axes(a), p_b), _far(JointKind.REVOLUTE, frame_from_axes(b), p_b)
+    return _joint(JointKind.PARALLEL_PLANES, frame_from_axes(a), p_b), _far(
+        JointKind.REVOLUTE, frame_from_axes(b), p_b
+    )
 
 
 _RECIPES = {

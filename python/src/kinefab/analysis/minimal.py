@@ -61,8 +61,15 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
             report.add("CLOSURE_KEPT_WHOLE", joint.where, joint=joint.id, freed=freed)
         else:
             links[i] = link
-            report.add("CLOSURE_ROWS_FREED", joint.where, joint=joint.id, rows=rows, kept=rows - freed, freed=freed,
-                       mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating)
+            report.add(
+                "CLOSURE_ROWS_FREED",
+                joint.where,
+                joint=joint.id,
+                rows=rows,
+                kept=rows - freed,
+                freed=freed,
+                mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating,
+            )
     return links
 
 
@@ -71,19 +78,29 @@ def _locked(joint: Joint) -> list[int]:
 
 
 def _freed(joint: Joint, rows: tuple[int, ...]):
-    return tuple(LOCKED if i in rows else (f if f.motion is not Motion.LOCKED else FREE) for i, f in enumerate(joint.freedoms))
+    return tuple(
+        LOCKED if i in rows else (f if f.motion is not Motion.LOCKED else FREE)
+        for i, f in enumerate(joint.freedoms)
+    )
 
 
 def _kind(joint: Joint, rows: tuple[int, ...]) -> JointKind:
     free = tuple(i for i in range(6) if i not in rows)
-    return next((k for k, unlocked in UNLOCKED.items() if unlocked == free and k is not JointKind.SCREW), JointKind.GENERAL)
+    return next(
+        (k for k, unlocked in UNLOCKED.items() if unlocked == free and k is not JointKind.SCREW),
+        JointKind.GENERAL,
+    )
 
 
 def _blocks(assembly: Assembly, tree: Tree) -> list[_Block]:
     """Closures by the block they are in; blocks at a singular pose keep their joints whole."""
     found: dict[int, _Block] = {}
     system = assembly.system
-    singular = {int(assembly.blocks.block[f.bodies[0]]) for f, l in zip(assembly.freedoms, assembly.finite) if l.singular}
+    singular = {
+        int(assembly.blocks.block[f.bodies[0]])
+        for f, l in zip(assembly.freedoms, assembly.finite)
+        if l.singular
+    }
     age = np.full(len(tree.parent), -1)
     age[: system.bodies] = assembly.blocks.block
     position = {body: i for i, body in enumerate(assembly.blocks.order.tolist())}
@@ -159,14 +176,18 @@ def _carried(block: _Block, tree: Tree, scene: Scene) -> tuple[dict[int, Array],
     columns = sum(len(f) for f in free)
     carried: dict[int, Array] = {}
     at = 0
-    for body, link, frame, freedoms in zip([b for b in block.bodies if tree.parent[b] >= 0], joints, frames, free):
+    for body, link, frame, freedoms in zip(
+        [b for b in block.bodies if tree.parent[b] >= 0], joints, frames, free
+    ):
         other = link.a if link.b == body else link.b
         twist = carried[other].copy() if other in inside and other in carried else np.zeros((6, columns))
         axes = frame.rotation.T
         lever = (frame.translation - origin) / length
         for k, i in enumerate(freedoms):
             axis = axes[i % 3]
-            twist[:, at + k] += np.concatenate([axis, np.zeros(3)] if i < RX else [np.cross(lever, axis), axis])
+            twist[:, at + k] += np.concatenate(
+                [axis, np.zeros(3)] if i < RX else [np.cross(lever, axis), axis]
+            )
         carried[body] = twist
         at += len(freedoms)
     return carried, origin, length
@@ -178,7 +199,8 @@ def _refused(assembly: Assembly, links: list[Link], reduced: dict[int, Link], sc
         return set()
     bodies = max(max(l.a, l.b) for l in links) + 1
     kept, whole = (
-        _system([reduced.get(i, l) if fewer else l for i, l in enumerate(links)], scene, bodies) for fewer in (True, False)
+        _system([reduced.get(i, l) if fewer else l for i, l in enumerate(links)], scene, bodies)
+        for fewer in (True, False)
     )
     blocks = assembly.blocks_with([(l.a, l.b) for l in links], bodies)
     kept, whole = relative_system(kept, blocks), relative_system(whole, blocks)

@@ -52,7 +52,9 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     if doubtful.any():
         draw = np.random.default_rng(11)
         for _ in range(TRIALS):
-            directions = {int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)}
+            directions = {
+                int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)
+            }
             moved = _trial(solver, first_order, start, directions) if directions else {}
             for part, direction in directions.items():
                 if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
@@ -65,7 +67,9 @@ def displaced(solver: Solver, part: int, first_order: BlockFreedom, start: State
     """Displacements over STEP of a part's bodies after a random small motion, shape (6 n,)."""
     listed: list = [None] * solver.parts
     listed[part] = first_order
-    return _trial(solver, listed, start, {part: _random_direction(first_order.basis, np.random.default_rng(11))})[part]
+    return _trial(
+        solver, listed, start, {part: _random_direction(first_order.basis, np.random.default_rng(11))}
+    )[part]
 
 
 def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
@@ -108,7 +112,9 @@ def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, s
         if not basis.shape[1]:
             break
         twist = WALK_STEP * _random_direction(basis, draw).reshape(-1, 6)
-        state, _ = solver.project(solver.system.moved(state, first_order.bodies, twist), active, _floor(solver, start))
+        state, _ = solver.project(
+            solver.system.moved(state, first_order.bodies, twist), active, _floor(solver, start)
+        )
         basis = block_freedoms(solver, state)[part].basis
     return state
 
@@ -139,5 +145,3 @@ def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State) -
         return np.zeros((len(freedom.bodies) * 6, 0))
     u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
     return u[:, s > DIRECTION]
-
-

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..spatial import Array
-from .atoms import LENGTHS, Atom, cross
+from .atoms import LENGTHS, cross
 from .candidates import Geometry, candidates
 from .finite import EXACT, Candidate, misfits
 from .rank import SURE_GAP, normalised, rank_of
@@ -99,7 +99,9 @@ def relative_rows(system: System, pairs: Pairs, state: State):
     middle = 0.5 * (p_a + p_b)
     origin = np.zeros((len(pairs), 3))
     for i in range(3):
-        origin[:, i] = np.bincount(p[pointed], middle[pointed, i], minlength=len(pairs)) / np.maximum(count, 1)
+        origin[:, i] = np.bincount(p[pointed], middle[pointed, i], minlength=len(pairs)) / np.maximum(
+            count, 1
+        )
     reach = np.zeros(len(pairs))
     for points in (p_a, p_b):
         np.maximum.at(reach, p[pointed], np.linalg.norm(points[pointed] - origin[p[pointed]], axis=1))
@@ -149,9 +151,17 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
         atoms = atoms_of[atom_starts[i] : atom_starts[i + 1]]
         found.append(
             Relation(
-                int(pairs.first[i]), int(pairs.second[i]), order[starts[i] : starts[i + 1]],
-                int(rank[i]), float(gap[i]), origin[i], float(length[i]), basis, 6 - int(rank[i]),
-                twist_space(basis, origin[i], float(length[i])), _geometry(system, atoms, int(pairs.first[i]), float(length[i])),
+                int(pairs.first[i]),
+                int(pairs.second[i]),
+                order[starts[i] : starts[i + 1]],
+                int(rank[i]),
+                float(gap[i]),
+                origin[i],
+                float(length[i]),
+                basis,
+                6 - int(rank[i]),
+                twist_space(basis, origin[i], float(length[i])),
+                _geometry(system, atoms, int(pairs.first[i]), float(length[i])),
             )
         )
     return found
@@ -183,7 +193,9 @@ def find_joints(system: System, pairs: Pairs, relations: list[Relation], residua
 
     residual: of the start pose, shape (rows,), scaled by ``system.length``.
     """
-    waiting = [(i, candidates(r.space, r.geometry, r.length)) for i, r in enumerate(relations) if r.joint is None]
+    waiting = [
+        (i, candidates(r.space, r.geometry, r.length)) for i, r in enumerate(relations) if r.joint is None
+    ]
     turn = 0
     while waiting:
         waiting = [(i, offers) for i, offers in waiting if turn < len(offers)]
@@ -204,7 +216,9 @@ def find_joints(system: System, pairs: Pairs, relations: list[Relation], residua
         turn += 1
 
 
-def _try(system: System, pairs: Pairs, relations: list[Relation], chosen: list[int], offers: list[Candidate]) -> Array:
+def _try(
+    system: System, pairs: Pairs, relations: list[Relation], chosen: list[int], offers: list[Candidate]
+) -> Array:
     worst = np.zeros(len(chosen))
     for at in range(0, len(chosen), 1000):  # bounds the memory of the samples
         part = np.array(chosen[at : at + 1000])
@@ -218,6 +232,3 @@ def _try(system: System, pairs: Pairs, relations: list[Relation], chosen: list[i
             sub, pairs.first[part], pairs.second[part], atom_pair, offers[at : at + 1000], lengths
         )
     return worst
-
-
-__all__ = ["Atom", "Pairs", "Relation", "find_joints", "pairs_of", "relations_of"]

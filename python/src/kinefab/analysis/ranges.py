@@ -23,7 +23,9 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         index = by_pair.get((min(bodies), max(bodies)))
         place = None if index is None else _freedom(links[index], scene, coordinate, bodies)
         if place is None:
-            report.dropped(f"constraint {constraint.id}", "CONSTRAINT_RANGE_DROPPED", constraint.where, id=constraint.id)
+            report.dropped(
+                f"constraint {constraint.id}", "CONSTRAINT_RANGE_DROPPED", constraint.where, id=constraint.id
+            )
             continue
         freedom, sign = place
         low = -math.inf if constraint.lower is None else constraint.lower - coordinate.measured
@@ -34,7 +36,9 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         old = joint.freedoms[freedom]
         freedoms = list(joint.freedoms)
         freedoms[freedom] = Freedom(Motion.LIMITED, max(old.lower, low), min(old.upper, high), old.drive)
-        links[index] = replace_link(links[index], freedoms=tuple(freedoms), because=(*joint.because, constraint.id))
+        links[index] = replace_link(
+            links[index], freedoms=tuple(freedoms), because=(*joint.because, constraint.id)
+        )
         report.add("CONSTRAINT_RANGE_KEPT", constraint.where, id=constraint.id, joint=joint.id)
     return links
 

@@ -49,7 +49,21 @@ class Rows:
         self._is_length.append(is_length)
         return len(self._owners) - 1
 
-    def atom(self, row, kind, a, b, *, p_a=NOWHERE, dir_a=NOWHERE, k=NOWHERE, p_b=NOWHERE, dir_b=NOWHERE, d=0.0, weight=1.0):
+    def atom(
+        self,
+        row,
+        kind,
+        a,
+        b,
+        *,
+        p_a=NOWHERE,
+        dir_a=NOWHERE,
+        k=NOWHERE,
+        p_b=NOWHERE,
+        dir_b=NOWHERE,
+        d=0.0,
+        weight=1.0,
+    ):
         self._numbers.append((kind, row, weight, a, b, d))
         self._vectors.append((p_a, dir_a, k, p_b, dir_b))
 
@@ -77,7 +91,9 @@ class Rows:
 
     def angle(self, a: Side, along_a: Array, about: Array, b: Side, along_b: Array, d: float) -> None:
         """Angle from a direction of a to one of b about an axis of a, radians."""
-        self.atom(self.row(False), Atom.ANG, a.body, b.body, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d)
+        self.atom(
+            self.row(False), Atom.ANG, a.body, b.body, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d
+        )
 
     def system(self, bodies: int) -> System:
         """Everything collected, for bodies 0..bodies-1 (body 0: ground)."""
@@ -91,7 +107,10 @@ class Rows:
             weight=numbers[2],
             body_a=body_a,
             body_b=body_b,
-            **{name: np.ascontiguousarray(vectors[:, i]) for i, name in enumerate(("p_a", "a", "k", "p_b", "b"))},
+            **{
+                name: np.ascontiguousarray(vectors[:, i])
+                for i, name in enumerate(("p_a", "a", "k", "p_b", "b"))
+            },
             d=numbers[5],
             owner=np.array(self._owners, dtype=np.int64),
             is_length=np.array(self._is_length, dtype=bool),

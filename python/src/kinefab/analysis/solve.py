@@ -106,7 +106,9 @@ class Solver:
                         lot,
                         np.stack([row_order[row_start[p] : row_start[p] + shape_rows] for p in lot]),
                         np.stack([body_order[body_start[p] : body_start[p] + shape_bodies] for p in lot]),
-                        atoms, index(s.body_a[atoms]), index(s.body_b[atoms]),
+                        atoms,
+                        index(s.body_a[atoms]),
+                        index(s.body_b[atoms]),
                     )
                 )
         return groups
@@ -126,7 +128,9 @@ class Solver:
         values = np.concatenate([block_a[group.atoms].ravel(), block_b[group.atoms].ravel()])
         kept = index < group.rows.shape[1] * width
         index, values = index[kept], values[kept]
-        return coo_matrix((values, (index // width, index % width)), shape=(group.rows.shape[1], width)).tocsr()
+        return coo_matrix(
+            (values, (index // width, index % width)), shape=(group.rows.shape[1], width)
+        ).tocsr()
 
     def worst(self, residual: Array) -> Array:
         """Largest residual of each part, shape (parts,)."""
@@ -135,8 +139,13 @@ class Solver:
         np.maximum.at(worst, self.row_part[kept], np.abs(residual[kept]))
         return worst
 
-    def project(self, state: State, active: np.ndarray | None = None, target: Array | float = CLOSED,
-                iterations: int = ITERATIONS) -> tuple[State, Array]:
+    def project(
+        self,
+        state: State,
+        active: np.ndarray | None = None,
+        target: Array | float = CLOSED,
+        iterations: int = ITERATIONS,
+    ) -> tuple[State, Array]:
         """The nearest pose that satisfies the rows, and each part's residual there, shape (parts,).
 
         active: mask of the parts to solve.  target: residual (of each part) that is good enough.

@@ -76,7 +76,9 @@ class System:
 
     def start(self) -> State:
         n = self.bodies
-        state = State(np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind)))
+        state = State(
+            np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind))
+        )
         state.angle = self._values(state)[0] + self.d
         return state
 
@@ -86,10 +88,17 @@ class System:
         chosen[rows] = True
         number = np.cumsum(chosen) - 1
         atoms = chosen[self.row]
-        part = {f: getattr(self, f)[atoms] for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")}
+        part = {
+            f: getattr(self, f)[atoms]
+            for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")
+        }
         return replace(
-            self, row=number[self.row[atoms]], owner=self.owner[chosen], is_length=self.is_length[chosen],
-            row_length=self.row_length[chosen], **part,
+            self,
+            row=number[self.row[atoms]],
+            owner=self.owner[chosen],
+            is_length=self.is_length[chosen],
+            row_length=self.row_length[chosen],
+            **part,
         )
 
     def joining(self) -> np.ndarray:
@@ -102,7 +111,11 @@ class System:
         """Other body numbers: ``body[old]``.  Sizes and own points are to be set anew (``fit``)."""
         count = int(body.max()) + 1
         return replace(
-            self, body_a=body[self.body_a], body_b=body[self.body_b], center=np.zeros((count, 3)), length=np.ones(count)
+            self,
+            body_a=body[self.body_a],
+            body_b=body[self.body_b],
+            center=np.zeros((count, 3)),
+            length=np.ones(count),
         )
 
     def fit(self, row_part: np.ndarray, body_part: np.ndarray, default: float) -> None:
@@ -139,7 +152,14 @@ class System:
 
         p_a = turned(ra, self.p_a[atoms] - ca) + ca + state.shift[i]
         p_b = turned(rb, self.p_b[atoms] - cb) + cb + state.shift[j]
-        return p_a, turned(ra, self.a[atoms]), turned(ra, self.k[atoms]), p_b, turned(rb, self.b[atoms]), self.d[atoms]
+        return (
+            p_a,
+            turned(ra, self.a[atoms]),
+            turned(ra, self.k[atoms]),
+            p_b,
+            turned(rb, self.b[atoms]),
+            self.d[atoms],
+        )
 
     def _values(self, state: State, kinds=tuple(Atom)):
         """Residuals and wrenches of every atom in its own unit."""
@@ -184,7 +204,9 @@ class System:
 
     def displacement(self, state: State) -> tuple[Array, Array]:
         """The bodies' displacements as x -> R x + t: rotations (bodies, 3, 3), translations (bodies, 3)."""
-        return state.rotation, self.center + state.shift - np.einsum("nij,nj->ni", state.rotation, self.center)
+        return state.rotation, self.center + state.shift - np.einsum(
+            "nij,nj->ni", state.rotation, self.center
+        )
 
     def moved(self, state: State, body: np.ndarray, twist: Array) -> State:
         """The state after scaled twists (len(body), 6) of the bodies ``body``."""
@@ -197,7 +219,9 @@ class System:
         """The same equations with ``state`` as the start pose."""
         values = {}
         everything = np.arange(len(self.kind))
-        values["p_a"], values["a"], values["k"], values["p_b"], values["b"], _ = self._current(state, everything)
+        values["p_a"], values["a"], values["k"], values["p_b"], values["b"], _ = self._current(
+            state, everything
+        )
         return replace(self, center=self.center + state.shift, **values)
 
 
@@ -205,12 +229,27 @@ def joined(first: System, second: System) -> System:
     """The rows of both, over the bodies of the first; owners of the second count on from the first's."""
     arrays = {
         f: np.concatenate([getattr(first, f), getattr(second, f)])
-        for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d", "is_length", "row_length")
+        for f in (
+            "kind",
+            "weight",
+            "body_a",
+            "body_b",
+            "p_a",
+            "a",
+            "k",
+            "p_b",
+            "b",
+            "d",
+            "is_length",
+            "row_length",
+        )
     }
     offset = int(first.owner.max(initial=-1)) + 1
     return replace(
-        first, row=np.concatenate([first.row, second.row + first.rows]),
-        owner=np.concatenate([first.owner, second.owner + offset]), **arrays,
+        first,
+        row=np.concatenate([first.row, second.row + first.rows]),
+        owner=np.concatenate([first.owner, second.owner + offset]),
+        **arrays,
     )
 
 

@@ -17,6 +17,7 @@ from .colliders import Colliders, collider_fields
 from .constraints import constraint_entry
 from .couplings import coupling_entry
 from .joints import UnityJoint, map_joint
+from .mobility import mobility_entry
 from .numbers import rounded, without_defaults
 from .rigidbodies import Rigidbodies, place_rigidbodies, rigidbody_fields
 from ..spatial import Pose, quaternion_from_matrix
@@ -43,7 +44,10 @@ def build_document(
     report: Report,
     analysis: Mapping[str, Any] | None = None,
 ) -> Document:
-    """Everything of the scene in Unity's terms.  ``report`` gets what became of each joint and coupling."""
+    """Everything of the scene in Unity's terms.  ``report`` gets what became of each joint and coupling.
+
+    analysis: what the constraints leave free, by node number (see ``mobility``).
+    """
     builder = _Builder(scene, groups, colliders, report)
     builder.add_objects()
     builder.add_rigidbodies()
@@ -74,7 +78,7 @@ def build_document(
         "constraints": [constraint_entry(c, builder.object_of) for c in scene.constraints],
     }
     if analysis is not None:
-        tail["analysis"] = dict(analysis)
+        tail["analysis"] = mobility_entry(analysis, builder.object_of)
     tail["report"] = report_entries(report)
     if scene.extras:
         tail["extras"] = dict(scene.extras)

@@ -59,8 +59,8 @@ public abstract class WorldJoint
     public abstract double Coordinate(Coordinate coordinate);
 
     /// <summary>
-    /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, like a 5 Hz
-    /// critically damped spring without force limit. Stands until Settings is set.
+    /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, firmly: the gap
+    /// closes with a time constant of 0.1 s whatever loads the joint. Stands until Settings is set.
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="target">Degrees or metres.</param>
@@ -73,14 +73,10 @@ public abstract class WorldJoint
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
     public abstract void DriveAt(Coordinate coordinate, double speed);
 
-    /// <summary>Gains that hold a position where the component states none: 5 Hz, critically damped, per unit of mass.</summary>
-    private protected static Kinefab.Joints.JointDrive PositionDrive(in Kinefab.Joints.JointDrive given)
-    {
-        const double omega = 2 * Math.PI * 5;
-        return given.Stiffness > 0
-            ? given
-            : new Kinefab.Joints.JointDrive { Stiffness = omega * omega, Damping = 2 * omega, ForceLimit = double.PositiveInfinity, IsAcceleration = true };
-    }
+    // Overdamped: time constant Damping/Stiffness = 0.1 s; yields by 1e-6 of the acceleration that the load would give.
+    private protected static Kinefab.Joints.JointDrive PositionDrive(in Kinefab.Joints.JointDrive given) => given.Stiffness > 0
+        ? given
+        : new Kinefab.Joints.JointDrive { Stiffness = 1e6, Damping = 1e5, ForceLimit = double.PositiveInfinity, IsAcceleration = true };
 
     /// <summary>Called when the joint has been moved by a step.</summary>
     internal virtual void AfterStep()

@@ -105,7 +105,7 @@ public class CommandLineTests
         }
     }
 
-    private static (int Exit, string Data, string Findings) Run(params string[] arguments)
+    internal static (int Exit, string Data, string Findings) Run(params string[] arguments)
     {
         TextWriter data = Console.Out, findings = Console.Error;
         using var dataText = new StringWriter();

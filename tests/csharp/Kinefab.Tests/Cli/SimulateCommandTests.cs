@@ -1,0 +1,121 @@
+using System;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Cli;
+
+[NonParallelizable]
+public sealed class SimulateCommandTests
+{
+    private static readonly string Scene = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "hinge_slider_zup", "hinge_slider.kinefab");
+
+    private string _folder = "";
+
+    [SetUp]
+    public void MakeFolder() => _folder = Directory.CreateTempSubdirectory("kinefab").FullName;
+
+    [TearDown]
+    public void RemoveFolder() => Directory.Delete(_folder, recursive: true);
+
+    [Test]
+    public void Simulate_Scene_SumsUpEveryJointAndTheEnergy()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "1", "--step", "0.005");
+
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((exit, findings), Is.EqualTo((0, "")));
+            Assert.That(data, Does.Contain("200 steps of 0.005 s, unity solver"));
+            Assert.That(data, Does.Match("energy .* J -> .* J"));
+            Assert.That(data, Does.Match(@"Box/Lid:1 \(Lid:1\): drift .* m, .* deg, angle -35\.\.0 deg, limit reached at"));
+            Assert.That(data, Does.Match(@"Box/Carriage:1 \(Carriage:1\): drift .* x .* m"));
+        }
+    }
+
+    [Test]
+    public void Simulate_DrivenJoints_ReachTheirValues()
+    {
+        string file = Path.Combine(_folder, "run.json");
+
+        (int exit, _, string findings) = CommandLineTests.Run(
+            "simulate", Scene, "--seconds", "2", "--step", "0.002", "-o", file, "--drive", "Box/Lid:1=30", "--drive", "Carriage:1.x=0.02/s");
+
+        Assert.That((exit, findings), Is.EqualTo((0, "")));
+        using JsonDocument run = JsonDocument.Parse(File.ReadAllText(file));
+        JsonElement bodies = run.RootElement.GetProperty("bodies");
+        // The carriage slides along Unity's +Z; 40 mm in 2 s. The lid goes 30 degrees up against its weight; after six
+        // iterations Unity's solver leaves it a little short.
+        Assert.That(Last(bodies, "Box/Carriage:1").Position.Z - First(bodies, "Box/Carriage:1").Position.Z, Is.EqualTo(0.04).Within(1e-4));
+        Quaterniond turn = First(bodies, "Box/Lid:1").Rotation.Conjugate() * Last(bodies, "Box/Lid:1").Rotation;
+        Assert.That(2 * Math.Acos(Math.Abs(turn.W)) * 180 / Math.PI, Is.EqualTo(30).Within(1));
+        Assert.That(run.RootElement.GetProperty("times").GetArrayLength(), Is.EqualTo(1001));
+    }
+
+    [Test]
+    public void Simulate_Csv_HoldsTheWorldsPoses()
+    {
+        string file = Path.Combine(_folder, "run.csv");
+
+        CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "-o", file);
+
+        string[] lines = File.ReadAllLines(file);
+        World world = World.Create(ValidScene.Load(Scene));
+        for (int i = 0; i < 5; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Assert.That(lines, Has.Length.EqualTo(7), "a header, the start and five steps");
+        Assert.That(lines[0], Does.StartWith("time,Box/Lid:1.px,Box/Lid:1.py"));
+        double[] last = lines[^1].Split(',').Select(v => double.Parse(v, CultureInfo.InvariantCulture)).ToArray();
+        Assert.That(last[0], Is.EqualTo(0.1).Within(1e-12));
+        Assert.That(last[3], Is.EqualTo(world.Bodies[0].Pose.Position.Z));
+    }
+
+    [TestCase("--seconds", "0")]
+    [TestCase("--seconds", "-1")]
+    [TestCase("--seconds", "1", "--step", "0")]
+    [TestCase("--seconds", "1", "--solver", "magic")]
+    [TestCase("--seconds", "1", "--drive", "Box/Lid:1")]
+    [TestCase("--seconds", "1", "--drive", "Box/Lid:1=much")]
+    [TestCase("--seconds", "1", "--drive", "Nobody=1")]
+    [TestCase("--seconds", "1", "--drive", "Box/Lid:1.x=1")]
+    [TestCase]
+    public void Simulate_WrongUsage_Exits2WithoutData(params string[] options)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run(["simulate", Scene, .. options]);
+
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Is.Not.Empty.And.Not.Contains("   at "));
+    }
+
+    [Test]
+    public void Simulate_UnwritableTarget_Exits1WithoutATrace()
+    {
+        string target = Path.Combine(_folder, "missing", "run.json");
+
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "-o", target);
+
+        Assert.That(exit, Is.EqualTo(1));
+        Assert.That(findings, Does.Contain("TARGET_UNWRITABLE").And.Not.Contains("   at "));
+    }
+
+    private static Pose First(JsonElement bodies, string id) => PoseOf(Poses(bodies, id)[0]);
+
+    private static Pose Last(JsonElement bodies, string id) => PoseOf(Poses(bodies, id)[^1]);
+
+    private static JsonElement[] Poses(JsonElement bodies, string id) =>
+        bodies.EnumerateArray().Single(b => b.GetProperty("id").GetString() == id).GetProperty("poses").EnumerateArray().ToArray();
+
+    private static Pose PoseOf(JsonElement pose)
+    {
+        double[] v = pose.EnumerateArray().Select(e => e.GetDouble()).ToArray();
+        return new Pose(new Vector3d(v[0], v[1], v[2]), new Quaterniond(v[3], v[4], v[5], v[6]));
+    }
+}

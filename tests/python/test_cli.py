@@ -111,22 +111,58 @@ def checked_report(path: Path) -> dict:
 
 
 @pytest.mark.skipif(not LEVER.exists(), reason="the lever's fixture is not here")
+def lever_joints(path: Path) -> list[dict]:
+    return [
+        {**c, "object": o["id"]}
+        for o in read(path)["gameObjects"]
+        for c in o.get("components", [])
+        if c["type"].endswith("Joint")
+    ]
+
+
 def test_lever_is_exported_with_its_hinges_and_slider(tmp_path):
-    """The paper's mechanism from its bundle: three hinges and a slider, nothing approximated, no bar in a pipe."""
+    """The paper's mechanism from its bundle: three hinges and a slider, nothing lost, no bar in a pipe."""
     target, found = tmp_path / "lever.kinefab", tmp_path / "r.json"
-    done = run("export", LEVER, "-o", target, "--strict", "--report", found)
+    done = run("export", LEVER, "-o", target, "--strict", "--closures", "exact", "--report", found)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "" and len(done.stderr.splitlines()) <= 2 and "\x1b" not in done.stderr
     report = checked_report(found)
     assert report["written"] is True and len(report["outcomes"]) >= 4
-    content = read(target)
-    joints = [
-        c["type"]
-        for o in content["gameObjects"]
-        for c in o.get("components", [])
-        if c["type"].endswith("Joint")
-    ]
-    assert sorted(joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]
+    assert {entry["outcome"] for entry in report["outcomes"]} == {"kept"}
+    joints = lever_joints(target)
+    assert sorted(j["type"] for j in joints) == ["ConfigurableJoint", "HingeJoint", "HingeJoint", "HingeJoint"]
+    (slider,) = [j for j in joints if j["type"] == "ConfigurableJoint"]
+    assert slider["object"] == "Lever/SliderD:1" and slider["xMotion"] == "Limited"
+    # 6.5 .. 11.5 cm: 2.5 cm to each side of x = 9 cm, which the mirror makes -9 cm.
+    assert slider["linearLimit"]["limit"] == pytest.approx(0.025, abs=1e-12)
+    assert slider["connectedAnchor"][0] == pytest.approx(-0.09, abs=1e-12)
+
+
+def test_lever_closes_with_the_rows_its_plane_needs(tmp_path):
+    """By default the loop-closing joint only holds what the rest leaves open: two rows in the plane."""
+    done = run("export", LEVER, "-o", tmp_path / "lever.kinefab")
+    assert done.returncode == 0, done.stderr
+    (closing,) = [j for j in lever_joints(tmp_path / "lever.kinefab") if j.get("closure")]
+    locked = [key for key, value in closing.items() if value == "Locked"]
+    assert len(locked) == 2 and all(key in ("xMotion", "yMotion", "zMotion") for key in locked)
+
+
+def test_lever_needs_its_constraints_alone(tmp_path):
+    """Without explicit joints the constraints give the same mechanism, and the DOF analysis does not hinder it."""
+    bundle = json.loads(LEVER.read_text("utf-8"))
+    bundle["joints"] = []
+    for mesh in LEVER.parent.glob("lever.[om]??"):
+        (tmp_path / mesh.name).write_bytes(mesh.read_bytes())
+    (tmp_path / "lever.bundle.json").write_text(json.dumps(bundle), "utf-8")
+    done = run("export", tmp_path / "lever.bundle.json", "-o", tmp_path / "lever.kinefab", "--strict")
+    assert done.returncode == 0, done.stderr
+    scene = read(tmp_path / "lever.kinefab")
+    assert (scene["analysis"]["mobility"], scene["analysis"]["redundant"]) == (1, 4)
+    joints = lever_joints(tmp_path / "lever.kinefab")
+    hinged = sorted(j["object"] for j in joints if j["type"] == "HingeJoint")
+    assert hinged == ["Lever/BarC:1", "Lever/Crank:1"]
+    (slider,) = [j for j in joints if j["type"] == "ConfigurableJoint" and not j.get("closure")]
+    assert slider["object"] == "Lever/SliderD:1" and slider.get("xMotion", "Free") == "Free"
 
 
 def test_draw_writes_a_picture(lid, tmp_path):

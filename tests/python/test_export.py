@@ -204,13 +204,13 @@ def test_freedoms_listed_for_a_part_become_one_joint_to_the_ground(
 
 
 def test_explicit_joint_wins_over_listed_freedoms(tmp_path):
-    """A part with a joint keeps it, and its record of freedoms is reported as not used."""
+    """A part with a joint keeps it; its record of freedoms is only checked against."""
     scene = lid_scene()
     scene.dof_records.append(DofRecord(1, np.zeros((0, 3)), np.eye(3)))
     content, result = exported(scene, tmp_path)
     assert len(components(content, "Lid", "HingeJoint")) == 1
     assert components(content, "Lid", "ConfigurableJoint") == []
-    assert "DOF_RECORD_OVERRIDDEN" in {o.code for o in result.report.outcomes}
+    assert "freedoms of Lid" in {o.feature for o in result.report.outcomes if o.outcome is Outcome.KEPT}
 
 
 def test_askew_freedoms_are_dropped_with_a_report(tmp_path):

@@ -14,8 +14,14 @@ PARALLEL = 1e-6
 
 
 def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> list[Joint]:
-    """A joint for each record whose part no joint of the scene is on."""
-    jointed = {groups.group_of[n] for j in scene.joints for n in (j.a, j.b) if n is not None}
+    """A joint for each record whose part neither a joint nor a constraint of the scene is on.
+
+    Where there are joints or constraints they say how the part moves, and the record is what the analysis is
+    checked against: as a joint to the ground it would lock what moves about an instantaneous pole.
+    """
+    held = {groups.group_of[n] for j in scene.joints for n in (j.a, j.b) if n is not None}
+    active = (c for c in scene.constraints if not c.suppressed)
+    held |= {groups.group_of[f.node] for c in active for f in c.features if f.node is not None}
     joints = []
     for record in scene.dof_records:
         node = scene.nodes[record.node]
@@ -23,8 +29,8 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         group = groups.group_of[record.node]
         if group is None or groups.is_ground(record.node):
             continue
-        if group in jointed:
-            report.dropped(feature, "DOF_RECORD_OVERRIDDEN", record.where, node=node.id)
+        if group in held:
+            report.kept(feature, record.where)
             continue
         placed = _frame_and_freedoms(record, node.pose)
         if isinstance(placed, str):

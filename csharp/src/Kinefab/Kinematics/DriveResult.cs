@@ -1,0 +1,97 @@
+using Kinefab.Document;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>How a drive or drag ended.</summary>
+public enum DriveStatus
+{
+    /// <summary>At the target.</summary>
+    Reached,
+
+    /// <summary>A joint's limit stops it on the way; the state is at the limit.</summary>
+    StoppedByLimit,
+
+    /// <summary>No pose is found beyond: a dead point, or out of reach; the state is the last closed one.</summary>
+    OutOfReach,
+
+    /// <summary>The joints could not be closed at the start; the state holds the best poses found.</summary>
+    NotClosed,
+}
+
+/// <summary>A limit of a joint.</summary>
+public readonly struct ReachedLimit
+{
+    internal ReachedLimit(int gameObject, int component, Coordinate coordinate, bool isUpper)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Coordinate = coordinate;
+        IsUpper = isUpper;
+    }
+
+    /// <summary>Index of the GameObject that carries the joint.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Index of the joint in its components.</summary>
+    public int Component { get; }
+
+    /// <summary>The limited coordinate; of a cone, disc or ball the first one that it limits.</summary>
+    public Coordinate Coordinate { get; }
+
+    /// <summary>The upper end of the coordinate's range.</summary>
+    public bool IsUpper { get; }
+}
+
+/// <summary>What a drive or drag came to.</summary>
+public readonly struct DriveResult
+{
+    internal DriveResult(DriveStatus status, double fraction, int iterations, double errorMetres, double errorDegrees, ReachedLimit? limit)
+    {
+        Status = status;
+        Fraction = fraction;
+        Iterations = iterations;
+        ErrorMetres = errorMetres;
+        ErrorDegrees = errorDegrees;
+        Limit = limit;
+    }
+
+    /// <summary>How it ended.</summary>
+    public DriveStatus Status { get; }
+
+    /// <summary>Whether the target was reached.</summary>
+    public bool Converged => Status == DriveStatus.Reached;
+
+    /// <summary>Share of the way from the start to the targets that was gone, 0 to 1.</summary>
+    public double Fraction { get; }
+
+    /// <summary>Newton iterations in all.</summary>
+    public int Iterations { get; }
+
+    /// <summary>Worst distance left in a joint or coupling, metres.</summary>
+    public double ErrorMetres { get; }
+
+    /// <summary>Worst angle left in a joint or coupling, degrees.</summary>
+    public double ErrorDegrees { get; }
+
+    /// <summary>The limit that stopped it, or that it rests against; null: none.</summary>
+    public ReachedLimit? Limit { get; }
+}
+
+/// <summary>A value that a coordinate shall take.</summary>
+public readonly struct CoordinateTarget
+{
+    /// <summary>From parts.</summary>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <param name="value">Degrees or metres.</param>
+    public CoordinateTarget(int coordinate, double value)
+    {
+        Coordinate = coordinate;
+        Value = value;
+    }
+
+    /// <summary>Index into the mechanism's coordinates.</summary>
+    public int Coordinate { get; }
+
+    /// <summary>Degrees or metres.</summary>
+    public double Value { get; }
+}

@@ -1,0 +1,150 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using Joint = Kinefab.Joints.Joint;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// What of a scene moves and how it hangs together: bodies, joints, couplings, and a spanning tree over them. Never
+/// changes; many states and solvers can share it. Drives, motors and springs do not matter at position level, and every
+/// limit is taken for a hard one.
+/// </summary>
+public sealed class Mechanism
+{
+    private readonly int[] _bodyOf;
+    private readonly Pose[] _locals;
+    private readonly Pose[] _start;
+    private readonly MechanismCoordinate[] _coordinates;
+
+    private Mechanism(ValidScene scene)
+    {
+        Scene = scene;
+        MechanismDefinition definition = MechanismDefinition.From(scene);
+        _bodyOf = definition.BodyOf;
+        GameObjects = definition.GameObjects;
+        var isFixed = new bool[GameObjects.Length];
+        _start = new Pose[GameObjects.Length];
+        for (int i = 0; i < GameObjects.Length; i++)
+        {
+            isFixed[i] = scene.Body(GameObjects[i])!.IsKinematic;
+            _start[i] = scene.World(GameObjects[i]).Pose;
+        }
+
+        int objects = scene.Document.GameObjects.Count;
+        _locals = new Pose[objects];
+        for (int i = 0; i < objects; i++)
+        {
+            Pose world = scene.World(i).Pose;
+            _locals[i] = _bodyOf[i] < 0 ? world : _start[_bodyOf[i]].Inverse() * world;
+        }
+
+        var isClosure = new List<bool>();
+        var joints = new List<Joint>();
+        foreach (JointDefinition joint in definition.Joints)
+        {
+            isClosure.Add(joint.Source.Closure);
+            joints.Add(PositionJoint.From(joint.Joint));
+        }
+
+        for (int i = 0; i < GameObjects.Length; i++)
+        {
+            if (PositionJoint.Freeze(i, _start[i], scene.Body(GameObjects[i])!.Constraints) is Joint freeze)
+            {
+                isClosure.Add(false);
+                joints.Add(freeze);
+            }
+        }
+
+        Joints = joints.ToArray();
+        Tree = new KinematicTree(isFixed, Joints, isClosure.ToArray());
+        _coordinates = MechanismCoordinates.Of(definition, Joints);
+        foreach (MechanismCoordinate coordinate in _coordinates)
+        {
+            Joint rows = coordinate.JointRows;
+            coordinate.Zero = coordinate.Evaluate(PoseOf(rows.Body0, _start), PoseOf(rows.Body1, _start), 0, out _);
+        }
+
+        Couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
+        Origin = MechanismScale.Center(this, _start);
+        Length = MechanismScale.LinkLength(this, _start);
+        Rows = new MechanismRows(this);
+    }
+
+    /// <summary>The scene it was made from.</summary>
+    public ValidScene Scene { get; }
+
+    /// <summary>All unlocked joint coordinates, in order of GameObject, component and axis.</summary>
+    public IReadOnlyList<MechanismCoordinate> Coordinates => _coordinates;
+
+    internal int BodyCount => GameObjects.Length;
+
+    /// <summary>For each body the GameObject with its Rigidbody.</summary>
+    internal int[] GameObjects { get; }
+
+    internal Joint[] Joints { get; }
+
+    internal PositionCoupling[] Couplings { get; }
+
+    internal KinematicTree Tree { get; }
+
+    /// <summary>Which bodies each joint, coupling and coordinate depends on.</summary>
+    internal MechanismRows Rows { get; }
+
+    /// <summary>Point that twists are referred to, world.</summary>
+    internal Vector3d Origin { get; }
+
+    /// <summary>Typical distance of a body's joints, metres: what a radian weighs against.</summary>
+    internal double Length { get; }
+
+    /// <summary>The mechanism of a scene.</summary>
+    public static Mechanism Create(ValidScene scene)
+    {
+        if (scene is null)
+            throw new ArgumentNullException(nameof(scene));
+        return new Mechanism(scene);
+    }
+
+    /// <summary>A state at the exported pose.</summary>
+    public MechanismState NewState()
+    {
+        var state = new MechanismState(this);
+        Array.Copy(_start, state.Poses, _start.Length);
+        for (int i = 0; i < _coordinates.Length; i++)
+        {
+            state.Values[i] = _coordinates[i].Zero;
+        }
+
+        return state;
+    }
+
+    /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked or is not there.</summary>
+    public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
+    {
+        for (int i = 0; i < _coordinates.Length; i++)
+        {
+            MechanismCoordinate c = _coordinates[i];
+            if (c.GameObject == gameObject && c.Component == component && c.Coordinate == coordinate)
+                return i;
+        }
+
+        return -1;
+    }
+
+    /// <summary>The body that moves a GameObject, or World.</summary>
+    internal int BodyOf(int gameObject) => _bodyOf[gameObject];
+
+    /// <summary>A point of a GameObject in the frame of the body that moves it.</summary>
+    internal Vector3d PointInBody(int gameObject, Vector3d point) => _locals[gameObject].Point(point);
+
+    internal static Pose PoseOf(int body, Pose[] poses) => body < 0 ? Pose.Identity : poses[body];
+
+    internal Pose PoseOfGameObject(int gameObject, Pose[] poses)
+    {
+        int body = _bodyOf[gameObject];
+        return body < 0 ? _locals[gameObject] : poses[body] * _locals[gameObject];
+    }
+}

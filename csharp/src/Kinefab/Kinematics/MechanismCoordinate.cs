@@ -1,0 +1,52 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// One unlocked coordinate of a joint, read as Unity reads it: the own body against the connected one, by the left-hand
+/// rule about the axis or along it, zero at the exported pose; degrees (over any number of turns) or metres.
+/// </summary>
+public sealed class MechanismCoordinate
+{
+    private readonly Joints.JointCoordinate _coordinate;
+
+    internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.JointCoordinate source)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Coordinate = coordinate;
+        Joint = joint;
+        _coordinate = source;
+    }
+
+    /// <summary>Index of the GameObject that carries the joint.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Index of the joint in its components.</summary>
+    public int Component { get; }
+
+    /// <summary>Which coordinate of that joint.</summary>
+    public Coordinate Coordinate { get; }
+
+    /// <summary>Degrees when true, metres when false.</summary>
+    public bool IsAngle => _coordinate.IsAngle;
+
+    internal int Joint { get; }
+
+    /// <summary>Whether it grows with the rows' own coordinate, actor 1 against actor 0.</summary>
+    internal bool IsAlongRows => _coordinate.Sign > 0;
+
+    internal Joints.Joint JointRows => _coordinate.Joint;
+
+    /// <summary>The joint's own value at the exported pose: a slide's anchors may stand apart there.</summary>
+    internal double Zero { get; set; }
+
+    internal double Evaluate(in Pose body0, in Pose body1, double near, out Joints.ConstraintRow row) =>
+        _coordinate.Evaluate(body0, body1, near, out row);
+
+    internal double ToInternal(double value) => Zero + (IsAngle ? value * (Math.PI / 180) : value);
+
+    internal double ToExternal(double value) => IsAngle ? (value - Zero) * (180 / Math.PI) : value - Zero;
+}

@@ -1,0 +1,200 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Brings a state to poses where joints, couplings, held limits and driven coordinates all agree, by Gauss-Newton with
+/// damping, changing the joints as little as it can.
+/// </summary>
+internal sealed class NewtonSolver
+{
+    // Errors are lengths of the mechanism or radians.
+    private const double Tolerance = 1e-13;
+    private const double AcceptedError = 1e-10;
+    private const double LeastDamping = 1e-9;
+    private const double LargestStep = 0.5;
+    private const int MaxCloseIterations = 200;
+    private const int MaxTrackIterations = 12;
+
+    private readonly Mechanism _mechanism;
+    private readonly NormalEquations _normal;
+    private readonly Pose[] _before;
+    private readonly int[] _driven;
+    private readonly double[] _targets;
+
+    public NewtonSolver(Mechanism mechanism)
+    {
+        _mechanism = mechanism;
+        _normal = new NormalEquations(mechanism.Tree, mechanism.Rows.All);
+        Motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
+        Equations = new PositionEquations(mechanism, Motion, _normal);
+        Limits = new LimitSet(mechanism);
+        _before = new Pose[mechanism.BodyCount];
+        _driven = new int[mechanism.Coordinates.Count];
+        _targets = new double[mechanism.Coordinates.Count];
+    }
+
+    public TreeMotion Motion { get; }
+
+    public PositionEquations Equations { get; }
+
+    public LimitSet Limits { get; }
+
+    /// <summary>Iterations since it was set to 0.</summary>
+    public int Iterations { get; set; }
+
+    /// <summary>Worst error of joints and couplings at the last evaluation, metres.</summary>
+    public double ErrorMetres => Equations.WorstLinear * _mechanism.Length;
+
+    /// <summary>Worst error of joints and couplings at the last evaluation, degrees.</summary>
+    public double ErrorDegrees => Math.Max(Equations.WorstAngular, Motion.WorstError) * (180 / Math.PI);
+
+    /// <summary>Error up to which a least-squares solution counts as closed: the scene's own misfit, if that is larger.</summary>
+    public double Accepted { get; set; } = AcceptedError;
+
+    /// <summary>Number of driven coordinates.</summary>
+    public int DrivenCount { get; private set; }
+
+    /// <summary>Drives nothing.</summary>
+    public void ClearDriven() => DrivenCount = 0;
+
+    /// <summary>Drives one more coordinate, radians or metres as the rows have it.</summary>
+    public void Drive(int coordinate, double target)
+    {
+        _driven[DrivenCount] = coordinate;
+        _targets[DrivenCount++] = target;
+    }
+
+    /// <summary>
+    /// Follows a motion: true when the state was brought to the targets by steps that shrank from the first on, as they do
+    /// while the branch is not left. On false the state is somewhere between.
+    /// </summary>
+    public bool Track(MechanismState state)
+    {
+        Motion.Start(state.Poses);
+        double previous = double.PositiveInfinity;
+        for (int n = 0; n < MaxTrackIterations; n++)
+        {
+            Iterations++;
+            Assemble(state);
+            if (Equations.Worst <= Tolerance)
+            {
+                return Finish(state);
+            }
+
+            _normal.Solve(LeastDamping);
+            double size = LargestEntry(_normal.Step);
+            if (!(size <= LargestStep) || (n > 0 && size > Math.Max(0.5 * previous, 1e-9)))
+            {
+                return false;
+            }
+
+            if (size < 1e-11 && Equations.Worst <= Accepted)
+            {
+                return Finish(state);
+            }
+
+            previous = size;
+            Motion.Move(state.Poses, _normal.Step);
+        }
+
+        Assemble(state);
+        return Equations.Worst <= AcceptedError && Finish(state);
+    }
+
+    /// <summary>Closes from any start: damping grows until the errors shrink. On false the state holds the best poses found.</summary>
+    public bool Close(MechanismState state)
+    {
+        Motion.Start(state.Poses);
+        Assemble(state);
+        double damping = LeastDamping;
+        for (int n = 0; n < MaxCloseIterations && Equations.Worst > Tolerance; n++)
+        {
+            Iterations++;
+            double squares = Equations.Squares;
+            Array.Copy(state.Poses, _before, _before.Length);
+            _normal.Solve(damping);
+            double size = Shorten(_normal.Step);
+            if (size < 1e-14)
+            {
+                break;
+            }
+
+            Motion.Move(state.Poses, _normal.Step);
+            Assemble(state);
+            if (Equations.Squares < squares)
+            {
+                damping = Math.Max(LeastDamping, damping * 0.1);
+                continue;
+            }
+
+            Array.Copy(_before, state.Poses, _before.Length);
+            Motion.Start(state.Poses);
+            Assemble(state);
+            damping *= 10;
+            if (damping > 1e3)
+            {
+                break;
+            }
+        }
+
+        return Finish(state) && Equations.Worst <= Accepted;
+    }
+
+    /// <summary>Rows of the state as it stands: joints, couplings, held limits, drivers.</summary>
+    public void Assemble(MechanismState state)
+    {
+        Pose[] poses = state.Poses;
+        Equations.Clear();
+        Equations.AddClosures(poses, state.Values);
+        for (int i = 0; i < Limits.Count; i++)
+        {
+            if (Limits.IsActive[i] && Limits.Row(i, poses, out Joints.ConstraintRow row))
+            {
+                Equations.AddLimit(Limits.JointOf(i), row, poses);
+            }
+        }
+
+        for (int i = 0; i < DrivenCount; i++)
+        {
+            Equations.AddCoordinate(_driven[i], _targets[i], poses, state.Values);
+        }
+    }
+
+    private bool Finish(MechanismState state)
+    {
+        for (int i = 0; i < state.Values.Length; i++)
+        {
+            Equations.Evaluate(i, state.Poses, state.Values, out _);
+        }
+
+        return true;
+    }
+
+    private static double LargestEntry(double[] step)
+    {
+        double largest = 0;
+        foreach (double entry in step)
+        {
+            // A NaN is carried on, so that the caller's test fails.
+            largest = Math.Abs(entry) <= largest ? largest : Math.Abs(entry);
+        }
+
+        return largest;
+    }
+
+    private static double Shorten(double[] step)
+    {
+        double largest = LargestEntry(step);
+        if (largest > LargestStep)
+        {
+            for (int i = 0; i < step.Length; i++)
+            {
+                step[i] *= LargestStep / largest;
+            }
+        }
+
+        return largest;
+    }
+}

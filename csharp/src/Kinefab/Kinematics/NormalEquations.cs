@@ -1,0 +1,181 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// The damped least-squares step dy = -(J^T J + mu I)^-1 J^T C over the tree's freedoms, block-sparse: one node a body.
+/// Damping makes it the step of (nearly) least norm where rows are redundant or freedoms are left over.
+/// Source: Levenberg 1944, Marquardt 1963.
+/// </summary>
+internal sealed class NormalEquations
+{
+    private readonly BlockPattern _pattern;
+    private readonly int[] _freedoms;
+    private readonly Dictionary<RowPath, int[]> _blocks = new();
+    private readonly double[] _matrix;
+    private readonly double[] _step;
+
+    /// <summary>Reserves the blocks that rows along the given paths need.</summary>
+    public NormalEquations(KinematicTree tree, IReadOnlyList<RowPath> paths)
+    {
+        _freedoms = tree.Freedoms;
+        var node = new int[_freedoms.Length];
+        var sizes = new List<int>();
+        for (int body = 0; body < node.Length; body++)
+        {
+            node[body] = -1;
+        }
+
+        foreach (int body in tree.Order)
+        {
+            if (_freedoms[body] > 0)
+            {
+                node[body] = sizes.Count;
+                sizes.Add(_freedoms[body]);
+            }
+        }
+
+        var couplings = new List<(int A, int B)>();
+        foreach (RowPath path in paths)
+        {
+            for (int k = 0; k < path.Bodies.Length; k++)
+            {
+                for (int l = 0; l < k; l++)
+                {
+                    couplings.Add((node[path.Bodies[k]], node[path.Bodies[l]]));
+                }
+            }
+        }
+
+        _pattern = new BlockPattern(sizes.ToArray(), couplings);
+        _matrix = new double[_pattern.Length];
+        _step = new double[_pattern.RowCount];
+        Firsts = new int[_freedoms.Length];
+        foreach (int body in tree.Order)
+        {
+            Firsts[body] = node[body] < 0 ? 0 : _pattern.Rows[node[body]];
+        }
+
+        foreach (RowPath path in paths)
+        {
+            if (!_blocks.ContainsKey(path))
+            {
+                _blocks.Add(path, BlocksOf(path, node));
+            }
+        }
+    }
+
+    /// <summary>For each body the place of its first freedom in a step.</summary>
+    public int[] Firsts { get; }
+
+    /// <summary>J^T C while rows are added, the step once it is solved for.</summary>
+    public double[] Step => _step;
+
+    /// <summary>Forgets all rows.</summary>
+    public void Clear()
+    {
+        Array.Clear(_matrix, 0, _matrix.Length);
+        Array.Clear(_step, 0, _step.Length);
+    }
+
+    /// <summary>Adds one row of J, packed along its path, and its C.</summary>
+    public void Add(RowPath path, ReadOnlySpan<double> row, double c)
+    {
+        int[] blocks = _blocks[path];
+        int[] bodies = path.Bodies;
+        int block = 0;
+        for (int k = 0; k < bodies.Length; k++)
+        {
+            int size = path.Starts[k + 1] - path.Starts[k];
+            ReadOnlySpan<double> rk = row.Slice(path.Starts[k], size);
+            int first = Firsts[bodies[k]];
+            for (int i = 0; i < size; i++)
+            {
+                _step[first + i] += rk[i] * c;
+            }
+
+            for (int l = 0; l < k; l++)
+            {
+                ReadOnlySpan<double> rl = row.Slice(path.Starts[l], path.Starts[l + 1] - path.Starts[l]);
+                int offset = blocks[block++];
+                if (offset >= 0)
+                {
+                    AddProduct(offset, rk, rl);
+                }
+                else
+                {
+                    AddProduct(~offset, rl, rk);
+                }
+            }
+
+            int diagonal = blocks[block++];
+            for (int i = 0; i < size; i++)
+            {
+                for (int j = 0; j <= i; j++)
+                {
+                    _matrix[diagonal + i * size + j] += rk[i] * rk[j];
+                }
+            }
+        }
+    }
+
+    /// <summary>Replaces Step by the damped step; the matrix is used up.</summary>
+    /// <param name="damping">mu as a share of 1 plus the largest diagonal entry.</param>
+    public void Solve(double damping)
+    {
+        double largest = 1;
+        foreach (BlockPattern.Column column in _pattern.Columns)
+        {
+            for (int i = 0; i < column.Size; i++)
+            {
+                largest = Math.Max(largest, _matrix[column.Diagonal + i * (column.Size + 1)]);
+            }
+        }
+
+        double mu = damping * largest;
+        foreach (BlockPattern.Column column in _pattern.Columns)
+        {
+            for (int i = 0; i < column.Size; i++)
+            {
+                _matrix[column.Diagonal + i * (column.Size + 1)] += mu;
+                _step[column.Row + i] = -_step[column.Row + i];
+            }
+        }
+
+        BlockCholesky<ScalarLane>.Factor(_pattern, _matrix);
+        BlockCholesky<ScalarLane>.Solve(_pattern, _matrix, _step);
+    }
+
+    private void AddProduct(int offset, ReadOnlySpan<double> rows, ReadOnlySpan<double> columns)
+    {
+        for (int i = 0; i < rows.Length; i++)
+        {
+            for (int j = 0; j < columns.Length; j++)
+            {
+                _matrix[offset++] += rows[i] * columns[j];
+            }
+        }
+    }
+
+    // For each pair k >= l: the offset of its block, or the complement where the block's rows are l's.
+    private int[] BlocksOf(RowPath path, int[] node)
+    {
+        var blocks = new int[path.Bodies.Length * (path.Bodies.Length + 1) / 2];
+        int next = 0;
+        for (int k = 0; k < path.Bodies.Length; k++)
+        {
+            int nk = node[path.Bodies[k]];
+            for (int l = 0; l < k; l++)
+            {
+                int nl = node[path.Bodies[l]];
+                blocks[next++] = _pattern.IsBefore(nl, nk) ? _pattern.Below(nk, nl) : ~_pattern.Below(nl, nk);
+            }
+
+            blocks[next++] = _pattern.Diagonal(nk);
+        }
+
+        return blocks;
+    }
+}

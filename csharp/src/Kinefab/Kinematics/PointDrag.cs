@@ -1,0 +1,176 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Least distance of a body's point from a place under the joints and limits: Gauss-Newton on the light pull and the heavy
+/// joint rows together, then back onto the joints alone. Limits met on the way are held while the pull presses on them.
+/// </summary>
+internal sealed class PointDrag
+{
+    // The pull is so light that the joints give way by little, and so heavy that it rules what they leave free.
+    private const double Weight = 0.03;
+    private const double LeastDamping = 1e-9;
+    private const double LargestDamping = 1e3;
+    private const double LargestStep = 0.2;
+    private const double LimitTolerance = 1e-10;
+    private const double ReachedDistance = 1e-10;
+    private const double LeastGain = 1e-10;
+    private const int MaxIterations = 100;
+
+    private readonly Mechanism _mechanism;
+    private readonly NewtonSolver _newton;
+    private readonly int _body;
+    private readonly RowPath _path;
+    private readonly NormalEquations _normal;
+    private readonly TreeMotion _motion;
+    private readonly PositionEquations _equations;
+    private readonly MechanismState _good;
+
+    public PointDrag(Mechanism mechanism, NewtonSolver newton, int body)
+    {
+        _mechanism = mechanism;
+        _newton = newton;
+        _body = body;
+        _path = RowPath.Between(mechanism.Tree, body, KinematicTree.Ground);
+        var paths = new List<RowPath>(mechanism.Rows.All) { _path };
+        _normal = new NormalEquations(mechanism.Tree, paths);
+        _motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
+        _equations = new PositionEquations(mechanism, _motion, _normal);
+        _good = mechanism.NewState();
+    }
+
+    /// <summary>Drags until the target is reached or nothing is gained.</summary>
+    /// <param name="state">Moved.</param>
+    /// <param name="point">In the body's frame.</param>
+    /// <param name="target">World.</param>
+    public DriveResult Run(MechanismState state, Vector3d point, Vector3d target)
+    {
+        LimitSet limits = _newton.Limits;
+        _newton.Iterations = 0;
+        _newton.ClearDriven();
+        limits.Begin(state.Poses);
+        if (!_newton.Close(state))
+        {
+            return Result(DriveStatus.NotClosed, 0, -1);
+        }
+
+        // A state that closing pushed through a limit starts from there.
+        limits.Begin(state.Poses);
+        _good.CopyFrom(state);
+        double start = Distance(state, point, target);
+        double distance = start;
+        double damping = LeastDamping;
+        int limit = -1;
+        for (int n = 0; n < MaxIterations && distance > ReachedDistance && damping < LargestDamping; n++)
+        {
+            bool released = Pull(state, point, target, damping, out double size);
+            limits.Measure(state.Poses);
+            bool closed = _newton.Close(state);
+            limits.Measure(state.Poses);
+            int broken = limits.Worst(LimitTolerance);
+            if (closed && broken >= 0)
+            {
+                limits.IsActive[broken] = true;
+                limit = broken;
+                state.CopyFrom(_good);
+                damping = released ? damping * 10 : damping;
+                continue;
+            }
+
+            double now = Distance(state, point, target);
+            if (!closed || !(now < distance))
+            {
+                state.CopyFrom(_good);
+                damping = Math.Max(damping, 1e-7) * 10;
+                if (size < 1e-12)
+                {
+                    break;
+                }
+
+                continue;
+            }
+
+            double gain = distance - now;
+            distance = now;
+            _good.CopyFrom(state);
+            damping = Math.Max(LeastDamping, damping * 0.1);
+            if (gain < LeastGain && !released)
+            {
+                break;
+            }
+        }
+
+        state.CopyFrom(_good);
+        bool reached = distance <= ReachedDistance;
+        DriveStatus status = reached ? DriveStatus.Reached : AnyActive(limits) ? DriveStatus.StoppedByLimit : DriveStatus.OutOfReach;
+        return Result(status, reached ? 1 : Math.Max(0, 1 - distance / start), status == DriveStatus.OutOfReach ? -1 : limit);
+    }
+
+    private double Distance(MechanismState state, Vector3d point, Vector3d target) =>
+        (state.Poses[_body].Point(point) - target).Length / _mechanism.Length;
+
+    // One damped step; limits that it would leave towards the inside are released. True when any was.
+    private bool Pull(MechanismState state, Vector3d point, Vector3d target, double damping, out double size)
+    {
+        LimitSet limits = _newton.Limits;
+        Pose[] poses = state.Poses;
+        _motion.Start(poses);
+        _equations.Clear();
+        _equations.AddClosures(poses, state.Values);
+        for (int i = 0; i < limits.Count; i++)
+        {
+            if (limits.IsActive[i] && limits.Row(i, poses, out ConstraintRow row))
+            {
+                _equations.AddLimit(limits.JointOf(i), row, poses);
+            }
+        }
+
+        _equations.AddPoint(_path, poses[_body].Point(point), target, Weight);
+        _normal.Solve(damping);
+        _newton.Iterations++;
+        double[] step = _normal.Step;
+        bool released = false;
+        for (int i = 0; i < limits.Count; i++)
+        {
+            if (!limits.IsActive[i])
+            {
+                continue;
+            }
+
+            // The least-squares residual of a held limit is the pull on it: positive is away from the limit.
+            bool isThere = limits.Row(i, poses, out ConstraintRow row);
+            double unit = row.Has(RowFlags.Angular) ? 1 : _mechanism.Length;
+            if (!isThere || row.GeometricError / unit + _equations.Rate(limits.JointOf(i), row, poses, step) > 1e-12)
+            {
+                limits.IsActive[i] = false;
+                released = true;
+            }
+        }
+
+        size = 0;
+        foreach (double entry in step)
+        {
+            size = Math.Max(size, Math.Abs(entry));
+        }
+
+        if (size > LargestStep)
+        {
+            for (int i = 0; i < step.Length; i++)
+            {
+                step[i] *= LargestStep / size;
+            }
+        }
+
+        _motion.Move(poses, step);
+        return released;
+    }
+
+    private static bool AnyActive(LimitSet limits) => Array.IndexOf(limits.IsActive, true) >= 0;
+
+    private DriveResult Result(DriveStatus status, double fraction, int limit) =>
+        new(status, fraction, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, limit < 0 ? null : LimitNames.Of(_good, _newton.Limits, limit));
+}

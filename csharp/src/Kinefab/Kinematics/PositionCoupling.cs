@@ -1,0 +1,53 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>q_B = Ratio q_A + Offset between two of a mechanism's coordinates, radians and metres as its rows have them.</summary>
+internal readonly struct PositionCoupling
+{
+    public readonly int A;
+    public readonly int B;
+    public readonly double Ratio;
+    public readonly double Offset;
+
+    private PositionCoupling(int a, int b, double ratio, double offset)
+    {
+        A = a;
+        B = b;
+        Ratio = ratio;
+        Offset = offset;
+    }
+
+    public static PositionCoupling[] Of(IReadOnlyList<Coupling> sources, MechanismCoordinate[] coordinates)
+    {
+        var couplings = new PositionCoupling[sources.Count];
+        for (int i = 0; i < couplings.Length; i++)
+        {
+            int a = Find(sources[i].A, coordinates);
+            int b = Find(sources[i].B, coordinates);
+            double ratio = sources[i].Ratio * Unit(coordinates[b]) / Unit(coordinates[a]);
+            double offset = sources[i].Offset * Unit(coordinates[b]) + coordinates[b].Zero - ratio * coordinates[a].Zero;
+            couplings[i] = new PositionCoupling(a, b, ratio, offset);
+        }
+
+        return couplings;
+    }
+
+    private static double Unit(MechanismCoordinate coordinate) => coordinate.IsAngle ? Math.PI / 180 : 1;
+
+    private static int Find(JointCoordinate place, MechanismCoordinate[] coordinates)
+    {
+        for (int i = 0; i < coordinates.Length; i++)
+        {
+            MechanismCoordinate c = coordinates[i];
+            if (c.GameObject == place.GameObject && c.Component == place.Component && c.Coordinate == place.Coordinate)
+            {
+                return i;
+            }
+        }
+
+        throw new ArgumentException($"A coupling names a locked coordinate of GameObject {place.GameObject}.", nameof(place));
+    }
+}

@@ -1,0 +1,66 @@
+using System.Collections.Generic;
+
+namespace Kinefab.Numerics;
+
+/// <summary>
+/// Minimum-degree elimination order of a symmetric sparse matrix of blocks: at each turn the node goes whose neighbours
+/// hold the fewest rows, ties by index, and its neighbours become neighbours of each other. A tree has no fill in it.
+/// Source: Tinney and Walker 1967, scheme 2.
+/// </summary>
+internal static class MinimumDegree
+{
+    /// <summary>Orders the nodes and tells, for each, which later nodes it is coupled to when its turn comes.</summary>
+    /// <param name="sizes">Rows of each node's block.</param>
+    /// <param name="neighbours">For each node its neighbours, symmetric, without itself; used up by the elimination.</param>
+    /// <param name="later">For each node its neighbours at its turn, in order of index.</param>
+    /// <returns>The nodes in order of elimination.</returns>
+    public static int[] Order(int[] sizes, SortedSet<int>[] neighbours, out int[][] later)
+    {
+        int n = sizes.Length;
+        var degree = new int[n];
+        var queue = new SortedSet<(int Degree, int Node)>();
+        for (int i = 0; i < n; i++)
+        {
+            degree[i] = Degree(i);
+            queue.Add((degree[i], i));
+        }
+
+        var order = new int[n];
+        later = new int[n][];
+        for (int turn = 0; turn < n; turn++)
+        {
+            int node = queue.Min.Node;
+            queue.Remove(queue.Min);
+            order[turn] = node;
+            var around = new int[neighbours[node].Count];
+            neighbours[node].CopyTo(around);
+            later[node] = around;
+            foreach (int a in around)
+            {
+                neighbours[a].Remove(node);
+                neighbours[a].UnionWith(around);
+                neighbours[a].Remove(a);
+            }
+
+            foreach (int a in around)
+            {
+                queue.Remove((degree[a], a));
+                degree[a] = Degree(a);
+                queue.Add((degree[a], a));
+            }
+        }
+
+        return order;
+
+        int Degree(int node)
+        {
+            int rows = 0;
+            foreach (int a in neighbours[node])
+            {
+                rows += sizes[a];
+            }
+
+            return rows;
+        }
+    }
+}

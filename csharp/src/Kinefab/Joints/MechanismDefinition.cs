@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -6,7 +5,7 @@ using Kinefab.Validation;
 
 namespace Kinefab.Joints;
 
-/// <summary>Bodies and joints of a scene as Unity makes them when it starts.</summary>
+/// <summary>Bodies and joints of a scene as Unity makes them when it starts; a body's frame is its GameObject's, unscaled.</summary>
 internal sealed class MechanismDefinition
 {
     private MechanismDefinition(int[] gameObjects, int[] bodyOf, List<JointDefinition> joints)
@@ -22,20 +21,21 @@ internal sealed class MechanismDefinition
     /// <summary>For each GameObject the body that moves it, or Joint.World.</summary>
     public int[] BodyOf { get; }
 
+    /// <summary>In order of GameObject and component.</summary>
     public IReadOnlyList<JointDefinition> Joints { get; }
 
+    /// <summary>What Unity makes of a scene: inactive objects have neither bodies nor joints.</summary>
     public static MechanismDefinition From(ValidScene scene)
     {
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
         var bodies = new List<int>();
         var bodyOf = new int[objects.Count];
+        var isActive = new bool[objects.Count];
         for (int i = 0; i < objects.Count; i++)
         {
-            if (scene.Body(i) is null)
-            {
-                bodyOf[i] = objects[i].Parent is int parent ? bodyOf[parent] : Joint.World;
-            }
-            else
+            isActive[i] = objects[i].Active && (objects[i].Parent is not int above || isActive[above]);
+            bodyOf[i] = objects[i].Parent is int parent ? bodyOf[parent] : Joint.World;
+            if (isActive[i] && scene.Body(i) is not null)
             {
                 bodyOf[i] = bodies.Count;
                 bodies.Add(i);
@@ -45,11 +45,11 @@ internal sealed class MechanismDefinition
         var joints = new List<JointDefinition>();
         for (int i = 0; i < objects.Count; i++)
         {
-            for (int c = 0; c < objects[i].Components.Count; c++)
+            for (int c = 0; isActive[i] && c < objects[i].Components.Count; c++)
             {
                 if (objects[i].Components[c] is Document.Joint joint)
                 {
-                    joints.Add(new JointDefinition(i, c, joint, Make(scene, i, joint, bodyOf)));
+                    joints.Add(new JointDefinition(i, c, joint, Make(scene, i, joint, bodies, bodyOf)));
                 }
             }
         }
@@ -57,75 +57,23 @@ internal sealed class MechanismDefinition
         return new MechanismDefinition(bodies.ToArray(), bodyOf, joints);
     }
 
-    private static Joint Make(ValidScene scene, int own, Document.Joint source, int[] bodyOf)
+    // An inactive connected body has left the simulation: the joint holds to the world where it stands.
+    private static Joint Make(ValidScene scene, int own, Document.Joint settings, List<int> bodies, int[] bodyOf)
     {
-        WorldTransform a = scene.World(own);
-        WorldTransform b = source.ConnectedBody is int other ? scene.World(other) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
-        Vector3d anchor = Vector3d.Zero;
-        Quaterniond frame = Quaterniond.Identity;
-        Vector3d connected = a.Pose.Position;
-        bool worldSpace = source is ConfigurableJoint { ConfiguredInWorldSpace: true };
-        if (source is AnchoredJoint anchored)
-        {
-            anchor = Vector3d.Scale(anchored.Anchor, a.Scale);
-            Vector3d secondary = source is ConfigurableJoint c ? c.SecondaryAxis : Vector3d.Zero;
-            frame = Orientation(anchored.Axis, secondary);
-            connected = anchored.AutoConfigureConnectedAnchor
-                ? a.Pose.Point(anchor)
-                : b.Pose.Point(Vector3d.Scale(anchored.ConnectedAnchor, b.Scale));
-        }
+        WorldTransform? connected = settings.ConnectedBody is int index ? scene.World(index) : null;
+        Pose ownFrame = UnityFrames.Own(settings, scene.World(own));
+        Pose connectedFrame = UnityFrames.Connected(settings, ownFrame, connected);
+        bool swap = settings is ConfigurableJoint { SwapBodies: true };
+        int other = settings.ConnectedBody is int body ? bodyOf[body] : Joint.World;
 
-        Quaterniond world = worldSpace ? frame : a.Pose.Rotation * frame;
-        var ownFrame = new Pose(anchor, a.Pose.Rotation.Conjugate() * world);
-        var connectedFrame = new Pose(b.Pose.InversePoint(connected), b.Pose.Rotation.Conjugate() * world);
-        Joint joint = Axes(source);
-        bool swap = source is ConfigurableJoint { SwapBodies: true };
-        int ownBody = bodyOf[own];
-        int connectedBody = source.ConnectedBody is int index ? bodyOf[index] : Joint.World;
-        joint.Body0 = swap ? connectedBody : ownBody;
-        joint.Body1 = swap ? ownBody : connectedBody;
-        joint.Frame0 = swap ? connectedFrame : ownFrame;
-        joint.Frame1 = swap ? ownFrame : connectedFrame;
+        Joint joint = UnityJoints.Create(settings);
+        joint.Body0 = swap ? other : bodyOf[own];
+        joint.Body1 = swap ? bodyOf[own] : other;
+        joint.Frame0 = Start(joint.Body0).Inverse() * (swap ? connectedFrame : ownFrame);
+        joint.Frame1 = Start(joint.Body1).Inverse() * (swap ? ownFrame : connectedFrame);
         return joint;
-    }
 
-    private static Joint Axes(Document.Joint source)
-    {
-        const double radians = Math.PI / 180;
-        switch (source)
-        {
-            case HingeJoint hinge:
-                return new RevoluteJoint
-                {
-                    LimitEnabled = hinge.UseLimits,
-                    ExtendedLimits = hinge.ExtendedLimits,
-                    Limit = new AngularLimit { Lower = -hinge.Limits.Max * radians, Upper = -hinge.Limits.Min * radians },
-                };
-            case ConfigurableJoint c:
-                return new D6Joint
-                {
-                    X = (AxisMotion)c.XMotion,
-                    Y = (AxisMotion)c.YMotion,
-                    Z = (AxisMotion)c.ZMotion,
-                    Twist = (AxisMotion)c.AngularXMotion,
-                    Swing1 = (AxisMotion)c.AngularYMotion,
-                    Swing2 = (AxisMotion)c.AngularZMotion,
-                    LinearLimit = new LinearLimit { Value = c.LinearLimit.Limit },
-                    TwistLimit = new AngularLimit { Lower = c.LowAngularXLimit.Limit * radians, Upper = c.HighAngularXLimit.Limit * radians },
-                    SwingLimit = new ConeLimit { Y = c.AngularYLimit.Limit * radians, Z = c.AngularZLimit.Limit * radians },
-                };
-            default:
-                return new D6Joint();
-        }
-    }
-
-    // x = axis, y = the part of secondary at right angles to it, z = x cross y; Unity's stand-ins for degenerate input.
-    private static Quaterniond Orientation(Vector3d axis, Vector3d secondary)
-    {
-        Vector3d x = axis.Length > 0 ? axis.Normalized() : Vector3d.UnitX;
-        Vector3d y = secondary - x * Vector3d.Dot(x, secondary);
-        y = y.Length > 1e-6 * Math.Max(secondary.Length, 1e-30) ? y.Normalized() : Vector3d.Perpendicular(x);
-        return Quaterniond.FromAxes(x, y, Vector3d.Cross(x, y));
+        Pose Start(int place) => place < 0 ? Pose.Identity : scene.World(bodies[place]).Pose;
     }
 }
 

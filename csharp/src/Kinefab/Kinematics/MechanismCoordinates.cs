@@ -24,7 +24,7 @@ internal static class MechanismCoordinates
                 }
 
                 // The rows measure actor 1 against actor 0, Unity the own body against the connected one.
-                double sign = source.Source is ConfigurableJoint { SwapBodies: true } ? 1 : -1;
+                double sign = UnityJoints.CoordinateSign(source.Source);
                 Coordinate name = source.Source is HingeJoint ? Coordinate.Angle : Coordinate.X + axis;
                 var rows = new Joints.JointCoordinate(joints[j], (CoordinateAxis)axis, sign);
                 coordinates.Add(new MechanismCoordinate(source.GameObject, source.Component, name, j, rows));

@@ -1,0 +1,85 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Kinematics;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Kinematics;
+
+/// <summary>Gear, rack, screw and planetary couplings over many turns.</summary>
+public class CouplingTests
+{
+    private const double Tolerance = 1e-9;
+
+    [TestCase(100)]
+    [TestCase(3600)]
+    [TestCase(-3700.5)]
+    public void GearPair_Driven_TurnsByTheRatio(double angle)
+    {
+        var scene = new MechanismScene();
+        JointPlace first = scene.Hinge(scene.Body("g1", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace second = scene.Hinge(scene.Body("g2", Vector3d.UnitX), null, Vector3d.UnitX, Vector3d.UnitZ);
+        scene.Couple(first, Coordinate.Angle, second, Coordinate.Angle, -20.0 / 50);
+        Assert.That(Driven(scene, first, angle, second, Coordinate.Angle), Is.EqualTo(angle * -0.4).Within(Tolerance));
+    }
+
+    [Test]
+    public void Rack_PinionDrivenTenTurns_TravelsByTheRadius()
+    {
+        var scene = new MechanismScene();
+        JointPlace pinion = scene.Hinge(scene.Body("pinion", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace rack = scene.Slide(scene.Body("rack", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitX);
+        scene.Couple(pinion, Coordinate.Angle, rack, Coordinate.X, 0.25 * Math.PI / 180);
+        Assert.That(Driven(scene, pinion, 3600, rack, Coordinate.X), Is.EqualTo(5 * Math.PI).Within(Tolerance));
+    }
+
+    [Test]
+    public void ScrewJack_ScrewDrivenTwoTurns_LowersTheNutByTwoLeads()
+    {
+        var scene = new MechanismScene();
+        int screw = scene.Body("screw", Vector3d.Zero);
+        int nut = scene.Body("nut", Vector3d.UnitZ);
+        JointPlace drive = scene.Hinge(screw, null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace thread = scene.Configurable(nut, screw, Vector3d.UnitZ, Vector3d.UnitZ, Vector3d.UnitX, "FLLFLL");
+        JointPlace slide = scene.Slide(nut, null, Vector3d.UnitZ, Vector3d.UnitZ);
+        scene.Couple(thread, Coordinate.AngularX, thread, Coordinate.X, 0.05 / 360);
+        Assert.That(Driven(scene, drive, 720, slide, Coordinate.X), Is.EqualTo(-0.1).Within(Tolerance));
+    }
+
+    [Test]
+    public void Planetary_SunDriven_TurnsCarrierAndPlanetByTheTeeth()
+    {
+        var scene = new MechanismScene();
+        int carrier = scene.Body("carrier", Vector3d.Zero);
+        int planet = scene.Body("planet", Vector3d.UnitX);
+        JointPlace sun = scene.Hinge(scene.Body("sun", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace arm = scene.Hinge(carrier, null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace spin = scene.Hinge(planet, carrier, Vector3d.UnitX, Vector3d.UnitZ);
+        scene.Couple(sun, Coordinate.Angle, arm, Coordinate.Angle, 24.0 / 84);
+        scene.Couple(arm, Coordinate.Angle, spin, Coordinate.Angle, -60.0 / 18);
+        Mechanism mechanism = scene.Mechanism();
+        MechanismState state = mechanism.NewState();
+        new PositionSolver(mechanism).Drive(state, sun.Angle(mechanism), 210);
+        Assert.That(state.Coordinate(arm.Angle(mechanism)), Is.EqualTo(60).Within(Tolerance));
+        Assert.That(scene.TurnAboutZ(state, planet), Is.EqualTo(-140).Within(Tolerance));
+    }
+
+    [Test]
+    public void Coupling_WithOffset_ClosesToTheOffset()
+    {
+        var scene = new MechanismScene();
+        JointPlace first = scene.Hinge(scene.Body("a", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace second = scene.Hinge(scene.Body("b", Vector3d.UnitX), null, Vector3d.UnitX, Vector3d.UnitZ);
+        scene.Couple(first, Coordinate.Angle, second, Coordinate.Angle, 3, 12);
+        Assert.That(Driven(scene, first, 20, second, Coordinate.Angle), Is.EqualTo(72).Within(Tolerance));
+    }
+
+    private static double Driven(MechanismScene scene, JointPlace drive, double value, JointPlace read, Coordinate reading)
+    {
+        Mechanism mechanism = scene.Mechanism();
+        MechanismState state = mechanism.NewState();
+        DriveResult result = new PositionSolver(mechanism).Drive(state, drive.Angle(mechanism), value);
+        Assert.That(result.Converged, Is.True, result.Status.ToString());
+        return state.Coordinate(read.In(mechanism, reading));
+    }
+}

@@ -5,6 +5,7 @@ namespace Kinefab.Kinematics;
 /// <summary>
 /// Continuation from a state to driven values: s goes from 0 to 1, all driven coordinates on straight lines; a step that
 /// Newton's method does not follow is halved, and one that breaks a limit is cut at the contact and the limit held.
+/// Where halving does not help, branches may cross: there the way is kept by a leap.
 /// </summary>
 internal sealed class CoordinateDrive
 {
@@ -21,6 +22,7 @@ internal sealed class CoordinateDrive
     private readonly int[] _coordinates;
     private readonly double[] _from;
     private readonly double[] _to;
+    private readonly BranchLeap _leap;
     private int _count;
 
     public CoordinateDrive(Mechanism mechanism, NewtonSolver newton)
@@ -28,6 +30,7 @@ internal sealed class CoordinateDrive
         _mechanism = mechanism;
         _newton = newton;
         _good = mechanism.NewState();
+        _leap = new BranchLeap(mechanism, newton);
         _coordinates = new int[mechanism.Coordinates.Count];
         _from = new double[_coordinates.Length];
         _to = new double[_coordinates.Length];
@@ -54,7 +57,12 @@ internal sealed class CoordinateDrive
                     continue;
                 }
 
-                return End(state, s, limit);
+                if (limit >= 0 || !_leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next))
+                {
+                    return End(state, s, limit);
+                }
+
+                step = LargestStep / Math.Max(way, LargestStep) / 8;
             }
 
             _newton.Limits.Measure(state.Poses);
@@ -67,6 +75,7 @@ internal sealed class CoordinateDrive
             }
 
             s = next;
+            Array.Copy(_good.Values, state.Trail, state.Trail.Length);
             _good.CopyFrom(state);
             step = Math.Min(step * 2, Math.Max(LargestStep / Math.Max(way, LargestStep), 1e-300));
         }
@@ -103,23 +112,18 @@ internal sealed class CoordinateDrive
 
     // The s at which the first limit is met: false position with Illinois' halving between a pose inside and one outside.
     // Another limit may turn out to be met earlier; then that one is looked for.
-    private double Contact(MechanismState state, double inside, double outside, ref int limit)
+    private double Contact(MechanismState state, double start, double outside, ref int limit)
     {
-        double start = inside;
         LimitSet limits = _newton.Limits;
+        double inside = start;
         double outer = limits.Distances[limit];
         limits.Measure(_good.Poses);
-        double inner = Math.Max(limits.Distances[limit], 0);
-        if (inner <= LimitTolerance)
+        double inner = limits.Distances[limit];
+        int kept = 0;
+        for (int n = 0; n < MaxContactIterations && inner > LimitTolerance && outside - inside > 1e-16; n++)
         {
-            state.CopyFrom(_good);
-            return start;
-        }
-
-        double weight = 1;
-        for (int n = 0; n < MaxContactIterations && outside - inside > 1e-16; n++)
-        {
-            double s = inner > 0 && !double.IsInfinity(inner) ? inside + (outside - inside) * (weight * inner / ((weight * inner) - outer)) : (inside + outside) / 2;
+            double share = double.IsInfinity(inner) ? 0.5 : inner / (inner - outer);
+            double s = inside + (outside - inside) * share;
             state.CopyFrom(_good);
             if (!Track(state, s))
             {
@@ -129,41 +133,38 @@ internal sealed class CoordinateDrive
 
             limits.Measure(state.Poses);
             int broken = limits.Worst(LimitTolerance);
-            if (broken >= 0)
+            if (broken >= 0 && broken != limit)
             {
-                if (broken != limit)
-                {
-                    limits.Measure(_good.Poses);
-                    inner = Math.Max(limits.Distances[broken], 0);
-                    inside = start;
-                    limit = broken;
-                    limits.Measure(state.Poses);
-                }
-
-                outside = s;
+                limit = broken;
                 outer = limits.Distances[limit];
-                weight = 1;
+                limits.Measure(_good.Poses);
+                inner = limits.Distances[limit];
+                (inside, outside, kept) = (start, s, 0);
+            }
+            else if (broken >= 0)
+            {
+                inner *= kept < 0 ? 0.5 : 1;
+                (outside, outer, kept) = (s, limits.Distances[limit], -1);
+            }
+            else if (limits.Distances[limit] <= LimitTolerance)
+            {
+                return s;
             }
             else
             {
-                inside = s;
-                inner = Math.Max(limits.Distances[limit], 0);
-                weight *= 0.5;
-                if (inner <= LimitTolerance)
-                {
-                    return s;
-                }
+                outer *= kept > 0 ? 0.5 : 1;
+                (inside, inner, kept) = (s, limits.Distances[limit], 1);
             }
         }
 
         state.CopyFrom(_good);
-        if (!Track(state, inside))
+        if (inside > start && Track(state, inside))
         {
-            state.CopyFrom(_good);
-            return start;
+            return inside;
         }
 
-        return inside;
+        state.CopyFrom(_good);
+        return start;
     }
 
     private DriveResult End(MechanismState state, double s, int limit)
@@ -171,7 +172,7 @@ internal sealed class CoordinateDrive
         _newton.ClearDriven();
         _newton.Motion.Start(state.Poses);
         _newton.Assemble(state);
-        double error = Math.Max(_newton.Equations.Worst, _newton.Motion.WorstError);
+        double error = Math.Max(Math.Max(_newton.Equations.WorstLinear, _newton.Equations.WorstAngular), _newton.Motion.WorstError);
         DriveStatus status = error > _newton.Accepted ? DriveStatus.NotClosed : limit >= 0 ? DriveStatus.StoppedByLimit : DriveStatus.OutOfReach;
         return Result(status, s, limit);
     }

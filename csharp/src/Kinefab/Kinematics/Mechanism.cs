@@ -116,6 +116,7 @@ public sealed class Mechanism
         for (int i = 0; i < _coordinates.Length; i++)
         {
             state.Values[i] = _coordinates[i].Zero;
+            state.Trail[i] = _coordinates[i].Zero;
         }
 
         return state;

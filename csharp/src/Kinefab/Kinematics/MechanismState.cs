@@ -11,6 +11,7 @@ public sealed class MechanismState
         Mechanism = mechanism;
         Poses = new Pose[mechanism.BodyCount];
         Values = new double[mechanism.Coordinates.Count];
+        Trail = new double[mechanism.Coordinates.Count];
     }
 
     /// <summary>Whose state this is.</summary>
@@ -21,6 +22,9 @@ public sealed class MechanismState
 
     /// <summary>Coordinates as the joints' rows have them: radians or metres, not zeroed.</summary>
     internal double[] Values { get; }
+
+    /// <summary>Values a step earlier on the way here: the direction of travel, which tells the branch where branches cross.</summary>
+    internal double[] Trail { get; }
 
     /// <summary>A coordinate, degrees or metres.</summary>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
@@ -39,6 +43,7 @@ public sealed class MechanismState
             throw new ArgumentException("The state belongs to another mechanism.", nameof(other));
         Array.Copy(other.Poses, Poses, Poses.Length);
         Array.Copy(other.Values, Values, Values.Length);
+        Array.Copy(other.Trail, Trail, Trail.Length);
     }
 
     /// <summary>A state of its own with the same poses.</summary>

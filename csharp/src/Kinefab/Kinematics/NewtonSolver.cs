@@ -56,6 +56,9 @@ internal sealed class NewtonSolver
     /// <summary>Number of driven coordinates.</summary>
     public int DrivenCount { get; private set; }
 
+    /// <summary>The place of a body's first freedom in a step.</summary>
+    public int FirstFreedom(int body) => _normal.Firsts[body];
+
     /// <summary>Drives nothing.</summary>
     public void ClearDriven() => DrivenCount = 0;
 

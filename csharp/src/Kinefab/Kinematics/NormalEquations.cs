@@ -121,6 +121,31 @@ internal sealed class NormalEquations
         }
     }
 
+    /// <summary>Adds a symmetric matrix over a path's freedoms, full and row by row: second derivatives that J^T J leaves out.</summary>
+    public void AddMatrix(RowPath path, ReadOnlySpan<double> matrix)
+    {
+        int[] blocks = _blocks[path];
+        int width = path.Width;
+        int block = 0;
+        for (int k = 0; k < path.Bodies.Length; k++)
+        {
+            for (int l = 0; l <= k; l++)
+            {
+                int offset = blocks[block++];
+                int rows = offset >= 0 ? k : l;
+                int columns = offset >= 0 ? l : k;
+                offset = offset >= 0 ? offset : ~offset;
+                for (int i = path.Starts[rows]; i < path.Starts[rows + 1]; i++)
+                {
+                    for (int j = path.Starts[columns]; j < path.Starts[columns + 1]; j++)
+                    {
+                        _matrix[offset++] += matrix[i * width + j];
+                    }
+                }
+            }
+        }
+    }
+
     /// <summary>Replaces Step by the damped step; the matrix is used up.</summary>
     /// <param name="damping">mu as a share of 1 plus the largest diagonal entry.</param>
     public void Solve(double damping)

@@ -6,20 +6,25 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Least distance of a body's point from a place under the joints and limits: Gauss-Newton on the light pull and the heavy
+/// Least distance of a body's point from a place under the joints and limits: Newton's method on the light pull and the heavy
 /// joint rows together, then back onto the joints alone. Limits met on the way are held while the pull presses on them.
 /// </summary>
 internal sealed class PointDrag
 {
     // The pull is so light that the joints give way by little, and so heavy that it rules what they leave free.
     private const double Weight = 0.03;
+    // A far target pulls no more than a near one in the same direction: the resting places are the same, and the
+    // curvature stays small against J^T J. Lengths of the mechanism.
+    private const double LongestPull = 0.5;
     private const double LeastDamping = 1e-9;
+    private const double LeastFailedDamping = 1e-6;
     private const double LargestDamping = 1e3;
     private const double LargestStep = 0.2;
+    private const double LeastStep = 1e-12;
     private const double LimitTolerance = 1e-10;
     private const double ReachedDistance = 1e-10;
-    private const double LeastGain = 1e-10;
-    private const int MaxIterations = 100;
+    private const double LeastGain = 1e-7;
+    private const int MaxIterations = 60;
 
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
@@ -29,6 +34,7 @@ internal sealed class PointDrag
     private readonly TreeMotion _motion;
     private readonly PositionEquations _equations;
     private readonly MechanismState _good;
+    private readonly double[] _curvature;
 
     public PointDrag(Mechanism mechanism, NewtonSolver newton, int body)
     {
@@ -41,6 +47,7 @@ internal sealed class PointDrag
         _motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
         _equations = new PositionEquations(mechanism, _motion, _normal);
         _good = mechanism.NewState();
+        _curvature = new double[_path.Width * _path.Width];
     }
 
     /// <summary>Drags until the target is reached or nothing is gained.</summary>
@@ -65,9 +72,10 @@ internal sealed class PointDrag
         double distance = start;
         double damping = LeastDamping;
         int limit = -1;
+        bool withCurvature = true;
         for (int n = 0; n < MaxIterations && distance > ReachedDistance && damping < LargestDamping; n++)
         {
-            bool released = Pull(state, point, target, damping, out double size);
+            bool released = Pull(state, point, target, damping, withCurvature, out double size);
             limits.Measure(state.Poses);
             bool closed = _newton.Close(state);
             limits.Measure(state.Poses);
@@ -84,9 +92,11 @@ internal sealed class PointDrag
             double now = Distance(state, point, target);
             if (!closed || !(now < distance))
             {
+                // The curvature may have made the system indefinite: try without it before the step is made shorter.
                 state.CopyFrom(_good);
-                damping = Math.Max(damping, 1e-7) * 10;
-                if (size < 1e-12)
+                damping = withCurvature ? damping : Math.Max(damping, LeastFailedDamping) * 6;
+                withCurvature = false;
+                if (size < LeastStep)
                 {
                     break;
                 }
@@ -97,8 +107,9 @@ internal sealed class PointDrag
             double gain = distance - now;
             distance = now;
             _good.CopyFrom(state);
-            damping = Math.Max(LeastDamping, damping * 0.1);
-            if (gain < LeastGain && !released)
+            withCurvature = true;
+            damping = Math.Max(LeastDamping, damping * 0.4);
+            if (gain < LeastGain * now && !released)
             {
                 break;
             }
@@ -114,7 +125,7 @@ internal sealed class PointDrag
         (state.Poses[_body].Point(point) - target).Length / _mechanism.Length;
 
     // One damped step; limits that it would leave towards the inside are released. True when any was.
-    private bool Pull(MechanismState state, Vector3d point, Vector3d target, double damping, out double size)
+    private bool Pull(MechanismState state, Vector3d point, Vector3d target, double damping, bool withCurvature, out double size)
     {
         LimitSet limits = _newton.Limits;
         Pose[] poses = state.Poses;
@@ -129,7 +140,16 @@ internal sealed class PointDrag
             }
         }
 
-        _equations.AddPoint(_path, poses[_body].Point(point), target, Weight);
+        Vector3d place = poses[_body].Point(point);
+        Vector3d pull = target - place;
+        double farther = pull.Length / (LongestPull * _mechanism.Length);
+        Vector3d near = place + pull * (1 / Math.Max(1, farther));
+        _equations.AddPoint(_path, place, near, Weight);
+        if (withCurvature)
+        {
+            _equations.AddPointCurvature(_path, place, near, Weight, _curvature);
+        }
+
         _normal.Solve(damping);
         _newton.Iterations++;
         double[] step = _normal.Step;

@@ -125,6 +125,37 @@ internal sealed class PositionEquations
         }
     }
 
+    /// <summary>
+    /// The curvature of a pulled point's path, weight^2 (p - target).d2p/dy_i dy_j: d2p is w_i x dp/dy_j where freedom i
+    /// carries freedom j. Paths start at the body, so a later freedom carries an earlier one.
+    /// </summary>
+    public void AddPointCurvature(RowPath path, Vector3d point, Vector3d target, double weight, double[] matrix)
+    {
+        Vector3d lever = (point - _mechanism.Origin) * (1 / _mechanism.Length);
+        Vector3d error = (point - target) * (weight * weight / _mechanism.Length);
+        int width = path.Width;
+        for (int k = 0; k < path.Bodies.Length; k++)
+        {
+            for (int i = path.Starts[k]; i < path.Starts[k + 1]; i++)
+            {
+                Vector3d turn = _motion.Angular[_normal.Firsts[path.Bodies[k]] + i - path.Starts[k]];
+                for (int l = 0; l <= k; l++)
+                {
+                    for (int j = path.Starts[l]; j < path.Starts[l + 1]; j++)
+                    {
+                        int freedom = _normal.Firsts[path.Bodies[l]] + j - path.Starts[l];
+                        Vector3d rate = _motion.Linear[freedom] + Vector3d.Cross(_motion.Angular[freedom], lever);
+                        double entry = Vector3d.Dot(error, Vector3d.Cross(turn, rate));
+                        matrix[i * width + j] = entry;
+                        matrix[j * width + i] = entry;
+                    }
+                }
+            }
+        }
+
+        _normal.AddMatrix(path, matrix.AsSpan(0, width * width));
+    }
+
     /// <summary>A coordinate's value, unwrapped against the last one, which it replaces.</summary>
     public double Evaluate(int coordinate, Pose[] poses, double[] values, out ConstraintRow row)
     {

@@ -1,0 +1,136 @@
+using System;
+
+namespace Kinefab.Numerics;
+
+/// <summary>
+/// Singular values and right singular vectors of a small dense matrix by one-sided Jacobi rotations, which find even tiny
+/// singular values to full relative accuracy of the columns. Source: Demmel and Veselic 1992.
+/// </summary>
+internal sealed class SingularValues
+{
+    private const int MaxSweeps = 60;
+    private const double Orthogonal = 1e-15;
+
+    private readonly double[,] _vectors;
+
+    /// <summary>Decomposes a matrix, which is used up.</summary>
+    /// <param name="matrix">Rows by columns; any of both may be 0.</param>
+    public SingularValues(double[,] matrix)
+    {
+        if (matrix is null)
+            throw new ArgumentNullException(nameof(matrix));
+        int columns = matrix.GetLength(1);
+        // Columns are rotated, so they lie in rows of their own here.
+        double[][] a = Columns(matrix, columns);
+        var v = new double[columns][];
+        for (int i = 0; i < columns; i++)
+        {
+            v[i] = new double[columns];
+            v[i][i] = 1;
+        }
+
+        for (int sweep = 0; sweep < MaxSweeps && Sweep(a, v); sweep++)
+        {
+        }
+
+        var lengths = new double[columns];
+        var order = new int[columns];
+        for (int i = 0; i < columns; i++)
+        {
+            lengths[i] = Math.Sqrt(Dot(a[i], a[i]));
+            order[i] = i;
+        }
+
+        Array.Sort(order, (i, j) => lengths[i] == lengths[j] ? i.CompareTo(j) : lengths[j].CompareTo(lengths[i]));
+        Values = new double[columns];
+        _vectors = new double[columns, columns];
+        for (int k = 0; k < columns; k++)
+        {
+            Values[k] = lengths[order[k]];
+            for (int i = 0; i < columns; i++)
+            {
+                _vectors[i, k] = v[order[k]][i];
+            }
+        }
+    }
+
+    /// <summary>One for each column, falling.</summary>
+    public double[] Values { get; }
+
+    /// <summary>Entry of the right singular vector that belongs to a value.</summary>
+    public double Vector(int entry, int value) => _vectors[entry, value];
+
+    /// <summary>Number of values above a share of the largest; 0 for a matrix of zeros.</summary>
+    public int Rank(double tolerance)
+    {
+        int rank = 0;
+        while (rank < Values.Length && Values[rank] > tolerance * Math.Max(Values[0], 1e-300))
+        {
+            rank++;
+        }
+
+        return rank;
+    }
+
+    private static double[][] Columns(double[,] matrix, int columns)
+    {
+        int rows = matrix.GetLength(0);
+        var a = new double[columns][];
+        for (int j = 0; j < columns; j++)
+        {
+            a[j] = new double[rows];
+            for (int i = 0; i < rows; i++)
+            {
+                a[j][i] = matrix[i, j];
+            }
+        }
+
+        return a;
+    }
+
+    private static bool Sweep(double[][] a, double[][] v)
+    {
+        bool rotated = false;
+        for (int i = 0; i < a.Length; i++)
+        {
+            for (int j = i + 1; j < a.Length; j++)
+            {
+                double p = Dot(a[i], a[i]);
+                double q = Dot(a[j], a[j]);
+                double r = Dot(a[i], a[j]);
+                if (Math.Abs(r) <= Orthogonal * Math.Sqrt(p * q) || r == 0)
+                {
+                    continue;
+                }
+
+                rotated = true;
+                double zeta = (q - p) / (2 * r);
+                double t = (zeta < 0 ? -1 : 1) / (Math.Abs(zeta) + Math.Sqrt(1 + zeta * zeta));
+                double c = 1 / Math.Sqrt(1 + t * t);
+                Rotate(a[i], a[j], c, c * t);
+                Rotate(v[i], v[j], c, c * t);
+            }
+        }
+
+        return rotated;
+    }
+
+    private static void Rotate(double[] x, double[] y, double c, double s)
+    {
+        for (int i = 0; i < x.Length; i++)
+        {
+            (x[i], y[i]) = (c * x[i] - s * y[i], s * x[i] + c * y[i]);
+        }
+    }
+
+    private static double Dot(double[] x, double[] y)
+    {
+        double sum = 0;
+        for (int i = 0; i < x.Length; i++)
+        {
+            sum += x[i] * y[i];
+        }
+
+        return sum;
+    }
+}

@@ -13,6 +13,7 @@ internal sealed class CoordinateDrive
     private const double LargestStep = 0.35;
     private const double LeastStep = 1e-7;
     private const double LeastStepAtLimit = 1e-2;
+    private const double LeapStep = 2e-2;
     private const double LimitTolerance = 1e-12;
     private const int MaxContactIterations = 40;
 
@@ -45,6 +46,7 @@ internal sealed class CoordinateDrive
         double s = 0;
         double step = way > LargestStep ? LargestStep / way : 1;
         int limit = -1;
+        double leaptFrom = -1;
         while (s < 1)
         {
             double next = s + step >= 1 ? 1 : s + step;
@@ -52,17 +54,17 @@ internal sealed class CoordinateDrive
             {
                 state.CopyFrom(_good);
                 step = (next - s) / 2;
-                if (step * way > (limit >= 0 ? LeastStepAtLimit : LeastStep))
+                bool leaps = limit < 0 && step * way <= LeapStep && s > leaptFrom;
+                leaptFrom = leaps ? s : leaptFrom;
+                if (!leaps || !_leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next))
                 {
+                    if (step * way <= (limit >= 0 ? LeastStepAtLimit : LeastStep))
+                    {
+                        return End(state, s, limit);
+                    }
+
                     continue;
                 }
-
-                if (limit >= 0 || !_leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next))
-                {
-                    return End(state, s, limit);
-                }
-
-                step = LargestStep / Math.Max(way, LargestStep) / 8;
             }
 
             _newton.Limits.Measure(state.Poses);

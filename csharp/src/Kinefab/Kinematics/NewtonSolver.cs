@@ -14,6 +14,11 @@ internal sealed class NewtonSolver
     private const double AcceptedError = 1e-10;
     private const double LeastDamping = 1e-9;
     private const double LargestStep = 0.5;
+
+    // The second step is to the first as the way's curvature is to its length, so halving the way lessens it: but not
+    // where branches cross, there it stays, and what Newton's method finds is a matter of chance.
+    private const double LeastFirstShrink = 0.15;
+    private const double LeastShrink = 0.5;
     private const int MaxCloseIterations = 200;
     private const int MaxTrackIterations = 12;
 
@@ -88,7 +93,7 @@ internal sealed class NewtonSolver
 
             _normal.Solve(LeastDamping);
             double size = LargestEntry(_normal.Step);
-            if (!(size <= LargestStep) || (n > 0 && size > Math.Max(0.5 * previous, 1e-9)))
+            if (!(size <= LargestStep) || (n > 0 && size > Math.Max((n > 1 ? LeastShrink : LeastFirstShrink) * previous, 1e-9)))
             {
                 return false;
             }

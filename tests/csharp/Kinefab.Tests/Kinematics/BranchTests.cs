@@ -23,8 +23,8 @@ public class BranchTests
                 at = target > at ? System.Math.Min(target, at + step) : System.Math.Max(target, at - step);
                 DriveResult result = solver.Drive(state, bar.Drive, at);
                 Assert.That(result.Converged, Is.True, $"at {at} by {step}");
-                // The flat pose is a double root: errors of 1e-16 in length leave 1e-8 radians open there.
-                double tolerance = (at + 60) % 180 == 0 ? 3e-6 : 1e-9;
+                // The flat pose is a double root: errors of 1e-13, Newton's stop, leave 3e-7 radians open there.
+                double tolerance = (at + 60) % 180 == 0 ? 2e-5 : 1e-9;
                 Assert.That(bar.AnglesOf(state).Coupler, Is.EqualTo(0).Within(tolerance), $"at {at} by {step}");
             }
         }

@@ -61,6 +61,16 @@ internal sealed class NewtonSolver
     /// <summary>Number of driven coordinates.</summary>
     public int DrivenCount { get; private set; }
 
+    /// <summary>For each body the place of its first freedom in a step.</summary>
+    public int[] Firsts => _normal.Firsts;
+
+    /// <summary>The damped step for the rows last assembled; valid until the next assembly.</summary>
+    public double[] SolveStep(double damping)
+    {
+        _normal.Solve(damping);
+        return _normal.Step;
+    }
+
     /// <summary>The place of a body's first freedom in a step.</summary>
     public int FirstFreedom(int body) => _normal.Firsts[body];
 

@@ -91,6 +91,15 @@ internal sealed class PositionEquations
         Add(path, row.GeometricError / unit);
     }
 
+    /// <summary>One freedom of a tree joint's child as an unknown of its own. C as given.</summary>
+    public void AddFreedom(int joint, int place, double c)
+    {
+        RowPath path = _mechanism.Rows.Joints[joint];
+        Array.Clear(_row, 0, path.Width);
+        _row[place] = 1;
+        Add(path, c);
+    }
+
     /// <summary>The rate that the last step gives a row of a joint.</summary>
     public double Rate(int joint, in ConstraintRow row, Pose[] poses, double[] step)
     {

@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Generic;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>Takes a coordinate through a range, or finds how far it goes.</summary>
+public sealed class Sweep
+{
+    private const double FarthestAngle = 360;
+
+    // Coordinates that differ by more than this after the way back, radians or lengths, are another branch.
+    private const double JumpTolerance = 0.02;
+
+    private readonly Mechanism _mechanism;
+    private readonly PositionSolver _solver;
+    private readonly DeadPointSearch _deadPoints;
+    private readonly MechanismState _back;
+
+    /// <summary>Sweeps with a solver of the caller's.</summary>
+    public Sweep(PositionSolver solver)
+    {
+        _solver = solver ?? throw new ArgumentNullException(nameof(solver));
+        _mechanism = solver.Mechanism;
+        _deadPoints = new DeadPointSearch(_mechanism, solver.Newton);
+        _back = _mechanism.NewState();
+    }
+
+    /// <summary>
+    /// Drives a coordinate from one value to another in equal steps and keeps every state. Where it is stopped, the last
+    /// state is the one at the stop, whose place is found to rounding.
+    /// </summary>
+    /// <param name="state">Where to start; left at the last state.</param>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <param name="from">Degrees or metres; driven to first.</param>
+    /// <param name="to">Degrees or metres.</param>
+    /// <param name="steps">At least 1; one state more is kept.</param>
+    public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps)
+    {
+        if (state is null)
+            throw new ArgumentNullException(nameof(state));
+        if (steps < 1)
+            throw new ArgumentOutOfRangeException(nameof(steps));
+        var values = new List<double>(steps + 1);
+        var states = new List<MechanismState>(steps + 1);
+        var jumps = new List<double>();
+        double metres = 0;
+        double degrees = 0;
+        RangeLimit? stop = null;
+        double start = state.Coordinate(coordinate);
+        for (int i = 0; i <= steps && stop is null; i++)
+        {
+            double target = i == steps ? to : from + (to - from) * i / steps;
+            double before = state.Coordinate(coordinate);
+            DriveResult result = _solver.Drive(state, coordinate, target);
+            metres = Math.Max(metres, result.ErrorMetres);
+            degrees = Math.Max(degrees, result.ErrorDegrees);
+            if (!result.Converged)
+            {
+                stop = StopOf(state, coordinate, i == 0 ? target - start : target - before, result);
+            }
+
+            if (i > 0 && !Returns(state, states[^1], coordinate))
+            {
+                jumps.Add(state.Coordinate(coordinate));
+            }
+
+            values.Add(state.Coordinate(coordinate));
+            states.Add(state.Clone());
+        }
+
+        return new SweepResult(coordinate, values, states, jumps, stop, metres, degrees);
+    }
+
+    /// <summary>
+    /// How far a coordinate goes from a state: up to a whole turn or a hundred lengths of the mechanism each way.
+    /// </summary>
+    /// <param name="state">Not changed.</param>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    public (RangeLimit Low, RangeLimit High) Range(MechanismState state, int coordinate) =>
+        (End(state, coordinate, -1), End(state, coordinate, 1));
+
+    private RangeLimit End(MechanismState state, int coordinate, double direction)
+    {
+        if (state is null)
+            throw new ArgumentNullException(nameof(state));
+        MechanismState moved = state.Clone();
+        double far = _mechanism.Coordinates[coordinate].IsAngle ? FarthestAngle : 100 * _mechanism.Length;
+        DriveResult result = _solver.Drive(moved, coordinate, state.Coordinate(coordinate) + direction * far);
+        return result.Converged
+            ? new RangeLimit(RangeEnd.Open, moved.Coordinate(coordinate), null)
+            : StopOf(moved, coordinate, direction, result);
+    }
+
+    private RangeLimit StopOf(MechanismState state, int coordinate, double direction, DriveResult result)
+    {
+        double value = state.Coordinate(coordinate);
+        if (result.Status == DriveStatus.StoppedByLimit)
+        {
+            return new RangeLimit(RangeEnd.Limit, value, result.Limit);
+        }
+
+        if (result.Status == DriveStatus.OutOfReach && _deadPoints.Find(state, coordinate, Math.Sign(direction)) is DeadPoint dead)
+        {
+            return new RangeLimit(dead.Kind == DeadPointKind.Fold ? RangeEnd.Fold : RangeEnd.Bifurcation, dead.Value, null);
+        }
+
+        return new RangeLimit(RangeEnd.Unknown, value, null);
+    }
+
+    private bool Returns(MechanismState state, MechanismState before, int coordinate)
+    {
+        _back.CopyFrom(state);
+        if (!_solver.Drive(_back, coordinate, before.Coordinate(coordinate)).Converged)
+        {
+            return false;
+        }
+
+        for (int i = 0; i < _back.Values.Length; i++)
+        {
+            double unit = _mechanism.Coordinates[i].IsAngle ? 1 : _mechanism.Length;
+            if (Math.Abs(_back.Values[i] - before.Values[i]) > JumpTolerance * unit)
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+}

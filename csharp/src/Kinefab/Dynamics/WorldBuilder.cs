@@ -141,19 +141,9 @@ internal sealed class WorldBuilder
     // An inactive connected body has left the simulation: the joint holds to the world where it stands.
     private Kinefab.Joints.Joint MakeJoint(Document.Joint settings, int gameObject, Bodies bodies)
     {
-        WorldTransform? connected = settings.ConnectedBody is int index ? _scene.World(index) : null;
-        Pose ownFrame = UnityFrames.Own(settings, _scene.World(gameObject));
-        Pose connectedFrame = UnityFrames.Connected(settings, ownFrame, connected);
         int own = _bodyOf[gameObject];
         int other = settings.ConnectedBody is int body ? _bodyOf[body] : Kinefab.Joints.Joint.World;
-        bool swap = settings is ConfigurableJoint { SwapBodies: true };
-
-        Kinefab.Joints.Joint joint = UnityJoints.Create(settings);
-        joint.Body0 = swap ? other : own;
-        joint.Body1 = swap ? own : other;
-        joint.Frame0 = bodies.PoseOf(joint.Body0).Inverse() * (swap ? connectedFrame : ownFrame);
-        joint.Frame1 = bodies.PoseOf(joint.Body1).Inverse() * (swap ? ownFrame : connectedFrame);
-        return joint;
+        return SceneJoint.Make(_scene, gameObject, settings, own, bodies.PoseOf(own), other, bodies.PoseOf(other));
     }
 
     private Kinefab.Joints.Coupling[] MakeCouplings(Bodies bodies)

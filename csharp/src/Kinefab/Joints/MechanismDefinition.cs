@@ -60,18 +60,8 @@ internal sealed class MechanismDefinition
     // An inactive connected body has left the simulation: the joint holds to the world where it stands.
     private static Joint Make(ValidScene scene, int own, Document.Joint settings, List<int> bodies, int[] bodyOf)
     {
-        WorldTransform? connected = settings.ConnectedBody is int index ? scene.World(index) : null;
-        Pose ownFrame = UnityFrames.Own(settings, scene.World(own));
-        Pose connectedFrame = UnityFrames.Connected(settings, ownFrame, connected);
-        bool swap = settings is ConfigurableJoint { SwapBodies: true };
         int other = settings.ConnectedBody is int body ? bodyOf[body] : Joint.World;
-
-        Joint joint = UnityJoints.Create(settings);
-        joint.Body0 = swap ? other : bodyOf[own];
-        joint.Body1 = swap ? bodyOf[own] : other;
-        joint.Frame0 = Start(joint.Body0).Inverse() * (swap ? connectedFrame : ownFrame);
-        joint.Frame1 = Start(joint.Body1).Inverse() * (swap ? ownFrame : connectedFrame);
-        return joint;
+        return SceneJoint.Make(scene, own, settings, bodyOf[own], Start(bodyOf[own]), other, Start(other));
 
         Pose Start(int place) => place < 0 ? Pose.Identity : scene.World(bodies[place]).Pose;
     }

@@ -34,21 +34,39 @@ internal sealed class DenseRows : IRowSink
         _rows.Add(dense);
     }
 
-    /// <summary>The chosen columns of all rows.</summary>
-    public double[,] Matrix(IReadOnlyList<int> columns)
+    /// <summary>The rows of one block over its columns.</summary>
+    public double[,] Matrix(IReadOnlyList<int> columns, int block, int[] blockOf)
     {
-        var matrix = new double[_rows.Count, columns.Count];
-        for (int i = 0; i < _rows.Count; i++)
+        var chosen = new List<double[]>();
+        foreach (double[] row in _rows)
+        {
+            int first = Array.FindIndex(row, entry => entry != 0);
+            if (first >= 0 && blockOf[first] == block)
+            {
+                chosen.Add(row);
+            }
+        }
+
+        return Matrix(chosen, columns);
+    }
+
+    /// <summary>The chosen columns of all rows.</summary>
+    public double[,] Matrix(IReadOnlyList<int> columns) => Matrix(_rows, columns);
+
+    /// <summary>A row, over all columns.</summary>
+    public double[] Row(int index) => _rows[index];
+
+    private static double[,] Matrix(List<double[]> rows, IReadOnlyList<int> columns)
+    {
+        var matrix = new double[rows.Count, columns.Count];
+        for (int i = 0; i < rows.Count; i++)
         {
             for (int j = 0; j < columns.Count; j++)
             {
-                matrix[i, j] = _rows[i][columns[j]];
+                matrix[i, j] = rows[i][columns[j]];
             }
         }
 
         return matrix;
     }
-
-    /// <summary>A row, over all columns.</summary>
-    public double[] Row(int index) => _rows[index];
 }

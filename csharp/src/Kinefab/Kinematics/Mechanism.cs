@@ -59,6 +59,12 @@ public sealed class Mechanism
             }
         }
 
+        JointPlaces = new (int, int)[definition.Joints.Count];
+        for (int j = 0; j < JointPlaces.Length; j++)
+        {
+            JointPlaces[j] = (definition.Joints[j].GameObject, definition.Joints[j].Component);
+        }
+
         Joints = joints.ToArray();
         Tree = new KinematicTree(isFixed, Joints, isClosure.ToArray());
         _coordinates = MechanismCoordinates.Of(definition, Joints);
@@ -85,7 +91,11 @@ public sealed class Mechanism
     /// <summary>For each body the GameObject with its Rigidbody.</summary>
     internal int[] GameObjects { get; }
 
+    /// <summary>The components' joints, then those that frozen motions amount to.</summary>
     internal Joint[] Joints { get; }
+
+    /// <summary>For each joint of a component where it stands.</summary>
+    internal (int GameObject, int Component)[] JointPlaces { get; }
 
     internal PositionCoupling[] Couplings { get; }
 

@@ -25,6 +25,7 @@ internal sealed class NewtonSolver
     private readonly Mechanism _mechanism;
     private readonly NormalEquations _normal;
     private readonly Pose[] _before;
+    private readonly double[] _step;
     private readonly int[] _driven;
     private readonly double[] _targets;
 
@@ -35,6 +36,8 @@ internal sealed class NewtonSolver
         Motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
         Equations = new PositionEquations(mechanism, Motion, _normal);
         Limits = new LimitSet(mechanism);
+        Closing = new double[_normal.Step.Length];
+        _step = new double[_normal.Step.Length];
         _before = new Pose[mechanism.BodyCount];
         _driven = new int[mechanism.Coordinates.Count];
         _targets = new double[mechanism.Coordinates.Count];
@@ -45,6 +48,9 @@ internal sealed class NewtonSolver
     public PositionEquations Equations { get; }
 
     public LimitSet Limits { get; }
+
+    /// <summary>Sum of the steps of the last Close.</summary>
+    public double[] Closing { get; }
 
     /// <summary>Iterations since it was set to 0.</summary>
     public int Iterations { get; set; }
@@ -127,6 +133,7 @@ internal sealed class NewtonSolver
         Motion.Start(state.Poses);
         Assemble(state);
         double damping = LeastDamping;
+        Array.Clear(Closing, 0, Closing.Length);
         for (int n = 0; n < MaxCloseIterations && Equations.Worst > Tolerance; n++)
         {
             Iterations++;
@@ -139,10 +146,16 @@ internal sealed class NewtonSolver
                 break;
             }
 
-            Motion.Move(state.Poses, _normal.Step);
+            Array.Copy(_normal.Step, _step, _step.Length);
+            Motion.Move(state.Poses, _step);
             Assemble(state);
             if (Equations.Squares < squares)
             {
+                for (int i = 0; i < _step.Length; i++)
+                {
+                    Closing[i] += _step[i];
+                }
+
                 damping = Math.Max(LeastDamping, damping * 0.1);
                 continue;
             }

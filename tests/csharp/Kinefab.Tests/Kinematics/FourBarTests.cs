@@ -54,7 +54,6 @@ public class FourBarTests
         MechanismState state = bar.Mechanism.NewState();
         DriveResult result = new PositionSolver(bar.Mechanism).Drive(state, bar.Drive, crank - bar.CrankStart);
         (double gotCoupler, double gotRocker) = bar.AnglesOf(state);
-        TestContext.Out.WriteLine($"iterations {result.Iterations} error {result.ErrorMetres} {result.ErrorDegrees}");
         using (Assert.EnterMultipleScope())
         {
             Assert.That(result.Converged, Is.True);

@@ -255,7 +255,7 @@ internal static class SpatialMechanisms
         int? previous = null;
         for (int i = 0; i < 6; i++)
         {
-            var at = new Vector3d(0.4 * i, 0.03 * i * i, 0.2 + 0.01 * i);
+            var at = new Vector3d(0.4 * i, 0.03 * i * i, 0.2 + 0.02 * i * i);
             int link = scene.Body($"link{i}", at + new Vector3d(0.2, 0, 0));
             joints[i] = scene.Hinge(link, previous, at, axes[i], -limit, limit);
             previous = link;

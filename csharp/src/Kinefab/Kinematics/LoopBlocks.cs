@@ -1,0 +1,72 @@
+using System.Collections.Generic;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// The freedoms of the tree, split into those that loops and couplings tie together. Ranks of different blocks add, so each
+/// is decomposed by itself; what no row touches is free.
+/// </summary>
+internal sealed class LoopBlocks
+{
+    /// <summary>Splits the freedoms of a mechanism.</summary>
+    /// <param name="mechanism">Whose.</param>
+    /// <param name="firsts">For each body the column of its first freedom.</param>
+    /// <param name="freedoms">Number of freedoms.</param>
+    public LoopBlocks(Mechanism mechanism, int[] firsts, int freedoms)
+    {
+        var sets = new DisjointSets(mechanism.BodyCount);
+        var touched = new bool[mechanism.BodyCount];
+        foreach (int joint in mechanism.Tree.Closures)
+        {
+            Tie(mechanism.Rows.Joints[joint]);
+        }
+
+        foreach (RowPath path in mechanism.Rows.Couplings)
+        {
+            Tie(path);
+        }
+
+        BlockOf = new int[freedoms];
+        var blocks = new List<List<int>>();
+        var blockOfSet = new Dictionary<int, int>();
+        foreach (int body in mechanism.Tree.Order)
+        {
+            for (int i = 0; i < mechanism.Tree.Freedoms[body]; i++)
+            {
+                int column = firsts[body] + i;
+                BlockOf[column] = -1;
+                if (!touched[body])
+                {
+                    continue;
+                }
+
+                if (!blockOfSet.TryGetValue(sets.Find(body), out int block))
+                {
+                    block = blocks.Count;
+                    blockOfSet.Add(sets.Find(body), block);
+                    blocks.Add(new List<int>());
+                }
+
+                BlockOf[column] = block;
+                blocks[block].Add(column);
+            }
+        }
+
+        Columns = blocks;
+
+        void Tie(RowPath path)
+        {
+            foreach (int body in path.Bodies)
+            {
+                touched[body] = true;
+                sets.Join(path.Bodies[0], body);
+            }
+        }
+    }
+
+    /// <summary>For each block its columns.</summary>
+    public IReadOnlyList<IReadOnlyList<int>> Columns { get; }
+
+    /// <summary>For each freedom its block, or -1.</summary>
+    public int[] BlockOf { get; }
+}

@@ -1,0 +1,116 @@
+using System.Collections.Generic;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>What one body can still do at the exported pose.</summary>
+public sealed class BodyMobility
+{
+    internal BodyMobility(int gameObject, int translations, int rotations)
+    {
+        GameObject = gameObject;
+        Translations = translations;
+        Rotations = rotations;
+    }
+
+    /// <summary>Index of the GameObject.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Independent velocities without rotation, 0 to 3.</summary>
+    public int Translations { get; }
+
+    /// <summary>Independent angular velocities, 0 to 3.</summary>
+    public int Rotations { get; }
+}
+
+/// <summary>Bodies that hang together by joints or couplings, the ground left out.</summary>
+public sealed class IslandMobility
+{
+    internal IslandMobility(IReadOnlyList<int> gameObjects, int mobility, int firstOrder, int redundant, int loops)
+    {
+        GameObjects = gameObjects;
+        Mobility = mobility;
+        FirstOrder = firstOrder;
+        Redundant = redundant;
+        Loops = loops;
+    }
+
+    /// <summary>Indices of the GameObjects, rising.</summary>
+    public IReadOnlyList<int> GameObjects { get; }
+
+    /// <summary>Freedoms of finite motion.</summary>
+    public int Mobility { get; }
+
+    /// <summary>Freedoms of the velocities at the exported pose.</summary>
+    public int FirstOrder { get; }
+
+    /// <summary>Rows that remove nothing at the exported pose.</summary>
+    public int Redundant { get; }
+
+    /// <summary>Joints beyond a spanning tree.</summary>
+    public int Loops { get; }
+}
+
+/// <summary>Redundant rows of one joint, the rows of a loop being counted from its tree to its closing joints.</summary>
+public sealed class RedundantRows
+{
+    internal RedundantRows(int gameObject, int component, int rows, int redundant)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Rows = rows;
+        Redundant = redundant;
+    }
+
+    /// <summary>Index of the GameObject that carries the joint.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Index of the joint in its components.</summary>
+    public int Component { get; }
+
+    /// <summary>Freedoms that the joint removes between its bodies.</summary>
+    public int Rows { get; }
+
+    /// <summary>How many of its rows the others already hold.</summary>
+    public int Redundant { get; }
+}
+
+/// <summary>Mobility of a mechanism, counted from its joints.</summary>
+public sealed class MobilityReport
+{
+    internal MobilityReport(
+        int mobility, int firstOrder, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints)
+    {
+        Mobility = mobility;
+        FirstOrder = firstOrder;
+        Rows = rows;
+        Redundant = redundant;
+        Gap = gap;
+        Islands = islands;
+        Bodies = bodies;
+        Joints = joints;
+    }
+
+    /// <summary>Freedoms of finite motion.</summary>
+    public int Mobility { get; }
+
+    /// <summary>Freedoms of the velocities at the exported pose; more than <see cref="Mobility"/> where the pose is singular.</summary>
+    public int FirstOrder { get; }
+
+    /// <summary>Rows of all joints and couplings.</summary>
+    public int Rows { get; }
+
+    /// <summary>Rows that remove nothing at the exported pose.</summary>
+    public int Redundant { get; }
+
+    /// <summary>Ratio of the least singular value that counts to the greatest that does not, over all loops; below 100 the counts are unsure.</summary>
+    public double Gap { get; }
+
+    /// <summary>By their first GameObject.</summary>
+    public IReadOnlyList<IslandMobility> Islands { get; }
+
+    /// <summary>Every body that can move, by GameObject.</summary>
+    public IReadOnlyList<BodyMobility> Bodies { get; }
+
+    /// <summary>The joints with redundant rows, by GameObject and component.</summary>
+    public IReadOnlyList<RedundantRows> Joints { get; }
+}

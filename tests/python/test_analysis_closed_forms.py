@@ -65,14 +65,6 @@ DRIVEN = {
     ),
     "M25": ("g1", 0.0, {"driven gear deg (20:50)": link_angle("g2")}),
     "M26": ("pinion", 0.0, {"rack x = rp*theta": place("rack", 0)}),
-    "M27": (
-        "sun",
-        0.0,
-        {
-            "carrier deg = 24/84*sun": link_angle("carrier"),
-            "planet abs deg = (1-60/18)*carrier": link_angle("planet"),
-        },
-    ),
     "M32": ("arm1", 35.0, {"platform height L sin": place("platform", 1)}),
 }
 ROWS = [r for r in table("closed_forms") if r["id"] in DRIVEN and r["quantity"] in DRIVEN[r["id"]][2]]
@@ -93,6 +85,32 @@ def test_driven_position_is_that_of_the_closed_form(row):
         assert math.radians(abs(value - expected)) < TOLERANCE
     else:
         assert abs(value - expected) < TOLERANCE
+
+
+def test_planetary_gear_keeps_its_ratios():
+    """Carrier at 60 degrees: sun at 24/84 of its turn's inverse (210), planet at (1 - 60/18) 60 = -140 degrees."""
+    found = analysed("M27")
+    expected = {
+        r["quantity"].split()[0]: float(r["value"]) for r in table("closed_forms") if r["id"] == "M27"
+    }
+    sun = next(float(r["driver"]) for r in table("closed_forms") if r["id"] == "M27")
+    drive = found.drive((joint(found, "base", "carrier").id, RX))
+    drive.to([math.radians(expected["carrier"])])
+    for name, angle in (("sun", sun), ("planet", expected["planet"])):
+        assert (
+            math.radians(abs(math.remainder(turned(drive.poses()[node(found.source, name)]) - angle, 360.0)))
+            < TOLERANCE
+        )
+
+
+def test_couplings_of_a_planetary_count_against_its_carrier():
+    """Both gears couple hinges on the carrier: the sun's is hung there, on the same axis."""
+    found = analysed("M27")
+    ratios = {(c.joint_a, c.joint_b): c.ratio for c in found.couplings}
+    assert ratios == {
+        ("carrier - sun", "carrier - planet"): pytest.approx(-24 / 18),
+        ("base - carrier", "carrier - planet"): pytest.approx(-60 / 18),
+    }
 
 
 def test_sarrus_platform_rises_as_twice_the_sine():
@@ -170,7 +188,7 @@ def test_wedge_lowers_its_follower():
 
 
 def test_delta_platform_follows_its_three_arms():
-    """Arms at 10, 25 and 40 degrees below the horizontal put the Delta's platform where three spheres meet."""
+    """Arms at 10, 25 and 40 degrees put the Delta's platform where three spheres meet."""
     found = analysed("M18")
     expected = [
         float(r["value"])

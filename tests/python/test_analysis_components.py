@@ -67,7 +67,7 @@ def chained(scene, parts, rng, reach):
 
 
 def worst_violation(found, parts, scene, rng):
-    """Largest residual of the source's constraints over random motions of the components, fraction of the size."""
+    """Largest residual of the constraints over random motions of the components, fraction of the size."""
     system = found.assembly.closing.system
     body = found.assembly.closing.body
     system.length = np.full(system.bodies, found.assembly.equations.length)

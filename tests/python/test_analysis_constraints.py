@@ -269,7 +269,7 @@ def check_derivative(scene, rng):
 
 
 def test_one_vendors_distance_of_lines_is_three_rows_and_anothers_one():
-    """The reading of a line-line distance decides between a skew distance and parallel lines at a distance."""
+    """The reading of a line-line distance decides between skew and parallel lines."""
     rng = np.random.default_rng(5)
     f = random_pose(rng)
     lines = geometry(F.LINE, f), geometry(F.LINE, shifted(f, 0.3))

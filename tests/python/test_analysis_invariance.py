@@ -1,4 +1,4 @@
-"""Names, order, sides, place and unit change nothing; small noise changes no class, large noise is reported."""
+"""Names, order, sides, place and unit change nothing; small noise no class; large noise is reported."""
 
 from __future__ import annotations
 

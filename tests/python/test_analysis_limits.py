@@ -84,7 +84,7 @@ def test_a_limit_of_one_joint_ends_the_range_of_the_others():
 
 
 def test_mechanism_with_two_freedoms_is_not_swept():
-    """The five-bar has two freedoms; its joints' ranges depend on each other and are left open, with a note."""
+    """The five-bar has two freedoms; its joints' ranges depend on each other and are left open."""
     found, by_joint = ranges("M33")
     assert by_joint == {}
     assert "LIMITS_NOT_SWEPT" in [d.code for d in found.report.diagnostics]

@@ -19,12 +19,13 @@ from .limits import found_ranges, with_found_ranges
 from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
 from .ranges import with_ranges
+from .rehanging import rehung
 from .result import Analysis, Island
 
 
 @dataclass(frozen=True, slots=True)
 class AnalysisOptions:
-    """closures: see ``Closures``.  limits: sweep the mechanisms and write the ranges found into the joints."""
+    """closures: see ``Closures``.  limits: sweep the mechanisms and write the ranges into the joints."""
 
     closures: Closures = Closures.MINIMAL
     limits: bool = False
@@ -46,6 +47,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
     links = with_ranges(assembly, links, closed, report)
     ranges = found_ranges(assembly, links, closed, report) if options.limits else []
     links = with_found_ranges(assembly, links, ranges, report)
+    links = rehung(assembly, links, closed, report)
     couplings = couplings_of(assembly, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)
@@ -89,7 +91,7 @@ def _rank(assembly: Assembly) -> int:
 
 
 def _fixed(assembly: Assembly) -> tuple[tuple[int | None, int], ...]:
-    """For each body one pair a node, from its first node (or ground) to each one that constraints fix to it."""
+    """Pairs of each body's first node (or ground) and the other nodes that constraints fix to it."""
     first: dict[int, int | None] = {0: None}
     pairs: list[tuple[int | None, int]] = []
     for node in range(len(assembly.scene.nodes)):

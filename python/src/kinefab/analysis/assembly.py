@@ -189,7 +189,7 @@ def _moving_as_one(
 
 
 def _at_origin(relative: System, bodies: np.ndarray, twist: Array) -> Array:
-    """Twists (v / length, w) about one common point, that of the block's first body, unscaled by lever arm."""
+    """Twists (v / length, w) about one common point, that of the block's first body."""
     length = relative.length[bodies[0]]
     arm = (relative.center[bodies] - relative.center[bodies[0]]) / length
     return np.concatenate([twist[:, :3] - np.cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)

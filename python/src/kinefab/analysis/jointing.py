@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import TY, TZ, Constraint, Coupling, Freedom, Joint, JointKind, Motion, Node
+from ..model import TY, TZ, Constraint, Coupling, Freedom, Joint, JointKind, MassProperties, Motion, Node
 from ..spatial import Array, Pose
 from .assembly import Assembly
 from .finite import Candidate
@@ -18,6 +18,8 @@ from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
 from .solve import Solver
 from .twists import twist_space
 
+MIDDLE_SHARE = 0.1
+"""Mass of a middle body against the lighter of its neighbours."""
 MANY = 200
 """Constraints between one pair from which the report mentions their number."""
 
@@ -68,16 +70,8 @@ class _Jointing:
         for relation, joint in zip(relations, explicit):
             names = self._names(relation)
             if joint is not None:
-                body = assembly.body
-                a, b = (int(body[0 if n is None else n + 1]) for n in (joint.a, joint.b))
-                self.names.add(joint.id)
-                self.links.append(
-                    Link(
-                        a,
-                        b,
-                        replace(joint, because=tuple(dict.fromkeys([*joint.because, *self._doubled(joint)]))),
-                    )
-                )
+                doubled = dict.fromkeys([*joint.because, *self._doubled(joint)])
+                self._link_explicit(replace(joint, because=tuple(doubled)))
                 continue
             if len(names) >= MANY:
                 a, b = (self._label(body) for body in (relation.first, relation.second))
@@ -93,7 +87,7 @@ class _Jointing:
                 )
             if relation.joint is None:
                 self._resolve(relation)
-            if relation.joint is not None:
+            if relation.joint is not None and not self._kept_explicit(relation, names):
                 self._add(relation.first, relation.second, relation.joint, relation, names)
         return Links(
             self.links, self._aside(relations), self.nodes, system.bodies + len(self.nodes), relations
@@ -115,6 +109,29 @@ class _Jointing:
             return statements[owners[0]]
         return None
 
+    def _kept_explicit(self, relation: Relation, names: list[str]) -> bool:
+        """Of several statements about a pair, an explicit joint of the found kind stands for all of them,
+        so that its limits and drives are kept; one of another kind is given up, and reported."""
+        statements = self.assembly.equations.statements
+        owners = np.unique(self.assembly.system.owner[relation.rows])
+        explicit = [statements[o] for o in owners if isinstance(statements[o], Joint)]
+        same = next((j for j in explicit if j.kind is relation.joint.kind), None)
+        for joint in explicit:
+            if joint is not same:
+                by = relation.joint.kind.value if same is None else same.id
+                self.report.dropped(
+                    f"joint {joint.id}", "JOINT_SUPERSEDED", joint.where, joint=joint.id, by=by
+                )
+        if same is not None:
+            others = [n for n in names if n != same.id]
+            self._link_explicit(replace(same, because=tuple(dict.fromkeys([*same.because, *others]))))
+        return same is not None
+
+    def _link_explicit(self, joint: Joint) -> None:
+        a, b = (int(self.assembly.body[0 if n is None else n + 1]) for n in (joint.a, joint.b))
+        self.names.add(joint.id)
+        self.links.append(Link(a, b, joint))
+
     def _doubled(self, joint: Joint) -> list[str]:
         statements = self.assembly.equations.statements
         return [statements[i].id for i, by in self.assembly.duplicates.items() if statements[by] is joint]
@@ -128,7 +145,7 @@ class _Jointing:
         return "ground" if body == 0 else self.assembly.scene.nodes[nodes[0]].id
 
     def _resolve(self, relation: Relation) -> None:
-        """What no candidate of the first-order twists expresses: finite motions, middle bodies, or a report."""
+        """What no candidate of the twists expresses: finite motions, middle bodies, or a report."""
         self._by_finite_motions(relation)
         if relation.joint is not None:
             return
@@ -151,7 +168,7 @@ class _Jointing:
                 self._add(relation.first, relation.second, part.joint, part, [name])
                 continue
             near, far = part
-            body = self._middle_node(near.origin, far.origin, name)
+            body = self._middle_node(near.origin, far.origin, name, relation)
             self.report.add("RELATION_BY_MIDDLE_BODY", names=name, body=self.nodes[-1].id)
             self._add(relation.first, body, near, relation, [name])
             self._add(body, relation.second, far, relation, [name])
@@ -207,12 +224,23 @@ class _Jointing:
         else:
             self.report.dropped(f"constraint {names}", "RELATION_DROPPED", names=names)
 
-    def _middle_node(self, near: Array, far: Array, name: str) -> int:
+    def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:
+        """A body without geometry; a tenth of the lighter neighbour's mass keeps the solver's mass ratios low."""
+        nodes = self.assembly.scene.nodes
+        masses = [
+            n.mass.mass
+            for i, n in enumerate(nodes)
+            if n.mass is not None and int(self.assembly.body[i + 1]) in (relation.first, relation.second)
+        ]
+        mass = MIDDLE_SHARE * min(masses, default=1.0)
+        radius = max(0.5 * float(np.linalg.norm(far - near)), 0.1 * relation.length)
+        weight = MassProperties(mass, np.zeros(3), 0.4 * mass * radius * radius * np.eye(3))
         self.nodes.append(
             Node(
                 self._unique(f"middle:{name}"),
                 f"middle {name}",
                 pose=Pose(np.eye(3), 0.5 * (near + far)),
+                mass=weight,
                 visible=False,
             )
         )

@@ -159,7 +159,8 @@ def table(analysis: Analysis) -> str:
     lines.insert(1, "  ".join("-" * width for width in widths))
     for coupling in analysis.couplings:
         lines.append(
-            f"{coupling.kind.value} {coupling.id}: {coupling.joint_b} = {coupling.ratio:g} x {coupling.joint_a}"
+            f"{coupling.kind.value} {coupling.id}: "
+            f"{coupling.joint_b} = {coupling.ratio:g} x {coupling.joint_a}"
         )
     for idle in analysis.idle:
         parts = ", ".join(analysis.source.nodes[n].id for n in idle.nodes)
@@ -203,7 +204,7 @@ def _rows(analysis: Analysis) -> list[tuple[str, ...]]:
 
 
 def _listed(analysis: Analysis, node: int, freedoms: Mapping[int, Any]) -> int:
-    """The part in whose line a joint of ``node`` stands: a rigid assembly's joints stand at its first part."""
+    """The part in whose line a joint of ``node`` stands: of a rigid assembly, its first part."""
     if node in freedoms:
         return node
     group = analysis.groups.group_of[node]

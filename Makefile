@@ -27,6 +27,7 @@ test: setup ## every test of both languages; the last line counts them
 
 bench: setup tool ## the measured figures of the README
 	$(PYTHON) python/bench/export_bench.py
+	$(PYTHON) python/bench/analyse_bench.py
 	dotnet run -c Release --project csharp/bench -- load
 
 clean: ## remove everything that is made

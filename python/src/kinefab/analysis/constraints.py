@@ -254,31 +254,34 @@ def _universal(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context)
 
 
 def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, context: Context) -> None:
-    """b is the mirror image of a in the plane (Householder H = I - 2 n n', n fixed on the plane's body)."""
-    if plane.kind is not FeatureKind.PLANE or plain_family(a) != plain_family(b):
+    """b is the mirror image of a in the plane: H = I - 2 n n', n fixed on the plane's body.
+
+    Lines have no such equations: their offset ties three bodies at once.
+    """
+    kinds = {plain_family(a), plain_family(b)}
+    if plane.kind is not FeatureKind.PLANE or kinds not in ({"point"}, {"plane"}):
         raise UnknownPairing
 
-    def mirrored_offset(direction: Array, point_a: Side, point_b: Side) -> None:
-        # C = e.(p_b - p_0) - (H e).(p_a - p_0)
-        row = rows.row(True)
-        image = direction - 2.0 * plane.z * (plane.z @ direction)
-        rows.atom(row, Atom.PIP, plane.body, point_b.body, p_a=plane.p, dir_a=direction, p_b=point_b.p)
-        rows.atom(
-            row, Atom.PIP, plane.body, point_a.body, p_a=plane.p, dir_a=image, p_b=point_a.p, weight=-1.0
-        )
+    def image(direction: Array) -> Array:
+        return direction - 2.0 * plane.z * (plane.z @ direction)
 
-    def mirrored_direction(direction: Array, sense: float) -> None:
-        # C = e.z_b - sense (H e).z_a
-        row = rows.row(False)
-        image = direction - 2.0 * plane.z * (plane.z @ direction)
-        rows.atom(row, Atom.DOT, plane.body, b.body, dir_a=direction, p_b=b.p, dir_b=b.z)
-        rows.atom(row, Atom.DOT, plane.body, a.body, dir_a=image, p_b=a.p, dir_b=a.z, weight=-sense)
-
-    if plain_family(a) == "point":
-        for direction in (plane.z, plane.x, plane.y):
-            mirrored_offset(direction, a, b)
+    if kinds == {"point"}:
+        for e in (plane.z, plane.x, plane.y):
+            # C = e.(p_b - p_0) - (H e).(p_a - p_0)
+            row = rows.row(True)
+            rows.atom(row, Atom.PIP, plane.body, b.body, p_a=plane.p, dir_a=e, p_b=b.p)
+            rows.atom(row, Atom.PIP, plane.body, a.body, p_a=plane.p, dir_a=image(e), p_b=a.p, weight=-1.0)
         return
-    raise UnknownPairing
+    sense = math.copysign(1.0, float(b.z @ image(a.z)))
+    for e in (b.x, b.y):
+        # C = e.z_b - sense (H e).z_a, e fixed on the plane's body
+        row = rows.row(False)
+        rows.atom(row, Atom.DOT, plane.body, b.body, dir_a=e, p_b=b.p, dir_b=b.z)
+        rows.atom(row, Atom.DOT, plane.body, a.body, dir_a=image(e), p_b=a.p, dir_b=a.z, weight=-sense)
+    # C = z_b.(p_0 - p_b) - sense z_a.(p_0 - p_a): the plane's point is as far from the one as from the other
+    row = rows.row(True)
+    rows.atom(row, Atom.PIP, b.body, plane.body, p_a=b.p, dir_a=b.z, p_b=plane.p)
+    rows.atom(row, Atom.PIP, a.body, plane.body, p_a=a.p, dir_a=a.z, p_b=plane.p, weight=-sense)
 
 
 _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {

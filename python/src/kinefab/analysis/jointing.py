@@ -7,7 +7,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import TY, TZ, Constraint, Coupling, Freedom, Joint, JointKind, MassProperties, Motion, Node
+from ..model import (
+    TY,
+    TZ,
+    Constraint,
+    ConstraintKind,
+    Coupling,
+    Freedom,
+    Joint,
+    JointKind,
+    MassProperties,
+    Motion,
+    Node,
+)
 from ..spatial import Array, Pose
 from .assembly import Assembly
 from .finite import Candidate
@@ -63,6 +75,7 @@ class _Jointing:
     def run(self) -> Links:
         assembly = self.assembly
         system, pairs = assembly.system, assembly.pairs
+        self._report_wide()
         relations = relations_of(system, pairs, system.start())
         explicit = [self._explicit(r) for r in relations]
         open_ = [r for r, joint in zip(relations, explicit) if joint is None]
@@ -100,6 +113,16 @@ class _Jointing:
             for i, s in enumerate(self.assembly.equations.statements)
             if isinstance(s, Joint) and i not in spoken
         ]
+
+    def _report_wide(self) -> None:
+        """A symmetry of three bodies that move against each other has no joint (couplings are made elsewhere)."""
+        wide = self.assembly.system.owner[self.assembly.pairs.row_pair == -1]
+        for owner in np.unique(wide):
+            statement = self.assembly.equations.statements[owner]
+            if isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY:
+                self.report.dropped(
+                    f"constraint {statement.id}", "RELATION_DROPPED", statement.where, names=statement.id
+                )
 
     def _explicit(self, relation: Relation) -> Joint | None:
         """The source's own joint, where it alone makes the relation."""

@@ -235,6 +235,26 @@ def test_screw_is_a_cylindrical_joint_and_a_coupling(tmp_path):
     assert coupling["ratio"] == pytest.approx(-0.003 / 360)
 
 
+def test_screw_without_a_stated_coupling_gets_one_from_its_lead(tmp_path):
+    """A left-handed lead of 3 mm a turn becomes a coupling that is zero at the exported pose."""
+    scene = kinefab.Scene()
+    nut = scene.add_part("Nut", BOX)
+    scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=-0.003)
+    content, _ = exported(scene, tmp_path)
+    (coupling,) = content["couplings"]
+    assert (coupling["kind"], coupling["a"]["coordinate"], coupling["b"]["coordinate"]) == ("screw", "angularX", "x")
+    assert coupling["ratio"] == pytest.approx(0.003 / 360, rel=1e-11) and "offset" not in coupling
+
+
+def test_small_coupling_ratio_keeps_its_digits(tmp_path):
+    """A lead of 1 um a turn is 2.777...e-9 m a degree: no fixed number of decimals may cut it."""
+    scene = kinefab.Scene()
+    nut = scene.add_part("Nut", BOX)
+    scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=1e-6)
+    content, _ = exported(scene, tmp_path)
+    assert content["couplings"][0]["ratio"] == pytest.approx(-1e-6 / 360, rel=1e-11)
+
+
 def test_gear_between_hinges_keeps_its_ratio_in_degrees(tmp_path):
     """q_b = -2 q_a between two hinges stays -2, as hinge angles read CAD angles; a rack's unit is per degree."""
     scene = kinefab.Scene()

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Mapping, Sequence
+from typing import Any, Iterable, Mapping, Sequence
 
 from ..diagnostics import Report
-from ..model import RX, Coupling
+from ..model import RX, TX, Coupling, CouplingKind, JointKind
 from .joints import UnityCoordinate, UnityJoint
-from .numbers import rounded
+from .numbers import rounded, significant
 
 
 def coupling_entry(
@@ -45,12 +45,30 @@ def coupling_entry(
         "kind": coupling.kind.value,
         "a": _coordinate(a, object_a, index_a),
         "b": _coordinate(b, object_b, index_b),
-        "ratio": rounded(ratio * scale_b / scale_a),
+        "ratio": significant(ratio * scale_b / scale_a),
     }
     if rounded(offset * scale_b) != 0:
         entry["offset"] = rounded(offset * scale_b)
     report.kept(f"coupling {coupling.id}", coupling.where)
     return entry
+
+
+def screw_couplings(joints: Iterable[UnityJoint], stated: Sequence[Coupling]) -> list[Coupling]:
+    """Couplings for the screws among ``joints`` that ``stated`` does not couple already: a component alone
+    leaves the slide free of the turn.  They hold at the exported pose.
+    """
+    coupled = {c.joint_a for c in stated if c.joint_a == c.joint_b and {c.freedom_a, c.freedom_b} == {TX, RX}}
+    found = []
+    for mapped in joints:
+        joint = mapped.source
+        if joint.kind is not JointKind.SCREW or joint.id in coupled or not mapped.coordinates.keys() >= {TX, RX}:
+            continue
+        ratio = joint.lead / (2.0 * math.pi)
+        offset = mapped.coordinates[TX].zero - ratio * mapped.coordinates[RX].zero
+        found.append(
+            Coupling(f"lead:{joint.id}", CouplingKind.SCREW, joint.id, RX, joint.id, TX, ratio, offset, joint.where)
+        )
+    return found
 
 
 def _coordinate(coordinate: UnityCoordinate, game_object: int, component: int) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from ..rigid import RigidGroups, active_nodes
 from . import frames
 from .colliders import Colliders, collider_fields
 from .constraints import constraint_entry
-from .couplings import coupling_entry
+from .couplings import coupling_entry, screw_couplings
 from .joints import UnityJoint, map_joint
 from .mobility import mobility_entry
 from .numbers import rounded, without_defaults
@@ -217,5 +217,7 @@ class _Builder:
         return carrier
 
     def couplings(self) -> list[dict[str, Any]]:
-        entries = (coupling_entry(c, self.joints, self.object_of, self.report) for c in self.scene.couplings)
+        stated = self.scene.couplings
+        screws = screw_couplings((mapped for mapped, _ in self.joints.values()), stated)
+        entries = (coupling_entry(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
         return [entry for entry in entries if entry is not None]

@@ -382,3 +382,18 @@ def test_empty_mesh_is_refused_by_the_builder():
         scene.add_part("P", trimesh.Trimesh())
     with pytest.raises(ValueError):
         scene.add_part("P", BOX, density=0.0)
+
+
+def test_given_mass_of_a_nested_assembly_is_not_added_to_that_of_its_parts(tmp_path):
+    """A rigid assembly of a 5 kg sub-assembly (its part alone: 1 kg) and a 2 kg part weighs 7 kg."""
+    given = lambda mass: MassProperties(mass, np.zeros(3), mass * np.eye(3))  # noqa: E731
+    scene = kinefab.Scene()
+    outer = scene.add_assembly("Outer")
+    inner = scene.add_assembly("Inner", parent=outer)
+    scene.nodes[inner] = replace(scene.nodes[inner], mass=given(5.0))
+    for name, parent, mass in (("P", inner, 1.0), ("Q", outer, 2.0)):
+        part = scene.add_part(name, parent=parent)
+        scene.nodes[part] = replace(scene.nodes[part], mass=given(mass))
+    content, _ = exported(scene, tmp_path)
+    bodies = [c for o in content["gameObjects"] for c in o.get("components", ()) if c["type"] == "Rigidbody"]
+    assert [body["mass"] for body in bodies] == [7]

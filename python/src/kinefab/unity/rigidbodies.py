@@ -70,11 +70,8 @@ def rigidbody_fields(
         known = [own.mass]
     else:
         to_carrier = own.pose.inverse()
-        nodes = [scene.nodes[i] for i in moved_nodes]
-        known = [moved(node.mass, to_carrier @ node.pose) for node in nodes if node.mass is not None]
-        for node in nodes if known else ():
-            if node.mass is None and node.kind is NodeKind.PART:
-                report.add("MASS_LEFT_OUT", node.where, node=node.id, carrier=own.id)
+        counted = (scene.nodes[i] for i in _outermost_weighed(scene, moved_nodes))
+        known = [moved(node.mass, to_carrier @ node.pose) for node in counted]
     if not known:
         report.approximated(f"mass {own.id}", "MASS_UNKNOWN", own.where, node=own.id)
     total = combined(known) if known else UNITY_DEFAULT
@@ -86,6 +83,12 @@ def rigidbody_fields(
         "inertiaTensor": significant(moments),
         "inertiaTensorRotation": rounded(frames.quaternion(quaternion_from_matrix(axes))),
     }
+
+
+def _outermost_weighed(scene: Scene, nodes: tuple[int, ...]) -> list[int]:
+    """The nodes that have a mass, without what stands below an assembly of them: its mass is already theirs."""
+    whole = {i for i in nodes if scene.nodes[i].kind is NodeKind.ASSEMBLY and scene.nodes[i].mass is not None}
+    return [i for i in nodes if scene.nodes[i].mass is not None and whole.isdisjoint(_line(scene, i)[1:])]
 
 
 def _subtree_bodies(scene: Scene, groups: RigidGroups) -> list[int]:

@@ -30,6 +30,9 @@ bench: setup tool ## the measured figures of the README
 	$(PYTHON) python/bench/analyse_bench.py
 	dotnet run -c Release --project csharp/bench -- load
 
+golden: setup ## write the golden scenes of fixtures anew; read the difference before you commit it
+	$(PYTHON) tests/python/golden.py
+
 clean: ## remove everything that is made
 	rm -rf .venv out artifacts node_modules tests/reference/node_modules
 	find csharp tests/csharp -type d \( -name bin -o -name obj \) -prune -exec rm -rf {} +

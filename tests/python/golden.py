@@ -1,0 +1,53 @@
+"""The golden scenes of ``fixtures``: each mechanism's bundle beside the scene it is exported to.
+
+``python tests/python/golden.py`` (``make golden``) writes them anew; a person reads the difference before it
+is committed.  C# counts and drives the same files.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any, Iterator
+
+import kinefab
+
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
+
+
+def golden_pairs() -> list[tuple[Path, Path]]:
+    """Every bundle that has a golden scene, and where the scene is."""
+    bundles = [*sorted((FIXTURES / "mechanisms").glob("*.bundle.json")), FIXTURES / "lever" / "lever.bundle.json"]
+    return [(bundle, bundle.with_name(bundle.name.replace(".bundle.json", ".kinefab"))) for bundle in bundles]
+
+
+def numbers_and_words(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Each leaf of a JSON value with its pointer."""
+    if isinstance(value, dict):
+        for key in sorted(value):
+            yield from numbers_and_words(value[key], f"{path}/{key}")
+    elif isinstance(value, list):
+        yield f"{path}/length", len(value)
+        for i, item in enumerate(value):
+            yield from numbers_and_words(item, f"{path}/{i}")
+    else:
+        yield path, value
+
+
+def differences(expected: Any, actual: Any, tolerance: float) -> list[str]:
+    """Pointers of leaves that are missing, other words, or numbers further apart than the tolerance."""
+    a, b = dict(numbers_and_words(expected)), dict(numbers_and_words(actual))
+    found = [f"{path}: only on one side" for path in sorted(a.keys() ^ b.keys())]
+    for path in sorted(a.keys() & b.keys()):
+        x, y = a[path], b[path]
+        numeric = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in (x, y))
+        if (abs(x - y) > tolerance) if numeric else (x != y):
+            found.append(f"{path}: {x!r} became {y!r}")
+    return found
+
+
+if __name__ == "__main__":
+    for source, scene in golden_pairs():
+        kinefab.export(source, scene)
+        print(scene.relative_to(FIXTURES.parent), len(json.loads(scene.read_text("utf-8"))["gameObjects"]), file=sys.stderr)

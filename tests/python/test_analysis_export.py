@@ -103,6 +103,16 @@ def test_middle_body_becomes_an_object_with_a_light_rigidbody(tmp_path):
     assert len(components(content)) == 2
 
 
+def test_screw_is_a_tube_with_its_lead_as_a_coupling(tmp_path):
+    """Unity has no screw: the jack's becomes a cylindrical joint and a coupling of 0.05 m a turn."""
+    content = exported(scene("P22"), tmp_path)
+    ((_, joint),) = components(content)
+    assert joint["type"] == "ConfigurableJoint"
+    (coupling,) = content["couplings"]
+    assert coupling["kind"] == "screw"
+    assert abs(coupling["ratio"]) == pytest.approx(0.05 / 360.0)
+
+
 def test_contradictory_constraints_stop_the_export(tmp_path):
     """No file is written from constraints that cannot hold together."""
     source = scene("P09")

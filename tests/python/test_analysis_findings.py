@@ -1,0 +1,150 @@
+"""Every finding of the analysis, each from data that has just that fault or trait."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mechanism_cases import scene
+
+from kinefab.analysis import AnalysisOptions, analyse
+from kinefab.diagnostics import diagnostic_table
+from kinefab.model import (
+    Constraint,
+    ConstraintKind as C,
+    DofRecord,
+    Feature,
+    FeatureKind as F,
+    Joint,
+    JointKind,
+    Node,
+    Scene,
+    freedoms_of,
+)
+from kinefab.spatial import Pose
+
+X, Y, Z = np.eye(3)
+O = np.zeros(3)  # noqa: E741
+
+
+def parts(*constraints, suppressed=False) -> Scene:
+    nodes = [Node("base", "base", grounded=True), Node("part", "part", suppressed=suppressed)]
+    return Scene(nodes=nodes, constraints=list(constraints))
+
+
+def joining(id, kind, a, b, third=None, **more) -> Constraint:
+    """a, b: (feature kind, point, direction) on the base and on the part."""
+    features = [Feature(i, g[0], g[1], g[2] if len(g) > 2 else None) for i, g in enumerate((a, b))]
+    return Constraint(id, kind, (*features, *(third or ())), **more)
+
+
+def mate(id="mate", kind=C.COINCIDENT, normal=Z, **more) -> Constraint:
+    return joining(id, kind, (F.PLANE, O, normal), (F.PLANE, O, normal), **more)
+
+
+def tube() -> Joint:
+    axes = np.column_stack([Z, X, Y])
+    at = np.array([0.1, -0.2, 0.3])
+    frame_b = scene("P03").nodes[1].pose.inverse() @ Pose(axes, at)
+    return Joint(
+        "tube", JointKind.CYLINDRICAL, 0, 1, Pose(axes, at), frame_b, freedoms_of(JointKind.CYLINDRICAL)
+    )
+
+
+def shifted(source: Scene) -> Scene:
+    second = source.constraints[1]
+    a, b = second.features
+    moved = replace(second, features=(a, replace(b, point=b.point + [0.05, 0, 0])))
+    return replace(source, constraints=[source.constraints[0], moved])
+
+
+def uncertain() -> Scene:
+    """Normals that differ a little and a little less: no gap says where constraining ends."""
+    turns = ((X, Z), (Y, Z + 0.03 * X), (X, Z + 1e-3 * Y))
+    square = [
+        joining(f"square:{i}", C.PERPENDICULAR, (F.LINE, O, a), (F.LINE, O, np.cross(row, a)))
+        for i, (a, row) in enumerate(turns)
+    ]
+    normals = (Z, Z + 1e-5 * X)
+    flat = [
+        joining(f"flat:{i}", C.COINCIDENT, (F.PLANE, O, n), (F.POINT, O))
+        for i, n in enumerate(normals)
+    ]
+    return parts(*square, *flat)
+
+
+def bounded(*others) -> Scene:
+    return parts(*others, mate("bound", C.DISTANCE, lower=-0.1, upper=0.2))
+
+
+BALL = joining("ball", C.COINCIDENT, (F.POINT, O), (F.POINT, O))
+LINES = (F.LINE, O, Z), (F.LINE, O, Z)
+SLIDE = joining("slide", C.SLIDER, *LINES)
+EDGE = Constraint(
+    "edge",
+    C.TANGENT,
+    (
+        Feature(0, F.PLANE, O, Z),
+        Feature(1, F.CIRCLE, np.array([0.0, 0.0, 0.1 * 0.8]), 0.8 * X + 0.6 * Z, radius=0.1),
+    ),
+)
+RECORD = DofRecord(1, np.array([X]), np.zeros((0, 3)))
+
+CASES = {
+    "CONSTRAINT_NOT_INTERPRETED": lambda: parts(joining("path", C.OTHER, (F.BODY, O), (F.BODY, O))),
+    "CONSTRAINT_PAIRING_UNKNOWN": lambda: parts(joining("angle", C.ANGLE, (F.POINT, O), (F.POINT, O))),
+    "CONSTRAINT_FEATURES_MISSING": lambda: parts(Constraint("half", C.COINCIDENT, (Feature(0, F.POINT, O),))),
+    "CONSTRAINT_NODE_MISSING": lambda: parts(
+        Constraint("far", C.LOCK, (Feature(0, F.BODY, O), Feature(9, F.BODY, O)))
+    ),
+    "CONSTRAINT_NOT_FINITE": lambda: parts(mate(value=float("inf"), kind=C.DISTANCE)),
+    "CONSTRAINT_AXIS_ZERO": lambda: parts(mate(normal=O)),
+    "CONSTRAINT_PART_SUPPRESSED": lambda: parts(mate(), suppressed=True),
+    "CONSTRAINT_WITH_ITSELF": lambda: parts(
+        Constraint("self", C.COINCIDENT, (Feature(1, F.POINT, O), Feature(1, F.POINT, X)))
+    ),
+    "CONSTRAINTS_CONTRADICT": lambda: shifted(scene("P09")),
+    "CONSTRAINT_GAP": lambda: parts(mate(kind=C.DISTANCE, value=0.02)),
+    "CONSTRAINTS_MANY": lambda: parts(*(mate(f"mate:{i}") for i in range(200))),
+    "JOINT_CONSTRAINTS_DISAGREE": lambda: replace(scene("P03"), joints=[tube()]),
+    "JOINT_SUPERSEDED": lambda: replace(scene("P03"), joints=[tube()]),
+    "JOINT_REHUNG": lambda: scene("M27"),
+    "PAIR_RANK_UNCERTAIN": uncertain,
+    "RELATION_BY_MIDDLE_BODY": lambda: scene("P30"),
+    "RELATION_APPROXIMATED": lambda: parts(EDGE),
+    "RELATION_DROPPED": lambda: Scene(
+        nodes=[Node("base", "base", grounded=True), Node("a", "a"), Node("b", "b")],
+        constraints=[
+            Constraint(
+                "mirror",
+                C.SYMMETRY,
+                (Feature(1, F.POINT, Z), Feature(2, F.POINT, -Z), Feature(0, F.PLANE, O, Z)),
+            )
+        ],
+    ),
+    "MECHANISM_SINGULAR": lambda: scene("M05"),
+    "CLOSURE_ROWS_FREED": lambda: scene("M01"),
+    "CLOSURE_KEPT_WHOLE": lambda: scene("M24"),
+    "DOF_RECORD_DIFFERS": lambda: replace(parts(mate()), dof_records=[RECORD]),
+    "CONSTRAINT_RANGE_KEPT": lambda: bounded(SLIDE),
+    "CONSTRAINT_RANGE_DROPPED": lambda: bounded(BALL),
+    "COUPLING_UNPLACED": lambda: parts(joining("gear", C.GEAR, *LINES, value=2.0)),
+    "LIMITS_FOUND": lambda: scene("M03"),
+    "LIMITS_NOT_SWEPT": lambda: scene("M33"),
+}
+
+
+def test_every_finding_of_the_analysis_has_a_case():
+    """The table of diagnostics and the cases here name the same codes."""
+    assert set(CASES) == {code for code, entry in diagnostic_table().items() if entry["stage"] == "analysis"}
+
+
+@pytest.mark.parametrize("code", CASES)
+def test_finding_is_reported_with_its_message_filled_in(code):
+    """The case gives its code, and the message names what it is about."""
+    found = analyse(CASES[code](), AnalysisOptions(limits=code.startswith("LIMITS")))
+    mine = [d for d in found.report.diagnostics if d.code == code]
+    assert mine and all("{" not in d.message + d.remedy for d in mine)
+    errors = {d.code for d in found.report.diagnostics if d.severity == "error"}
+    assert errors <= {code}

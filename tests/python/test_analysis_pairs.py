@@ -6,6 +6,10 @@ import numpy as np
 import pytest
 from mechanism_cases import analysed
 
+from kinefab.analysis import analyse
+from kinefab.model import Constraint, Feature, Node, Scene
+from kinefab.model import ConstraintKind as C
+from kinefab.model import FeatureKind as F
 from kinefab.model import JointKind as K
 
 C0 = np.array([0.1, -0.2, 0.3])
@@ -118,3 +122,22 @@ def test_every_joint_names_its_constraints():
         "coincident:8",
         "coincident:9",
     }
+
+
+def test_two_rods_in_line_hold_a_part_that_cannot_turn():
+    """First order leaves two translations across the rods; the spheres touch in one point, so nothing moves."""
+    x = np.array([1.0, 0.0, 0.0])
+    nodes = [Node("base", "base", grounded=True), Node("part", "part")]
+
+    def rod(id, foot):
+        return Constraint(
+            id, C.DISTANCE, (Feature(0, F.POINT, foot), Feature(1, F.POINT, np.zeros(3))), value=1.0
+        )
+
+    square = Constraint(
+        "square", C.LOCK_ORIENTATION, (Feature(0, F.BODY, np.zeros(3)), Feature(1, F.BODY, np.zeros(3)))
+    )
+    found = analyse(Scene(nodes=nodes, constraints=[square, rod("left", -x), rod("right", x)]))
+    assert (found.first_order, found.mobility) == (2, 0)
+    assert [j.kind for j in found.joints] == [K.FIXED]
+    assert [d.code for d in found.report.diagnostics] == ["MECHANISM_SINGULAR"]

@@ -171,9 +171,9 @@ def _moving_as_one(
         if breakable[relative.owner[first.rows]].any():
             continue
         root = int(blocks.root[blocks.block[first.bodies[0]]])
-        if last.mobility == 0:
+        if first.mobility == 0:
             groups = [np.concatenate([[root], first.bodies])]
-        elif len(first.bodies) > 1 or first.mobility == 0:
+        elif len(first.bodies) > 1 and last.mobility > 0:
             twist = (first.basis @ draw.standard_normal(first.mobility)).reshape(-1, 6)
             groups = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
             if groups and last.singular or groups and len(first.rows) > first.rank:

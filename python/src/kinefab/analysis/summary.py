@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Iterable, Mapping, Sequence
 
-from ..model import Joint, Motion
+from ..model import RX, Joint, Motion
 from .freedoms import NodeFreedom
 from .result import Analysis
 
@@ -165,6 +165,10 @@ def table(analysis: Analysis) -> str:
     for idle in analysis.idle:
         parts = ", ".join(analysis.source.nodes[n].id for n in idle.nodes)
         lines.append(f"idle: {idle.count} of {parts} moves nothing else")
+    for found in analysis.ranges:
+        unit, factor = ("deg", math.degrees(1.0)) if found.freedom >= RX else ("m", 1.0)
+        ends = (f"{found.lower * factor:.6g} to {found.upper * factor:.6g} {unit}", "no end")
+        lines.append(f"range of {found.joint}: {ends[0] if math.isfinite(found.lower) else ends[1]}")
     loops = sum(i.loops for i in analysis.islands)
     first = f", {analysis.first_order} at first order" if analysis.first_order != analysis.mobility else ""
     lines.append(

@@ -2,7 +2,7 @@ using System;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- load</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- load | drive</summary>
 internal static class Program
 {
     private static int Main(string[] args)
@@ -12,8 +12,11 @@ internal static class Program
             case "load":
                 LoadBench.Run();
                 return 0;
+            case "drive":
+                DriveBench.Run();
+                return 0;
             default:
-                Console.Error.WriteLine("Name a benchmark: load");
+                Console.Error.WriteLine("Name a benchmark: load, drive");
                 return 2;
         }
     }

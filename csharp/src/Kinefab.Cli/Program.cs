@@ -16,6 +16,8 @@ internal static class Program
             ValidateCommand.Create(),
             InspectCommand.Create(),
             SimulateCommand.Create(),
+            SweepCommand.Create(),
+            MobilityCommand.Create(),
         };
         ParseResult parsed = root.Parse(args);
         if (parsed.Errors.Count == 0)

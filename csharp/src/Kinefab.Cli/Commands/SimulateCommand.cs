@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.IO;
+using Kinefab.Cli.Motion;
 using Kinefab.Cli.Simulation;
 using Kinefab.Dynamics;
 
@@ -74,7 +75,7 @@ internal static class SimulateCommand
             return true;
         try
         {
-            recording.Save(output);
+            TrajectoryFile.Save(recording.Trajectory, output);
             return true;
         }
         catch (Exception e) when (e is IOException or UnauthorizedAccessException or NotSupportedException)

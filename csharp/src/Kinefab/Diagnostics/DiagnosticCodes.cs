@@ -242,4 +242,10 @@ public static class DiagnosticCodes
 
     /// <summary>The coordinate "{coordinate}" is locked, so the coupling holds the other one still.</summary>
     public const string CouplingCoordinateLocked = "COUPLING_COORDINATE_LOCKED";
+
+    /// <summary>{what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints.</summary>
+    public const string MobilityDiffers = "MOBILITY_DIFFERS";
+
+    /// <summary>First-order mobility at the exported pose is {stated} in the file and {counted} counted from the joints.</summary>
+    public const string MobilityFirstOrderDiffers = "MOBILITY_FIRST_ORDER_DIFFERS";
 }

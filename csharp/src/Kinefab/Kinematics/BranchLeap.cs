@@ -100,7 +100,7 @@ internal sealed class BranchLeap
             MechanismCoordinate coordinate = _mechanism.Coordinates[i];
             place = i > 0 && _mechanism.Coordinates[i - 1].Joint == coordinate.Joint ? place + 1 : 0;
             int body = _mechanism.Tree.ChildOf[coordinate.Joint];
-            if (body < 0)
+            if (body < 0 || coordinate.IsLocked)
             {
                 continue;
             }

@@ -67,7 +67,7 @@ public sealed class Mechanism
 
         Joints = joints.ToArray();
         Tree = new KinematicTree(isFixed, Joints, isClosure.ToArray());
-        _coordinates = MechanismCoordinates.Of(definition, Joints);
+        _coordinates = MechanismCoordinates.Of(definition, Joints, scene.Document.Couplings);
         foreach (MechanismCoordinate coordinate in _coordinates)
         {
             Joint rows = coordinate.JointRows;
@@ -83,7 +83,7 @@ public sealed class Mechanism
     /// <summary>The scene it was made from.</summary>
     public ValidScene Scene { get; }
 
-    /// <summary>All unlocked joint coordinates, in order of GameObject, component and axis.</summary>
+    /// <summary>All unlocked joint coordinates, in order of GameObject, component and axis; then locked ones that couplings name.</summary>
     public IReadOnlyList<MechanismCoordinate> Coordinates => _coordinates;
 
     internal int BodyCount => GameObjects.Length;
@@ -132,7 +132,7 @@ public sealed class Mechanism
         return state;
     }
 
-    /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked or is not there.</summary>
+    /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked, unless a coupling names it, or is not there.</summary>
     public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
     {
         for (int i = 0; i < _coordinates.Length; i++)

@@ -5,19 +5,20 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// One unlocked coordinate of a joint, read as Unity reads it: the own body against the connected one, by the left-hand
+/// One coordinate of a joint, read as Unity reads it: the own body against the connected one, by the left-hand
 /// rule about the axis or along it, zero at the exported pose; degrees (over any number of turns) or metres.
 /// </summary>
 public sealed class MechanismCoordinate
 {
     private readonly Joints.JointCoordinate _coordinate;
 
-    internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.JointCoordinate source)
+    internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.JointCoordinate source, bool isLocked)
     {
         GameObject = gameObject;
         Component = component;
         Coordinate = coordinate;
         Joint = joint;
+        IsLocked = isLocked;
         _coordinate = source;
     }
 
@@ -32,6 +33,9 @@ public sealed class MechanismCoordinate
 
     /// <summary>Degrees when true, metres when false.</summary>
     public bool IsAngle => _coordinate.IsAngle;
+
+    /// <summary>The joint holds it still: it stands here only because a coupling names it.</summary>
+    public bool IsLocked { get; }
 
     internal int Joint { get; }
 

@@ -1,15 +1,17 @@
 using System.Collections.Generic;
 using Kinefab.Document;
 using Kinefab.Joints;
+using Coupling = Kinefab.Document.Coupling;
 using Joint = Kinefab.Joints.Joint;
+using JointCoordinate = Kinefab.Document.JointCoordinate;
 
 namespace Kinefab.Kinematics;
 
-/// <summary>Finds the unlocked coordinates of a scene's joints.</summary>
+/// <summary>Finds the coordinates of a scene's joints: the unlocked ones, then locked ones that couplings name.</summary>
 internal static class MechanismCoordinates
 {
     /// <summary>In order of joint and axis.</summary>
-    public static MechanismCoordinate[] Of(MechanismDefinition definition, Joint[] joints)
+    public static MechanismCoordinate[] Of(MechanismDefinition definition, Joint[] joints, IReadOnlyList<Coupling> couplings)
     {
         var coordinates = new List<MechanismCoordinate>();
         for (int j = 0; j < definition.Joints.Count; j++)
@@ -23,14 +25,38 @@ internal static class MechanismCoordinates
                     continue;
                 }
 
-                // The rows measure actor 1 against actor 0, Unity the own body against the connected one.
-                double sign = UnityJoints.CoordinateSign(source.Source);
-                Coordinate name = source.Source is HingeJoint ? Coordinate.Angle : Coordinate.X + axis;
-                var rows = new Joints.JointCoordinate(joints[j], (CoordinateAxis)axis, sign);
-                coordinates.Add(new MechanismCoordinate(source.GameObject, source.Component, name, j, rows));
+                coordinates.Add(Make(source, joints[j], j, axis, isLocked: false));
             }
         }
 
+        foreach (Coupling coupling in couplings)
+        {
+            AddLocked(coupling.A);
+            AddLocked(coupling.B);
+        }
+
         return coordinates.ToArray();
+
+        void AddLocked(JointCoordinate place)
+        {
+            int axis = place.Coordinate == Coordinate.Angle ? (int)CoordinateAxis.AngularX : place.Coordinate - Coordinate.X;
+            for (int j = 0; j < definition.Joints.Count; j++)
+            {
+                JointDefinition source = definition.Joints[j];
+                bool isMeant = source.GameObject == place.GameObject && source.Component == place.Component;
+                if (isMeant && (JointFreedoms.LockedAxes(joints[j]) & (1 << axis)) != 0)
+                {
+                    coordinates.Add(Make(source, joints[j], j, axis, isLocked: true));
+                }
+            }
+        }
+    }
+
+    // The rows measure actor 1 against actor 0, Unity the own body against the connected one.
+    private static MechanismCoordinate Make(JointDefinition source, Joint joint, int index, int axis, bool isLocked)
+    {
+        Coordinate name = source.Source is HingeJoint ? Coordinate.Angle : Coordinate.X + axis;
+        var rows = new Joints.JointCoordinate(joint, (CoordinateAxis)axis, UnityJoints.CoordinateSign(source.Source));
+        return new MechanismCoordinate(source.GameObject, source.Component, name, index, rows, isLocked);
     }
 }

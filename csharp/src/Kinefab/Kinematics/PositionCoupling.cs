@@ -20,19 +20,25 @@ internal readonly struct PositionCoupling
         Offset = offset;
     }
 
+    /// <summary>The couplings whose joints are both there: those of inactive objects are not.</summary>
     public static PositionCoupling[] Of(IReadOnlyList<Coupling> sources, MechanismCoordinate[] coordinates)
     {
-        var couplings = new PositionCoupling[sources.Count];
-        for (int i = 0; i < couplings.Length; i++)
+        var couplings = new List<PositionCoupling>();
+        for (int i = 0; i < sources.Count; i++)
         {
             int a = Find(sources[i].A, coordinates);
             int b = Find(sources[i].B, coordinates);
+            if (a < 0 || b < 0)
+            {
+                continue;
+            }
+
             double ratio = sources[i].Ratio * Unit(coordinates[b]) / Unit(coordinates[a]);
             double offset = sources[i].Offset * Unit(coordinates[b]) + coordinates[b].Zero - ratio * coordinates[a].Zero;
-            couplings[i] = new PositionCoupling(a, b, ratio, offset);
+            couplings.Add(new PositionCoupling(a, b, ratio, offset));
         }
 
-        return couplings;
+        return couplings.ToArray();
     }
 
     private static double Unit(MechanismCoordinate coordinate) => coordinate.IsAngle ? Math.PI / 180 : 1;
@@ -48,6 +54,6 @@ internal readonly struct PositionCoupling
             }
         }
 
-        throw new ArgumentException($"A coupling names a locked coordinate of GameObject {place.GameObject}.", nameof(place));
+        return -1;
     }
 }

@@ -10,6 +10,8 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class PositionEquations
 {
+    private const double LeastEntry = 1e-12;
+
     private readonly Mechanism _mechanism;
     private readonly TreeMotion _motion;
     private readonly NormalEquations _normal;
@@ -271,12 +273,30 @@ internal sealed class PositionEquations
     private double Dot(Vector3d force, Vector3d moment, int freedom) =>
         Vector3d.Dot(force, _motion.Linear[freedom]) + Vector3d.Dot(moment, _motion.Angular[freedom]);
 
+    // Out of a planar loop's plane nothing moves: most of its rows are rounding and would only cost time.
+    private static bool IsZero(ReadOnlySpan<double> row)
+    {
+        foreach (double entry in row)
+        {
+            if (Math.Abs(entry) > LeastEntry)
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
     private void Add(RowPath path, double c)
     {
         Squares += c * c;
         Worst = Math.Max(Worst, Math.Abs(c));
         ReadOnlySpan<double> row = _row.AsSpan(0, path.Width);
-        _normal.Add(path, row, c);
+        if (!IsZero(row))
+        {
+            _normal.Add(path, row, c);
+        }
+
         Sink?.Add(path, row, c);
     }
 }

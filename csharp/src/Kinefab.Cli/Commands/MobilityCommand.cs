@@ -1,0 +1,112 @@
+using System;
+using System.CommandLine;
+using System.IO;
+using System.Text.Json;
+using Kinefab.Diagnostics;
+using Kinefab.Kinematics;
+using Kinefab.Validation;
+
+namespace Kinefab.Cli.Commands;
+
+/// <summary>dotnet kinefab mobility FILE [--json].</summary>
+internal static class MobilityCommand
+{
+    internal static Command Create()
+    {
+        Argument<string> file = SceneArguments.File();
+        Option<bool> json = SceneArguments.Json();
+        var command = new Command("mobility", "Count what the joints leave free and hold it against the file's own analysis.") { file, json };
+        command.SetAction(parsed => Run(parsed.GetRequiredValue(file), parsed.GetValue(json)));
+        return command;
+    }
+
+    private static int Run(string file, bool asJson)
+    {
+        LoadedScene loaded = LoadedScene.Load(file, strict: false);
+        MobilityReport? counted = loaded.Scene is null ? null : MobilityAnalysis.Of(Mechanism.Create(loaded.Scene));
+        Report report = counted is null ? loaded.Report : loaded.Report.Concat(MobilityCheck.Compare(loaded.Scene!, counted));
+        if (asJson)
+        {
+            ReportWriter.WriteJson(target =>
+            {
+                ReportWriter.WriteFields(target, file, report);
+                if (counted is not null)
+                    Write(counted, target);
+            });
+        }
+        else
+        {
+            ReportWriter.WriteLines(file, report, Console.Error);
+            if (counted is not null)
+                Write(loaded.Scene!, counted, Console.Out);
+        }
+
+        return report.HasErrors ? 1 : 0;
+    }
+
+    private static void Write(ValidScene scene, MobilityReport counted, TextWriter target)
+    {
+        foreach (BodyMobility body in counted.Bodies)
+            target.WriteLine($"body       {Id(scene, body.GameObject)}: {body.Translations} translations, {body.Rotations} rotations");
+        foreach (RedundantRows joint in counted.Joints)
+            target.WriteLine($"redundant  {Id(scene, joint.GameObject)} components[{joint.Component}]: {joint.Redundant} of {joint.Rows} rows");
+        foreach (IslandMobility island in counted.Islands)
+            target.WriteLine($"island     {Id(scene, island.GameObjects[0])} and {island.GameObjects.Count - 1} more: mobility {island.Mobility}, {island.Redundant} redundant, {island.Loops} loops");
+        if (counted.Gap < 100)
+            target.WriteLine($"unsure     the rank's gap is only {counted.Gap:F0}");
+        string firstOrder = counted.FirstOrder == counted.Mobility ? "" : $" ({counted.FirstOrder} at first order: the pose is singular)";
+        string stated = scene.Document.Analysis is null ? "" : $", {scene.Document.Analysis.Mobility} in the file";
+        target.WriteLine($"mobility   {counted.Mobility}{firstOrder}{stated}; {counted.Rows} rows, {counted.Redundant} redundant");
+    }
+
+    private static void Write(MobilityReport counted, Utf8JsonWriter json)
+    {
+        json.WriteStartObject("mobility");
+        json.WriteNumber("mobility", counted.Mobility);
+        json.WriteNumber("firstOrderMobility", counted.FirstOrder);
+        json.WriteNumber("rows", counted.Rows);
+        json.WriteNumber("redundant", counted.Redundant);
+        json.WriteStartArray("islands");
+        foreach (IslandMobility island in counted.Islands)
+        {
+            json.WriteStartObject();
+            json.WriteStartArray("gameObjects");
+            foreach (int gameObject in island.GameObjects)
+                json.WriteNumberValue(gameObject);
+            json.WriteEndArray();
+            json.WriteNumber("mobility", island.Mobility);
+            json.WriteNumber("firstOrderMobility", island.FirstOrder);
+            json.WriteNumber("redundant", island.Redundant);
+            json.WriteNumber("loops", island.Loops);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("bodies");
+        foreach (BodyMobility body in counted.Bodies)
+        {
+            json.WriteStartObject();
+            json.WriteNumber("gameObject", body.GameObject);
+            json.WriteNumber("translations", body.Translations);
+            json.WriteNumber("rotations", body.Rotations);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("redundantJoints");
+        foreach (RedundantRows joint in counted.Joints)
+        {
+            json.WriteStartObject();
+            json.WriteNumber("gameObject", joint.GameObject);
+            json.WriteNumber("component", joint.Component);
+            json.WriteNumber("rows", joint.Rows);
+            json.WriteNumber("redundant", joint.Redundant);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteEndObject();
+    }
+
+    private static string Id(ValidScene scene, int gameObject) => scene.Document.GameObjects[gameObject].Id;
+}

@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text;
+using System.Text.Encodings.Web;
+using System.Text.Json;
+using Kinefab.Document;
+using Kinefab.Numerics;
+
+namespace Kinefab.Cli.Motion;
+
+/// <summary>Writes trajectories as JSON or CSV.</summary>
+internal static class TrajectoryFile
+{
+    private static readonly string[] PoseParts = ["px", "py", "pz", "qx", "qy", "qz", "qw"];
+
+    /// <summary>Writes the whole file or none of it; .csv by its name, else JSON.</summary>
+    internal static void Save(Trajectory trajectory, string path)
+    {
+        string temporary = path + ".part";
+        using (var file = new StreamWriter(temporary, append: false, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false)) { NewLine = "\n" })
+        {
+            if (Path.GetExtension(path).Equals(".csv", StringComparison.OrdinalIgnoreCase))
+                WriteCsv(trajectory, file);
+            else
+                WriteJson(trajectory, file.BaseStream);
+        }
+
+        File.Move(temporary, path, overwrite: true);
+    }
+
+    private static void WriteCsv(Trajectory trajectory, StreamWriter target)
+    {
+        IEnumerable<string> columns = trajectory.Coordinates.Select(Column)
+            .Concat(trajectory.Bodies.SelectMany(b => PoseParts.Select(p => b.Id + "." + p)))
+            .Prepend(trajectory.Driver is null ? "time" : "driver " + Column(trajectory.Driver));
+        target.WriteLine(string.Join(',', columns.Select(Quoted)));
+        for (int i = 0; i < trajectory.At.Count; i++)
+        {
+            IEnumerable<double> row = trajectory.Coordinates.Select(c => c.Values[i])
+                .Concat(trajectory.Bodies.SelectMany(b => Numbers(b.Poses[i])))
+                .Prepend(trajectory.At[i]);
+            target.WriteLine(string.Join(',', row.Select(v => v.ToString("R", CultureInfo.InvariantCulture))));
+        }
+    }
+
+    private static void WriteJson(Trajectory trajectory, Stream target)
+    {
+        using var json = new Utf8JsonWriter(target, new JsonWriterOptions { Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping });
+        json.WriteStartObject();
+        json.WriteString("format", "kinefab.trajectory");
+        json.WriteString("version", "1.0");
+        json.WriteString("solver", trajectory.Solver);
+        if (trajectory.Step is double step)
+            json.WriteNumber("step", step);
+        if (trajectory.Driver is TrajectoryCoordinate driver)
+        {
+            json.WriteStartObject("driver");
+            WriteFields(json, driver);
+            Array(json, "values", trajectory.At);
+            json.WriteEndObject();
+        }
+        else
+        {
+            Array(json, "times", trajectory.At);
+        }
+
+        json.WriteStartArray("coordinates");
+        foreach (TrajectoryCoordinate coordinate in trajectory.Coordinates)
+        {
+            json.WriteStartObject();
+            WriteFields(json, coordinate);
+            Array(json, "values", coordinate.Values);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("bodies");
+        foreach (TrajectoryBody body in trajectory.Bodies)
+        {
+            json.WriteStartObject();
+            json.WriteNumber("gameObject", body.GameObject);
+            json.WriteString("id", body.Id);
+            json.WriteStartArray("poses");
+            foreach (Pose pose in body.Poses)
+                Array(json, null, Numbers(pose));
+            json.WriteEndArray();
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteEndObject();
+    }
+
+    private static void WriteFields(Utf8JsonWriter json, TrajectoryCoordinate coordinate)
+    {
+        json.WriteNumber("gameObject", coordinate.GameObject);
+        json.WriteString("id", coordinate.Id);
+        json.WriteNumber("component", coordinate.Component);
+        json.WriteString("coordinate", Name(coordinate.Coordinate));
+    }
+
+    private static void Array(Utf8JsonWriter json, string? name, IEnumerable<double> values)
+    {
+        if (name is not null)
+            json.WritePropertyName(name);
+        json.WriteStartArray();
+        foreach (double value in values)
+            json.WriteNumberValue(value);
+        json.WriteEndArray();
+    }
+
+    private static double[] Numbers(Pose pose) =>
+        [pose.Position.X, pose.Position.Y, pose.Position.Z, pose.Rotation.X, pose.Rotation.Y, pose.Rotation.Z, pose.Rotation.W];
+
+    private static string Column(TrajectoryCoordinate coordinate) => coordinate.Id + "." + Name(coordinate.Coordinate);
+
+    // As scene files write coordinates: angularX.
+    private static string Name(Coordinate coordinate)
+    {
+        string name = coordinate.ToString();
+        return char.ToLowerInvariant(name[0]) + name[1..];
+    }
+
+    private static string Quoted(string text) =>
+        text.AsSpan().IndexOfAny(',', '"', '\n') < 0 ? text : "\"" + text.Replace("\"", "\"\"", StringComparison.Ordinal) + "\"";
+}

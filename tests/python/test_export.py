@@ -390,7 +390,8 @@ def test_given_mass_of_a_nested_assembly_is_not_added_to_that_of_its_parts(tmp_p
     scene = kinefab.Scene()
     outer = scene.add_assembly("Outer")
     inner = scene.add_assembly("Inner", parent=outer)
-    scene.nodes[inner] = replace(scene.nodes[inner], mass=given(5.0))
+    scene.nodes[outer] = replace(scene.nodes[outer], flexible=False)
+    scene.nodes[inner] = replace(scene.nodes[inner], flexible=False, mass=given(5.0))
     for name, parent, mass in (("P", inner, 1.0), ("Q", outer, 2.0)):
         part = scene.add_part(name, parent=parent)
         scene.nodes[part] = replace(scene.nodes[part], mass=given(mass))

@@ -188,3 +188,59 @@ def test_draw_tells_of_an_unsound_scene(tmp_path):
     done = run("draw", tmp_path / "a.kinefab", "-o", tmp_path / "a.svg")
     assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "output, report",
+    [("a.bundle.json", "r.json"), ("a.kinefab", "a.bundle.json"), ("a.kinefab", "../{folder}/a.kinefab")],
+)
+def test_no_file_of_the_call_overwrites_another(tmp_path, output, report):
+    """The source as target, or the report in the place of either, is wrong usage, and the files stay."""
+    (tmp_path / "a.bundle.json").write_bytes(LEVER.read_bytes())
+    report = tmp_path / report.format(folder=tmp_path.name)
+    done = run("export", tmp_path / "a.bundle.json", "-o", tmp_path / output, "--report", report)
+    assert done.returncode == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["a.bundle.json"]
+    assert (tmp_path / "a.bundle.json").read_bytes() == LEVER.read_bytes()
+
+
+@pytest.mark.parametrize("output", ["a" * 300 + ".kinefab", "no/folder.kinefab"])
+def test_target_that_cannot_be_made_is_a_finding(tmp_path, output):
+    """The reason is told, also where the file system refuses even to look."""
+    done = run("export", LEVER, "-o", tmp_path / output)
+    assert done.returncode == 1 and "TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="file names of any bytes are Linux's")
+@pytest.mark.parametrize(
+    "source, output", [("a\udcff.bundle.json", "a.kinefab"), ("a.bundle.json", "a\udcff.kinefab")]
+)
+def test_file_name_that_is_not_utf8_is_a_finding(tmp_path, source, output):
+    """A name that no JSON file can hold is refused, and the report of that is JSON all the same."""
+    (tmp_path / source).write_bytes(b'{"meta": 1}' if source != "a.bundle.json" else LEVER.read_bytes())
+    for mesh in LEVER.parent.glob("*.obj"):
+        (tmp_path / mesh.name).write_bytes(mesh.read_bytes())
+    done = run("export", tmp_path / source, "-o", tmp_path / output, "--report", tmp_path / "r.json")
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    found = json.loads((tmp_path / "r.json").read_bytes())["diagnostics"]
+    assert {"SOURCE_UNREADABLE", "TARGET_UNWRITABLE"} & {entry["code"] for entry in found}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"gameObjects": [{"id": "a", "name": "a", "components": [{}]}]},
+        {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "HingeJoint", "connectedBody": 7}]}]},
+        {"gameObjects": [3]},
+        {"gameObjects": [{"name": "a"}]},
+        {"gameObjects": [{"id": "a", "name": "\ud800"}]},
+        {"gameObjects": [{"id": "a", "name": "a", "parent": 7}]},
+        {"gameObjects": [], "report": [1]},
+    ],
+)
+def test_inspect_of_an_unsound_scene_is_a_finding(tmp_path, content):
+    """JSON that says it is a scene and is none: exit 1, a code, no traceback."""
+    path = tmp_path / "bad.kinefab"
+    path.write_text(json.dumps({"format": "kinefab.scene", "version": "1.0", **content}), encoding="utf-8")
+    done = run("inspect", path)
+    assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr and "Traceback" not in done.stderr

@@ -148,3 +148,23 @@ def test_findings_hold_no_unprintable_text(tmp_path):
     path = tmp_path / "case.bundle.json"
     path.write_text(json.dumps(values), encoding="utf-8")
     assert str(refused(path).diagnostics[0]).isprintable()
+
+
+def test_half_a_surrogate_pair_as_a_key_of_a_reading_is_left_out(tmp_path):
+    """Keys of readings go into the scene, so they must be text that a file can hold."""
+    constraint = {"id": "C", "kind": "other", "reading": {"a\ud800": "b", "c": "d"}}
+    path = tmp_path / "case.bundle.json"
+    path.write_text(json.dumps({**LEVER, "constraints": [constraint]}), encoding="utf-8")
+    report = Report()
+    scene = sources.read(path, report)
+    assert dict(scene.constraints[0].reading) == {"c": "d"}
+    assert "BUNDLE_FIELD_UNKNOWN" in codes(report)
+
+
+def test_utf16_table_is_refused_by_its_encoding(tmp_path):
+    """A spreadsheet's "Unicode text" is UTF-16: one finding that says so, not one for each cell."""
+    path = tmp_path / "case.csv"
+    path.write_bytes(TAGGED.decode("utf-8-sig").encode("utf-16"))
+    with pytest.raises(KinefabError) as refused:
+        sources.read(path, Report())
+    assert [found.code for found in refused.value.diagnostics] == ["CSV_ENCODING"]

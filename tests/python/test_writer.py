@@ -156,3 +156,14 @@ def test_file_has_one_line_for_each_component(tmp_path):
     lines = [line for line in text.splitlines() if '"type": ' in line]
     assert len(lines) == 8 and all(line.count('"type": ') == 1 for line in lines)
     assert not re.search(r"-0(\.0*)?[],} ]", text)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_target_that_is_no_regular_file_stays_what_it_is(tmp_path):
+    """A rename would put a file in a device's place: /dev/null must survive an export by root."""
+    target = tmp_path / "pipe.kinefab"
+    os.mkfifo(target)
+    with pytest.raises(KinefabError) as refused:
+        kinefab.export(lid_scene(), target)
+    assert [found.code for found in refused.value.diagnostics] == ["TARGET_UNWRITABLE"]
+    assert not target.is_file() and list(tmp_path.iterdir()) == [target]

@@ -7,6 +7,7 @@ imported inside the commands.
 from __future__ import annotations
 
 import json
+import os
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -65,8 +66,11 @@ def export(
     """Export a CAD assembly as a Unity scene."""
     if not density > 0.0 or density == float("inf"):
         raise typer.BadParameter("the density must be a number above zero", param_hint="--density")
-    if output.is_dir():
+    if os.path.isdir(output):
         raise typer.BadParameter(f"{output} is a folder", param_hint="--output")
+    for path, hint, others in ((output, "--output", (source,)), (report, "--report", (source, output))):
+        if path is not None and any(os.path.realpath(path) == os.path.realpath(other) for other in others):
+            raise typer.BadParameter(f"{path} is named twice; it would be overwritten", param_hint=hint)
     from .pipeline import export as run
 
     result: Optional[ExportResult] = None
@@ -120,14 +124,14 @@ def inspect(
     as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
 ) -> None:
     """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
-    from .inspection import describe, read_scene_file, render
+    from .inspection import overview
 
     try:
-        description = describe(read_scene_file(file))
+        text = overview(file, as_json)
     except KinefabError as error:
         _log(Report(list(error.diagnostics)))
         raise typer.Exit(1) from None
-    typer.echo(json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description))
+    typer.echo(text)
 
 
 @app.command()
@@ -166,7 +170,9 @@ def _log(report: Report) -> None:
 
 def _write_report(path: Path, content: dict[str, object]) -> None:
     try:
-        path.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+        # A path may hold bytes that are no UTF-8; their escapes are JSON's too.
+        text = json.dumps(content, indent=2, ensure_ascii=False) + "\n"
+        path.write_text(text, encoding="utf-8", errors="backslashreplace")
     except OSError as error:
         typer.echo(f"{path} cannot be written: {error.strerror}", err=True)
         raise typer.Exit(1) from None

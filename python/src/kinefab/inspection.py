@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Iterator, Mapping
 
 from .diagnostics import KinefabError, diagnostic
 
@@ -70,8 +71,25 @@ def picture(path: Path) -> str:
     from .unity.picture import draw
 
     scene = read_scene_file(path)
-    try:
+    with _unsound_as_finding(path):
         return draw(scene, read_buffers(path, scene))
+
+
+def overview(path: Path, as_json: bool) -> str:
+    """What is in a scene file, for people or as JSON.  Raises KinefabError when it cannot be read."""
+    scene = read_scene_file(path)
+    with _unsound_as_finding(path):
+        description = describe(scene)
+        text = json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description)
+        text.encode("utf-8")  # half of a surrogate pair is no text
+        return text
+
+
+@contextmanager
+def _unsound_as_finding(path: Path) -> Iterator[None]:
+    """A scene that is JSON and yet no scene is refused; where it is wrong is the validator's to say."""
+    try:
+        yield
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         detail = "it is not a sound scene; dotnet kinefab validate says where"
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=detail)]) from error

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Callable
 
 from .analysis import AnalysisOptions, analyse
 from .analysis.summary import scene_entry
-from .diagnostics import KinefabError, Outcome, Report, Severity, diagnostic
+from .diagnostics import KinefabError, Outcome, Report, Severity
 from .geometry.hulls import collision_hulls
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.weighing import weigh
@@ -64,7 +65,7 @@ def export(
         colliders = _colliders(scene, groups, options.colliders, report)
         document = build_document(scene, groups, colliders, report, scene_entry(found))
         _refuse_losses(report, options.strict)
-        buffer = _write(document, Path(target), progress)
+        buffer = _write(document, Path(target), report, progress)
     except KinefabError as error:
         error.report = report
         raise
@@ -107,9 +108,16 @@ def _refuse_losses(report: Report, strict: bool) -> None:
         raise KinefabError(errors)
 
 
-def _write(document: Document, target: Path, progress: Progress) -> Path | None:
+def _write(document: Document, target: Path, report: Report, progress: Progress) -> Path | None:
+    detail = ""
+    if os.path.lexists(target) and not os.path.isfile(target):  # a rename would put a file in a device's place
+        detail = "it is no regular file"
+    elif any("\ud800" <= character <= "\udfff" for character in target.name):
+        detail = "its name is not UTF-8, and the scene names its buffer"
+    if detail:
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     try:
         return write_scene(document, target, lambda fraction: progress("write", fraction))
     except OSError as error:
         detail = error.strerror or str(error)
-        raise KinefabError([diagnostic("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)]) from error

@@ -10,7 +10,7 @@ import numpy as np
 from ..model import Constraint, ConstraintKind, DofRecord, Feature, FeatureKind, Sense, Side
 from .bundle_bodies import frame_index
 from .bundle_components import Components
-from .record import REQUIRED, Log, Record, Vector
+from .record import REQUIRED, Log, Record, Vector, is_encodable
 from .source_frame import SourceFrame
 
 CONSTRAINT = frozenset(
@@ -135,10 +135,11 @@ def _fields(
 def _reading(constraint: Record) -> dict[str, str]:
     """The vendor's meaning of the words: texts by text."""
     values = constraint.values.get("reading")
-    record = constraint.record("reading", frozenset(values) if isinstance(values, dict) else frozenset())
+    known = frozenset(filter(is_encodable, values) if isinstance(values, dict) else ())
+    record = constraint.record("reading", known)
     if record is None:
         return {}
-    found = {key: record.text(key) for key in record.values}
+    found = {key: record.text(key) for key in record.values if key in known}
     constraint.sound &= record.sound
     return found
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..diagnostics import Report
+from .record import is_encodable
 
 MAX_BYTES = 128 * 2**20
 """Largest text source that is read.  A bundle of 100,000 components has about 100 MB."""
@@ -14,7 +15,9 @@ def read_bytes(path: Path, report: Report, limit: int = MAX_BYTES) -> bytes:
     """The whole file.  Raises KinefabError when it is missing, a folder, unreadable, empty or too large."""
     content = b""
     try:
-        if path.is_dir():
+        if not is_encodable(path.name):  # it stands in the scene and in every finding
+            report.add("SOURCE_UNREADABLE", "", path=path, detail="its name is not UTF-8")
+        elif path.is_dir():
             report.add("SOURCE_IS_FOLDER", path.name, path=path)
         elif (size := path.stat().st_size) > limit:
             report.add("SOURCE_TOO_LARGE", path.name, path=path, size=size, limit=limit)

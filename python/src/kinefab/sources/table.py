@@ -69,7 +69,8 @@ def read_table(data: bytes, name: str, report: Report) -> Table:
 
 
 def _decode(data: bytes, name: str, report: Report) -> str:
-    for encoding in ("utf-8-sig", "cp1252"):
+    # A NUL is text in either encoding, but no table holds one: it is the other half of UTF-16.
+    for encoding in () if b"\0" in data else ("utf-8-sig", "cp1252"):
         try:
             return data.decode(encoding)
         except UnicodeDecodeError:

@@ -178,6 +178,8 @@ def test_obj_normals_and_texture_coordinates_stay_with_their_corners(tmp_path):
         (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f a b c"], "GEOMETRY_UNREADABLE"),
         (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0"], "GEOMETRY_EMPTY"),
         (["o A", "v nan 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3"], "GEOMETRY_NOT_FINITE"),
+        (["o A", "v 1e42 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3"], "GEOMETRY_NOT_FINITE"),
+        (["o A", "v 1e300 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3"], "GEOMETRY_NOT_FINITE"),
         ([], "GEOMETRY_EMPTY"),
     ],
 )

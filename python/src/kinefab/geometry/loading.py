@@ -20,6 +20,9 @@ SAME_SHAPE = 1e-5
 """Two meshes are one when no vertex differs by more than this share of their size: what is left of printed
 coordinates after the way back into the part's frame."""
 
+FARTHEST = 1e15
+"""Metres: no vertex comes near it; beyond, volumes overflow and Unity's float32 has no number for it."""
+
 _Place = tuple[int, int]
 """(index of a node, index of one of its bodies)"""
 
@@ -111,8 +114,9 @@ class _Loading:
         matrix = np.asarray(wanted.reference.to_node, dtype=np.float64)
         origin = (file.path, numbers, matrix.tobytes())  # parts with a file of their own repeat this exactly
         if origin not in self._by_origin:
-            piece = transformed(joined([file.pieces[n] for n in numbers]), matrix)
-            if not np.isfinite(piece.vertices).all():
+            with np.errstate(over="ignore", invalid="ignore"):  # checked right below
+                piece = transformed(joined([file.pieces[n] for n in numbers]), matrix)
+            if not (np.abs(piece.vertices) <= FARTHEST).all():
                 self._report.add("GEOMETRY_NOT_FINITE", wanted.reference.where, body=wanted.label)
                 return
             self._by_origin[origin] = (self._share(body.name, piece), piece)

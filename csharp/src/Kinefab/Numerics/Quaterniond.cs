@@ -1,5 +1,6 @@
 using System;
 using System.Globalization;
+using System.Runtime.CompilerServices;
 
 namespace Kinefab.Numerics;
 
@@ -37,6 +38,7 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     public double LengthSquared => X * X + Y * Y + Z * Z + W * W;
 
     /// <summary>The inverse of a unit quaternion.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Quaterniond Conjugate() => new(-X, -Y, -Z, W);
 
     /// <summary>The same rotation with length 1; zero becomes the identity.</summary>
@@ -80,6 +82,7 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     }
 
     /// <summary>First b, then a.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Quaterniond operator *(Quaterniond a, Quaterniond b) => new(
         a.W * b.X + a.X * b.W + a.Y * b.Z - a.Z * b.Y,
         a.W * b.Y - a.X * b.Z + a.Y * b.W + a.Z * b.X,
@@ -87,6 +90,7 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
         a.W * b.W - a.X * b.X - a.Y * b.Y - a.Z * b.Z);
 
     /// <summary>The vector turned by a unit quaternion.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator *(Quaterniond q, Vector3d v)
     {
         Vector3d u = q.Vector;
@@ -95,6 +99,7 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     }
 
     /// <summary>The vector turned by the inverse of a unit quaternion.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector3d InverseRotate(Vector3d v) => Conjugate() * v;
 
     /// <summary>Exact equality of the components.</summary>

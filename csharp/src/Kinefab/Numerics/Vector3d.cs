@@ -1,5 +1,6 @@
 using System;
 using System.Globalization;
+using System.Runtime.CompilerServices;
 
 namespace Kinefab.Numerics;
 
@@ -55,13 +56,16 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     }
 
     /// <summary>Scalar product.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static double Dot(Vector3d a, Vector3d b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
 
     /// <summary>Vector product by the component formula (right-hand rule in a right-handed picture, left-hand in Unity's).</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Cross(Vector3d a, Vector3d b) =>
         new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 
     /// <summary>Component by component product.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Scale(Vector3d a, Vector3d b) => new(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
     /// <summary>Some unit vector at right angles to a unit vector, by the rule Unity's Vector3.OrthoNormalize uses.</summary>
@@ -76,18 +80,23 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     }
 
     /// <summary>Sum.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator +(Vector3d a, Vector3d b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
 
     /// <summary>Difference.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator -(Vector3d a, Vector3d b) => new(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
 
     /// <summary>Opposite.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator -(Vector3d a) => new(-a.X, -a.Y, -a.Z);
 
     /// <summary>Multiple.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator *(Vector3d a, double s) => new(a.X * s, a.Y * s, a.Z * s);
 
     /// <summary>Multiple.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d operator *(double s, Vector3d a) => a * s;
 
     /// <summary>Exact equality of the components.</summary>

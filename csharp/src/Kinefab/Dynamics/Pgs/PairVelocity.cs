@@ -36,13 +36,17 @@ internal ref struct PairVelocity
     /// <summary>Equalities that are mass-orthogonal: none changes another's Cdot, so all see the velocities from before.</summary>
     public void SolveTogether(Span<PgsRow> rows, in PairMass mass)
     {
+        Double4 relative = Linear0 - Linear1;
+        Double4 before0 = Angular0;
+        Double4 before1 = Angular1;
         Double4 linear = default;
         Double4 angular0 = default;
         Double4 angular1 = default;
         for (int i = 0; i < rows.Length; i++)
         {
             ref PgsRow row = ref rows[i];
-            double delta = row.VelocityMultiplier * Velocity(row) + row.Constant;
+            double velocity = (row.Linear * relative + row.Sqrt0 * before0 - row.Sqrt1 * before1).Sum3;
+            double delta = row.VelocityMultiplier * velocity + row.Constant;
             row.Impulse += delta;
             linear += row.Linear * delta;
             angular0 += row.Sqrt0 * delta;

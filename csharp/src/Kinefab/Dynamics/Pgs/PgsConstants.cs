@@ -6,10 +6,9 @@ namespace Kinefab.Dynamics.Pgs;
 internal static class PgsConstants
 {
     /// <summary>Fills a row's constants.</summary>
-    /// <param name="result">Its vectors and what they carry must be set.</param>
+    /// <param name="result">Its vectors, what they carry and its response must be set.</param>
     /// <param name="row">The row as the joint gave it; its error, target and velocity are taken from the result, which preprocessing may have changed.</param>
     /// <param name="keptError">The row's own error before preprocessing when it keeps its bias, else 0.</param>
-    /// <param name="response">J M^-1 J^T.</param>
     /// <param name="driveScale">What makes a drive limit an impulse.</param>
     /// <param name="dt">Step, s.</param>
     /// <param name="inverseDt">1/dt.</param>
@@ -19,8 +18,9 @@ internal static class PgsConstants
     /// force mode x = 1/(1 + a response), lambda = x b - x a Cdot + (1 - x) lambda;
     /// acceleration mode x = 1/(1 + a), lambda = (x b - x a Cdot)/response + (1 - x) lambda.
     /// </remarks>
-    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double response, double driveScale, double dt, double inverseDt)
+    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double driveScale, double dt, double inverseDt)
     {
+        double response = result.Response;
         double error = result.Linear.W;
         double target = result.Sqrt0.W;
         double velocity = result.Sqrt1.W;

@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace Kinefab.Dynamics.Pgs;
 
 /// <summary>
@@ -21,6 +23,9 @@ internal struct PgsRow
     /// <summary>Angular0 itself, for the reported torque.</summary>
     public Double4 Angular0;
 
+    /// <summary>J M^-1 J^T.</summary>
+    public double Response;
+
     /// <summary>Impulse that the start velocity and the bias ask for.</summary>
     public double Constant;
 
@@ -36,4 +41,14 @@ internal struct PgsRow
 
     /// <summary>Whether the impulse counts for breaking and for the reported force.</summary>
     public bool Counts;
+
+    /// <summary>Takes a multiple of another row away, with all that is carried along.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Subtract(in PgsRow other, double factor)
+    {
+        Linear -= other.Linear * factor;
+        Sqrt0 -= other.Sqrt0 * factor;
+        Sqrt1 -= other.Sqrt1 * factor;
+        Angular0 -= other.Angular0 * factor;
+    }
 }

@@ -9,6 +9,10 @@ namespace Kinefab.Dynamics.Pgs;
 /// </summary>
 internal static class Preprocessing
 {
+    private const int MaxEqualities = 6;
+
+    private const double LeastShare = 1e-12;
+
     /// <summary>Stable insertion sort of row indices by hint: drives and soft limits, slerp, equalities, inequalities.</summary>
     public static void Sort(ReadOnlySpan<ConstraintRow> rows, Span<int> order)
     {
@@ -25,33 +29,65 @@ internal static class Preprocessing
     }
 
     /// <summary>
-    /// Modified Gram-Schmidt in the product J M^-1 J^T: each rigid row loses its part along the equalities before it, together with
-    /// that part of its error, target and velocity. Inequalities are not freed from each other.
+    /// Gram-Schmidt in the product J M^-1 J^T: each rigid row loses its part along the equalities before it, together with that part
+    /// of its error, target and velocity; inequalities are not freed from each other. Done as G = L D L^T of the rows' products,
+    /// whose D are the responses of the new rows and whose inverse L makes them: the products then do not wait for each other.
+    /// A row that the ones before it leave next to nothing of gets the response 0 and so does nothing, where PhysX would divide by its rounding.
     /// </summary>
     /// <param name="rows">The joint's rigid rows, equalities first.</param>
     /// <param name="equalities">How many of them are equalities.</param>
     /// <param name="mass">Mass properties of the pair.</param>
     public static void Orthogonalize(Span<PgsRow> rows, int equalities, in PairMass mass)
     {
-        Span<double> inverseResponse = stackalloc double[Joint.MaxRows];
+        Span<double> factor = stackalloc double[Joint.MaxRows * MaxEqualities];
+        Span<double> inverse = stackalloc double[MaxEqualities];
+        Products(rows, equalities, mass, factor);
         for (int i = 0; i < rows.Length; i++)
         {
-            ref PgsRow row = ref rows[i];
-            int eliminated = Math.Min(i, equalities);
-            for (int j = 0; j < eliminated; j++)
+            Span<double> l = factor.Slice(i * MaxEqualities, MaxEqualities);
+            double response = rows[i].Response;
+            double least = response * LeastShare;
+            int count = Math.Min(i, equalities);
+            for (int j = 0; j < count; j++)
             {
-                ref PgsRow other = ref rows[j];
-                double t = mass.Product(row, other) * inverseResponse[j];
-                row.Linear -= other.Linear * t;
-                row.Sqrt0 -= other.Sqrt0 * t;
-                row.Sqrt1 -= other.Sqrt1 * t;
-                row.Angular0 -= other.Angular0 * t;
+                Span<double> other = factor.Slice(j * MaxEqualities, MaxEqualities);
+                double product = l[j];
+                for (int k = 0; k < j; k++)
+                {
+                    product -= l[k] * other[k] * rows[k].Response;
+                }
+
+                l[j] = product * inverse[j];
+                response -= product * l[j];
             }
 
+            rows[i].Response = response > least ? response : 0;
             if (i < equalities)
             {
-                double response = mass.Product(row, row);
-                inverseResponse[i] = response > 0 ? 1 / response : 0;
+                inverse[i] = rows[i].Response > 0 ? 1 / rows[i].Response : 0;
+            }
+
+            for (int j = 0; j < count; j++)
+            {
+                rows[i].Subtract(rows[j], l[j]);
+            }
+        }
+    }
+
+    // The lower half of G, with the equalities alone as columns.
+    private static void Products(Span<PgsRow> rows, int equalities, in PairMass mass, Span<double> products)
+    {
+        double inverseMass = mass.InverseMass0 + mass.InverseMass1;
+        for (int i = 0; i < rows.Length; i++)
+        {
+            Double4 linear = rows[i].Linear * inverseMass;
+            Double4 sqrt0 = rows[i].Sqrt0 * mass.InertiaScale0;
+            Double4 sqrt1 = rows[i].Sqrt1 * mass.InertiaScale1;
+            int count = Math.Min(i, equalities);
+            for (int j = 0; j < count; j++)
+            {
+                ref PgsRow other = ref rows[j];
+                products[i * MaxEqualities + j] = (linear * other.Linear + sqrt0 * other.Sqrt0 + sqrt1 * other.Sqrt1).Sum3;
             }
         }
     }

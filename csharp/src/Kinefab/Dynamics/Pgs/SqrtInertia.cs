@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -32,6 +33,7 @@ internal struct SqrtInertia
     public static Vector3d Root(Vector3d inverseInertia) =>
         new(Math.Sqrt(inverseInertia.X), Math.Sqrt(inverseInertia.Y), Math.Sqrt(inverseInertia.Z));
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector3d Times(Vector3d v) => new(
         _xx * v.X + _xy * v.Y + _xz * v.Z,
         _xy * v.X + _yy * v.Y + _yz * v.Z,

@@ -138,7 +138,7 @@ internal sealed class UnitySolver : ISolver
             {
                 ref ConstraintRow row = ref rows[order[i]];
                 kept[i] = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
-                Load(ref results[i], row, block.Body0, block.Body1);
+                Load(ref results[i], row, block);
                 block.Equalities += row.Hint < SolveHint.Equality ? 1 : 0;
                 block.Inequalities -= row.Hint == SolveHint.Inequality ? 1 : 0;
             }
@@ -153,7 +153,7 @@ internal sealed class UnitySolver : ISolver
             {
                 ref ConstraintRow row = ref rows[order[i]];
                 double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
-                PgsConstants.Set(ref results[i], row, kept[i], block.Mass.Product(results[i], results[i]), driveScale, dt, inverseDt);
+                PgsConstants.Set(ref results[i], row, kept[i], driveScale, dt, inverseDt);
             }
         }
 
@@ -174,13 +174,16 @@ internal sealed class UnitySolver : ISolver
         block.Lever = _bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - _bodies.PoseOf(joint.Body0).Position;
     }
 
-    private void Load(ref PgsRow result, in ConstraintRow row, int body0, int body1)
+    private void Load(ref PgsRow result, in ConstraintRow row, in JointBlock block)
     {
+        int body0 = block.Body0;
+        int body1 = block.Body1;
         double velocity = row.Velocity(_startLinear[body0], _startAngular[body0], _startLinear[body1], _startAngular[body1]);
         result.Linear = new Double4(row.Linear0, row.GeometricError);
         result.Sqrt0 = new Double4(_sqrtInertia[body0].Times(row.Angular0), row.VelocityTarget);
         result.Sqrt1 = new Double4(_sqrtInertia[body1].Times(row.Angular1), velocity);
         result.Angular0 = new Double4(row.Angular0, 0);
+        result.Response = block.Mass.Product(result, result);
         result.Counts = row.Has(RowFlags.OutputForce);
     }
 
@@ -190,7 +193,11 @@ internal sealed class UnitySolver : ISolver
         {
             ref JointBlock block = ref _blocks[b];
             var pair = new PairVelocity(_linear[block.Body0], _angular[block.Body0], _linear[block.Body1], _angular[block.Body1]);
-            pair.SolveInTurn(_rows.AsSpan(block.Start, block.Equalities - block.Start), block.Mass);
+            if (block.Equalities > block.Start)
+            {
+                pair.SolveInTurn(_rows.AsSpan(block.Start, block.Equalities - block.Start), block.Mass);
+            }
+
             Span<PgsRow> equalities = _rows.AsSpan(block.Equalities, block.Inequalities - block.Equalities);
             if (block.IsOrthogonal)
             {
@@ -201,7 +208,11 @@ internal sealed class UnitySolver : ISolver
                 pair.SolveInTurn(equalities, block.Mass);
             }
 
-            pair.SolveInTurn(_rows.AsSpan(block.Inequalities, block.End - block.Inequalities), block.Mass);
+            if (block.End > block.Inequalities)
+            {
+                pair.SolveInTurn(_rows.AsSpan(block.Inequalities, block.End - block.Inequalities), block.Mass);
+            }
+
             _linear[block.Body0] = pair.Linear0;
             _angular[block.Body0] = pair.Angular0;
             _linear[block.Body1] = pair.Linear1;

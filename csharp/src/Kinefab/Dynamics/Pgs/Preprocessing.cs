@@ -7,11 +7,15 @@ namespace Kinefab.Dynamics.Pgs;
 /// Preparation of one joint's rows for PGS: sorted by solve hint, then made mass-orthogonal, so that solving one rigid
 /// row leaves the others of its joint alone. Source: DyConstraintSetup.cpp, preprocessRows and orthogonalize.
 /// </summary>
-internal static class Preprocessing
+internal sealed class Preprocessing
 {
     private const int MaxEqualities = 6;
 
     private const double LeastShare = 1e-12;
+
+    // Kept, so that no call has to clear them.
+    private readonly double[] _factor = new double[Joint.MaxRows * MaxEqualities];
+    private readonly double[] _inverse = new double[MaxEqualities];
 
     /// <summary>Stable insertion sort of row indices by hint: drives and soft limits, slerp, equalities, inequalities.</summary>
     public static void Sort(ReadOnlySpan<ConstraintRow> rows, Span<int> order)
@@ -37,10 +41,10 @@ internal static class Preprocessing
     /// <param name="rows">The joint's rigid rows, equalities first.</param>
     /// <param name="equalities">How many of them are equalities.</param>
     /// <param name="mass">Mass properties of the pair.</param>
-    public static void Orthogonalize(Span<PgsRow> rows, int equalities, in PairMass mass)
+    public void Orthogonalize(Span<PgsRow> rows, int equalities, in PairMass mass)
     {
-        Span<double> factor = stackalloc double[Joint.MaxRows * MaxEqualities];
-        Span<double> inverse = stackalloc double[MaxEqualities];
+        Span<double> factor = _factor;
+        Span<double> inverse = _inverse;
         Products(rows, equalities, mass, factor);
         for (int i = 0; i < rows.Length; i++)
         {

@@ -29,6 +29,7 @@ internal sealed class UnitySolver : ISolver
 
     private readonly JointBlock[] _blocks;
     private readonly PgsRow[] _rows;
+    private readonly Preprocessing _preprocessing = new();
     private readonly ConstraintRow[] _scratch = new ConstraintRow[Joint.MaxRows];
 
     // A joint's rows: springs and motors from Start, then equalities, then inequalities.
@@ -145,7 +146,7 @@ internal sealed class UnitySolver : ISolver
 
             if (joint.Preprocessing)
             {
-                Preprocessing.Orthogonalize(
+                _preprocessing.Orthogonalize(
                     results.Slice(block.Equalities - block.Start), block.Inequalities - block.Equalities, block.Mass);
             }
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 from ..diagnostics import Report
-from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, JointKind, Motion, Scene
+from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Motion, Scene
 from .assembly import Assembly
 from .jointing import Link
 
@@ -19,7 +17,7 @@ ALONG = 1.0 - 1e-6
 
 
 def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Coupling]:
-    """Explicit couplings as they are, one for each gear, belt, rack and linear constraint, and each screw's lead.
+    """Explicit couplings as they are, one for each gear, belt, rack and linear constraint.
 
     scene: with middle bodies, at the closed pose, where every found joint's coordinates are zero.
     """
@@ -27,14 +25,6 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
     for link in links:
         by_pair.setdefault((min(link.a, link.b), max(link.a, link.b)), link)
     found = list(scene.couplings)
-    coupled = {c.joint_a for c in found if c.kind is CouplingKind.SCREW}
-    for joint in (link.joint for link in links):
-        if joint.kind is JointKind.SCREW and joint.lead and joint.id not in coupled:
-            ratio = joint.lead / math.tau
-            name = f"{joint.id}: lead"
-            found.append(
-                Coupling(name, CouplingKind.SCREW, joint.id, RX, joint.id, TX, ratio, where=joint.where)
-            )
     for statement in assembly.equations.statements:
         if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
             continue

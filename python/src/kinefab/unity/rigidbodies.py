@@ -8,7 +8,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..geometry.mass import combined, moved, principal
-from ..model import MassProperties, NodeKind, Scene
+from ..model import MassProperties, Node, NodeKind, Scene
 from ..rigid import RigidGroups
 from ..spatial import quaternion_from_matrix
 from . import frames
@@ -70,8 +70,10 @@ def rigidbody_fields(
         known = [own.mass]
     else:
         to_carrier = own.pose.inverse()
-        counted = (scene.nodes[i] for i in _outermost_weighed(scene, moved_nodes))
+        counted, weightless = _weighed(scene, moved_nodes)
         known = [moved(node.mass, to_carrier @ node.pose) for node in counted]
+        for node in weightless if known else ():
+            report.add("MASS_LEFT_OUT", node.where, node=node.id, carrier=own.id)
     if not known:
         report.approximated(f"mass {own.id}", "MASS_UNKNOWN", own.where, node=own.id)
     total = combined(known) if known else UNITY_DEFAULT
@@ -85,10 +87,15 @@ def rigidbody_fields(
     }
 
 
-def _outermost_weighed(scene: Scene, nodes: tuple[int, ...]) -> list[int]:
-    """The nodes that have a mass, without what stands below an assembly of them: its mass is already theirs."""
-    whole = {i for i in nodes if scene.nodes[i].kind is NodeKind.ASSEMBLY and scene.nodes[i].mass is not None}
-    return [i for i in nodes if scene.nodes[i].mass is not None and whole.isdisjoint(_line(scene, i)[1:])]
+def _weighed(scene: Scene, indices: tuple[int, ...]) -> tuple[list[Node], list[Node]]:
+    """Of some nodes those whose masses add up, and the parts that have none.
+
+    What stands below an assembly with a mass of its own is in neither: its mass is already that assembly's.
+    """
+    whole = {i for i in indices if scene.nodes[i].kind is NodeKind.ASSEMBLY and scene.nodes[i].mass is not None}
+    outer = [scene.nodes[i] for i in indices if whole.isdisjoint(_line(scene, i)[1:])]
+    weightless = [node for node in outer if node.mass is None and node.kind is NodeKind.PART]
+    return [node for node in outer if node.mass is not None], weightless
 
 
 def _subtree_bodies(scene: Scene, groups: RigidGroups) -> list[int]:

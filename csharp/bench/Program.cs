@@ -2,7 +2,7 @@ using System;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- load | drive</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- load | drive | solver</summary>
 internal static class Program
 {
     private static int Main(string[] args)
@@ -15,8 +15,11 @@ internal static class Program
             case "drive":
                 DriveBench.Run();
                 return 0;
+            case "solver":
+                SolverBenchmark.Run();
+                return 0;
             default:
-                Console.Error.WriteLine("Name a benchmark: load, drive");
+                Console.Error.WriteLine("Name a benchmark: load, drive, solver");
                 return 2;
         }
     }

@@ -1,0 +1,122 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>
+/// The numbers of up to Width islands of one shape, side by side: number i of a record stands at i * Width + lane. All
+/// arrays are made here; a step only writes into them.
+/// </summary>
+internal sealed class Batch<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Anchor and frame axes of a joint in body 0, then in body 1; then both levers in the world at the built pose.</summary>
+    public const int Anchor0 = 0, Axes0 = 3, Anchor1 = 12, Axes1 = 15, Lever0 = 24, Lever1 = 27, JointCount = 30;
+
+    /// <summary>A row's part on one body: linear and angular J, and angular J times the inverse inertia.</summary>
+    public const int Linear = 0, Angular = 3, Response = 6, SideCount = 9;
+
+    public Batch(Island shape)
+    {
+        Shape = shape;
+        int w = Width;
+        Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
+        Joints = new double[shape.Nodes.Length * JointCount * w];
+        RowOffsets = new int[shape.Nodes.Length];
+        int length = 0;
+        for (int n = 0; n < shape.Nodes.Length; n++)
+        {
+            RowOffsets[n] = length;
+            length += shape.Nodes[n].Rows * shape.Nodes[n].Bodies.Length * SideCount;
+        }
+
+        int rows = shape.Pattern.RowCount;
+        Rows = new double[length * w];
+        Matrix = new double[shape.Pattern.Length * w];
+        Diagonal = new double[rows * w];
+        Error = new double[rows * w];
+        LastError = new double[rows * w];
+        Solution = new double[rows * w];
+        LastSolution = new double[rows * w];
+        Move = new double[rows * w];
+        Half = new double[rows * w];
+        First = new double[rows * w];
+        Active = new double[w];
+        MaxError = new double[w];
+        MaxChange = new double[w];
+        Turning = new double[w];
+        Rotation = new double[9 * w];
+    }
+
+    public static int Width => Lane<V>.Width;
+
+    public Island Shape { get; }
+
+    /// <summary>Records of <see cref="BodySlot"/>.</summary>
+    public double[] Bodies { get; }
+
+    /// <summary>Records of <see cref="Anchor0"/> and the following.</summary>
+    public double[] Joints { get; }
+
+    /// <summary>J: for each node, row and side a record of <see cref="SideCount"/>.</summary>
+    public double[] Rows { get; }
+
+    /// <summary>Where each node's rows begin in <see cref="Rows"/>.</summary>
+    public int[] RowOffsets { get; }
+
+    /// <summary>A = J M^-1 J^T, then its factor.</summary>
+    public double[] Matrix { get; }
+
+    /// <summary>Diagonal of A without regularisation.</summary>
+    public double[] Diagonal { get; }
+
+    /// <summary>C at the end of the flight, and one iteration before.</summary>
+    public double[] Error { get; }
+
+    public double[] LastError { get; }
+
+    /// <summary>Right-hand side, then impulses.</summary>
+    public double[] Solution { get; }
+
+    /// <summary>Solution one iteration before, and what was made of it.</summary>
+    public double[] LastSolution { get; }
+
+    public double[] Move { get; }
+
+    /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>
+    public double[] Half { get; }
+
+    /// <summary>Impulses of the flight.</summary>
+    public double[] First { get; }
+
+    /// <summary>1 in lanes that still iterate, else 0.</summary>
+    public double[] Active { get; }
+
+    /// <summary>Largest error, and largest change of an error, of each lane.</summary>
+    public double[] MaxError { get; }
+
+    public double[] MaxChange { get; }
+
+    /// <summary>See <see cref="Flight{V}.MeasureTurning"/>; then 1 in lanes that turn much, else 0.</summary>
+    public double[] Turning { get; }
+
+    /// <summary>Room for a rotation matrix.</summary>
+    public double[] Rotation { get; }
+
+    /// <summary>Index of a number of a body in <see cref="Bodies"/>.</summary>
+    public static int Body(int body, int slot) => (body * BodySlot.Count + slot) * Width;
+
+    /// <summary>Index of a number of a joint in <see cref="Joints"/>.</summary>
+    public static int Joint(int node, int slot) => (node * JointCount + slot) * Width;
+
+    /// <summary>Index of a number of a row's side in <see cref="Rows"/>.</summary>
+    public int Row(int node, int row, int side, int slot) =>
+        (RowOffsets[node] + (row * Shape.Nodes[node].Bodies.Length + side) * SideCount + slot) * Width;
+
+    /// <summary>Forgets what earlier steps left behind.</summary>
+    public void ClearHistory()
+    {
+        Array.Clear(Half, 0, Half.Length);
+        Array.Clear(First, 0, First.Length);
+    }
+}

@@ -1,0 +1,51 @@
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>
+/// Where a body's numbers stand in its record (each number is Width lanes wide). World frame unless said; the body frame
+/// is that of the centre of mass and principal axes.
+/// </summary>
+internal static class BodySlot
+{
+    /// <summary>Position of the centre of mass at the start of the step.</summary>
+    public const int X = 0;
+
+    /// <summary>Velocity of the centre of mass.</summary>
+    public const int V = 3;
+
+    /// <summary>Angular momentum about the centre of mass.</summary>
+    public const int L = 6;
+
+    /// <summary>Rotation at the start of the step, xyzw.</summary>
+    public const int Q = 9;
+
+    /// <summary>Position and rotation at the end of the flight.</summary>
+    public const int EndX = 13;
+    public const int EndQ = 16;
+
+    /// <summary>Angular velocity of the flight.</summary>
+    public const int W = 20;
+
+    /// <summary>Rotation matrix at the end of the flight, row-major.</summary>
+    public const int R = 23;
+
+    /// <summary>Inverse mass.</summary>
+    public const int InverseMass = 32;
+
+    /// <summary>Inverse principal moments.</summary>
+    public const int InverseInertia = 33;
+
+    /// <summary>Inverse inertia at the end of the flight: xx, yy, zz, xy, xz, yz.</summary>
+    public const int WorldInverse = 36;
+
+    /// <summary>Gravity and forces over the mass; torques.</summary>
+    public const int Acceleration = 42;
+    public const int Torque = 45;
+
+    /// <summary>Largest over least principal moment.</summary>
+    public const int InertiaRatio = 48;
+
+    /// <summary>Geometric stiffness times the square of the step, against the inertia.</summary>
+    public const int Stiffness = 49;
+
+    public const int Count = 50;
+}

@@ -1,0 +1,312 @@
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>Moving bodies that hang together by joints and couplings, with the fixed bodies they touch, and their matrix's pattern.</summary>
+internal sealed class Island
+{
+    /// <summary>A body couples the rows of two nodes: the block (Later, Earlier) takes J_l M^-1 J_e^T over it.</summary>
+    internal readonly struct Link
+    {
+        public Link(int later, int laterSide, int earlier, int earlierSide, int body, int block)
+        {
+            Later = later;
+            LaterSide = laterSide;
+            Earlier = earlier;
+            EarlierSide = earlierSide;
+            Body = body;
+            Block = block;
+        }
+
+        public readonly int Later;
+        public readonly int LaterSide;
+        public readonly int Earlier;
+        public readonly int EarlierSide;
+        public readonly int Body;
+        public readonly int Block;
+    }
+
+    private Island(int[] bodies, int movingBodies, Node[] nodes)
+    {
+        Bodies = bodies;
+        MovingBodies = movingBodies;
+        Nodes = nodes;
+        IsStatic = new bool[bodies.Length];
+        for (int b = 0; b < bodies.Length; b++)
+        {
+            IsStatic[b] = bodies[b] == Joint.World;
+        }
+
+        var sizes = new int[nodes.Length];
+        var touching = new List<(int Node, int Side)>[movingBodies];
+        for (int b = 0; b < movingBodies; b++)
+        {
+            touching[b] = new List<(int Node, int Side)>();
+        }
+
+        for (int n = 0; n < nodes.Length; n++)
+        {
+            sizes[n] = nodes[n].Rows;
+            HasPreparedRows |= nodes[n].IsPrepared;
+            Laws += nodes[n].Laws;
+            for (int side = 0; side < nodes[n].Bodies.Length; side++)
+            {
+                int body = nodes[n].Bodies[side];
+                if (body < movingBodies)
+                {
+                    touching[body].Add((n, side));
+                }
+            }
+        }
+
+        Pattern = new BlockPattern(sizes, Couplings(touching));
+        Links = MakeLinks(touching, Pattern);
+    }
+
+    /// <summary>Index in the mechanism (or Joint.World) of each of the island's bodies, the moving ones first.</summary>
+    public int[] Bodies { get; }
+
+    public int MovingBodies { get; }
+
+    /// <summary>Whether a body is the world; the other fixed ones are kinematic.</summary>
+    public bool[] IsStatic { get; }
+
+    public Node[] Nodes { get; }
+
+    public BlockPattern Pattern { get; }
+
+    public Link[] Links { get; }
+
+    /// <summary>Rows with a law, of all nodes.</summary>
+    public int Laws { get; }
+
+    /// <summary>Whether some rows have no closed form in lanes.</summary>
+    public bool HasPreparedRows { get; }
+
+    /// <summary>The islands of a mechanism's unbroken joints, by the lowest index of their bodies.</summary>
+    public static List<Island> Find(Mechanism mechanism, IReadOnlyList<Joint> joints)
+    {
+        Bodies bodies = mechanism.Bodies;
+        var parent = new int[bodies.Count];
+        for (int i = 0; i < parent.Length; i++)
+        {
+            parent[i] = i;
+        }
+
+        foreach (Joint joint in joints)
+        {
+            Unite(joint.Body0, joint.Body1);
+        }
+
+        foreach (Coupling coupling in mechanism.Couplings)
+        {
+            if (IsWhole(coupling))
+            {
+                Unite(coupling.A.Joint.Body0, coupling.A.Joint.Body1);
+                Unite(coupling.B.Joint.Body0, coupling.B.Joint.Body1);
+                Unite(AnyMoving(coupling.A.Joint), AnyMoving(coupling.B.Joint));
+            }
+        }
+
+        var members = new SortedDictionary<int, Builder>();
+        for (int i = 0; i < parent.Length; i++)
+        {
+            if (Moves(i))
+            {
+                int root = Root(i);
+                if (!members.TryGetValue(root, out Builder? builder))
+                {
+                    members.Add(root, builder = new Builder(bodies));
+                }
+
+                builder.AddMoving(i);
+            }
+        }
+
+        for (int j = 0; j < joints.Count; j++)
+        {
+            int body = AnyMoving(joints[j]);
+            if (body >= 0 && !joints[j].IsBroken)
+            {
+                members[Root(body)].Add(joints[j], j);
+            }
+        }
+
+        for (int c = 0; c < mechanism.Couplings.Length; c++)
+        {
+            Coupling coupling = mechanism.Couplings[c];
+            int body = System.Math.Max(AnyMoving(coupling.A.Joint), AnyMoving(coupling.B.Joint));
+            if (body >= 0 && IsWhole(coupling))
+            {
+                members[Root(body)].Add(coupling, c);
+            }
+        }
+
+        var islands = new List<Island>();
+        foreach (Builder builder in members.Values)
+        {
+            islands.Add(builder.Build());
+        }
+
+        return islands;
+
+        bool Moves(int body) => body >= 0 && !bodies.IsKinematic[body];
+
+        int AnyMoving(Joint joint) => Moves(joint.Body0) ? joint.Body0 : Moves(joint.Body1) ? joint.Body1 : -1;
+
+        int Root(int body)
+        {
+            while (parent[body] != body)
+            {
+                body = parent[body] = parent[parent[body]];
+            }
+
+            return body;
+        }
+
+        void Unite(int a, int b)
+        {
+            if (Moves(a) && Moves(b))
+            {
+                int ra = Root(a);
+                int rb = Root(b);
+                parent[System.Math.Max(ra, rb)] = System.Math.Min(ra, rb);
+            }
+        }
+    }
+
+    /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
+    public bool HasShapeOf(Island other)
+    {
+        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Nodes.Length != other.Nodes.Length)
+        {
+            return false;
+        }
+
+        for (int b = 0; b < IsStatic.Length; b++)
+        {
+            if (IsStatic[b] != other.IsStatic[b])
+            {
+                return false;
+            }
+        }
+
+        for (int n = 0; n < Nodes.Length; n++)
+        {
+            if (!Nodes[n].HasShapeOf(other.Nodes[n]))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    private static bool IsWhole(Coupling coupling) => !coupling.A.Joint.IsBroken && !coupling.B.Joint.IsBroken;
+
+    private static IEnumerable<(int A, int B)> Couplings(List<(int Node, int Side)>[] touching)
+    {
+        foreach (List<(int Node, int Side)> nodes in touching)
+        {
+            for (int i = 0; i < nodes.Count; i++)
+            {
+                for (int k = 0; k < i; k++)
+                {
+                    yield return (nodes[i].Node, nodes[k].Node);
+                }
+            }
+        }
+    }
+
+    private static Link[] MakeLinks(List<(int Node, int Side)>[] touching, BlockPattern pattern)
+    {
+        var links = new List<Link>();
+        for (int body = 0; body < touching.Length; body++)
+        {
+            List<(int Node, int Side)> nodes = touching[body];
+            for (int i = 0; i < nodes.Count; i++)
+            {
+                for (int k = 0; k < i; k++)
+                {
+                    (int later, int laterSide) = nodes[i];
+                    (int earlier, int earlierSide) = nodes[k];
+                    if (pattern.IsBefore(later, earlier))
+                    {
+                        (later, laterSide, earlier, earlierSide) = (earlier, earlierSide, later, laterSide);
+                    }
+
+                    links.Add(new Link(later, laterSide, earlier, earlierSide, body, pattern.Below(later, earlier)));
+                }
+            }
+        }
+
+        return links.ToArray();
+    }
+
+    private sealed class Builder
+    {
+        private readonly Bodies _bodies;
+        private readonly List<int> _moving = new();
+        private readonly List<int> _fixed = new();
+        private readonly List<(Joint? Joint, Coupling? Coupling, int Index)> _items = new();
+        private readonly Dictionary<int, int> _slots = new();
+
+        public Builder(Bodies bodies) => _bodies = bodies;
+
+        public void AddMoving(int body)
+        {
+            _slots.Add(body, _moving.Count);
+            _moving.Add(body);
+        }
+
+        public void Add(Joint joint, int index) => _items.Add((joint, null, index));
+
+        public void Add(Coupling coupling, int index) => _items.Add((null, coupling, index));
+
+        public Island Build()
+        {
+            var nodes = new Node[_items.Count];
+            for (int i = 0; i < nodes.Length; i++)
+            {
+                (Joint? joint, Coupling? coupling, int index) = _items[i];
+                nodes[i] = joint != null
+                    ? new Node(joint, index, new[] { Slot(joint.Body0), Slot(joint.Body1) })
+                    : new Node(coupling!, index, Distinct(coupling!));
+            }
+
+            _moving.AddRange(_fixed);
+            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, nodes);
+        }
+
+        private int[] Distinct(Coupling coupling)
+        {
+            var slots = new List<int>();
+            foreach (Joint joint in new[] { coupling.A.Joint, coupling.B.Joint })
+            {
+                foreach (int slot in new[] { Slot(joint.Body0), Slot(joint.Body1) })
+                {
+                    if (!slots.Contains(slot))
+                    {
+                        slots.Add(slot);
+                    }
+                }
+            }
+
+            return slots.ToArray();
+        }
+
+        private int Slot(int body)
+        {
+            if (!_slots.TryGetValue(body, out int slot))
+            {
+                slot = _moving.Count + _fixed.Count;
+                _slots.Add(body, slot);
+                _fixed.Add(body);
+            }
+
+            return slot;
+        }
+    }
+}

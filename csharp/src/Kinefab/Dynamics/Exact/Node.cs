@@ -1,0 +1,203 @@
+using System.Collections.Generic;
+using Kinefab.Joints;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>Which closed form gives a joint's locked angular rows.</summary>
+internal enum AngularRows : byte
+{
+    None,
+
+    /// <summary>Only the turn about X of the frames is free.</summary>
+    HingeX,
+
+    /// <summary>Only the turn about Y of the frames is free.</summary>
+    HingeY,
+
+    /// <summary>Only the turn about Z of the frames is free.</summary>
+    HingeZ,
+
+    /// <summary>No turn is free.</summary>
+    All,
+
+    /// <summary>One locked angle: the row is the one that <see cref="Joint.Prepare"/> writes.</summary>
+    Prepared,
+}
+
+/// <summary>What is known of a row's linear part before any pose is.</summary>
+internal enum RowClass : byte
+{
+    /// <summary>Along the world's X, Y or Z, positive on the node's first body and negative on its second.</summary>
+    UnitX,
+    UnitY,
+    UnitZ,
+
+    /// <summary>None.</summary>
+    Angular,
+
+    /// <summary>Anything.</summary>
+    General,
+}
+
+/// <summary>
+/// The rows of one joint or coupling as one block of the matrix: rigid rows first, then one row for each law (limit, drive,
+/// motor, spring) that the joint may ever apply, at work or not, so that the pattern never changes.
+/// </summary>
+internal sealed class Node
+{
+    /// <summary>Joint in the mechanism, or null for a coupling.</summary>
+    public readonly Joint? Joint;
+    public readonly Coupling? Coupling;
+
+    /// <summary>Index in the mechanism's joints or couplings.</summary>
+    public readonly int Index;
+
+    /// <summary>Bodies in the island, no two the same: actor 0 and 1 of a joint, up to four of a coupling.</summary>
+    public readonly int[] Bodies;
+
+    /// <summary>Locked linear axes of frame 0 as a bit mask; 7 is written in the world's axes instead.</summary>
+    public readonly int LinearMask;
+    public readonly AngularRows Angular;
+    public readonly int RigidRows;
+
+    /// <summary>Slots for drive rows, in Prepare's order, then for limits: cone, angles, distance.</summary>
+    public readonly int Drives;
+    public readonly bool HasCone;
+    public readonly int AngleLimits;
+    public readonly bool HasDistance;
+    public readonly RowClass[] Classes;
+
+    public Node(Joint joint, int index, int[] bodies)
+    {
+        Joint = joint;
+        Index = index;
+        Bodies = bodies;
+        var classes = new List<RowClass>();
+        if (joint is RevoluteJoint hinge)
+        {
+            LinearMask = 7;
+            bool isLocked = hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper;
+            Angular = isLocked ? AngularRows.All : AngularRows.HingeX;
+            if (!isLocked)
+            {
+                Drives = hinge.MotorEnabled || hinge.Spring.IsActive ? 1 : 0;
+                AngleLimits = hinge.LimitEnabled ? 2 : 0;
+            }
+        }
+        else if (joint is D6Joint d6)
+        {
+            LinearMask = Locked(d6.X, 1) | Locked(d6.Y, 2) | Locked(d6.Z, 4);
+            int angular = Locked(d6.Twist, 1) | Locked(d6.Swing1, 2) | Locked(d6.Swing2, 4);
+            Angular = angular switch
+            {
+                0 => AngularRows.None,
+                6 => AngularRows.HingeX,
+                5 => AngularRows.HingeY,
+                3 => AngularRows.HingeZ,
+                7 => AngularRows.All,
+                _ => AngularRows.Prepared,
+            };
+            Drives = CountDrives(d6);
+            bool swing1 = d6.Swing1 == AxisMotion.Limited;
+            bool swing2 = d6.Swing2 == AxisMotion.Limited;
+            HasCone = swing1 && swing2;
+            AngleLimits = (swing1 ^ swing2 ? 2 : 0) + (d6.Twist == AxisMotion.Limited ? 2 : 0);
+            HasDistance = d6.X == AxisMotion.Limited || d6.Y == AxisMotion.Limited || d6.Z == AxisMotion.Limited;
+        }
+
+        for (int axis = 0; axis < 3; axis++)
+        {
+            if ((LinearMask & (1 << axis)) != 0)
+            {
+                classes.Add(LinearMask == 7 ? (RowClass)axis : RowClass.General);
+            }
+        }
+
+        int turns = Angular switch { AngularRows.None => 0, AngularRows.All => 3, AngularRows.Prepared => 1, _ => 2 };
+        for (int i = 0; i < turns; i++)
+        {
+            classes.Add(RowClass.Angular);
+        }
+
+        RigidRows = classes.Count;
+        for (int i = Laws; i > 0; i--)
+        {
+            classes.Add(RowClass.General);
+        }
+
+        Classes = classes.ToArray();
+    }
+
+    public Node(Coupling coupling, int index, int[] bodies)
+    {
+        Coupling = coupling;
+        Index = index;
+        Bodies = bodies;
+        RigidRows = 1;
+        Classes = new[] { RowClass.General };
+    }
+
+    /// <summary>Rows that obey a law.</summary>
+    public int Laws => Drives + (HasCone ? 1 : 0) + AngleLimits + (HasDistance ? 1 : 0);
+
+    public int Rows => Classes.Length;
+
+    /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
+    public bool IsPrepared => Coupling != null || Laws > 0 || Angular == AngularRows.Prepared;
+
+    /// <summary>Whether the other node has the same rows between the same bodies.</summary>
+    public bool HasShapeOf(Node other)
+    {
+        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular
+            || IsPrepared || other.IsPrepared)
+        {
+            return false;
+        }
+
+        for (int i = 0; i < Bodies.Length; i++)
+        {
+            if (Bodies[i] != other.Bodies[i])
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>Whether a change of the joint's fields since the node was made asks for other rows.</summary>
+    public bool IsStale()
+    {
+        if (Joint == null)
+        {
+            return false;
+        }
+
+        var now = new Node(Joint, Index, Bodies);
+        return now.LinearMask != LinearMask || now.Angular != Angular || now.Drives != Drives || now.HasCone != HasCone
+            || now.AngleLimits != AngleLimits || now.HasDistance != HasDistance;
+    }
+
+    private static int Locked(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? bit : 0;
+
+    // The same conditions as in D6Joint.LinearDrives and AngularDrives.
+    private static int CountDrives(D6Joint d6)
+    {
+        int count = 0;
+        count += d6.DriveX.IsActive && d6.X != AxisMotion.Locked ? 1 : 0;
+        count += d6.DriveY.IsActive && d6.Y != AxisMotion.Locked ? 1 : 0;
+        count += d6.DriveZ.IsActive && d6.Z != AxisMotion.Locked ? 1 : 0;
+        bool twist = d6.Twist != AxisMotion.Locked;
+        bool swing1 = d6.Swing1 != AxisMotion.Locked;
+        bool swing2 = d6.Swing2 != AxisMotion.Locked;
+        if (d6.DriveSlerp.IsActive && twist && swing1 && swing2)
+        {
+            return count + 3;
+        }
+
+        count += d6.DriveTwist.IsActive && twist ? 1 : 0;
+        count += d6.DriveSwing.IsActive && swing1 ? 1 : 0;
+        count += d6.DriveSwing.IsActive && swing2 ? 1 : 0;
+        return count;
+    }
+}

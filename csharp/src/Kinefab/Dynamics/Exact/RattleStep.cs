@@ -1,0 +1,198 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>
+/// One RATTLE step with a chord Newton iteration. Momenta take half a kick; impulses along the rows of the start pose
+/// then make the pose at the flight's end satisfy C = 0; momenta take the other half, and impulses along the rows of the
+/// end pose make them tangent. One factorisation, at the end pose, serves this projection and the next step's iteration.
+/// Second order and time-reversible to the tolerance.
+/// Source: Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, VII.1.4.
+/// </summary>
+internal static class RattleStep<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Iterations after which a step counts as failed.</summary>
+    public const int MaxIterations = 8;
+
+    private const int FirstPasses = 3;
+
+    // Contraction of the iteration on a slender body's turns that is still good enough.
+    private const double MuchTurning = 0.3;
+
+    // Keeps 0 / 0 out of the mixing.
+    private const double LeastSquare = 1e-300;
+
+    /// <summary>Kick, impulses and flight, until the lanes that are active at the call have a closed end pose.</summary>
+    /// <param name="batch">Built and factored at the start pose.</param>
+    /// <param name="h">Step, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    /// <param name="converged">Set for each lane.</param>
+    /// <returns>Iterations.</returns>
+    public static int Fly(Batch<V> batch, double h, double tolerance, bool[] converged)
+    {
+        int w = Lane<V>.Width;
+        for (int lane = 0; lane < w; lane++)
+        {
+            converged[lane] = batch.Active[lane] == 0;
+        }
+
+        Kick(batch, h / 2);
+        Array.Copy(batch.Half, batch.First, batch.Half.Length);
+        Impulses<V>.Apply(batch, batch.First, 1);
+        for (int iteration = 0; ; iteration++)
+        {
+            Flight<V>.Run(batch, h, iteration == 0 ? FirstPasses : 1, iteration == 0);
+            RigidRows<V>.Evaluate(batch);
+            bool isDone = true;
+            for (int lane = 0; lane < w; lane++)
+            {
+                if (batch.Active[lane] != 0
+                    && (batch.MaxError[lane] < tolerance || (iteration > 0 && batch.MaxChange[lane] < tolerance)))
+                {
+                    batch.Active[lane] = 0;
+                    converged[lane] = true;
+                }
+
+                isDone &= batch.Active[lane] == 0;
+            }
+
+            if (isDone || iteration == MaxIterations)
+            {
+                return iteration;
+            }
+
+            if (iteration == 0)
+            {
+                TurnMatrix(batch, h);
+            }
+
+            Correct(batch, h, iteration == 0);
+        }
+    }
+
+    /// <summary>Builds and factors the rows at the end pose, for all lanes.</summary>
+    public static void Build(Batch<V> batch)
+    {
+        ResponseMatrix<V>.InverseInertias(batch);
+        RigidRows<V>.Build(batch);
+        ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
+        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+    }
+
+    /// <summary>Second kick and projection of the momenta in the active lanes; needs the rows at the end pose.</summary>
+    public static void Project(Batch<V> batch, double h)
+    {
+        Kick(batch, h / 2);
+        Impulses<V>.NegativeSpeeds(batch);
+        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
+        Copy(batch, batch.Solution, batch.Half);
+        Impulses<V>.Apply(batch, batch.Half, 1);
+    }
+
+    /// <summary>The end pose becomes the start pose, in all lanes.</summary>
+    public static void Accept(Batch<V> batch)
+    {
+        int w = Lane<V>.Width;
+        double[] a = batch.Bodies;
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            LaneVector<V>.Load(a, o + BodySlot.EndX * w).Store(a, o + BodySlot.X * w);
+            LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w).Store(a, o + BodySlot.Q * w);
+        }
+    }
+
+    /// <summary>v += t a, L += t torque in the active lanes.</summary>
+    public static void Kick(Batch<V> batch, double t)
+    {
+        int w = Lane<V>.Width;
+        double[] a = batch.Bodies;
+        Lane<V> time = Lane<V>.Select(Lane<V>.Load(batch.Active, 0), Lane<V>.Splat(t), Lane<V>.Splat(0));
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            (LaneVector<V>.Load(a, o + BodySlot.V * w) + time * LaneVector<V>.Load(a, o + BodySlot.Acceleration * w))
+                .Store(a, o + BodySlot.V * w);
+            (LaneVector<V>.Load(a, o + BodySlot.L * w) + time * LaneVector<V>.Load(a, o + BodySlot.Torque * w))
+                .Store(a, o + BodySlot.L * w);
+        }
+    }
+
+    // The flight answers to impulses by the inertia at its middle, the matrix was built with that at its start. For a slender
+    // body the two differ by the turn times I_max / I_min, and the iteration diverges once (h|w|/2)^2 I_max / I_min nears 2.
+    private static void TurnMatrix(Batch<V> batch, double h)
+    {
+        Flight<V>.MeasureTurning(batch, h);
+        bool isTurning = false;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            bool isLaneTurning = batch.Active[lane] != 0 && batch.Turning[lane] > MuchTurning;
+            batch.Turning[lane] = isLaneTurning ? 1 : 0;
+            isTurning |= isLaneTurning;
+        }
+
+        if (isTurning)
+        {
+            Flight<V>.MiddleInertias(batch, h, batch.Turning);
+            ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
+            BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+        }
+    }
+
+    // d = -A^-1 C / h, then Anderson's mixing of depth one: with d and the change of d since the last iteration, the share
+    // of the last move that makes |d| least is taken back. It makes of the chord's linear convergence (|w| h an iteration)
+    // nearly that of Newton's method, for a few inner products. Source: Walker and Ni 2011.
+    private static void Correct(Batch<V> batch, double h, bool isFirst)
+    {
+        int w = Lane<V>.Width;
+        double[] d = batch.Solution;
+        double[] last = batch.LastSolution;
+        double[] move = batch.Move;
+        Lane<V> rate = Lane<V>.Splat(-1 / h);
+        int length = batch.Shape.Pattern.RowCount * w;
+        for (int i = 0; i < length; i += w)
+        {
+            (rate * Lane<V>.Load(batch.Error, i)).Store(d, i);
+        }
+
+        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
+        Lane<V> product = Lane<V>.Splat(0);
+        Lane<V> square = Lane<V>.Splat(LeastSquare);
+        if (!isFirst)
+        {
+            for (int i = 0; i < length; i += w)
+            {
+                Lane<V> change = Lane<V>.Load(d, i) - Lane<V>.Load(last, i);
+                product += Lane<V>.Load(d, i) * change;
+                square += change * change;
+            }
+        }
+
+        Lane<V> share = product / square;
+        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        for (int i = 0; i < length; i += w)
+        {
+            Lane<V> now = Lane<V>.Load(d, i);
+            Lane<V> step = isFirst ? now : now - share * (Lane<V>.Load(move, i) + (now - Lane<V>.Load(last, i)));
+            now.Store(last, i);
+            step.Store(move, i);
+            Lane<V> first = Lane<V>.Load(batch.First, i);
+            Lane<V>.Select(active, first + step, first).Store(batch.First, i);
+        }
+
+        Impulses<V>.Apply(batch, move, 1);
+    }
+
+    private static void Copy(Batch<V> batch, double[] from, double[] to)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        int length = batch.Shape.Pattern.RowCount * w;
+        for (int i = 0; i < length; i += w)
+        {
+            Lane<V>.Select(active, Lane<V>.Load(from, i), Lane<V>.Load(to, i)).Store(to, i);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>Copies one island between the world's bodies and a lane of a batch.</summary>
+internal static class Transfer<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Constants of bodies and joints.</summary>
+    public static void LoadConstants(Batch<V> batch, int lane, Island island, Mechanism mechanism)
+    {
+        for (int b = 0; b < island.Bodies.Length; b++)
+        {
+            int body = island.Bodies[b];
+            bool isMoving = b < island.MovingBodies;
+            Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
+            batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
+            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
+            double least = Math.Min(inverse.X, Math.Min(inverse.Y, inverse.Z));
+            double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
+            batch.Bodies[Batch<V>.Body(b, BodySlot.InertiaRatio) + lane] = least > 0 ? most / least : 1;
+            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
+            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);
+        }
+
+        for (int n = 0; n < island.Nodes.Length; n++)
+        {
+            Joint? joint = island.Nodes[n].Joint;
+            if (joint != null)
+            {
+                PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Anchor0) + lane, joint.Frame0);
+                PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Anchor1) + lane, joint.Frame1);
+            }
+        }
+    }
+
+    /// <summary>State, forces and damping for a step of dt; true when a pose is not the one that the last step left.</summary>
+    public static bool Load(Batch<V> batch, int lane, Island island, Mechanism mechanism, double dt)
+    {
+        bool isMoved = false;
+        Bodies bodies = mechanism.Bodies;
+        double[] a = batch.Bodies;
+        for (int b = 0; b < island.Bodies.Length; b++)
+        {
+            int body = island.Bodies[b];
+            if (body == Joint.World)
+            {
+                continue;
+            }
+
+            int o = Batch<V>.Body(b, 0) + lane;
+            Pose pose = bodies.Poses[body];
+            isMoved |= pose.Position != Vector(a, o + BodySlot.EndX * Lane<V>.Width)
+                || pose.Rotation != Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
+            Put(a, o + BodySlot.X * Lane<V>.Width, pose.Position);
+            Put(a, o + BodySlot.Q * Lane<V>.Width, pose.Rotation);
+            if (b >= island.MovingBodies)
+            {
+                continue;
+            }
+
+            Vector3d v = bodies.LinearVelocities[body] * Math.Max(0, 1 - bodies.LinearDampings[body] * dt);
+            Vector3d w = bodies.AngularVelocities[body] * Math.Max(0, 1 - bodies.AngularDampings[body] * dt);
+            double speed = w.Length;
+            if (speed > bodies.MaxAngularSpeeds[body])
+            {
+                w *= bodies.MaxAngularSpeeds[body] / speed;
+            }
+
+            Put(a, o + BodySlot.V * Lane<V>.Width, v);
+            Put(a, o + BodySlot.L * Lane<V>.Width, Momentum(pose.Rotation, w, bodies.InverseInertias[body]));
+            Vector3d gravity = bodies.UseGravity[body] ? mechanism.Gravity : Vector3d.Zero;
+            Put(a, o + BodySlot.Acceleration * Lane<V>.Width, gravity + bodies.Forces[body] * bodies.InverseMasses[body]);
+            Put(a, o + BodySlot.Torque * Lane<V>.Width, bodies.Torques[body]);
+        }
+
+        return isMoved;
+    }
+
+    /// <summary>Poses and velocities back to the world's bodies; forces are used up.</summary>
+    public static void Store(Batch<V> batch, int lane, Island island, Mechanism mechanism)
+    {
+        Bodies bodies = mechanism.Bodies;
+        double[] a = batch.Bodies;
+        for (int b = 0; b < island.MovingBodies; b++)
+        {
+            int body = island.Bodies[b];
+            int o = Batch<V>.Body(b, 0) + lane;
+            Quaterniond q = Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
+            bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * Lane<V>.Width), q);
+            bodies.LinearVelocities[body] = Vector(a, o + BodySlot.V * Lane<V>.Width);
+            Vector3d momentum = Vector(a, o + BodySlot.L * Lane<V>.Width);
+            bodies.AngularVelocities[body] = q * Vector3d.Scale(bodies.InverseInertias[body], q.InverseRotate(momentum));
+        }
+    }
+
+    private static Vector3d Momentum(Quaterniond q, Vector3d w, Vector3d inverse)
+    {
+        Vector3d inBody = q.InverseRotate(w);
+        return q * new Vector3d(Over(inBody.X, inverse.X), Over(inBody.Y, inverse.Y), Over(inBody.Z, inverse.Z));
+    }
+
+    // An infinite moment does not turn: its momentum is left out.
+    private static double Over(double w, double inverse) => inverse > 0 ? w / inverse : 0;
+
+    private static void PutFrame(double[] a, int index, Pose frame)
+    {
+        Put(a, index, frame.Position);
+        Put(a, index + 3 * Lane<V>.Width, frame.Rotation * Vector3d.UnitX);
+        Put(a, index + 6 * Lane<V>.Width, frame.Rotation * Vector3d.UnitY);
+        Put(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
+    }
+
+    private static void Put(double[] a, int index, Vector3d v)
+    {
+        a[index] = v.X;
+        a[index + Lane<V>.Width] = v.Y;
+        a[index + 2 * Lane<V>.Width] = v.Z;
+    }
+
+    private static void Put(double[] a, int index, Quaterniond q)
+    {
+        Put(a, index, q.Vector);
+        a[index + 3 * Lane<V>.Width] = q.W;
+    }
+
+    private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
+
+    private static Quaterniond Quaternion(double[] a, int index) =>
+        new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width], a[index + 3 * Lane<V>.Width]);
+}

@@ -1,0 +1,104 @@
+#if NET
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+
+namespace Kinefab.Numerics;
+
+/// <summary>Four lanes (AVX2; elsewhere two of 128 bits).</summary>
+internal readonly struct Lane4 : ILane<Lane4>
+{
+    private readonly Vector256<double> _value;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private Lane4(Vector256<double> value) => _value = value;
+
+    public int Width
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => 4;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Load(double[] array, int index) => new(Vector256.Create(array, index));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Store(double[] array, int index) => _value.CopyTo(array, index);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Splat(double value) => new(Vector256.Create(value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Add(Lane4 other) => new(_value + other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Subtract(Lane4 other) => new(_value - other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Multiply(Lane4 other) => new(_value * other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Divide(Lane4 other) => new(_value / other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 SquareRoot() => new(Vector256.Sqrt(_value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Absolute() => new(Vector256.Abs(_value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Maximum(Lane4 other) => new(Vector256.Max(_value, other._value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Select(Lane4 first, Lane4 second) =>
+        new(Vector256.ConditionalSelect(Vector256.Equals(_value, Vector256<double>.Zero), second._value, first._value));
+}
+
+/// <summary>Eight lanes (AVX-512).</summary>
+internal readonly struct Lane8 : ILane<Lane8>
+{
+    private readonly Vector512<double> _value;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private Lane8(Vector512<double> value) => _value = value;
+
+    public int Width
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => 8;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Load(double[] array, int index) => new(Vector512.Create(array, index));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Store(double[] array, int index) => _value.CopyTo(array, index);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Splat(double value) => new(Vector512.Create(value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Add(Lane8 other) => new(_value + other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Subtract(Lane8 other) => new(_value - other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Multiply(Lane8 other) => new(_value * other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Divide(Lane8 other) => new(_value / other._value);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 SquareRoot() => new(Vector512.Sqrt(_value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Absolute() => new(Vector512.Abs(_value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Maximum(Lane8 other) => new(Vector512.Max(_value, other._value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Select(Lane8 first, Lane8 second) =>
+        new(Vector512.ConditionalSelect(Vector512.Equals(_value, Vector512<double>.Zero), second._value, first._value));
+}
+#endif

@@ -19,13 +19,18 @@ internal static class SolverBenchmark
         Console.WriteLine("|---|---|---|---|---|---|");
         foreach (int width in new[] { 1, 4, 8 })
         {
-            Row("fourbar100", $"exact, {width} lanes", () => SolverScenes.FourBars(100), m => new ExactSolver(m, width), 100 * 1.7);
+            string name = $"exact, {width} lanes";
+            Row("fourbar100", name, () => SolverScenes.FourBars(100), m => new ExactSolver(m, width), 100 * 1.7 * 9.81);
+            Row("dpend1000", name, () => SolverScenes.DoublePendulums(1000), m => new ExactSolver(m, width), 1000 * 9.81 * 4);
         }
 
-        foreach (int width in new[] { 1, 4, 8 })
-        {
-            Row("dpend1000", $"exact, {width} lanes", () => SolverScenes.DoublePendulums(1000), m => new ExactSolver(m, width), 1000 * 9.81 * 2);
-        }
+        Row("slidercrank", "exact", SolverScenes.SliderCrank, m => new ExactSolver(m), 1);
+        Row("chain64", "exact", () => SolverScenes.Chain(64), m => new ExactSolver(m), 64 * 9.81 * 12.8);
+        Row("heavy8", "exact", SolverScenes.Heavy8, m => new ExactSolver(m), 10.7 * 9.81 * 1.6);
+        Row("para", "exact", SolverScenes.Parallelogram, m => new ExactSolver(m), 1);
+        Row("tilt 1e-6", "exact", () => SolverScenes.FourBars(1, 1e-6), m => new ExactSolver(m), 1.7 * 9.81);
+        Row("tilt 1e-4", "exact", () => SolverScenes.FourBars(1, 1e-4), m => new ExactSolver(m), 1.7 * 9.81);
+        Row("tilt 1e-2", "exact", () => SolverScenes.FourBars(1, 1e-2), m => new ExactSolver(m), 1.7 * 9.81);
     }
 
     private static void Row(string scene, string name, Func<Mechanism> make, Func<Mechanism, ISolver> solver, double energyScale)
@@ -42,7 +47,6 @@ internal static class SolverBenchmark
             most = Math.Abs(end) > Math.Abs(most) ? end : most;
         }
 
-        Console.WriteLine($"its {(double)IslandGroup<Kinefab.Numerics.ScalarLane>.Its/IslandGroup<Kinefab.Numerics.ScalarLane>.Calls} fails {IslandGroup<Kinefab.Numerics.ScalarLane>.Fails}/{IslandGroup<Kinefab.Numerics.ScalarLane>.Calls}");
         double best = double.PositiveInfinity;
         for (int run = 0; run < 5; run++)
         {

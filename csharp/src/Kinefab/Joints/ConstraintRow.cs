@@ -35,6 +35,9 @@ internal enum RowFlags : ushort
 
     /// <summary>The row comes from a drive, motor or hinge spring; not a PhysX flag.</summary>
     Drive = 256,
+
+    /// <summary>The limit is a cone's; not a PhysX flag.</summary>
+    Cone = 512,
 }
 
 /// <summary>

@@ -45,7 +45,7 @@ internal sealed class D6Joint : Joint
     {
         var f = new JointFrames(this, body0, body1);
         f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
-        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
 
         LinearDrives(ref writer, f);
         AngularDrives(ref writer, f, x1, y1, z1);
@@ -155,10 +155,12 @@ internal sealed class D6Joint : Joint
         ref LimitResponse response = ref SwingLimit.Response;
         if (swing1 && swing2)
         {
-            double padding = response.IsSoft ? 0 : response.ContactDistance;
+            // In the cone's middle its nearest line has no direction: half of it is far enough.
+            double every = Math.Min(SwingLimit.Y, SwingLimit.Z) / 2;
+            double padding = EveryLimit ? every : response.IsSoft ? 0 : response.ContactDistance;
             if (ConeLimitError.Find(SwingLimit, padding, parts.Swing, out Vector3d axis, out double error))
             {
-                writer.AngleLimit(f.Q0 * axis, error, response);
+                writer.ConeLimit(f.Q0 * axis, error, response);
             }
         }
         else if (swing1)

@@ -55,6 +55,9 @@ internal abstract class Joint
     public double ProjectionLinearTolerance = 1e10;
     public double ProjectionAngularTolerance = Math.PI;
 
+    /// <summary>Prepare writes the rows of all limits however far they are, not only within their contact distance.</summary>
+    public bool EveryLimit;
+
     /// <summary>A broken joint has no rows.</summary>
     public bool IsBroken;
 

@@ -12,12 +12,14 @@ internal ref struct RowWriter
     private readonly Span<ConstraintRow> _rows;
     private readonly Vector3d _lever0;
     private readonly Vector3d _lever1;
+    private readonly bool _everyLimit;
 
     /// <summary>Rows written so far.</summary>
     public int Count { get; private set; }
 
-    public RowWriter(Span<ConstraintRow> rows, Vector3d anchor1, Vector3d center0, Vector3d center1)
+    public RowWriter(Span<ConstraintRow> rows, Vector3d anchor1, Vector3d center0, Vector3d center1, bool everyLimit)
     {
+        _everyLimit = everyLimit;
         _rows = rows;
         _lever0 = anchor1 - center0;
         _lever1 = anchor1 - center1;
@@ -85,7 +87,7 @@ internal ref struct RowWriter
     /// </summary>
     public void UpperLimit(Vector3d axis, double ordinate, double limit, in LimitResponse response)
     {
-        double pad = response.IsSoft ? 0 : response.ContactDistance;
+        double pad = _everyLimit ? double.PositiveInfinity : response.IsSoft ? 0 : response.ContactDistance;
         if (ordinate + pad > limit)
         {
             Limit(ref LinearRow(axis, _lever0, _lever1, limit - ordinate), response);
@@ -98,7 +100,7 @@ internal ref struct RowWriter
     /// </summary>
     public void AngleLimits(Vector3d axis, double angle, double lower, double upper, in LimitResponse response)
     {
-        double pad = response.IsSoft ? 0 : response.ContactDistance;
+        double pad = _everyLimit ? double.PositiveInfinity : response.IsSoft ? 0 : response.ContactDistance;
         if (angle < lower + pad)
         {
             Limit(ref AngularRow(-axis, angle - lower), response);
@@ -110,8 +112,13 @@ internal ref struct RowWriter
         }
     }
 
-    /// <summary>One limit whose error is known, positive inside: J = (0, axis; 0, axis), impulse >= 0.</summary>
-    public void AngleLimit(Vector3d axis, double error, in LimitResponse response) => Limit(ref AngularRow(axis, error), response);
+    /// <summary>A cone's limit, whose error is known, positive inside: J = (0, axis; 0, axis), impulse >= 0.</summary>
+    public void ConeLimit(Vector3d axis, double error, in LimitResponse response)
+    {
+        ref ConstraintRow row = ref AngularRow(axis, error);
+        row.Flags |= RowFlags.Cone;
+        Limit(ref row, response);
+    }
 
     /// <summary>Spring-damper along a line through frame 1's origin: C = target - ordinate, J as a linear row.</summary>
     public void LinearDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive) =>

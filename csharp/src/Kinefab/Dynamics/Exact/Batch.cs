@@ -41,11 +41,16 @@ internal sealed class Batch<V>
         Move = new double[rows * w];
         Half = new double[rows * w];
         First = new double[rows * w];
+        Total = new double[rows * w];
         Active = new double[w];
         MaxError = new double[w];
         MaxChange = new double[w];
         Turning = new double[w];
         Rotation = new double[9 * w];
+        if (shape.Laws > 0)
+        {
+            Laws = new Laws<V>(this);
+        }
     }
 
     public static int Width => Lane<V>.Width;
@@ -89,6 +94,9 @@ internal sealed class Batch<V>
     /// <summary>Impulses of the flight.</summary>
     public double[] First { get; }
 
+    /// <summary>Impulses of the whole step.</summary>
+    public double[] Total { get; }
+
     /// <summary>1 in lanes that still iterate, else 0.</summary>
     public double[] Active { get; }
 
@@ -102,6 +110,9 @@ internal sealed class Batch<V>
 
     /// <summary>Room for a rotation matrix.</summary>
     public double[] Rotation { get; }
+
+    /// <summary>Rows with a law, or null without any.</summary>
+    public Laws<V>? Laws { get; }
 
     /// <summary>Index of a number of a body in <see cref="Bodies"/>.</summary>
     public static int Body(int body, int slot) => (body * BodySlot.Count + slot) * Width;
@@ -118,5 +129,6 @@ internal sealed class Batch<V>
     {
         Array.Clear(Half, 0, Half.Length);
         Array.Clear(First, 0, First.Length);
+        Laws?.ClearHistory();
     }
 }

@@ -44,8 +44,11 @@ internal static class BodySlot
     /// <summary>Largest over least principal moment.</summary>
     public const int InertiaRatio = 48;
 
-    /// <summary>Geometric stiffness times the square of the step, against the inertia.</summary>
-    public const int Stiffness = 49;
+    /// <summary>Largest inverse principal moment.</summary>
+    public const int MostInverseInertia = 49;
 
-    public const int Count = 50;
+    /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
+    public const int Stiffness = 50;
+
+    public const int Count = 51;
 }

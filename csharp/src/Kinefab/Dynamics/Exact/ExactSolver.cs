@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
@@ -10,7 +11,11 @@ namespace Kinefab.Dynamics.Exact;
 /// </summary>
 internal sealed class ExactSolver : ISolver
 {
+    // Largest gap, metres or radians, that a step may leave.
+    private const double Tolerance = 1e-9;
+
     private readonly Mechanism _mechanism;
+    private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
 
     /// <summary>A solver for the mechanism as it stands.</summary>
@@ -19,48 +24,80 @@ internal sealed class ExactSolver : ISolver
     public ExactSolver(Mechanism mechanism, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
-        List<Island> rest = Island.Find(mechanism, mechanism.Joints);
-        while (rest.Count > 0)
+        _maxWidth = maxWidth;
+        foreach (Joint joint in mechanism.Joints)
         {
-            Island shape = rest[0];
-            List<Island> alike = rest.FindAll(i => ReferenceEquals(i, shape) || i.HasShapeOf(shape));
-            rest.RemoveAll(alike.Contains);
-            Group(alike, maxWidth);
+            joint.EveryLimit = true;
         }
+
+        Regroup();
     }
 
     /// <inheritdoc/>
     public void Step(double dt)
     {
+        if (_groups.Exists(group => group.IsStale()))
+        {
+            Regroup();
+        }
+
         foreach (IslandGroup group in _groups)
         {
             group.Step(dt);
         }
 
-        Array.Clear(_mechanism.Bodies.Forces, 0, _mechanism.Bodies.Count);
-        Array.Clear(_mechanism.Bodies.Torques, 0, _mechanism.Bodies.Count);
+        Bodies bodies = _mechanism.Bodies;
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            if (bodies.IsKinematic[i])
+            {
+                bodies.Poses[i] = bodies.KinematicTargets[i];
+            }
+        }
+
+        Array.Clear(bodies.Forces, 0, bodies.Count);
+        Array.Clear(bodies.Torques, 0, bodies.Count);
     }
 
-    private void Group(List<Island> islands, int maxWidth)
+    private void Regroup()
     {
-        const double tolerance = 1e-9;
+        _groups.Clear();
+        List<Island> rest = Island.Find(_mechanism);
+        List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);
+        rest.RemoveAll(prepared.Contains);
+        if (prepared.Count > 0)
+        {
+            _groups.Add(new PreparedIslands(_mechanism, prepared, Tolerance));
+        }
+
+        while (rest.Count > 0)
+        {
+            Island shape = rest[0];
+            List<Island> alike = rest.FindAll(island => island.HasShapeOf(shape));
+            rest.RemoveAll(new HashSet<Island>(alike).Contains);
+            AddInLanes(alike);
+        }
+    }
+
+    private void AddInLanes(List<Island> islands)
+    {
 #if NET
-        if (maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
+        if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
         {
             int whole = islands.Count / 8 * 8;
-            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole), tolerance));
+            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole), Tolerance));
             islands.RemoveRange(0, whole);
         }
 
-        if (maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
+        if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
         {
-            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands, tolerance));
+            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands, Tolerance));
             return;
         }
 #endif
         if (islands.Count > 0)
         {
-            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands, tolerance));
+            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands, Tolerance));
         }
     }
 }

@@ -19,6 +19,11 @@ internal static class Flight<V>
     /// active keep that w, and so the flight they had.</param>
     public static void Run(Batch<V> batch, double h, int passes, bool isFirst)
     {
+        if (isFirst)
+        {
+            MoveKinematic(batch, h);
+        }
+
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         Lane<V> active = Lane<V>.Load(batch.Active, 0);
@@ -43,6 +48,21 @@ internal static class Flight<V>
             rate.Store(a, o + BodySlot.W * w);
             LaneQuaternion<V> half = LaneQuaternion<V>.Exponential(quarter * rate);
             q = (half * (half * q)).NearlyNormalized();
+            q.Store(a, o + BodySlot.EndQ * w);
+            q.StoreMatrix(a, o + BodySlot.R * w);
+        }
+    }
+
+    /// <summary>Poses and matrices of the start as those of the end, for all bodies.</summary>
+    public static void Stay(Batch<V> batch)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            LaneVector<V>.Load(a, o + BodySlot.X * w).Store(a, o + BodySlot.EndX * w);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
             q.Store(a, o + BodySlot.EndQ * w);
             q.StoreMatrix(a, o + BodySlot.R * w);
         }
@@ -82,6 +102,30 @@ internal static class Flight<V>
             LaneVector<V> rate = LaneVector<V>.Load(a, o + BodySlot.W * w);
             (LaneQuaternion<V>.Exponential(quarter * rate) * q).StoreMatrix(matrix, 0);
             ResponseMatrix<V>.InverseInertia(batch, body, matrix, 0);
+        }
+    }
+
+    private static void MoveKinematic(Batch<V> batch, double h)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        Lane<V> step = Lane<V>.Splat(h);
+        Lane<V> half = Lane<V>.Splat(h / 2);
+        for (int body = batch.Shape.MovingBodies; body < batch.Shape.Bodies.Length; body++)
+        {
+            if (batch.Shape.IsStatic[body])
+            {
+                continue;
+            }
+
+            int o = Batch<V>.Body(body, 0);
+            LaneVector<V> x = LaneVector<V>.Load(a, o + BodySlot.X * w);
+            (x + step * LaneVector<V>.Load(a, o + BodySlot.V * w)).Store(a, o + BodySlot.EndX * w);
+            LaneVector<V> rate = LaneVector<V>.Load(a, o + BodySlot.W * w);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Exponential(half * rate) * LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
+            q = q.NearlyNormalized();
+            q.Store(a, o + BodySlot.EndQ * w);
+            q.StoreMatrix(a, o + BodySlot.R * w);
         }
     }
 

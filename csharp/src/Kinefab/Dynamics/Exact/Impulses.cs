@@ -1,3 +1,4 @@
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
@@ -65,7 +66,9 @@ internal static class Impulses<V>
     }
 
     /// <summary>Solution = -J v of all rows at the built pose.</summary>
-    public static void NegativeSpeeds(Batch<V> batch)
+    /// <param name="batch">The rows and bodies.</param>
+    /// <param name="areFixedMoving">Whether kinematic bodies count with their velocities.</param>
+    public static void NegativeSpeeds(Batch<V> batch, bool areFixedMoving = true)
     {
         double[] a = batch.Bodies;
         double[] rows = batch.Rows;
@@ -85,7 +88,7 @@ internal static class Impulses<V>
             for (int side = 0; side < node.Bodies.Length; side++)
             {
                 int body = node.Bodies[side];
-                if (batch.Shape.IsStatic[body])
+                if (batch.Shape.IsStatic[body] || (!areFixedMoving && body >= batch.Shape.MovingBodies))
                 {
                     continue;
                 }
@@ -118,5 +121,104 @@ internal static class Impulses<V>
                 }
             }
         }
+    }
+
+    /// <summary>The impulse of one row that a joint wrote, on the only lane.</summary>
+    public static void ApplyRow(Batch<V> batch, int node, in ConstraintRow row, double impulse)
+    {
+        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        ApplySide(batch, bodies[0], row.Linear0, row.Angular0, impulse);
+        ApplySide(batch, bodies[1], row.Linear1, row.Angular1, -impulse);
+    }
+
+    /// <summary>The linear impulse that a node's rows give one of its bodies, on the only lane.</summary>
+    public static Vector3d Force(Batch<V> batch, int n, int side, double[] impulses)
+    {
+        Node node = batch.Shape.Nodes[n];
+        int row = batch.Shape.Pattern.Rows[n];
+        Vector3d force = Vector3d.Zero;
+        int i = 0;
+        if (node.LinearMask == 7)
+        {
+            force = new Vector3d(impulses[row], impulses[row + 1], impulses[row + 2]) * (side == 0 ? 1 : -1);
+            i = 3;
+        }
+
+        for (; i < node.Rows; i++)
+        {
+            if (node.Classes[i] == RowClass.General)
+            {
+                int o = batch.Row(n, i, side, Batch<V>.Linear);
+                force += new Vector3d(batch.Rows[o], batch.Rows[o + 1], batch.Rows[o + 2]) * impulses[row + i];
+            }
+        }
+
+        return force;
+    }
+
+    /// <summary>Speed of such a row by the momenta and the built inverse inertias.</summary>
+    public static double Speed(Batch<V> batch, int node, in ConstraintRow row)
+    {
+        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        return row.Velocity(
+            Vector(batch, bodies[0], BodySlot.V), AngularVelocity(batch, bodies[0]), Vector(batch, bodies[1], BodySlot.V), AngularVelocity(batch, bodies[1]));
+    }
+
+    /// <summary>Speed of such a row in the last flight.</summary>
+    public static double FlightSpeed(Batch<V> batch, int node, in ConstraintRow row)
+    {
+        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        return row.Velocity(
+            Vector(batch, bodies[0], BodySlot.V), Vector(batch, bodies[0], BodySlot.W), Vector(batch, bodies[1], BodySlot.V), Vector(batch, bodies[1], BodySlot.W));
+    }
+
+    /// <summary>J M^-1 J^T of such a row.</summary>
+    public static double ResponseOf(Batch<V> batch, int node, in ConstraintRow row)
+    {
+        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        return ResponseOf(batch, bodies[0], row.Linear0, row.Angular0) + ResponseOf(batch, bodies[1], row.Linear1, row.Angular1);
+    }
+
+    private static double ResponseOf(Batch<V> batch, int body, Vector3d linear, Vector3d angular) =>
+        body >= batch.Shape.MovingBodies
+            ? 0
+            : batch.Bodies[Batch<V>.Body(body, BodySlot.InverseMass)] * linear.LengthSquared + Vector3d.Dot(angular, Turn(batch, body, angular));
+
+    private static void ApplySide(Batch<V> batch, int body, Vector3d linear, Vector3d angular, double impulse)
+    {
+        if (body >= batch.Shape.MovingBodies)
+        {
+            return;
+        }
+
+        double[] a = batch.Bodies;
+        double inverseMass = a[Batch<V>.Body(body, BodySlot.InverseMass)];
+        int v = Batch<V>.Body(body, BodySlot.V);
+        int l = Batch<V>.Body(body, BodySlot.L);
+        for (int i = 0; i < 3; i++)
+        {
+            a[v + i] += inverseMass * impulse * linear[i];
+            a[l + i] += impulse * angular[i];
+        }
+    }
+
+    /// <summary>Angular velocity by the momentum and the built inverse inertia, on the only lane.</summary>
+    public static Vector3d AngularVelocity(Batch<V> batch, int body) =>
+        body < batch.Shape.MovingBodies ? Turn(batch, body, Vector(batch, body, BodySlot.L)) : Vector(batch, body, BodySlot.W);
+
+    private static Vector3d Turn(Batch<V> batch, int body, Vector3d v)
+    {
+        double[] a = batch.Bodies;
+        int o = Batch<V>.Body(body, BodySlot.WorldInverse);
+        return new Vector3d(
+            a[o] * v.X + a[o + 3] * v.Y + a[o + 4] * v.Z,
+            a[o + 3] * v.X + a[o + 1] * v.Y + a[o + 5] * v.Z,
+            a[o + 4] * v.X + a[o + 5] * v.Y + a[o + 2] * v.Z);
+    }
+
+    private static Vector3d Vector(Batch<V> batch, int body, int slot)
+    {
+        int o = Batch<V>.Body(body, slot);
+        return new Vector3d(batch.Bodies[o], batch.Bodies[o + 1], batch.Bodies[o + 2]);
     }
 }

@@ -86,8 +86,9 @@ internal sealed class Island
     public bool HasPreparedRows { get; }
 
     /// <summary>The islands of a mechanism's unbroken joints, by the lowest index of their bodies.</summary>
-    public static List<Island> Find(Mechanism mechanism, IReadOnlyList<Joint> joints)
+    public static List<Island> Find(Mechanism mechanism)
     {
+        Joint[] joints = mechanism.Joints;
         Bodies bodies = mechanism.Bodies;
         var parent = new int[bodies.Count];
         for (int i = 0; i < parent.Length; i++)
@@ -97,7 +98,10 @@ internal sealed class Island
 
         foreach (Joint joint in joints)
         {
-            Unite(joint.Body0, joint.Body1);
+            if (!joint.IsBroken)
+            {
+                Unite(joint.Body0, joint.Body1);
+            }
         }
 
         foreach (Coupling coupling in mechanism.Couplings)
@@ -125,7 +129,7 @@ internal sealed class Island
             }
         }
 
-        for (int j = 0; j < joints.Count; j++)
+        for (int j = 0; j < joints.Length; j++)
         {
             int body = AnyMoving(joints[j]);
             if (body >= 0 && !joints[j].IsBroken)
@@ -273,28 +277,30 @@ internal sealed class Island
                 (Joint? joint, Coupling? coupling, int index) = _items[i];
                 nodes[i] = joint != null
                     ? new Node(joint, index, new[] { Slot(joint.Body0), Slot(joint.Body1) })
-                    : new Node(coupling!, index, Distinct(coupling!));
+                    : MakeNode(coupling!, index);
             }
 
             _moving.AddRange(_fixed);
             return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, nodes);
         }
 
-        private int[] Distinct(Coupling coupling)
+        private Node MakeNode(Coupling coupling, int index)
         {
-            var slots = new List<int>();
-            foreach (Joint joint in new[] { coupling.A.Joint, coupling.B.Joint })
+            var bodies = new List<int>();
+            var sides = new int[4];
+            for (int i = 0; i < sides.Length; i++)
             {
-                foreach (int slot in new[] { Slot(joint.Body0), Slot(joint.Body1) })
+                Joint joint = i < 2 ? coupling.A.Joint : coupling.B.Joint;
+                int slot = Slot(i % 2 == 0 ? joint.Body0 : joint.Body1);
+                sides[i] = bodies.IndexOf(slot);
+                if (sides[i] < 0)
                 {
-                    if (!slots.Contains(slot))
-                    {
-                        slots.Add(slot);
-                    }
+                    sides[i] = bodies.Count;
+                    bodies.Add(slot);
                 }
             }
 
-            return slots.ToArray();
+            return new Node(coupling, index, bodies.ToArray(), sides);
         }
 
         private int Slot(int body)

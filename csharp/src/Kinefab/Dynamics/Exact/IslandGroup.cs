@@ -1,24 +1,50 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
 
-/// <summary>Islands of one shape, stepped side by side.</summary>
+/// <summary>Islands that are stepped one after the other or, being of one shape, side by side.</summary>
 internal abstract class IslandGroup
 {
-    public abstract void Step(double dt);
+    /// <summary>One step of all islands; true when a joint broke.</summary>
+    public abstract bool Step(double dt);
+
+    /// <summary>Whether a joint's fields ask for other rows than the islands were made for.</summary>
+    public abstract bool IsStale();
+
+    protected static bool IsStale(Island[] islands)
+    {
+        foreach (Island island in islands)
+        {
+            foreach (Node node in island.Nodes)
+            {
+                if (node.IsStale())
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
+    }
 }
 
-/// <inheritdoc/>
+/// <summary>
+/// Islands of locked axes alone, in lanes. All lanes try a plain RATTLE step together; those that it does not suffice
+/// are taken out and go down the ladder by themselves, so that no lane's result depends on its neighbours'.
+/// </summary>
 internal sealed class IslandGroup<V> : IslandGroup
     where V : struct, ILane<V>
 {
-    public static long Its, Calls, Fails;
     private readonly Mechanism _mechanism;
     private readonly Island[] _islands;
     private readonly Batch<V>[] _batches;
     private readonly bool[] _converged = new bool[Lane<V>.Width];
+    private readonly bool[] _isHard = new bool[Lane<V>.Width];
     private readonly double _tolerance;
+    private readonly Batch<ScalarLane> _spare;
+    private readonly Ladder _ladder;
 
     public IslandGroup(Mechanism mechanism, List<Island> islands, double tolerance)
     {
@@ -37,72 +63,172 @@ internal sealed class IslandGroup<V> : IslandGroup
 
             _batches[i] = batch;
         }
+
+        _spare = new Batch<ScalarLane>(_islands[0]);
+        _ladder = new Ladder(_spare);
     }
 
     /// <inheritdoc/>
-    public override void Step(double dt)
+    public override bool IsStale() => IsStale(_islands);
+
+    /// <inheritdoc/>
+    public override bool Step(double dt)
     {
-        int width = Lane<V>.Width;
+        bool isBroken = false;
         for (int i = 0; i < _batches.Length; i++)
         {
             Batch<V> batch = _batches[i];
-            bool isMoved = false;
-            for (int lane = 0; lane < width; lane++)
+            Load(batch, i, dt);
+            RattleStep<V>.Fly(batch, dt, _tolerance, _converged);
+            for (int lane = 0; lane < Lane<V>.Width; lane++)
             {
-                isMoved |= Transfer<V>.Load(batch, lane, Occupant(i, lane), _mechanism, dt);
+                _isHard[lane] |= !_converged[lane];
+                if (_isHard[lane] && IsOccupied(i, lane))
+                {
+                    Climb(batch, lane, Occupant(i, lane), dt);
+                }
+
+                batch.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
-            if (isMoved)
-            {
-                Rebuild(batch);
-            }
-
-            Fill(batch, 1);
-            Its += RattleStep<V>.Fly(batch, dt, _tolerance, _converged); Calls++; for (int q = 0; q < width; q++) Fails += _converged[q] ? 0 : 1;
             RattleStep<V>.Build(batch);
-            Fill(batch, 1);
-            RattleStep<V>.Project(batch, dt);
-            for (int lane = 0; lane < width && i * width + lane < _islands.Length; lane++)
+            RattleStep<V>.Project(batch, dt, _tolerance);
+            RattleStep<V>.Accept(batch);
+            Stiffness<V>.Measure(batch, batch.Half, dt / 2);
+            RattleStep<V>.AddUp(batch);
+            for (int lane = 0; lane < Lane<V>.Width && IsOccupied(i, lane); lane++)
             {
-                Transfer<V>.Store(batch, lane, _islands[i * width + lane], _mechanism);
+                Transfer<V>.Store(batch, lane, Occupant(i, lane), _mechanism);
+                isBroken |= Reactions<V>.Report(batch, lane, Occupant(i, lane), _mechanism, dt);
             }
         }
+
+        return isBroken;
     }
 
-    private static void Fill(Batch<V> batch, double value)
+    private void Load(Batch<V> batch, int index, double dt)
     {
-        for (int lane = 0; lane < batch.Active.Length; lane++)
+        bool isMoved = false;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
-            batch.Active[lane] = value;
+            bool isLaneMoved = Transfer<V>.Load(batch, lane, Occupant(index, lane), _mechanism, dt, out double fastest);
+            double stiffest = 0;
+            for (int body = 0; body < batch.Shape.MovingBodies; body++)
+            {
+                stiffest = Math.Max(stiffest, batch.Bodies[Batch<V>.Body(body, BodySlot.Stiffness) + lane]);
+            }
+
+            if (isLaneMoved)
+            {
+                ClearHistory(batch, lane);
+                isMoved = true;
+            }
+
+            _isHard[lane] = Ladder.Demand(stiffest, fastest, dt) > 1;
+            batch.Active[lane] = _isHard[lane] ? 0 : 1;
+        }
+
+        if (isMoved)
+        {
+            Flight<V>.Stay(batch);
+            RattleStep<V>.Build(batch);
         }
     }
 
-    private static void Rebuild(Batch<V> batch)
+    // The world still holds the island's state before the step, the lane its impulses.
+    private void Climb(Batch<V> batch, int lane, Island island, double dt)
     {
-        int width = Lane<V>.Width;
-        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        Transfer<ScalarLane>.LoadConstants(_spare, 0, island, _mechanism);
+        Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt, out _);
+        for (int i = 0; i < _spare.Half.Length; i++)
         {
-            System.Array.Copy(batch.Bodies, Batch<V>.Body(body, BodySlot.X), batch.Bodies, Batch<V>.Body(body, BodySlot.EndX), 3 * width);
-            System.Array.Copy(batch.Bodies, Batch<V>.Body(body, BodySlot.Q), batch.Bodies, Batch<V>.Body(body, BodySlot.EndQ), 4 * width);
+            _spare.Half[i] = batch.Half[i * Lane<V>.Width + lane];
         }
 
-        LaneMatrices(batch);
-        RattleStep<V>.Build(batch);
+        for (int body = 0; body < _spare.Shape.MovingBodies; body++)
+        {
+            _spare.Bodies[Batch<ScalarLane>.Body(body, BodySlot.Stiffness)] = batch.Bodies[Batch<V>.Body(body, BodySlot.Stiffness) + lane];
+        }
+
+        Flight<ScalarLane>.Stay(_spare);
+        RattleStep<ScalarLane>.Build(_spare);
+        int stops = _ladder.Stops;
+        _ladder.Step(dt, _tolerance);
+        _mechanism.Overflows += _ladder.Stops - stops;
+        Transfer<V>.CopyFrom(batch, lane, _spare);
     }
 
-    private static void LaneMatrices(Batch<V> batch)
+    private static void ClearHistory(Batch<V> batch, int lane)
     {
-        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        for (int i = lane; i < batch.Half.Length; i += Lane<V>.Width)
         {
-            LaneQuaternion<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.EndQ))
-                .StoreMatrix(batch.Bodies, Batch<V>.Body(body, BodySlot.R));
+            batch.Half[i] = 0;
         }
     }
+
+    private bool IsOccupied(int batch, int lane) => batch * Lane<V>.Width + lane < _islands.Length;
 
     // Lanes without an island of their own work on a copy of the batch's first.
-    private Island Occupant(int batch, int lane)
+    private Island Occupant(int batch, int lane) =>
+        _islands[IsOccupied(batch, lane) ? batch * Lane<V>.Width + lane : batch * Lane<V>.Width];
+}
+
+/// <summary>Islands with laws or other prepared rows, one at a time.</summary>
+internal sealed class PreparedIslands : IslandGroup
+{
+    private readonly Mechanism _mechanism;
+    private readonly Island[] _islands;
+    private readonly Batch<ScalarLane>[] _batches;
+    private readonly Ladder[] _ladders;
+    private readonly double _tolerance;
+
+    public PreparedIslands(Mechanism mechanism, List<Island> islands, double tolerance)
     {
-        int index = batch * Lane<V>.Width + lane;
-        return _islands[index < _islands.Length ? index : batch * Lane<V>.Width];
+        _mechanism = mechanism;
+        _islands = islands.ToArray();
+        _tolerance = tolerance;
+        _batches = new Batch<ScalarLane>[_islands.Length];
+        _ladders = new Ladder[_islands.Length];
+        for (int i = 0; i < _islands.Length; i++)
+        {
+            _batches[i] = new Batch<ScalarLane>(_islands[i]);
+            _ladders[i] = new Ladder(_batches[i]);
+            Transfer<ScalarLane>.LoadConstants(_batches[i], 0, _islands[i], mechanism);
+        }
+    }
+
+    /// <inheritdoc/>
+    public override bool IsStale() => IsStale(_islands);
+
+    /// <inheritdoc/>
+    public override bool Step(double dt)
+    {
+        bool isBroken = false;
+        for (int i = 0; i < _islands.Length; i++)
+        {
+            Batch<ScalarLane> batch = _batches[i];
+            if (Transfer<ScalarLane>.Load(batch, 0, _islands[i], _mechanism, dt, out _))
+            {
+                batch.ClearHistory();
+                Flight<ScalarLane>.Stay(batch);
+            }
+
+            // Targets and other fields of the joints may have changed since the last step: their rows are read again.
+            RattleStep<ScalarLane>.Build(batch);
+            int stops = _ladders[i].Stops;
+            _ladders[i].Step(dt, _tolerance);
+            _mechanism.Overflows += _ladders[i].Stops - stops;
+            Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
+            isBroken |= Reactions<ScalarLane>.Report(batch, 0, _islands[i], _mechanism, dt);
+            foreach (Node node in _islands[i].Nodes)
+            {
+                if (node.Coupling != null)
+                {
+                    PreparedRows<ScalarLane>.FinishCoupling(batch, node);
+                }
+            }
+        }
+
+        return isBroken;
     }
 }

@@ -67,11 +67,17 @@ internal sealed class Node
     public readonly bool HasDistance;
     public readonly RowClass[] Classes;
 
+    /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
+    public readonly int[] CouplingSides = System.Array.Empty<int>();
+
+    private readonly int _signature;
+
     public Node(Joint joint, int index, int[] bodies)
     {
         Joint = joint;
         Index = index;
         Bodies = bodies;
+        _signature = Signature(joint);
         var classes = new List<RowClass>();
         if (joint is RevoluteJoint hinge)
         {
@@ -128,17 +134,21 @@ internal sealed class Node
         Classes = classes.ToArray();
     }
 
-    public Node(Coupling coupling, int index, int[] bodies)
+    public Node(Coupling coupling, int index, int[] bodies, int[] sides)
     {
         Coupling = coupling;
         Index = index;
         Bodies = bodies;
+        CouplingSides = sides;
         RigidRows = 1;
         Classes = new[] { RowClass.General };
     }
 
     /// <summary>Rows that obey a law.</summary>
-    public int Laws => Drives + (HasCone ? 1 : 0) + AngleLimits + (HasDistance ? 1 : 0);
+    public int Laws => Drives + Limits;
+
+    /// <summary>Of these, the ones of limits.</summary>
+    public int Limits => (HasCone ? 1 : 0) + AngleLimits + (HasDistance ? 1 : 0);
 
     public int Rows => Classes.Length;
 
@@ -165,17 +175,25 @@ internal sealed class Node
         return true;
     }
 
-    /// <summary>Whether a change of the joint's fields since the node was made asks for other rows.</summary>
-    public bool IsStale()
+    /// <summary>Whether the joint's fields changed since the node was made, so that it has other rows now.</summary>
+    public bool IsStale() => Joint != null && (Joint.IsBroken || Signature(Joint) != _signature);
+
+    // Everything of a joint that decides which rows it has.
+    private static int Signature(Joint joint)
     {
-        if (Joint == null)
+        if (joint is RevoluteJoint hinge)
         {
-            return false;
+            return (hinge.LimitEnabled ? 1 : 0) | (hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper ? 2 : 0)
+                | (hinge.MotorEnabled || hinge.Spring.IsActive ? 4 : 0);
         }
 
-        var now = new Node(Joint, Index, Bodies);
-        return now.LinearMask != LinearMask || now.Angular != Angular || now.Drives != Drives || now.HasCone != HasCone
-            || now.AngleLimits != AngleLimits || now.HasDistance != HasDistance;
+        if (joint is D6Joint d6)
+        {
+            return (int)d6.X | ((int)d6.Y << 2) | ((int)d6.Z << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing1 << 8)
+                | ((int)d6.Swing2 << 10) | (CountDrives(d6) << 12) | (d6.DriveSlerp.IsActive ? 1 << 16 : 0);
+        }
+
+        return 0;
     }
 
     private static int Locked(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? bit : 0;

@@ -21,6 +21,9 @@ internal static class RattleStep<V>
     // Contraction of the iteration on a slender body's turns that is still good enough.
     private const double MuchTurning = 0.3;
 
+    // A limit this many tolerances away counts as reached.
+    private const double LimitReach = 10;
+
     // Keeps 0 / 0 out of the mixing.
     private const double LeastSquare = 1e-300;
 
@@ -38,18 +41,27 @@ internal static class RattleStep<V>
             converged[lane] = batch.Active[lane] == 0;
         }
 
+        batch.Laws?.Begin(h, false);
         Kick(batch, h / 2);
         Array.Copy(batch.Half, batch.First, batch.Half.Length);
         Impulses<V>.Apply(batch, batch.First, 1);
+        if (batch.Laws != null)
+        {
+            Factor(batch, true);
+        }
+
+        int lawPasses = 0;
+        int restart = 0;
         for (int iteration = 0; ; iteration++)
         {
             Flight<V>.Run(batch, h, iteration == 0 ? FirstPasses : 1, iteration == 0);
             RigidRows<V>.Evaluate(batch);
+            batch.Laws?.Evaluate(h);
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
                 if (batch.Active[lane] != 0
-                    && (batch.MaxError[lane] < tolerance || (iteration > 0 && batch.MaxChange[lane] < tolerance)))
+                    && (batch.MaxError[lane] < tolerance || (iteration > restart && batch.MaxChange[lane] < tolerance)))
                 {
                     batch.Active[lane] = 0;
                     converged[lane] = true;
@@ -58,7 +70,15 @@ internal static class RattleStep<V>
                 isDone &= batch.Active[lane] == 0;
             }
 
-            if (isDone || iteration == MaxIterations)
+            if (isDone && batch.Laws != null && batch.Laws.Update(lawPasses++, tolerance))
+            {
+                batch.Active[0] = 1;
+                converged[0] = false;
+                restart = iteration;
+                Factor(batch, true);
+                batch.Laws.Evaluate(h);
+            }
+            else if (isDone || iteration - restart == MaxIterations)
             {
                 return iteration;
             }
@@ -68,7 +88,7 @@ internal static class RattleStep<V>
                 TurnMatrix(batch, h);
             }
 
-            Correct(batch, h, iteration == 0);
+            Correct(batch, h, iteration == restart);
         }
     }
 
@@ -77,14 +97,22 @@ internal static class RattleStep<V>
     {
         ResponseMatrix<V>.InverseInertias(batch);
         RigidRows<V>.Build(batch);
-        ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
-        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+        if (batch.Laws == null)
+        {
+            Factor(batch, true);
+        }
     }
 
     /// <summary>Second kick and projection of the momenta in the active lanes; needs the rows at the end pose.</summary>
-    public static void Project(Batch<V> batch, double h)
+    public static void Project(Batch<V> batch, double h, double tolerance)
     {
         Kick(batch, h / 2);
+        if (batch.Laws != null)
+        {
+            ProjectWithLaws(batch, tolerance, batch.Laws);
+            return;
+        }
+
         Impulses<V>.NegativeSpeeds(batch);
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
         Copy(batch, batch.Solution, batch.Half);
@@ -96,11 +124,23 @@ internal static class RattleStep<V>
     {
         int w = Lane<V>.Width;
         double[] a = batch.Bodies;
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
             int o = Batch<V>.Body(body, 0);
             LaneVector<V>.Load(a, o + BodySlot.EndX * w).Store(a, o + BodySlot.X * w);
             LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w).Store(a, o + BodySlot.Q * w);
+        }
+    }
+
+    /// <summary>Total = First + Half in the active lanes.</summary>
+    public static void AddUp(Batch<V> batch)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        for (int i = 0; i < batch.Total.Length; i += w)
+        {
+            Lane<V> sum = Lane<V>.Load(batch.First, i) + Lane<V>.Load(batch.Half, i);
+            Lane<V>.Select(active, sum, Lane<V>.Load(batch.Total, i)).Store(batch.Total, i);
         }
     }
 
@@ -120,6 +160,42 @@ internal static class RattleStep<V>
         }
     }
 
+    private static void Factor(Batch<V> batch, bool isFlight)
+    {
+        batch.Laws?.WriteRows(false);
+        ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
+        batch.Laws?.Condition(isFlight);
+        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+    }
+
+    private static void ProjectWithLaws(Batch<V> batch, double tolerance, Laws<V> laws)
+    {
+        laws.BeginProjection(tolerance * LimitReach);
+        int length = batch.Shape.Pattern.RowCount;
+        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        {
+            Array.Clear(batch.Half, batch.Shape.Pattern.Rows[n], batch.Shape.Nodes[n].RigidRows);
+        }
+
+        for (int pass = 0; ; pass++)
+        {
+            Factor(batch, false);
+            Impulses<V>.NegativeSpeeds(batch);
+            laws.AddTargets();
+            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
+            for (int i = 0; i < length; i++)
+            {
+                batch.Half[i] += batch.Solution[i];
+            }
+
+            Impulses<V>.Apply(batch, batch.Solution, 1);
+            if (!laws.UpdateProjection(pass, tolerance * LimitReach))
+            {
+                return;
+            }
+        }
+    }
+
     // The flight answers to impulses by the inertia at its middle, the matrix was built with that at its start. For a slender
     // body the two differ by the turn times I_max / I_min, and the iteration diverges once (h|w|/2)^2 I_max / I_min nears 2.
     private static void TurnMatrix(Batch<V> batch, double h)
@@ -136,8 +212,7 @@ internal static class RattleStep<V>
         if (isTurning)
         {
             Flight<V>.MiddleInertias(batch, h, batch.Turning);
-            ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
-            BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+            Factor(batch, true);
         }
     }
 

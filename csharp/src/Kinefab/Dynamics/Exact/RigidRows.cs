@@ -27,7 +27,7 @@ internal static class RigidRows<V>
         {
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            int end = row + node.RigidRows * w;
+            int end = row + node.Rows * w;
             if (node.IsPrepared)
             {
                 PreparedRows<V>.Evaluate(batch, n);

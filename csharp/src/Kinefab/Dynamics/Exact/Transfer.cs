@@ -8,6 +8,9 @@ namespace Kinefab.Dynamics.Exact;
 internal static class Transfer<V>
     where V : struct, ILane<V>
 {
+    // A kinematic body that is this close to where it was driven has not been moved otherwise, m and half radians.
+    private const double Near = 1e-9;
+
     /// <summary>Constants of bodies and joints.</summary>
     public static void LoadConstants(Batch<V> batch, int lane, Island island, Mechanism mechanism)
     {
@@ -21,6 +24,7 @@ internal static class Transfer<V>
             double least = Math.Min(inverse.X, Math.Min(inverse.Y, inverse.Z));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
             batch.Bodies[Batch<V>.Body(b, BodySlot.InertiaRatio) + lane] = least > 0 ? most / least : 1;
+            batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);
         }
@@ -37,8 +41,15 @@ internal static class Transfer<V>
     }
 
     /// <summary>State, forces and damping for a step of dt; true when a pose is not the one that the last step left.</summary>
-    public static bool Load(Batch<V> batch, int lane, Island island, Mechanism mechanism, double dt)
+    /// <param name="batch">Where to.</param>
+    /// <param name="lane">Which lane of it.</param>
+    /// <param name="island">Whose bodies.</param>
+    /// <param name="mechanism">Where from.</param>
+    /// <param name="dt">Step, s.</param>
+    /// <param name="fastest">Largest angular speed of the moving bodies, rad/s.</param>
+    public static bool Load(Batch<V> batch, int lane, Island island, Mechanism mechanism, double dt, out double fastest)
     {
+        fastest = 0;
         bool isMoved = false;
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;
@@ -52,12 +63,19 @@ internal static class Transfer<V>
 
             int o = Batch<V>.Body(b, 0) + lane;
             Pose pose = bodies.Poses[body];
-            isMoved |= pose.Position != Vector(a, o + BodySlot.EndX * Lane<V>.Width)
-                || pose.Rotation != Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
+            Vector3d lastPosition = Vector(a, o + BodySlot.EndX * Lane<V>.Width);
+            Quaterniond lastRotation = Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
+            isMoved |= b < island.MovingBodies
+                ? pose.Position != lastPosition || pose.Rotation != lastRotation
+                : (pose.Position - lastPosition).LengthSquared > Near * Near || Distance(pose.Rotation, lastRotation) > Near;
             Put(a, o + BodySlot.X * Lane<V>.Width, pose.Position);
             Put(a, o + BodySlot.Q * Lane<V>.Width, pose.Rotation);
             if (b >= island.MovingBodies)
             {
+                // A kinematic body goes to its target at constant velocity.
+                BodyMotion.PredictVelocity(bodies, body, Vector3d.Zero, dt);
+                Put(a, o + BodySlot.V * Lane<V>.Width, bodies.LinearVelocities[body]);
+                Put(a, o + BodySlot.W * Lane<V>.Width, bodies.AngularVelocities[body]);
                 continue;
             }
 
@@ -67,7 +85,10 @@ internal static class Transfer<V>
             if (speed > bodies.MaxAngularSpeeds[body])
             {
                 w *= bodies.MaxAngularSpeeds[body] / speed;
+                speed = bodies.MaxAngularSpeeds[body];
             }
+
+            fastest = Math.Max(fastest, speed);
 
             Put(a, o + BodySlot.V * Lane<V>.Width, v);
             Put(a, o + BodySlot.L * Lane<V>.Width, Momentum(pose.Rotation, w, bodies.InverseInertias[body]));
@@ -96,6 +117,26 @@ internal static class Transfer<V>
         }
     }
 
+    /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
+    public static void CopyFrom(Batch<V> batch, int lane, Batch<ScalarLane> from)
+    {
+        for (int b = 0; b < batch.Shape.MovingBodies; b++)
+        {
+            int to = Batch<V>.Body(b, 0) + lane;
+            int source = Batch<ScalarLane>.Body(b, 0);
+            for (int i = 0; i < BodySlot.InverseMass; i++)
+            {
+                batch.Bodies[to + i * Lane<V>.Width] = from.Bodies[source + i];
+            }
+        }
+
+        for (int i = 0; i < from.Half.Length; i++)
+        {
+            batch.Half[i * Lane<V>.Width + lane] = from.Half[i];
+            batch.Total[i * Lane<V>.Width + lane] = from.Total[i];
+        }
+    }
+
     private static Vector3d Momentum(Quaterniond q, Vector3d w, Vector3d inverse)
     {
         Vector3d inBody = q.InverseRotate(w);
@@ -104,6 +145,8 @@ internal static class Transfer<V>
 
     // An infinite moment does not turn: its momentum is left out.
     private static double Over(double w, double inverse) => inverse > 0 ? w / inverse : 0;
+
+    private static double Distance(Quaterniond a, Quaterniond b) => (a * b.Conjugate()).Vector.Length;
 
     private static void PutFrame(double[] a, int index, Pose frame)
     {

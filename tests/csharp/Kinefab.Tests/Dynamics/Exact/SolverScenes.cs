@@ -22,7 +22,7 @@ internal static class SolverScenes
         return builder.Build();
     }
 
-    /// <summary>Double pendulums of two 0.5 m, 1 kg bars, released near the horizontal.</summary>
+    /// <summary>Double pendulums of two 1 m, 1 kg bars, released near the horizontal.</summary>
     public static Mechanism DoublePendulums(int count)
     {
         var builder = new MechanismBuilder();
@@ -31,10 +31,10 @@ internal static class SolverScenes
             double angle = 0.0005 * i;
             var direction = new Vector3d(Math.Cos(angle), Math.Sin(angle), 0);
             var origin = new Vector3d(0, 0, i);
-            int upper = builder.Bar(origin, origin + direction * 0.5, 1);
-            int lower = builder.Bar(origin + direction * 0.5, origin + direction, 1);
+            int upper = builder.Bar(origin, origin + direction, 1);
+            int lower = builder.Bar(origin + direction, origin + direction * 2, 1);
             builder.Hinge(Joint.World, upper, origin, Z);
-            builder.Hinge(upper, lower, origin + direction * 0.5, Z);
+            builder.Hinge(upper, lower, origin + direction, Z);
         }
 
         return builder.Build();

@@ -1,0 +1,75 @@
+using Kinefab.Joints;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>What ties a row's impulse to its speed.</summary>
+internal enum LawKind : byte
+{
+    /// <summary>Nothing: the row is not there.</summary>
+    None,
+
+    /// <summary>Spring and damper within force limits: drives, hinge springs, soft limits.</summary>
+    Spring,
+
+    /// <summary>A speed held within force limits.</summary>
+    Motor,
+
+    /// <summary>C stays positive by an impulse that is not negative.</summary>
+    HardLimit,
+}
+
+/// <summary>Where on its piecewise-linear law a row stands.</summary>
+internal enum Segment : byte
+{
+    /// <summary>The impulse is fixed, at a bound or at 0.</summary>
+    Clamped,
+
+    /// <summary>The impulse follows from the speed.</summary>
+    Sloped,
+}
+
+/// <summary>
+/// One row with a monotone piecewise-linear law. Impulse p is what the flight gets of it.
+/// Spring: the force -k C + d (vT - v) is taken at the share Theta of the step, C = C0 + Theta h v, and its impulse
+/// l = h (d vT - k C0) - Gamma v, Gamma = h (d + Theta h k), is given by Theta before the flight and the rest after it:
+/// Theta = 1/2 is the implicit midpoint rule, second order and without numerical damping; Theta = 1 is implicit Euler.
+/// </summary>
+internal struct Law
+{
+    public LawKind Kind;
+    public Segment Segment;
+
+    /// <summary>J, and C at the pose of the last Build.</summary>
+    public ConstraintRow Row;
+
+    /// <summary>Whether Prepare wrote the row at that pose.</summary>
+    public bool IsWritten;
+
+    /// <summary>C at the end of the flight.</summary>
+    public double Error;
+
+    /// <summary>C at the start of the step.</summary>
+    public double C0;
+
+    /// <summary>Speed of the row at the start of the step.</summary>
+    public double StartSpeed;
+
+    public double Theta;
+    public double Gamma;
+
+    /// <summary>Impulse of a spring at v = 0.</summary>
+    public double Rest;
+
+    /// <summary>Bounds of the whole step's impulse.</summary>
+    public double Low;
+    public double High;
+
+    /// <summary>Impulse before the flight, and after it.</summary>
+    public double First;
+    public double Second;
+
+    /// <summary>Node, row in the node and row in the vectors.</summary>
+    public int Node;
+    public int NodeRow;
+    public int Index;
+}

@@ -1,0 +1,463 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>
+/// The rows with a law of one island. They share the island's matrix: a row on a sloped segment has the segment's
+/// compliance on the diagonal, a clamped one is an identity row and its impulse acts from outside. The segments are
+/// found by a semi-smooth Newton iteration: solve, move the rows that left their segment, solve again. Should that
+/// circle, only the first row that is out of place moves (Murty's least-index rule), which ends.
+/// </summary>
+internal sealed class Laws<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Passes that move all rows out of place, and passes in all.</summary>
+    private const int FreePasses = 8;
+    private const int MaxPasses = 64;
+
+    // Keeps the pivot of a held speed that other rows hold too above 0, without a trace in the speed.
+    private const double HeldShare = 1e-12;
+
+    // A compliance beyond this share of the row's response stands for a spring that hardly acts.
+    private const double LeastResponse = 1e-200;
+
+    private readonly Batch<V> _batch;
+    private readonly Law[] _laws;
+    private readonly int[] _first;
+
+    public Laws(Batch<V> batch)
+    {
+        _batch = batch;
+        _laws = new Law[batch.Shape.Laws];
+        _first = new int[batch.Shape.Nodes.Length];
+        int next = 0;
+        for (int n = 0; n < _first.Length; n++)
+        {
+            Node node = batch.Shape.Nodes[n];
+            _first[n] = next;
+            for (int i = 0; i < node.Laws; i++)
+            {
+                int nodeRow = node.RigidRows + i;
+                _laws[next++] = new Law { Node = n, NodeRow = nodeRow, Index = batch.Shape.Pattern.Rows[n] + nodeRow };
+            }
+        }
+    }
+
+    /// <summary>Before a node's rows are written: it has none yet.</summary>
+    public void Clear(int node)
+    {
+        int end = _first[node] + _batch.Shape.Nodes[node].Laws;
+        for (int i = _first[node]; i < end; i++)
+        {
+            _laws[i].IsWritten = false;
+        }
+    }
+
+    /// <summary>A node's row as Prepare wrote it.</summary>
+    public void Set(int node, int slot, in ConstraintRow row)
+    {
+        ref Law law = ref _laws[_first[node] + slot];
+        law.IsWritten = true;
+        law.Row = row;
+    }
+
+    /// <summary>C of a row at the end of the flight.</summary>
+    public void SetError(int node, int slot, double error) => _laws[_first[node] + slot].Error = error;
+
+    /// <summary>Forgets impulses and segments.</summary>
+    public void ClearHistory()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            _laws[i].First = 0;
+            _laws[i].Second = 0;
+            _laws[i].Segment = Segment.Clamped;
+        }
+    }
+
+    /// <summary>Takes the laws' constants for a step from the rows at the start pose, guesses segments, writes J.</summary>
+    /// <param name="h">Step, s.</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the flight (implicit Euler).</param>
+    public void Begin(double h, bool isImplicit)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.C0 = law.Row.GeometricError;
+            law.Error = law.C0;
+            law.Second = 0;
+            law.Theta = isImplicit ? 1 : 0.5;
+            law.Kind = KindOf(law);
+            if (law.Kind == LawKind.None)
+            {
+                law.Segment = Segment.Clamped;
+                law.First = 0;
+                _batch.Half[law.Index] = 0;
+                continue;
+            }
+
+            law.StartSpeed = StartSpeed(law);
+            double response = Response(law);
+            SetBounds(ref law, h);
+            if (law.Kind == LawKind.Spring)
+            {
+                SetSpring(ref law, h, response, isImplicit);
+                _batch.Half[law.Index] = Math.Min(law.Theta * law.High, Math.Max(law.Theta * law.Low, law.First));
+            }
+            else
+            {
+                _batch.Half[law.Index] = Math.Min(law.Theta * law.High, Math.Max(law.Theta * law.Low, _batch.Half[law.Index]));
+            }
+
+            law.First = _batch.Half[law.Index];
+            if (law.Kind == LawKind.HardLimit)
+            {
+                law.Segment = law.First > 0 || law.C0 < 0 ? Segment.Sloped : Segment.Clamped;
+            }
+            else if (law.First > law.Theta * law.Low && law.First < law.Theta * law.High)
+            {
+                law.Segment = Segment.Sloped;
+            }
+
+            if (response < LeastResponse)
+            {
+                law.Kind = LawKind.None;
+                law.Segment = Segment.Clamped;
+                law.First = 0;
+                _batch.Half[law.Index] = 0;
+            }
+        }
+
+        WriteRows(true);
+    }
+
+    /// <summary>The sloped rows start without impulse; the clamped ones keep theirs.</summary>
+    public void StartFromZero()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.First = law.Segment == Segment.Sloped ? 0 : law.First;
+            _batch.First[law.Index] = law.First;
+        }
+    }
+
+    /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
+    public void ClearClamped(double[] vector)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            if (_laws[i].Segment == Segment.Clamped)
+            {
+                vector[_laws[i].Index] = 0;
+            }
+        }
+    }
+
+    /// <summary>Impulses of a step of another length as a guess.</summary>
+    public void ScaleHistory(double factor)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            _laws[i].First *= factor;
+        }
+    }
+
+    /// <summary>Keeps, or brings back, impulses and segments.</summary>
+    public void Save(Law[] to) => Array.Copy(_laws, to, _laws.Length);
+
+    public void Restore(Law[] from) => Array.Copy(from, _laws, _laws.Length);
+
+    /// <summary>Adds what a node's limits gave its first body in the whole step.</summary>
+    public void AddLimits(int node, ref Vector3d linear, ref Vector3d angular)
+    {
+        int end = _first[node] + _batch.Shape.Nodes[node].Laws;
+        for (int i = _first[node]; i < end; i++)
+        {
+            ref Law law = ref _laws[i];
+            if (law.IsWritten && law.Row.Has(RowFlags.Limit))
+            {
+                linear += law.Row.Linear0 * _batch.Total[law.Index];
+                angular += law.Row.Angular0 * _batch.Total[law.Index];
+            }
+        }
+    }
+
+    /// <summary>J of the sloped rows into the batch, 0 for the clamped ones.</summary>
+    /// <param name="isAll">Write J of all rows, so that impulses can be applied by them.</param>
+    public void WriteRows(bool isAll)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            bool isThere = law.IsWritten && law.Kind != LawKind.None && (isAll || law.Segment == Segment.Sloped);
+            PreparedRows<V>.Write(_batch, law.Node, law.NodeRow, law.Row, isThere ? 1 : 0);
+        }
+    }
+
+    /// <summary>The laws' part of the diagonal of the assembled matrix.</summary>
+    /// <param name="isFlight">Springs act in the flight, not in the projection.</param>
+    public void Condition(bool isFlight)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            Node node = _batch.Shape.Nodes[law.Node];
+            int cell = _batch.Shape.Pattern.Diagonal(law.Node) + law.NodeRow * (node.Rows + 1);
+            if (law.Segment == Segment.Clamped || !law.IsWritten)
+            {
+                _batch.Matrix[cell] = 1;
+            }
+            else if (law.Kind == LawKind.Spring && isFlight)
+            {
+                _batch.Matrix[cell] += 1 / (law.Theta * law.Gamma);
+            }
+            else
+            {
+                _batch.Matrix[cell] *= 1 + (law.Kind == LawKind.HardLimit ? ResponseMatrix<V>.LinearShare : HeldShare);
+            }
+        }
+    }
+
+    /// <summary>Residuals of the laws at the end of the flight as errors, m or rad; the largest joins MaxError.</summary>
+    public void Evaluate(double h)
+    {
+        double most = _batch.MaxError[0];
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            double error = 0;
+            law.First = _batch.First[law.Index];
+            if (law.Segment == Segment.Sloped)
+            {
+                error = law.Kind switch
+                {
+                    LawKind.HardLimit => law.Error,
+                    LawKind.Motor => h * (FlightSpeed(law) - law.Row.VelocityTarget),
+                    _ => h * (FlightSpeed(law) + (law.First / law.Theta - law.Rest) / law.Gamma),
+                };
+            }
+
+            _batch.Error[law.Index] = error;
+            most = Math.Max(most, Math.Abs(error));
+        }
+
+        _batch.MaxError[0] = most;
+    }
+
+    /// <summary>Moves rows that have left their segment; true when one had to.</summary>
+    public bool Update(int pass, double tolerance)
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _laws.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        {
+            ref Law law = ref _laws[i];
+            if (law.Kind == LawKind.None)
+            {
+                continue;
+            }
+
+            double low = law.Theta * law.Low;
+            double high = law.Theta * law.High;
+            if (law.Segment == Segment.Sloped)
+            {
+                if (law.First < low || law.First > high)
+                {
+                    SetFirst(ref law, law.First < low ? low : high);
+                    law.Segment = Segment.Clamped;
+                    isChanged = true;
+                }
+            }
+            else if (Returns(law, low, high, tolerance))
+            {
+                law.Segment = Segment.Sloped;
+                isChanged = true;
+            }
+        }
+
+        return isChanged;
+    }
+
+    /// <summary>At the end pose: gives springs the rest of their impulse and finds which rows the projection may hold.</summary>
+    public void BeginProjection(double tolerance)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            _batch.Half[law.Index] = 0;
+            law.Second = 0;
+            if (!law.IsWritten || law.Kind == LawKind.None)
+            {
+                law.Segment = Segment.Clamped;
+                continue;
+            }
+
+            switch (law.Kind)
+            {
+                case LawKind.Spring:
+                    SetSecond(ref law, law.First * (1 - law.Theta) / law.Theta);
+                    law.Segment = Segment.Clamped;
+                    break;
+                case LawKind.Motor:
+                    if (law.Theta == 1)
+                    {
+                        law.Segment = Segment.Clamped;
+                    }
+                    else if (law.Segment == Segment.Clamped)
+                    {
+                        SetSecond(ref law, law.First);
+                    }
+
+                    break;
+                default:
+                    law.Segment = law.Row.GeometricError <= tolerance ? Segment.Sloped : Segment.Clamped;
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Adds the speeds that the sloped rows shall have to the right-hand side of the projection.</summary>
+    public void AddTargets()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            if (law.Segment == Segment.Sloped)
+            {
+                _batch.Solution[law.Index] += Target(law);
+            }
+            else
+            {
+                _batch.Solution[law.Index] = 0;
+            }
+        }
+    }
+
+    /// <summary>After a solve of the projection: moves rows that left their segment; true when one had to.</summary>
+    public bool UpdateProjection(int pass, double tolerance)
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _laws.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        {
+            ref Law law = ref _laws[i];
+            if (!law.IsWritten || law.Kind == LawKind.None || law.Kind == LawKind.Spring)
+            {
+                continue;
+            }
+
+            if (law.Segment == Segment.Sloped)
+            {
+                law.Second = _batch.Half[law.Index];
+                double low = law.Low * (1 - law.Theta);
+                double high = law.High * (1 - law.Theta);
+                if (law.Kind == LawKind.HardLimit)
+                {
+                    low = 0;
+                    high = double.PositiveInfinity;
+                }
+
+                if (law.Second < low || law.Second > high)
+                {
+                    SetSecond(ref law, law.Second < low ? low : high);
+                    law.Segment = Segment.Clamped;
+                    isChanged = true;
+                }
+            }
+            else if (law.Kind == LawKind.HardLimit && law.Row.GeometricError <= tolerance
+                && Impulses<V>.Speed(_batch, law.Node, law.Row) < Target(law) - tolerance)
+            {
+                law.Segment = Segment.Sloped;
+                isChanged = true;
+            }
+        }
+
+        return isChanged;
+    }
+
+    private static LawKind KindOf(in Law law)
+    {
+        if (!law.IsWritten)
+        {
+            return LawKind.None;
+        }
+
+        if (law.Row.Has(RowFlags.Spring))
+        {
+            bool isIdle = law.Row.Stiffness == 0 && law.Row.Damping == 0;
+            return isIdle || (law.Row.Has(RowFlags.Limit) && law.C0 >= 0) ? LawKind.None : LawKind.Spring;
+        }
+
+        return law.Row.Has(RowFlags.Limit) ? LawKind.HardLimit : LawKind.Motor;
+    }
+
+    // Newton's law of impact: the speed after a stop against the speed before the step, above the threshold alone.
+    private static double Target(in Law law)
+    {
+        if (law.Kind != LawKind.HardLimit)
+        {
+            return law.Row.VelocityTarget;
+        }
+
+        bool bounces = law.Row.Has(RowFlags.Restitution) && -law.StartSpeed > law.Row.BounceThreshold;
+        return bounces ? -law.Row.Restitution * law.StartSpeed : 0;
+    }
+
+    private void SetBounds(ref Law law, double h)
+    {
+        bool isForce = law.Row.Has(RowFlags.HasDriveLimit) && _batch.Shape.Nodes[law.Node].Joint!.DriveLimitsAreForces;
+        law.Low = law.Row.Minimum * (isForce ? h : 1);
+        law.High = law.Row.Maximum * (isForce ? h : 1);
+    }
+
+    private static void SetSpring(ref Law law, double h, double response, bool isImplicit)
+    {
+        double perMass = law.Row.Has(RowFlags.AccelerationSpring) && response > 0 ? 1 / response : 1;
+        double k = law.Row.Stiffness * perMass;
+        double d = law.Row.Damping * perMass;
+
+        // Half the step's stiffness and damping against the inertia that they move, at most: where the step is too long to
+        // follow the spring, its share goes from the midpoint's towards implicit Euler's, so that it decays and does not ring.
+        double z = h * (d + h * k) * response;
+        law.Theta = isImplicit ? 1 : z < 1 ? 0.5 : 1 - 0.5 / z;
+        law.Gamma = h * (d + law.Theta * h * k);
+        law.Rest = h * (d * law.Row.VelocityTarget - k * law.C0);
+    }
+
+    private bool Returns(in Law law, double low, double high, double tolerance)
+    {
+        switch (law.Kind)
+        {
+            case LawKind.HardLimit:
+                return law.Error < -tolerance;
+            case LawKind.Motor:
+                double excess = FlightSpeed(law) - law.Row.VelocityTarget;
+                return (law.First >= high && excess > tolerance) || (law.First <= low && excess < -tolerance);
+            default:
+                double wanted = law.Theta * (law.Rest - law.Gamma * FlightSpeed(law));
+                double slack = law.Theta * law.Gamma * tolerance;
+                return (law.First >= high && wanted < high - slack) || (law.First <= low && wanted > low + slack);
+        }
+    }
+
+    private void SetFirst(ref Law law, double impulse)
+    {
+        Impulses<V>.ApplyRow(_batch, law.Node, law.Row, impulse - law.First);
+        law.First = impulse;
+        _batch.First[law.Index] = impulse;
+    }
+
+    private void SetSecond(ref Law law, double impulse)
+    {
+        Impulses<V>.ApplyRow(_batch, law.Node, law.Row, impulse - law.Second);
+        law.Second = impulse;
+        _batch.Half[law.Index] = impulse;
+    }
+
+    private double StartSpeed(in Law law) => Impulses<V>.Speed(_batch, law.Node, law.Row);
+
+    private double FlightSpeed(in Law law) => Impulses<V>.FlightSpeed(_batch, law.Node, law.Row);
+
+    private double Response(in Law law) => Impulses<V>.ResponseOf(_batch, law.Node, law.Row);
+}

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Dynamics.Exact;
 using Kinefab.Dynamics.Pgs;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -92,6 +93,7 @@ public sealed class World
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new UnitySolver(builder.Mechanism),
+            SolverKind.Exact => new ExactSolver(builder.Mechanism),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
         return new World(builder.Mechanism, chosen, builder.Bodies, builder.Joints);

@@ -11,8 +11,11 @@ namespace Kinefab.Dynamics.Exact;
 /// </summary>
 internal sealed class ExactSolver : ISolver
 {
-    // Largest gap, metres or radians, that a step may leave.
-    private const double Tolerance = 1e-9;
+    // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps less, since what a gap
+    // of one step leaves in the speeds grows with 1/h; never less than rounding lets it reach.
+    private const double MostGap = 1e-9;
+    private const double LeastGap = 1e-13;
+    private const double GapSpeed = 6e-8;
 
     private readonly Mechanism _mechanism;
     private readonly int _maxWidth;
@@ -41,9 +44,10 @@ internal sealed class ExactSolver : ISolver
             Regroup();
         }
 
+        double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapSpeed * dt));
         foreach (IslandGroup group in _groups)
         {
-            group.Step(dt);
+            group.Step(dt, tolerance);
         }
 
         Bodies bodies = _mechanism.Bodies;
@@ -67,7 +71,7 @@ internal sealed class ExactSolver : ISolver
         rest.RemoveAll(prepared.Contains);
         if (prepared.Count > 0)
         {
-            _groups.Add(new PreparedIslands(_mechanism, prepared, Tolerance));
+            _groups.Add(new PreparedIslands(_mechanism, prepared));
         }
 
         while (rest.Count > 0)
@@ -85,19 +89,19 @@ internal sealed class ExactSolver : ISolver
         if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
         {
             int whole = islands.Count / 8 * 8;
-            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole), Tolerance));
+            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole)));
             islands.RemoveRange(0, whole);
         }
 
         if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
         {
-            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands, Tolerance));
+            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands));
             return;
         }
 #endif
         if (islands.Count > 0)
         {
-            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands, Tolerance));
+            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands));
         }
     }
 }

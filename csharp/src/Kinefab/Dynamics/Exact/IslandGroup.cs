@@ -8,7 +8,7 @@ namespace Kinefab.Dynamics.Exact;
 internal abstract class IslandGroup
 {
     /// <summary>One step of all islands; true when a joint broke.</summary>
-    public abstract bool Step(double dt);
+    public abstract bool Step(double dt, double tolerance);
 
     /// <summary>Whether a joint's fields ask for other rows than the islands were made for.</summary>
     public abstract bool IsStale();
@@ -42,15 +42,13 @@ internal sealed class IslandGroup<V> : IslandGroup
     private readonly Batch<V>[] _batches;
     private readonly bool[] _converged = new bool[Lane<V>.Width];
     private readonly bool[] _isHard = new bool[Lane<V>.Width];
-    private readonly double _tolerance;
     private readonly Batch<ScalarLane> _spare;
     private readonly Ladder _ladder;
 
-    public IslandGroup(Mechanism mechanism, List<Island> islands, double tolerance)
+    public IslandGroup(Mechanism mechanism, List<Island> islands)
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();
-        _tolerance = tolerance;
         int width = Lane<V>.Width;
         _batches = new Batch<V>[(_islands.Length + width - 1) / width];
         for (int i = 0; i < _batches.Length; i++)
@@ -72,27 +70,27 @@ internal sealed class IslandGroup<V> : IslandGroup
     public override bool IsStale() => IsStale(_islands);
 
     /// <inheritdoc/>
-    public override bool Step(double dt)
+    public override bool Step(double dt, double tolerance)
     {
         bool isBroken = false;
         for (int i = 0; i < _batches.Length; i++)
         {
             Batch<V> batch = _batches[i];
             Load(batch, i, dt);
-            RattleStep<V>.Fly(batch, dt, _tolerance, _converged);
+            RattleStep<V>.Fly(batch, dt, tolerance, _converged);
             for (int lane = 0; lane < Lane<V>.Width; lane++)
             {
                 _isHard[lane] |= !_converged[lane];
                 if (_isHard[lane] && IsOccupied(i, lane))
                 {
-                    Climb(batch, lane, Occupant(i, lane), dt);
+                    Climb(batch, lane, Occupant(i, lane), dt, tolerance);
                 }
 
                 batch.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
             RattleStep<V>.Build(batch);
-            RattleStep<V>.Project(batch, dt, _tolerance);
+            RattleStep<V>.Project(batch, dt, tolerance);
             RattleStep<V>.Accept(batch);
             Stiffness<V>.Measure(batch, batch.Half, dt / 2);
             RattleStep<V>.AddUp(batch);
@@ -136,7 +134,7 @@ internal sealed class IslandGroup<V> : IslandGroup
     }
 
     // The world still holds the island's state before the step, the lane its impulses.
-    private void Climb(Batch<V> batch, int lane, Island island, double dt)
+    private void Climb(Batch<V> batch, int lane, Island island, double dt, double tolerance)
     {
         Transfer<ScalarLane>.LoadConstants(_spare, 0, island, _mechanism);
         Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt, out _);
@@ -153,7 +151,7 @@ internal sealed class IslandGroup<V> : IslandGroup
         Flight<ScalarLane>.Stay(_spare);
         RattleStep<ScalarLane>.Build(_spare);
         int stops = _ladder.Stops;
-        _ladder.Step(dt, _tolerance);
+        _ladder.Step(dt, tolerance);
         _mechanism.Overflows += _ladder.Stops - stops;
         Transfer<V>.CopyFrom(batch, lane, _spare);
     }
@@ -180,13 +178,11 @@ internal sealed class PreparedIslands : IslandGroup
     private readonly Island[] _islands;
     private readonly Batch<ScalarLane>[] _batches;
     private readonly Ladder[] _ladders;
-    private readonly double _tolerance;
 
-    public PreparedIslands(Mechanism mechanism, List<Island> islands, double tolerance)
+    public PreparedIslands(Mechanism mechanism, List<Island> islands)
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();
-        _tolerance = tolerance;
         _batches = new Batch<ScalarLane>[_islands.Length];
         _ladders = new Ladder[_islands.Length];
         for (int i = 0; i < _islands.Length; i++)
@@ -201,7 +197,7 @@ internal sealed class PreparedIslands : IslandGroup
     public override bool IsStale() => IsStale(_islands);
 
     /// <inheritdoc/>
-    public override bool Step(double dt)
+    public override bool Step(double dt, double tolerance)
     {
         bool isBroken = false;
         for (int i = 0; i < _islands.Length; i++)
@@ -216,7 +212,7 @@ internal sealed class PreparedIslands : IslandGroup
             // Targets and other fields of the joints may have changed since the last step: their rows are read again.
             RattleStep<ScalarLane>.Build(batch);
             int stops = _ladders[i].Stops;
-            _ladders[i].Step(dt, _tolerance);
+            _ladders[i].Step(dt, tolerance);
             _mechanism.Overflows += _ladders[i].Stops - stops;
             Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
             isBroken |= Reactions<ScalarLane>.Report(batch, 0, _islands[i], _mechanism, dt);

@@ -45,8 +45,8 @@ internal struct Law
     /// <summary>Whether Prepare wrote the row at that pose.</summary>
     public bool IsWritten;
 
-    /// <summary>C at the end of the flight.</summary>
-    public double Error;
+    /// <summary>J and C at the end of the flight.</summary>
+    public ConstraintRow End;
 
     /// <summary>C at the start of the step.</summary>
     public double C0;

@@ -63,8 +63,8 @@ internal sealed class Laws<V>
         law.Row = row;
     }
 
-    /// <summary>C of a row at the end of the flight.</summary>
-    public void SetError(int node, int slot, double error) => _laws[_first[node] + slot].Error = error;
+    /// <summary>A node's row at the end of the flight.</summary>
+    public void SetEnd(int node, int slot, in ConstraintRow row) => _laws[_first[node] + slot].End = row;
 
     /// <summary>Forgets impulses and segments.</summary>
     public void ClearHistory()
@@ -86,7 +86,7 @@ internal sealed class Laws<V>
         {
             ref Law law = ref _laws[i];
             law.C0 = law.Row.GeometricError;
-            law.Error = law.C0;
+            law.End = law.Row;
             law.Second = 0;
             law.Theta = isImplicit ? 1 : 0.5;
             law.Kind = KindOf(law);
@@ -234,7 +234,7 @@ internal sealed class Laws<V>
             {
                 error = law.Kind switch
                 {
-                    LawKind.HardLimit => law.Error,
+                    LawKind.HardLimit => law.End.GeometricError,
                     LawKind.Motor => h * (FlightSpeed(law) - law.Row.VelocityTarget),
                     _ => h * (FlightSpeed(law) + (law.First / law.Theta - law.Rest) / law.Gamma),
                 };
@@ -430,7 +430,7 @@ internal sealed class Laws<V>
         switch (law.Kind)
         {
             case LawKind.HardLimit:
-                return law.Error < -tolerance;
+                return law.End.GeometricError < -tolerance;
             case LawKind.Motor:
                 double excess = FlightSpeed(law) - law.Row.VelocityTarget;
                 return (law.First >= high && excess > tolerance) || (law.First <= low && excess < -tolerance);
@@ -457,7 +457,9 @@ internal sealed class Laws<V>
 
     private double StartSpeed(in Law law) => Impulses<V>.Speed(_batch, law.Node, law.Row);
 
-    private double FlightSpeed(in Law law) => Impulses<V>.FlightSpeed(_batch, law.Node, law.Row);
+    // J turns with the bodies: the mean of the start's and the end's gives the mean speed to second order.
+    private double FlightSpeed(in Law law) =>
+        (Impulses<V>.FlightSpeed(_batch, law.Node, law.Row) + Impulses<V>.FlightSpeed(_batch, law.Node, law.End)) / 2;
 
     private double Response(in Law law) => Impulses<V>.ResponseOf(_batch, law.Node, law.Row);
 }

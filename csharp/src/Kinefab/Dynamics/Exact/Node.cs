@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
 
@@ -110,6 +111,10 @@ internal sealed class Node
             AngleLimits = (swing1 ^ swing2 ? 2 : 0) + (d6.Twist == AxisMotion.Limited ? 2 : 0);
             HasDistance = d6.X == AxisMotion.Limited || d6.Y == AxisMotion.Limited || d6.Z == AxisMotion.Limited;
         }
+        else
+        {
+            Drives = CountDrives(joint);
+        }
 
         for (int axis = 0; axis < 3; axis++)
         {
@@ -155,6 +160,9 @@ internal sealed class Node
     /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
     public bool IsPrepared => Coupling != null || Laws > 0 || Angular == AngularRows.Prepared;
 
+    /// <summary>Whether prepared rows are worth a second look at the end of the flight; a hinge's axis on the world stays.</summary>
+    public bool HasMovingRows => Angular == AngularRows.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == Joint.World));
+
     /// <summary>Whether the other node has the same rows between the same bodies.</summary>
     public bool HasShapeOf(Node other)
     {
@@ -197,6 +205,13 @@ internal sealed class Node
     }
 
     private static int Locked(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? bit : 0;
+
+    // Other joints than PhysX's two may have drive rows alone.
+    private static int CountDrives(Joint joint)
+    {
+        System.Span<ConstraintRow> rows = stackalloc ConstraintRow[Joint.MaxRows];
+        return joint.Prepare(Pose.Identity, Pose.Identity, rows);
+    }
 
     // The same conditions as in D6Joint.LinearDrives and AngularDrives.
     private static int CountDrives(D6Joint d6)

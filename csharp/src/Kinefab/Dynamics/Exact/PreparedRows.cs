@@ -22,7 +22,7 @@ internal static class PreparedRows<V>
             return;
         }
 
-        if (node.Angular != AngularRows.Prepared && node.Limits == 0)
+        if (!node.HasMovingRows)
         {
             return;
         }
@@ -35,7 +35,7 @@ internal static class PreparedRows<V>
             int slot = slots.Next(rows[i]);
             if (slot >= 0)
             {
-                batch.Laws!.SetError(n, slot, rows[i].GeometricError);
+                batch.Laws!.SetEnd(n, slot, rows[i]);
             }
             else if (IsLoneAngle(node, rows[i]))
             {

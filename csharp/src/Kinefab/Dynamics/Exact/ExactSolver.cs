@@ -14,7 +14,7 @@ internal sealed class ExactSolver : ISolver
     // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps less, since what a gap
     // of one step leaves in the speeds grows with 1/h; never less than rounding lets it reach.
     private const double MostGap = 1e-9;
-    private const double LeastGap = 1e-13;
+    private const double LeastGap = 1e-11;
     private const double GapSpeed = 6e-8;
 
     private readonly Mechanism _mechanism;

@@ -1,0 +1,207 @@
+using System;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Exact;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Exact;
+
+/// <summary>Loops stay closed and energy is kept over 10 s at 1/60 s.</summary>
+internal sealed class SceneTests
+{
+    private const double Dt = 1.0 / 60;
+    private const int Steps = 600;
+
+    private static readonly TestCaseData[] Scenes =
+    {
+        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(4))).SetArgDisplayNames("fourbar"),
+        new TestCaseData((Func<Mechanism>)(() => SolverScenes.DoublePendulums(4))).SetArgDisplayNames("dpend"),
+        new TestCaseData((Func<Mechanism>)(() => SolverScenes.Chain(64))).SetArgDisplayNames("chain64"),
+        new TestCaseData((Func<Mechanism>)SolverScenes.SliderCrank).SetArgDisplayNames("slidercrank"),
+        new TestCaseData((Func<Mechanism>)SolverScenes.Heavy8).SetArgDisplayNames("heavy8"),
+        new TestCaseData((Func<Mechanism>)SolverScenes.Parallelogram).SetArgDisplayNames("para"),
+        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(1, 1e-6))).SetArgDisplayNames("tilt 1e-6"),
+        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(1, 1e-4))).SetArgDisplayNames("tilt 1e-4"),
+    };
+
+    [TestCaseSource(nameof(Scenes))]
+    public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<Mechanism> make)
+    {
+        Mechanism mechanism = make();
+        bool isDriven = Array.Exists(mechanism.Joints, j => j is RevoluteJoint { MotorEnabled: true });
+        var solver = new ExactSolver(mechanism);
+        double start = MechanismMeasures.Energy(mechanism);
+        double available = Available(mechanism);
+        double drift = 0;
+        double gain = 0;
+        for (int i = 0; i < Steps; i++)
+        {
+            solver.Step(Dt);
+            drift = Math.Max(drift, MechanismMeasures.Drift(mechanism));
+            gain = Math.Max(gain, (MechanismMeasures.Energy(mechanism) - start) / available);
+        }
+
+        Assert.That(drift, Is.LessThanOrEqualTo(1e-8));
+        Assert.That(mechanism.Overflows, Is.Zero);
+        if (!isDriven)
+        {
+            Assert.That(gain, Is.LessThanOrEqualTo(0.005));
+        }
+    }
+
+    [Test]
+    public void Step_FourBars_KeepsEnergyToAThousandth()
+    {
+        Mechanism mechanism = SolverScenes.FourBars(8);
+        Assert.That(EnergyError(mechanism), Is.EqualTo(0).Within(0.001));
+    }
+
+    [Test]
+    public void Step_DoublePendulums_KeepsEnergyToThreeHalvesOfAThousandth()
+    {
+        Mechanism mechanism = SolverScenes.DoublePendulums(8);
+        Assert.That(EnergyError(mechanism), Is.EqualTo(0).Within(0.0015));
+    }
+
+    [Test]
+    public void Step_SliderCrank_HoldsTheMotorsSpeed()
+    {
+        Mechanism mechanism = SolverScenes.SliderCrank();
+        var solver = new ExactSolver(mechanism);
+        double worst = 0;
+        for (int i = 0; i < Steps; i++)
+        {
+            solver.Step(Dt);
+            if (i > 10)
+            {
+                worst = Math.Max(worst, Math.Abs(mechanism.Bodies.AngularVelocities[0].Z - 2 * Math.PI));
+            }
+        }
+
+        Assert.That(worst, Is.LessThanOrEqualTo(1e-6));
+    }
+
+    [Test]
+    public void Step_Parallelogram_TurnsThroughItsChangePoints()
+    {
+        Mechanism mechanism = SolverScenes.Parallelogram();
+        var solver = new ExactSolver(mechanism);
+        double turned = 0;
+        Quaterniond last = mechanism.Bodies.Poses[0].Rotation;
+        for (int i = 0; i < Steps; i++)
+        {
+            solver.Step(Dt);
+            Quaterniond now = mechanism.Bodies.Poses[0].Rotation;
+            Quaterniond delta = now * last.Conjugate();
+            turned += 2 * Math.Atan(delta.Z / delta.W);
+            last = now;
+        }
+
+        Assert.That(turned, Is.EqualTo(20 * Math.PI).Within(0.01));
+    }
+
+    [TestCase(1)]
+    [TestCase(4)]
+    [TestCase(8)]
+    public void Step_AnyLaneWidth_SameBits(int width)
+    {
+        Assert.That(BitsAfter(SolverScenes.FourBars(9), width), Is.EqualTo(BitsAfter(SolverScenes.FourBars(9), 1)));
+        Assert.That(BitsAfter(SolverScenes.DoublePendulums(13), width), Is.EqualTo(BitsAfter(SolverScenes.DoublePendulums(13), 1)));
+    }
+
+    [Test]
+    public void Step_Twice_SameBits()
+    {
+        ulong first = BitsAfter(SolverScenes.SliderCrank(), 1);
+        ulong second = BitsAfter(SolverScenes.SliderCrank(), 1);
+        Assert.That(second, Is.EqualTo(first));
+    }
+
+    [Test]
+    public void Step_JointsInAnotherOrder_SameMotion()
+    {
+        Mechanism one = SolverScenes.FourBars(1);
+        Mechanism other = SolverScenes.FourBars(1);
+        Array.Reverse(other.Joints);
+        var solverOne = new ExactSolver(one);
+        var solverOther = new ExactSolver(other);
+        for (int i = 0; i < 120; i++)
+        {
+            solverOne.Step(Dt);
+            solverOther.Step(Dt);
+        }
+
+        for (int b = 0; b < one.Bodies.Count; b++)
+        {
+            Assert.That((one.Bodies.Poses[b].Position - other.Bodies.Poses[b].Position).Length, Is.LessThanOrEqualTo(1e-9));
+        }
+    }
+
+    [Test]
+    public void Step_AfterWarmUp_AllocatesNothing()
+    {
+        foreach (Mechanism mechanism in new[] { SolverScenes.FourBars(9), SolverScenes.SliderCrank(), SolverScenes.Chain(16) })
+        {
+            var solver = new ExactSolver(mechanism);
+            for (int i = 0; i < 60; i++)
+            {
+                solver.Step(Dt);
+            }
+
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            for (int i = 0; i < 60; i++)
+            {
+                solver.Step(Dt);
+            }
+
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+        }
+    }
+
+    private static double EnergyError(Mechanism mechanism)
+    {
+        var solver = new ExactSolver(mechanism);
+        double start = MechanismMeasures.Energy(mechanism);
+        double available = Available(mechanism);
+        for (int i = 0; i < Steps; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        return (MechanismMeasures.Energy(mechanism) - start) / available;
+    }
+
+    // Weight times the height that the centres of mass could fall: the reach of each chain or crank below its pivot.
+    private static double Available(Mechanism mechanism)
+    {
+        double lowest = 0;
+        double sum = 0;
+        for (int i = 0; i < mechanism.Bodies.Count; i++)
+        {
+            lowest = Math.Min(lowest, mechanism.Bodies.Poses[i].Position.Y);
+            sum += mechanism.Bodies.PotentialEnergy(i, mechanism.Gravity);
+        }
+
+        double mass = 0;
+        double reach = 0;
+        for (int i = 0; i < mechanism.Bodies.Count; i++)
+        {
+            mass += 1 / mechanism.Bodies.InverseMasses[i];
+            reach = Math.Max(reach, mechanism.Bodies.Poses[i].Position.X);
+        }
+
+        return Math.Max(sum - lowest * mass * 9.81, mass * 9.81 * Math.Min(reach, 0.5));
+    }
+
+    private static ulong BitsAfter(Mechanism mechanism, int width)
+    {
+        var solver = new ExactSolver(mechanism, width);
+        for (int i = 0; i < 300; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        return MechanismMeasures.Bits(mechanism);
+    }
+}

@@ -37,6 +37,8 @@ internal interface ILane<TSelf>
 
     TSelf Maximum(TSelf other);
 
+    TSelf Minimum(TSelf other);
+
     /// <summary>Lane by lane: the first where the receiver is not 0, the second where it is.</summary>
     TSelf Select(TSelf first, TSelf second);
 }
@@ -87,6 +89,9 @@ internal readonly struct Lane<V>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Lane<V> Max(Lane<V> a, Lane<V> b) => new(a._value.Maximum(b._value));
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Lane<V> Min(Lane<V> a, Lane<V> b) => new(a._value.Minimum(b._value));
+
     /// <summary>The first where the mask is not 0, the second where it is.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Lane<V> Select(Lane<V> mask, Lane<V> first, Lane<V> second) => new(mask._value.Select(first._value, second._value));
@@ -135,6 +140,9 @@ internal readonly struct ScalarLane : ILane<ScalarLane>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ScalarLane Maximum(ScalarLane other) => new(Math.Max(_value, other._value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public ScalarLane Minimum(ScalarLane other) => new(Math.Min(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ScalarLane Select(ScalarLane first, ScalarLane second) => _value != 0 ? first : second;

@@ -49,6 +49,9 @@ internal readonly struct Lane4 : ILane<Lane4>
     public Lane4 Maximum(Lane4 other) => new(Vector256.Max(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Minimum(Lane4 other) => new(Vector256.Min(_value, other._value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane4 Select(Lane4 first, Lane4 second) =>
         new(Vector256.ConditionalSelect(Vector256.Equals(_value, Vector256<double>.Zero), second._value, first._value));
 }
@@ -96,6 +99,9 @@ internal readonly struct Lane8 : ILane<Lane8>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Maximum(Lane8 other) => new(Vector512.Max(_value, other._value));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Minimum(Lane8 other) => new(Vector512.Min(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Select(Lane8 first, Lane8 second) =>

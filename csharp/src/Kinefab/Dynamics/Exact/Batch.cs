@@ -45,6 +45,7 @@ internal sealed class Batch<V>
         Active = new double[w];
         MaxError = new double[w];
         MaxChange = new double[w];
+        MaxGap = new double[w];
         Turning = new double[w];
         Rotation = new double[9 * w];
         if (shape.Laws > 0)
@@ -104,6 +105,9 @@ internal sealed class Batch<V>
     public double[] MaxError { get; }
 
     public double[] MaxChange { get; }
+
+    /// <summary>Largest error of a row that is not angular alone, m.</summary>
+    public double[] MaxGap { get; }
 
     /// <summary>See <see cref="Flight{V}.MeasureTurning"/>; then 1 in lanes that turn much, else 0.</summary>
     public double[] Turning { get; }

@@ -53,7 +53,7 @@ internal sealed class ImplicitEulerStep
             RigidRows<ScalarLane>.Build(batch);
             laws?.WriteRows(true);
             double unbalanced = h * Residual();
-            bool isClosed = batch.MaxError[0] < tolerance || (iteration > 0 && batch.MaxChange[0] < tolerance);
+            bool isClosed = RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
             if (isClosed && unbalanced < tolerance && !(laws != null && laws.Update(lawPasses++, tolerance)))
             {
                 return true;
@@ -68,8 +68,8 @@ internal sealed class ImplicitEulerStep
             Correct(h);
         }
 
-        // Near enough is better than not at all: a tenth of a micrometre a step is what the last iterations fight for.
-        return batch.MaxError[0] < 1000 * tolerance;
+        // With the anchors together, forces and angles that are a little off are better than no step.
+        return batch.MaxGap[0] < 10 * tolerance;
     }
 
     // r = (v - aim) - M^-1 J^T l for the linear part, L - aim - J^T l for the angular one; the largest as a speed.

@@ -13,7 +13,7 @@ internal sealed class Ladder
     private const int MaxHalvings = 3;
 
     // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given halves.
-    private const double MostStiffness = 2;
+    private const double MostStiffness = 3.5;
 
     // Largest turn of a body in a substep, radians.
     private const double MostTurn = 0.5;

@@ -17,8 +17,8 @@ internal sealed class Laws<V>
     private const int FreePasses = 8;
     private const int MaxPasses = 64;
 
-    // Keeps the pivot of a held speed that other rows hold too above 0, without a trace in the speed.
-    private const double HeldShare = 1e-12;
+    // Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.
+    private const double HeldShare = 1e-11;
 
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
@@ -216,7 +216,7 @@ internal sealed class Laws<V>
             }
             else
             {
-                _batch.Matrix[cell] *= 1 + (law.Kind == LawKind.HardLimit ? ResponseMatrix<V>.LinearShare : HeldShare);
+                _batch.Matrix[cell] *= 1 + HeldShare;
             }
         }
     }

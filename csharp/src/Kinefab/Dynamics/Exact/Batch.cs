@@ -46,6 +46,7 @@ internal sealed class Batch<V>
         MaxError = new double[w];
         MaxChange = new double[w];
         MaxGap = new double[w];
+        LastMaxError = new double[w];
         Turning = new double[w];
         Rotation = new double[9 * w];
         if (shape.Laws > 0)
@@ -105,6 +106,9 @@ internal sealed class Batch<V>
     public double[] MaxError { get; }
 
     public double[] MaxChange { get; }
+
+    /// <summary>Largest error one iteration before.</summary>
+    public double[] LastMaxError { get; }
 
     /// <summary>Largest error of a row that is not angular alone, m.</summary>
     public double[] MaxGap { get; }

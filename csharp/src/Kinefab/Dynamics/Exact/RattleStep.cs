@@ -28,8 +28,11 @@ internal static class RattleStep<V>
     // close, and chasing it would load the loop without end.
     private const double MostMixing = 30;
 
-    // An error that changes by a smaller share than this stays.
-    private const double StillShare = 2e-3;
+    // An error that does not fall below this share of itself in an iteration gets no better.
+    private const double StillShare = 0.25;
+
+    // Largest error of an angle that may be left then, radians.
+    private const double MostAngle = 1e-3;
 
     // Keeps 0 / 0 out of the mixing.
     private const double LeastSquare = 1e-300;
@@ -86,6 +89,12 @@ internal static class RattleStep<V>
             }
             else if (isDone || iteration - restart == MaxIterations)
             {
+                // Out of patience: with the anchors together the step may stand.
+                for (int lane = 0; lane < w; lane++)
+                {
+                    converged[lane] |= batch.MaxGap[lane] < 10 * tolerance && batch.MaxError[lane] < MostAngle;
+                }
+
                 return iteration;
             }
 
@@ -204,12 +213,18 @@ internal static class RattleStep<V>
 
     /// <summary>
     /// Closed, or as closed as an over-constrained loop that was not made exactly can be: nothing moves any more, or the
-    /// anchors meet and the angles stay where they are.
+    /// anchors meet and the angles, near enough, get no better. Going on would load such a loop without end, and stir up
+    /// the turns of slender bodies, on which the chord contracts least.
     /// </summary>
-    public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated) =>
-        batch.MaxError[lane] < tolerance
-        || (isRepeated && batch.MaxChange[lane] < tolerance)
-        || (isRepeated && batch.MaxGap[lane] < tolerance && batch.MaxChange[lane] < StillShare * batch.MaxError[lane]);
+    public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated)
+    {
+        double error = batch.MaxError[lane];
+        bool isStill = error >= StillShare * batch.LastMaxError[lane];
+        batch.LastMaxError[lane] = error;
+        return error < tolerance
+            || (isRepeated && batch.MaxChange[lane] < tolerance)
+            || (isRepeated && isStill && batch.MaxGap[lane] < tolerance && error < MostAngle);
+    }
 
     // The flight answers to impulses by the inertia at its middle, the matrix was built with that at its start. For a slender
     // body the two differ by the turn times I_max / I_min, and the iteration diverges once (h|w|/2)^2 I_max / I_min nears 2.

@@ -12,7 +12,7 @@ internal static class SolverBenchmark
 {
     private const double Dt = 1.0 / 60;
     private const int Steps = 600;
-    private const int Runs = 7;
+    private const int Runs = 3;
 
     public static void Run()
     {

@@ -34,7 +34,7 @@ internal sealed class Ladder
         }
     }
 
-    /// <summary>Steps that not even implicit Euler could take: the island was stopped where it stood.</summary>
+    /// <summary>Steps that not even implicit Euler could take: the island stood still for a substep.</summary>
     public int Stops { get; private set; }
 
     /// <summary>Substeps by implicit Euler.</summary>
@@ -198,13 +198,19 @@ internal sealed class Ladder
         return true;
     }
 
-    // The pose stays, the motion ends.
+    // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.
     private void Stop()
     {
+        const double share = 0.9;
         Stops++;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            Array.Clear(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            for (int i = 0; i < 6; i++)
+            {
+                double kept = share * _batch.Bodies[o + i];
+                _batch.Bodies[o + i] = Math.Abs(kept) < 1e100 ? kept : 0;
+            }
         }
 
         Array.Clear(_batch.Half, 0, _batch.Half.Length);

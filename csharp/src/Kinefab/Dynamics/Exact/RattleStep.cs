@@ -89,12 +89,6 @@ internal static class RattleStep<V>
             }
             else if (isDone || iteration - restart == MaxIterations)
             {
-                // Out of patience: with the anchors together the step may stand.
-                for (int lane = 0; lane < w; lane++)
-                {
-                    converged[lane] |= batch.MaxGap[lane] < 10 * tolerance && batch.MaxError[lane] < MostAngle;
-                }
-
                 return iteration;
             }
 

@@ -396,7 +396,7 @@ internal static class BenchmarkMechanisms
 
     private static string Root()
     {
-        string? directory = Environment.GetEnvironmentVariable("KROOT") ?? AppContext.BaseDirectory;
+        string? directory = AppContext.BaseDirectory;
         while (directory != null && !System.IO.Directory.Exists(System.IO.Path.Combine(directory, "tests", "reference")))
         {
             directory = System.IO.Path.GetDirectoryName(directory);

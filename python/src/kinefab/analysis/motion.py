@@ -24,6 +24,10 @@ own curvature changes it by about STEP)."""
 TRIALS = 2
 DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
+MOST_DIRECTIONS = 12
+"""Directions tried at the start pose itself; beyond, the tangent is the one found some steps away."""
+MOST_WORK = 20_000
+"""Directions times unknowns tried; beyond, the first-order mobility some steps away stands as an upper bound."""
 WALK = 3
 WALK_STEP = 0.05
 
@@ -124,9 +128,15 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom, start: State
     solver, part = Solver(solver.system.select(first_order.rows)), 0
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
+    if (
+        there[part].mobility * len(first_order.basis) > MOST_WORK
+    ):  # an upper bound: trying them all would take minutes
+        return FiniteFreedom(there[part].mobility, there[part].basis, True)
     tangent = _survivors(solver, part, there[part], away)
     if tangent.shape[1] == 0:
         return FiniteFreedom(0, tangent, True)
+    if first_order.mobility > MOST_DIRECTIONS:
+        return FiniteFreedom(tangent.shape[1], tangent, True)
     here = _survivors(solver, part, first_order, start)
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 

@@ -29,7 +29,7 @@ CUT = 1e-8
 """Singular values below this fraction of the largest take no part in a step."""
 DENSE = 180
 """Largest number of unknowns solved densely."""
-DAMPING = 1e-11
+DAMPING = 1e-14
 
 
 @dataclass(slots=True, eq=False)

@@ -17,7 +17,7 @@ ALONG = 1.0 - 1e-6
 
 
 def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Coupling]:
-    """Explicit couplings as they are, one for each gear, belt, rack and linear constraint.
+    """Explicit couplings as they are, and one for each gear, belt, rack and linear constraint.
 
     scene: with middle bodies, at the closed pose, where every found joint's coordinates are zero.
     """

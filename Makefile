@@ -29,6 +29,7 @@ bench: setup tool ## the measured figures of the README
 	$(PYTHON) python/bench/export_bench.py
 	$(PYTHON) python/bench/analyse_bench.py
 	dotnet run -c Release --project csharp/bench -- load
+	dotnet run -c Release --project csharp/bench -- drive
 
 golden: setup ## write the golden scenes of fixtures anew; read the difference before you commit it
 	$(PYTHON) tests/python/golden.py

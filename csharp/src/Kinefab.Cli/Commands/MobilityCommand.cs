@@ -54,7 +54,7 @@ internal static class MobilityCommand
             target.WriteLine($"island     {Id(scene, island.GameObjects[0])} and {island.GameObjects.Count - 1} more: mobility {island.Mobility}, {island.Redundant} redundant, {island.Loops} loops");
         if (counted.Gap < 100)
             target.WriteLine($"unsure     the rank's gap is only {counted.Gap:F0}");
-        string firstOrder = counted.FirstOrder == counted.Mobility ? "" : $" ({counted.FirstOrder} at first order: the pose is singular)";
+        string firstOrder = counted.FirstOrder == counted.Mobility ? "" : $" ({counted.FirstOrder} at first order)";
         string stated = scene.Document.Analysis is null ? "" : $", {scene.Document.Analysis.Mobility} in the file";
         target.WriteLine($"mobility   {counted.Mobility}{firstOrder}{stated}; {counted.Rows} rows, {counted.Redundant} redundant");
     }

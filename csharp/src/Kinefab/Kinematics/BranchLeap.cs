@@ -109,7 +109,7 @@ internal sealed class BranchLeap
             double change = factor * (state.Values[i] - state.Trail[i]) / unit;
             // The coordinate is of actor 1 against actor 0 or the reverse; the freedom is of the child against its parent.
             bool same = coordinate.IsAlongRows != _mechanism.Tree.ChildIsBody0[body];
-            _step[_newton.FirstFreedom(body) + place] = same ? change : -change;
+            _step[_newton.Firsts[body] + place] = same ? change : -change;
             largest = Math.Max(largest, Math.Abs(change));
         }
 

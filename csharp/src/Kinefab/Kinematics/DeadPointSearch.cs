@@ -173,7 +173,7 @@ internal sealed class DeadPointSearch
         {
             for (int i = 0; i < _mechanism.Tree.Freedoms[body] && _mechanism.Tree.TreeJoints[body] >= 0; i++)
             {
-                int freedom = _newton.FirstFreedom(body) + i;
+                int freedom = _newton.Firsts[body] + i;
                 if (fastest < 0 || Math.Abs(step[freedom]) > Math.Abs(step[fastest]))
                 {
                     fastest = freedom;
@@ -202,7 +202,7 @@ internal sealed class DeadPointSearch
         _newton.ClearDriven();
         _newton.Motion.Start(_here.Poses);
         _newton.Assemble(_here);
-        _newton.Equations.AddFreedom(joint, freedom - _newton.FirstFreedom(_mechanism.Tree.ChildOf[joint]), -1);
+        _newton.Equations.AddFreedom(joint, freedom - _newton.Firsts[_mechanism.Tree.ChildOf[joint]], -1);
         double[] step = _newton.SolveStep(Damping);
         _newton.Equations.Evaluate(coordinate, _here.Poses, _here.Values, out ConstraintRow row);
         return _newton.Equations.Rate(_mechanism.Coordinates[coordinate].Joint, row, _here.Poses, step);
@@ -213,7 +213,7 @@ internal sealed class DeadPointSearch
         _newton.ClearDriven();
         _newton.Motion.Start(_here.Poses);
         double gone = 0;
-        int place = freedom - _newton.FirstFreedom(_mechanism.Tree.ChildOf[joint]);
+        int place = freedom - _newton.Firsts[_mechanism.Tree.ChildOf[joint]];
         for (int n = 0; n < MaxCorrections; n++)
         {
             _newton.Iterations++;

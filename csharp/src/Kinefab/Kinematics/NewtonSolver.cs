@@ -77,9 +77,6 @@ internal sealed class NewtonSolver
         return _normal.Step;
     }
 
-    /// <summary>The place of a body's first freedom in a step.</summary>
-    public int FirstFreedom(int body) => _normal.Firsts[body];
-
     /// <summary>Drives nothing.</summary>
     public void ClearDriven() => DrivenCount = 0;
 

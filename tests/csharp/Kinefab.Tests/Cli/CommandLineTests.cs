@@ -16,6 +16,8 @@ public class CommandLineTests
     private static readonly string Unknown = Path.Combine(ConformanceCases.Folder, "invalid", "scene", "unknown_field.kinefab");
     private static readonly string Described = Path.Combine(ConformanceCases.Folder, "valid", "scene", "every_section.kinefab");
 
+    private static readonly string Lever = Path.Combine(ConformanceCases.Folder, "..", "..", "fixtures", "mechanisms", "M09.kinefab");
+
     [Test]
     public void Validate_ValidScene_SaysSoOnStdoutAndExits0()
     {

@@ -108,7 +108,8 @@ internal sealed class NewtonSolver
             double size = LargestEntry(_normal.Step);
             if (!(size <= LargestStep) || (n > 0 && size > Math.Max((n > 1 ? LeastShrink : LeastFirstShrink) * previous, 1e-9)))
             {
-                return false;
+                // On a crossing itself the root is double and steps only halve: closed is closed there.
+                return n > 0 && Equations.Worst <= Accepted && Finish(state);
             }
 
             if (size < 1e-11 && Equations.Worst <= Accepted)

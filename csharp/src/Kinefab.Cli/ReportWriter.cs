@@ -14,7 +14,7 @@ internal static class ReportWriter
     internal static void WriteLines(string file, Report report, TextWriter target)
     {
         foreach (Diagnostic found in report.Diagnostics)
-            target.WriteLine(found.Line is null ? $"{file}: {found}" : $"{file}:{found}");
+            target.WriteLine(Printable.Text(found.Line is null ? $"{file}: {found}" : $"{file}:{found}"));
     }
 
     /// <summary>The fields of schemas/report.schema.json into an open JSON object.</summary>

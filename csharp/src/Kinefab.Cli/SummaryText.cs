@@ -17,15 +17,15 @@ internal static class SummaryText
         Line(target, $"meshes     {document.Meshes.Count}, vertices {summary.Vertices}, triangles {summary.Triangles}");
         Line(target, $"joints     {summary.Joints.Count}");
         foreach (JointSummary joint in summary.Joints)
-            target.WriteLine("  " + Describe(joint, document));
+            Entry(target, Describe(joint, document));
         Line(target, $"couplings  {document.Couplings.Count}");
         foreach (Coupling coupling in document.Couplings)
-            target.WriteLine("  " + Describe(coupling, document));
+            Entry(target, Describe(coupling, document));
         if (document.Analysis is Analysis analysis)
             WriteAnalysis(analysis, target);
         Line(target, $"source     {summary.Count(Outcome.Kept)} kept, {summary.Count(Outcome.Approximated)} approximated, {summary.Count(Outcome.Dropped)} dropped");
         foreach (ReportEntry entry in document.Report.Where(entry => entry.Outcome != Outcome.Kept))
-            target.WriteLine("  " + Describe(entry));
+            Entry(target, Describe(entry));
     }
 
     private static void WriteAnalysis(Analysis analysis, TextWriter target)
@@ -55,7 +55,7 @@ internal static class SummaryText
     private static string Describe(Coupling coupling, SceneDocument document)
     {
         string offset = coupling.Offset == 0 ? "" : " + " + Number(coupling.Offset);
-        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {Number(coupling.Ratio)} * {Describe(coupling.A, document)}{offset}";
+        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {coupling.Ratio.ToString("G6", CultureInfo.InvariantCulture)} * {Describe(coupling.A, document)}{offset}";
     }
 
     private static string Describe(JointCoordinate coordinate, SceneDocument document) =>
@@ -70,6 +70,8 @@ internal static class SummaryText
     }
 
     private static string Number(double value) => value.ToString("0.######", CultureInfo.InvariantCulture);
+
+    private static void Entry(TextWriter target, string text) => target.WriteLine("  " + Printable.Text(text));
 
     private static void Line(TextWriter target, FormattableString text) => target.WriteLine(text.ToString(CultureInfo.InvariantCulture));
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
 using Kinefab.Diagnostics;
@@ -52,7 +53,7 @@ internal static class BufferRules
             at.Report(
                 field,
                 DiagnosticCodes.BufferOverrun,
-                ("end", Invariant.Text(accessor.Offset + byteCount)),
+                ("end", ((ulong)accessor.Offset + (ulong)byteCount).ToString(CultureInfo.InvariantCulture)), // beyond a long where the offset is absurd
                 ("length", Invariant.Text(length)));
             return false;
         }

@@ -71,6 +71,51 @@ public class CommandLineTests
         }
     }
 
+    [TestCase("validate", "--strict")]
+    [TestCase("inspect")]
+    public void HumanOutput_ControlCharactersInTheFile_AreEscaped(params string[] arguments)
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "control.kinefab");
+        File.WriteAllText(
+            path,
+            """
+            {"format": "kinefab.scene", "version": "1.0", "\u001b[2Jfield": 1,
+             "gameObjects": [{"id": "a\u001b[31m\nb: valid, 0 errors\u202e", "name": "a", "components": [{"type": "Rigidbody"}, {"type": "FixedJoint"}]}]}
+            """);
+        (_, string data, string findings) = Run([.. arguments, path]);
+        string lines = (data + findings).Replace("\r\n", "\n", StringComparison.Ordinal);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(lines, Does.Contain("\\u001B["));
+            Assert.That(lines.Any(character => character != '\n' && (char.IsControl(character) || character == '\u202e')), Is.False);
+            Assert.That(lines.Split('\n'), Has.None.StartsWith("b: valid"));
+        }
+    }
+
+    [Test]
+    public void Validate_OffsetNearTheLargestInteger_SaysWhereTheValuesWouldEnd()
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "offset.kinefab");
+        string source = File.ReadAllText(Path.Combine(ConformanceCases.Folder, "invalid", "buffer", "overrun.kinefab"));
+        File.WriteAllText(path, System.Text.RegularExpressions.Regex.Replace(source, "\"offset\": *[1-9][0-9]*", "\"offset\": 9223372036854775804"));
+        Assert.That(Run("validate", path).Findings, Does.Contain("BUFFER_OVERRUN").And.Not.Contain("byte -"));
+    }
+
+    [Test]
+    public void Inspect_RatioOfAFineScrew_KeepsItsDigits()
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "screw.kinefab");
+        File.WriteAllText(
+            path,
+            """
+            {"format": "kinefab.scene", "version": "1.0",
+             "gameObjects": [{"id": "Nut", "name": "Nut", "components": [{"type": "Rigidbody"}, {"type": "ConfigurableJoint", "autoConfigureConnectedAnchor": false}]}],
+             "couplings": [{"kind": "screw", "a": {"gameObject": 0, "component": 1, "coordinate": "angularX"},
+                            "b": {"gameObject": 0, "component": 1, "coordinate": "x"}, "ratio": -2.7777777777778e-9}]}
+            """);
+        Assert.That(Run("inspect", path).Data, Does.Contain("Nut.x = -2.77778E-09 * Nut.angularX"));
+    }
+
     [Test]
     public void Inspect_Json_HoldsTheSummary()
     {

@@ -233,7 +233,6 @@ def test_file_name_that_is_not_utf8_is_a_finding(tmp_path, source, output):
         {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "HingeJoint", "connectedBody": 7}]}]},
         {"gameObjects": [3]},
         {"gameObjects": [{"name": "a"}]},
-        {"gameObjects": [{"id": "a", "name": "\ud800"}]},
         {"gameObjects": [{"id": "a", "name": "a", "parent": 7}]},
         {"gameObjects": [], "report": [1]},
     ],
@@ -244,3 +243,22 @@ def test_inspect_of_an_unsound_scene_is_a_finding(tmp_path, content):
     path.write_text(json.dumps({"format": "kinefab.scene", "version": "1.0", **content}), encoding="utf-8")
     done = run("inspect", path)
     assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_inspect_json_of_half_a_surrogate_pair_is_a_finding(tmp_path):
+    """JSON's escapes can hold what no UTF-8 output can."""
+    path = tmp_path / "bad.kinefab"
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a", "name": "\ud800"}]}
+    path.write_text(json.dumps(scene), encoding="utf-8")
+    done = run("inspect", path, "--json")
+    assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_control_characters_of_an_id_do_not_reach_the_terminal(tmp_path):
+    """A name can neither colour the terminal nor forge a line, in findings and in what inspect shows."""
+    scene = lid_scene()
+    part = scene.add_part("a\x1b[31m\nb")
+    scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 0, 1), name="H\x1b[2J", limits=(-999, 999))
+    kinefab.export(scene, tmp_path / "a.kinefab")
+    done = run("inspect", tmp_path / "a.kinefab")
+    assert done.returncode == 0 and "a\\x1b[31m\\nb" in done.stdout and "\x1b" not in done.stdout

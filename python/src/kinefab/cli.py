@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Callable, Iterator, Optional
 import typer
 
 from . import __version__
-from .diagnostics import KinefabError, Report, Severity, report_document
+from .diagnostics import KinefabError, Report, Severity, printable, report_document
 from .options import DEFAULT_DENSITY, Closures, ColliderShape, ExportOptions
 
 if TYPE_CHECKING:
@@ -165,7 +165,7 @@ def _log(report: Report) -> None:
     console = Console(stderr=True, soft_wrap=True, highlight=False)
     for found in report.diagnostics:
         if rank[found.severity] >= least:
-            console.print(Text(str(found), style=style[found.severity]))
+            console.print(Text(printable(str(found)), style=style[found.severity]))
 
 
 def _write_report(path: Path, content: dict[str, object]) -> None:

@@ -64,6 +64,11 @@ class FeatureOutcome:
     where: str = ""
 
 
+def printable(text: str) -> str:
+    """The text as one line that cannot steer a terminal: an id may hold control characters."""
+    return text if text.isprintable() else "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
 class KinefabError(Exception):
     """The data cannot be carried on; holds the diagnostics that say why, and everything found until then."""
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator, Mapping
 
-from .diagnostics import KinefabError, diagnostic
+from .diagnostics import KinefabError, diagnostic, printable
 
 _FREEDOMS = {
     "xMotion": "slide X",
@@ -196,4 +196,4 @@ def render(description: Mapping[str, Any]) -> str:
         for entry in description["report"]
         if entry["outcome"] != "kept"
     ]
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))

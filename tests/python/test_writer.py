@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import threading
 
 import numpy as np
 import pytest
@@ -167,3 +168,23 @@ def test_target_that_is_no_regular_file_stays_what_it_is(tmp_path):
         kinefab.export(lid_scene(), target)
     assert [found.code for found in refused.value.diagnostics] == ["TARGET_UNWRITABLE"]
     assert not target.is_file() and list(tmp_path.iterdir()) == [target]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows cannot lock a folder")
+def test_two_exports_to_one_target_leave_a_whole_pair(tmp_path, monkeypatch):
+    """A second export that comes between the first one's buffer and scene neither takes nor loses a buffer."""
+    target = tmp_path / "box.kinefab"
+    second = threading.Thread(target=lambda: kinefab.export(box_scene(0.7), target))
+    replace = os.replace
+
+    def interrupted(source, destination):
+        if os.fspath(destination) == os.fspath(target) and second.ident is None:
+            second.start()
+            second.join(1.0)  # time enough to do harm; with a lock it waits
+        replace(source, destination)
+
+    monkeypatch.setattr(writer.os, "replace", interrupted)
+    kinefab.export(box_scene(0.4), target)
+    second.join()
+    assert size_in(target) == 0.7
+    assert len(list(tmp_path.iterdir())) == 2

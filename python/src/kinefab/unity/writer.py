@@ -11,7 +11,7 @@ import hashlib
 import json
 import os
 import re
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, BinaryIO, Callable, Iterator
 
@@ -57,14 +57,15 @@ def write_scene(document: Document, target: Path, progress: Progress = lambda fr
     target = Path(target)
     content = dict(document.head)
     buffer_path = None
-    if document.meshes:
-        buffer_path, entry, meshes = _write_buffer(document.meshes, target, progress)
-        content |= {"buffers": [entry], "meshes": meshes}
-    content |= document.tail
-    with _replacing(target) as file:
-        file.write(canonical_json(content).encode("utf-8"))
-    _sync_directory(target.parent)
-    _remove_old_buffers(target, buffer_path)
+    with _one_at_a_time(target.parent):
+        if document.meshes:
+            buffer_path, entry, meshes = _write_buffer(document.meshes, target, progress)
+            content |= {"buffers": [entry], "meshes": meshes}
+        content |= document.tail
+        with _replacing(target) as file:
+            file.write(canonical_json(content).encode("utf-8"))
+        _sync_directory(target.parent)
+        _remove_old_buffers(target, buffer_path)
     return buffer_path
 
 
@@ -143,6 +144,27 @@ def canonical_json(content: dict[str, Any]) -> str:
         else:
             lines.append(f"  {flat(key)}: {flat(value)}")
     return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+@contextmanager
+def _one_at_a_time(folder: Path) -> Iterator[None]:
+    """Wait for other exports into the folder: two to one target would remove each other's buffers.
+
+    The lock is the folder's own, so it leaves no file and ends with its process.  Windows cannot open a folder
+    and some network file systems cannot lock one; there the exports are on their own.
+    """
+    if os.name == "nt":
+        yield
+        return
+    import fcntl
+
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 @contextmanager

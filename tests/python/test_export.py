@@ -223,6 +223,16 @@ def test_askew_freedoms_are_dropped_with_a_report(tmp_path):
     assert [o.code for o in result.report.outcomes] == ["DOF_RECORD_INEXPRESSIBLE"]
 
 
+def test_freedoms_of_a_flexible_assembly_are_dropped_with_a_report(tmp_path):
+    """Its parts move on their own, so its freedoms are nobody's; that is said."""
+    scene = kinefab.Scene()
+    assembly = scene.add_assembly("Loose")
+    scene.add_part("Part", BOX, parent=assembly)
+    scene.dof_records.append(DofRecord(assembly, np.zeros((0, 3)), np.array([[1.0, 0, 0]])))
+    _, result = exported(scene, tmp_path)
+    assert [o.code for o in result.report.outcomes] == ["DOF_RECORD_INEXPRESSIBLE"]
+
+
 def test_screw_is_a_cylindrical_joint_and_a_coupling(tmp_path):
     """A right-handed lead of 3 mm a turn couples x to angularX with -3 mm a turn: the mirror turns the screw."""
     scene = kinefab.Scene()

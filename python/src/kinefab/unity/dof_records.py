@@ -27,7 +27,11 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         node = scene.nodes[record.node]
         feature = f"freedoms of {node.id}"
         group = groups.group_of[record.node]
-        if group is None or groups.is_ground(record.node):
+        if groups.is_ground(record.node) or node.suppressed:
+            continue
+        if group is None:
+            detail = "a flexible assembly is no body of its own"
+            report.dropped(feature, "DOF_RECORD_INEXPRESSIBLE", record.where, node=node.id, detail=detail)
             continue
         if group in held:
             report.kept(feature, record.where)

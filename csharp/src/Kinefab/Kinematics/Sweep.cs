@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -8,7 +9,7 @@ public sealed class Sweep
 {
     private const double FarthestAngle = 360;
 
-    // Coordinates that differ by more than this after the way back, radians or lengths, are another branch.
+    // Poses that differ by more than this after the way back, radians or lengths, are another branch.
     private const double JumpTolerance = 0.02;
 
     private readonly Mechanism _mechanism;
@@ -115,10 +116,12 @@ public sealed class Sweep
             return false;
         }
 
-        for (int i = 0; i < _back.Values.Length; i++)
+        // Poses, not coordinates: single angles of a joint that turns freely about several axes lose their meaning at a half turn.
+        for (int i = 0; i < _back.Poses.Length; i++)
         {
-            double unit = _mechanism.Coordinates[i].IsAngle ? 1 : _mechanism.Length;
-            if (Math.Abs(_back.Values[i] - before.Values[i]) > JumpTolerance * unit)
+            Vector3d shift = _back.Poses[i].Position - before.Poses[i].Position;
+            Vector3d turn = 2 * (_back.Poses[i].Rotation * before.Poses[i].Rotation.Conjugate()).Vector;
+            if (shift.Length > JumpTolerance * _mechanism.Length || turn.Length > JumpTolerance)
             {
                 return false;
             }

@@ -129,6 +129,16 @@ public class ExportedMechanismTests
         Assert.That(driven.Angle("crank") + low.Value, Is.EqualTo(-94.0960437582).Within(1e-6));
     }
 
+    // The minimal closure reads angles that mean nothing at a half turn; the mechanism itself moves on as before.
+    [Test]
+    public void Parallelogram_ExportedAndSweptThroughItsFlatPoses_ReportsNoJump()
+    {
+        var driven = new Exported("M04");
+        SweepResult swept = driven.Sweep("crank", 360, 12);
+        Assert.That(swept.Stop, Is.Null);
+        Assert.That(swept.Jumps, Is.Empty);
+    }
+
     private static ValidScene Load(string path)
     {
         SceneDocument document = SceneFile.Load(path).Document ?? throw new InvalidOperationException(path);
@@ -162,6 +172,8 @@ public class ExportedMechanismTests
         public double Value(string part, Coordinate coordinate) => _state.Coordinate(Find(part, coordinate));
 
         public (RangeLimit Low, RangeLimit High) Range(string part) => new Sweep(_solver).Range(_state, Find(part, Coordinate.Angle));
+
+        public SweepResult Sweep(string part, double to, int steps) => new Sweep(_solver).Run(_state, Find(part, Coordinate.Angle), 0, to, steps);
 
         public Vector3d Position(string part) => Mirror(_state.Pose(Index(part)).Position);
 

@@ -18,7 +18,8 @@ FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 def golden_pairs() -> list[tuple[Path, Path]]:
     """Every bundle that has a golden scene, and where the scene is."""
-    bundles = [*sorted((FIXTURES / "mechanisms").glob("*.bundle.json")), FIXTURES / "lever" / "lever.bundle.json"]
+    folders = ("mechanisms", "lever", "hinge_slider_zup", "hinge_slider_yup")
+    bundles = [bundle for folder in folders for bundle in sorted((FIXTURES / folder).glob("*.bundle.json"))]
     return [(bundle, bundle.with_name(bundle.name.replace(".bundle.json", ".kinefab"))) for bundle in bundles]
 
 

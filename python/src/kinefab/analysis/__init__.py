@@ -1,4 +1,19 @@
-"""From constraints to freedoms, to the joint between any two parts."""
+"""From constraints to freedoms, to the joint between any two parts.
+
+``analyse`` is the whole road, step by step.  Which step stands where:
+
+* What a constraint says: ``constraints`` (every pairing), of ``atoms``, ``distances``, ``tangency``, ``coupled``;
+  geometry brought into the world by ``features``.
+* As numbers: ``equations`` writes a scene's statements through ``rows`` into a ``system``; ``duplicates`` counts
+  what is said twice once.
+* Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``drive`` (to stated coordinates).
+* Freedoms: ``rank``, ``freedom`` (first order, block by ``blocks``), ``motion`` (finite), ``idle``, ``freedoms``
+  (of each part against ground).
+* Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to what Unity
+  can have, with ``middle`` bodies and ``rehanging`` where one joint is not enough.
+* The mechanism: ``bodies`` and ``assembly`` (rigid groups), ``loops``, ``minimal`` closures, ``ranges`` and ``limits``,
+  ``couplings``; ``result`` and ``summary`` tell it.
+"""
 
 from ..options import Closures
 from .analyse import AnalysisOptions, analyse

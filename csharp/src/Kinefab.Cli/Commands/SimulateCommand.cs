@@ -43,6 +43,7 @@ internal static class SimulateCommand
         if (loaded.Scene is null)
             return loaded.ExitCode;
         World world = World.Create(loaded.Scene, kind);
+        ReportWriter.WriteLines(file, world.Findings, Console.Error);
         foreach (string text in drives)
         {
             if (DriveSetting.Apply(world, loaded.Scene, text) is string fault)

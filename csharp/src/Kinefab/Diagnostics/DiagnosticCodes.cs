@@ -248,4 +248,7 @@ public static class DiagnosticCodes
 
     /// <summary>First-order mobility at the exported pose is {stated} in the file and {counted} counted from the joints.</summary>
     public const string MobilityFirstOrderDiffers = "MOBILITY_FIRST_ORDER_DIFFERS";
+
+    /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
+    public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Diagnostics;
 using Kinefab.Dynamics.Exact;
 using Kinefab.Dynamics.Pgs;
 using Kinefab.Numerics;
@@ -17,13 +18,14 @@ public sealed class World
     private readonly ISolver _solver;
     private readonly bool[] _broken;
 
-    internal World(Mechanism mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints)
+    internal World(Mechanism mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
     {
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
         Bodies = bodies;
         Joints = joints;
+        Findings = findings;
     }
 
     /// <summary>Raised after a step for every joint that broke in it.</summary>
@@ -34,6 +36,9 @@ public sealed class World
 
     /// <summary>In the order of their GameObjects and components.</summary>
     public IReadOnlyList<WorldJoint> Joints { get; }
+
+    /// <summary>What of the scene this world's solver does not follow; none is an error.</summary>
+    public Report Findings { get; }
 
     /// <summary>Seconds simulated.</summary>
     public double Time { get; private set; }
@@ -89,14 +94,15 @@ public sealed class World
             throw new ArgumentNullException(nameof(scene));
         }
 
-        var builder = new WorldBuilder(scene);
+        var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new UnitySolver(builder.Mechanism),
             SolverKind.Exact => new ExactSolver(builder.Mechanism),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
-        return new World(builder.Mechanism, chosen, builder.Bodies, builder.Joints);
+        Report findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : Report.Empty;
+        return new World(builder.Mechanism, chosen, builder.Bodies, builder.Joints, findings);
     }
 
     /// <summary>Moves the world forward.</summary>

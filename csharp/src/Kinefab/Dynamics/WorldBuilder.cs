@@ -21,13 +21,21 @@ internal sealed class WorldBuilder
     private readonly List<Document.Joint> _settings = new();
     private readonly List<JointPlace> _places = new();
 
-    public WorldBuilder(ValidScene scene)
+    /// <summary>Bodies and joints of a scene.</summary>
+    /// <param name="scene">What to make them from.</param>
+    /// <param name="locksAsJoints">Frozen positions are held by joints to the world, for a solver that knows no locks.</param>
+    public WorldBuilder(ValidScene scene, bool locksAsJoints)
     {
         _scene = scene;
         _bodyOf = new int[scene.Document.GameObjects.Count];
         bool[] active = Active();
         List<int> objects = MakeBodies(active, out Bodies bodies);
         MakeJoints(active, bodies);
+        if (locksAsJoints)
+        {
+            MakeLocks(bodies);
+        }
+
         Mechanism = new Mechanism(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
         Bodies = new WorldBody[objects.Count];
         for (int i = 0; i < Bodies.Length; i++)
@@ -37,7 +45,7 @@ internal sealed class WorldBuilder
             Bodies[i] = new WorldBody(bodies, i, gameObject, scene.Document.GameObjects[gameObject], body, MassFrame(body));
         }
 
-        Joints = new WorldJoint[_joints.Count];
+        Joints = new WorldJoint[_settings.Count];
         for (int i = 0; i < Joints.Length; i++)
         {
             Joints[i] = _settings[i] switch
@@ -137,6 +145,31 @@ internal sealed class WorldBuilder
             }
         }
     }
+
+    // They stand behind the scene's joints, so that those keep their indices. Actor 0 is the world: its axes do not turn.
+    private void MakeLocks(Bodies bodies)
+    {
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            BodyLocks locks = bodies.Locks[i];
+            if (locks != BodyLocks.None && !bodies.IsKinematic[i])
+            {
+                _joints.Add(new D6Joint
+                {
+                    Body1 = i,
+                    Frame0 = new Pose(bodies.Poses[i].Position, Quaterniond.Identity),
+                    X = Locked(locks, BodyLocks.LinearX),
+                    Y = Locked(locks, BodyLocks.LinearY),
+                    Z = Locked(locks, BodyLocks.LinearZ),
+                    Twist = AxisMotion.Free,
+                    Swing1 = AxisMotion.Free,
+                    Swing2 = AxisMotion.Free,
+                });
+            }
+        }
+    }
+
+    private static AxisMotion Locked(BodyLocks locks, BodyLocks one) => (locks & one) != 0 ? AxisMotion.Locked : AxisMotion.Free;
 
     // An inactive connected body has left the simulation: the joint holds to the world where it stands.
     private Kinefab.Joints.Joint MakeJoint(Document.Joint settings, int gameObject, Bodies bodies)

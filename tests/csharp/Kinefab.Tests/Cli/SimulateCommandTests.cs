@@ -78,6 +78,18 @@ public sealed class SimulateCommandTests
         Assert.That(last[3], Is.EqualTo(world.Bodies[0].Pose.Position.Z));
     }
 
+    [Test]
+    public void Simulate_ExactSolver_MovesTheExportedLeverWithoutDriftOrLossOfEnergy()
+    {
+        string lever = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "lever", "lever.kinefab");
+
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", lever, "--seconds", "0.5", "--solver", "exact");
+
+        Assert.That((exit, findings), Is.EqualTo((0, "")));
+        Assert.That(data, Does.Contain("25 steps of 0.02 s, exact solver").And.Contain("(0 J)"));
+        Assert.That(data, Does.Match(@"Lever/Crank:1 \(Crank:1\): drift [0-9.]+e-1[0-9] m"));
+    }
+
     [TestCase("--seconds", "0")]
     [TestCase("--seconds", "-1")]
     [TestCase("--seconds", "1", "--step", "0")]

@@ -17,7 +17,7 @@ public sealed class ExportedSceneTests
 {
     private const double Dt = 0.002;
 
-    private static readonly SolverKind[] Solvers = [SolverKind.Unity];
+    private static readonly SolverKind[] Solvers = [SolverKind.Unity, SolverKind.Exact];
 
     [Test]
     public void Hinge_PushedBothWays_StopsAtTheCadLimits(

@@ -20,8 +20,8 @@ internal static class SmallScene
     public static readonly Pose ConnectedPose = new(new Vector3d(-0.4, 0.6, 0.5), Quaterniond.AxisAngle(new Vector3d(-2, 1, 2) * (1.0 / 3), 1.9));
 
     /// <summary>A world without gravity. Its first body carries the joint; with a connected body that is the second, kinematic one.</summary>
-    public static World Create(Joint joint, Rigidbody? own = null, bool connected = false) =>
-        World.Create(Validate(Document(joint, own ?? new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 100 }, connected)));
+    public static World Create(Joint joint, Rigidbody? own = null, bool connected = false, SolverKind solver = SolverKind.Unity) =>
+        World.Create(Validate(Document(joint, own ?? new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 100 }, connected)), solver);
 
     public static SceneDocument Document(Joint joint, Rigidbody own, bool connected)
     {

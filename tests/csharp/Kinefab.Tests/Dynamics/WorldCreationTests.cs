@@ -1,4 +1,6 @@
 using System;
+using System.Linq;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
@@ -129,9 +131,9 @@ public sealed class WorldCreationTests
     }
 
     [Test]
-    public void FreezePosition_WorldAxis_DoesNotMove()
+    public void FreezePosition_WorldAxis_DoesNotMove([Values] SolverKind solver)
     {
-        World world = SmallScene.Create(HingeZ, new Rigidbody { Constraints = RigidbodyConstraints.FreezePositionX });
+        World world = SmallScene.Create(HingeZ, new Rigidbody { Constraints = RigidbodyConstraints.FreezePositionX }, solver: solver);
         world.Bodies[0].AddForce(new Vector3d(5, 5, 5));
         world.Bodies[0].AddTorque(new Vector3d(1, 2, 3));
 
@@ -141,9 +143,35 @@ public sealed class WorldCreationTests
     }
 
     [Test]
-    public void FreezeRotation_PrincipalAxis_TakesNoTorque()
+    public void FreezePosition_TwoWorldAxesExact_SlidesAlongTheThirdAndTurnsFreely()
     {
-        World world = SmallScene.Create(new ConfigurableJoint(), new Rigidbody { Constraints = RigidbodyConstraints.FreezeRotationY, AngularDamping = 0, InertiaTensor = new Vector3d(1, 2, 2.5) });
+        var own = new Rigidbody
+        {
+            Mass = 2,
+            AngularDamping = 0,
+            InertiaTensor = new Vector3d(2, 2, 2),
+            Constraints = RigidbodyConstraints.FreezePositionX | RigidbodyConstraints.FreezePositionZ,
+        };
+        World world = SmallScene.Create(new ConfigurableJoint(), own, solver: SolverKind.Exact);
+
+        for (int i = 0; i < 50; i++)
+        {
+            world.Bodies[0].AddForce(new Vector3d(5, 6, 7));
+            world.Bodies[0].AddTorque(new Vector3d(0, 0, 3));
+            world.Step(SmallScene.Dt);
+        }
+
+        // F t^2 / 2m = 6 * 0.25 / 4 along Y; M t / I = 3 * 0.5 / 2 about Z. The joint is the scene's only one.
+        Vector3d way = world.Bodies[0].Pose.Position - SmallScene.OwnPose.Position;
+        Assert.That((way - new Vector3d(0, 0.375, 0)).Length, Is.LessThan(1e-9));
+        Assert.That((world.Bodies[0].AngularVelocity - new Vector3d(0, 0, 0.75)).Length, Is.LessThan(1e-9));
+        Assert.That(world.Joints, Has.Count.EqualTo(1));
+    }
+
+    [Test]
+    public void FreezeRotation_PrincipalAxis_TakesNoTorque([Values] SolverKind solver)
+    {
+        World world = SmallScene.Create(new ConfigurableJoint(), new Rigidbody { Constraints = RigidbodyConstraints.FreezeRotationY, AngularDamping = 0, InertiaTensor = new Vector3d(1, 2, 2.5) }, solver: solver);
         world.Bodies[0].AddTorque(SmallScene.OwnPose.Rotation * new Vector3d(1, 4, 0));
 
         world.Step(0.01);
@@ -177,6 +205,20 @@ public sealed class WorldCreationTests
 
         Assert.That((world.Bodies[0].Pose.Point(com) - SmallScene.OwnPose.Point(com)).Length, Is.LessThan(1e-12));
         Assert.That(SmallScene.Way(world).Length, Is.GreaterThan(0.1));
+    }
+
+    [Test]
+    public void MassScale_ExactSolver_IsNamedAsIgnored()
+    {
+        ConfigurableJoint scaled = Locked(auto: false, massScale: 4);
+
+        World exact = SmallScene.Create(scaled, solver: SolverKind.Exact);
+
+        Diagnostic found = exact.Findings.Diagnostics.Single();
+        Assert.That((found.Code, found.Severity, found.Pointer), Is.EqualTo((DiagnosticCodes.MassScaleIgnored, Severity.Warning, "/gameObjects/0/components/1")));
+        Assert.That(found.Message, Does.Contain("massScale 4"));
+        Assert.That(SmallScene.Create(scaled).Findings.Diagnostics, Is.Empty, "Unity's solver follows it");
+        Assert.That(SmallScene.Create(Locked(auto: false), solver: SolverKind.Exact).Findings.Diagnostics, Is.Empty);
     }
 
     [Test]

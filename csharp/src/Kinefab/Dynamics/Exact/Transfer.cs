@@ -94,7 +94,7 @@ internal static class Transfer<V>
             Put(a, o + BodySlot.L * Lane<V>.Width, Momentum(pose.Rotation, w, bodies.InverseInertias[body]));
             Vector3d gravity = bodies.UseGravity[body] ? mechanism.Gravity : Vector3d.Zero;
             Put(a, o + BodySlot.Acceleration * Lane<V>.Width, gravity + bodies.Forces[body] * bodies.InverseMasses[body]);
-            Put(a, o + BodySlot.Torque * Lane<V>.Width, bodies.Torques[body]);
+            Put(a, o + BodySlot.Torque * Lane<V>.Width, OnTurningAxes(pose.Rotation, bodies.Torques[body], bodies.InverseInertias[body]));
         }
 
         return isMoved;
@@ -141,6 +141,18 @@ internal static class Transfer<V>
     {
         Vector3d inBody = q.InverseRotate(w);
         return q * new Vector3d(Over(inBody.X, inverse.X), Over(inBody.Y, inverse.Y), Over(inBody.Z, inverse.Z));
+    }
+
+    // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
+    private static Vector3d OnTurningAxes(Quaterniond q, Vector3d torque, Vector3d inverse)
+    {
+        if (inverse.X > 0 && inverse.Y > 0 && inverse.Z > 0)
+        {
+            return torque;
+        }
+
+        Vector3d inBody = q.InverseRotate(torque);
+        return q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0);
     }
 
     // An infinite moment does not turn: its momentum is left out.

@@ -155,6 +155,11 @@ def _coordinates(joint: Record, kind: JointKind, word: str, frame: SourceFrame) 
             upper = ends["max"] * unit if enabled["max"] else math.inf
             if lower > upper:
                 record.fault("LIMITS_REVERSED", "min", lower=ends["min"], upper=ends["max"])
+            if unused := [end for end in ("min", "max") if ends[end] is not None and not record.has(f"{end}Enabled")]:
+                record.log.dropped(
+                    f"limits of joint {joint.text('id')}, {name}", "LIMIT_NOT_ENABLED", record.pointer,
+                    ends=" and ".join(unused), flags=" and ".join(f"{end}Enabled" for end in unused),
+                )  # fmt: skip
             if enabled["rest"]:
                 record.log.dropped(
                     f"rest position of joint {joint.text('id')}", "JOINT_REST_DROPPED", record.pointer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import numpy as np
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from source_bundles import FIXTURES, bundle, codes, coordinates, frame, part, read
 
 from kinefab import sources
-from kinefab.diagnostics import Report
+from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import RX, TX, UNLOCKED, JointKind, Motion
 from kinefab.spatial import rotation_about
 
@@ -281,3 +282,17 @@ def test_coupling_of_a_hinge_and_a_slider(tmp_path, sizes, ratio):
     )
     scene, _ = read(values, tmp_path)
     assert scene.couplings[0].ratio == pytest.approx(ratio)
+
+
+@pytest.mark.parametrize(
+    "word, meant",
+    [("prismatic", "slider"), ("hinge", "revolute"), ("Revolut", "revolute"), ("pin-slot", "pin_slot"), ("cam", "none")],
+)
+def test_unknown_joint_type_is_an_error_that_names_the_meant_one(tmp_path, word, meant):
+    """Another program's word, or a slip of the pen, is refused with the type it may stand for."""
+    (tmp_path / "a.bundle.json").write_text(json.dumps(two({"type": word, "frameA": frame((0, 0, 0), Z, X)})))
+    with pytest.raises(KinefabError) as refused:
+        sources.read(tmp_path / "a.bundle.json", Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "JOINT_TYPE_UNKNOWN"
+    assert f"'{word}'. Near matches: {meant}." in found.message

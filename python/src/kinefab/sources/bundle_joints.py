@@ -32,7 +32,7 @@ class Joints:
     """joints: as read.  positions: coordinates at the exported pose, as the joint's frames read them, shape
     (6,).
     turns: what to add to get the coordinate the CAD displays (whole turns), shape (6,).  Both by joint id.
-    inactive: ids of joints left out because they, or a component of theirs, are suppressed or of unknown
+    inactive: ids of joints left out because they, or a component of theirs, are suppressed, or at fault for their
     type.
     """
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Mapping
 
 from ..model import UNLOCKED, JointKind
 from .bundle_bodies import frame_index
 from .bundle_components import Components
 from .joint_frames import freedom_names
-from .record import REQUIRED, Record, Vector
+from .record import REQUIRED, Record, Vector, shown
 from .source_frame import SourceFrame
 
 JOINT = frozenset("id name type a b frameA frameB dof lead flipped suppressed because driver".split())
@@ -28,6 +29,18 @@ TYPES = {
     "universal": JointKind.UNIVERSAL,
     "screw": JointKind.SCREW,
 }
+
+OTHER_WORDS = {
+    "hinge": "revolute",
+    "prismatic": "slider",
+    "fixed": "rigid",
+    "weld": "rigid",
+    "spherical": "ball",
+    "cardan": "universal",
+    "hooke": "universal",
+    "helical": "screw",
+}
+"""What other programs call these types: suggested, never taken, for a word may mean another joint there."""
 
 PARALLEL = 1.0 - 1e-9
 """Cosine from which on two directions span no plane."""
@@ -79,9 +92,8 @@ def read_draft(
     feature = f"joint {name}"
     word = record.text("type")
     if word and word not in TYPES:
-        record.log.dropped(
-            feature, "JOINT_TYPE_UNKNOWN", f"{record.pointer}/type", word=word, known=", ".join(TYPES)
-        )
+        near, known = _near(word), ", ".join(TYPES)
+        record.fault("JOINT_TYPE_UNKNOWN", "type", feature=feature, word=shown(word), near=near, known=known)
         inactive.add(name)
     if word not in TYPES:
         return None
@@ -114,6 +126,13 @@ def read_draft(
         return JointDraft(record, name, kind, a, b, frame_a, frame_b, dof, lead, label, flipped, because)
     inactive.add(name)
     return None
+
+
+def _near(word: str) -> str:
+    """The types that an unknown word may have meant, for a message."""
+    asked = word[:40].lower().replace("-", "_").replace(" ", "_")
+    close = get_close_matches(asked, [*TYPES, *OTHER_WORDS])
+    return ", ".join(dict.fromkeys(OTHER_WORDS.get(match, match) for match in close)) or "none"
 
 
 def _frame(joint: Record, key: str, own: int, kind: JointKind, index: Mapping[str, int]) -> FrameDraft | None:

@@ -13,7 +13,7 @@ import pytest
 
 import kinefab
 from kinefab.diagnostics import schema_directory
-from scenes import lid_scene, read
+from scenes import BOX, lid_scene, read
 
 LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
 HEAVY = ("trimesh", "scipy", "pxr", "numpy", "jsonschema")
@@ -67,6 +67,30 @@ def test_inspect_tells_what_is_in_a_scene(lid):
     assert done.returncode == 0 and done.stderr == ""
     assert "Lid -> world: HingeJoint, turn X 0 .. 110 deg" in done.stdout
     assert "1 kept, 0 approximated, 0 dropped" in done.stdout
+
+
+@pytest.mark.parametrize("limits, told", [((0, 0.4), "0 .. 0.4"), ((-0.1, 0.3), "-0.1 .. 0.3")])
+def test_inspect_tells_a_slide_from_the_pose_in_the_file(tmp_path, limits, told):
+    """Unity's limit has its middle at the connected anchor; a reader wants what the turned drawer can do."""
+    scene = kinefab.Scene()
+    turned = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]
+    case = scene.add_part("Case", BOX, translation=(1, 2, 3), rotation=turned, grounded=True)
+    drawer = scene.add_part("Drawer", BOX, translation=(1, 2.5, 3), rotation=turned, parent=None)
+    scene.add_slider(case, drawer, point=(1, 2.5, 3), axis=(0, 0.6, 0.8), limits=limits)
+    done = run("inspect", kinefab.export(scene, tmp_path / "a.kinefab").path)
+    assert f"Drawer -> world: ConfigurableJoint, slide X {told} m" in done.stdout
+
+
+def test_inspect_shows_children_under_their_parent(tmp_path):
+    """Two assemblies filled in turns: each part stands under its own one."""
+    scene = kinefab.Scene()
+    left, right = scene.add_assembly("Left"), scene.add_assembly("Right")
+    for number, parent in enumerate((left, right, left)):
+        scene.add_part(f"P{number}", BOX, parent=parent, grounded=True)
+    done = run("inspect", kinefab.export(scene, tmp_path / "a.kinefab").path)
+    assert [line.split("  0.")[0].rstrip() for line in done.stdout.splitlines()[:5]] == [
+        "Left", "  P0", "  P2", "Right", "  P1",
+    ]  # fmt: skip
 
 
 def test_inspect_as_json_is_json(lid):

@@ -6,19 +6,9 @@ import hashlib
 import json
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Iterator, Mapping
+from typing import Any, Iterator, Mapping, Sequence
 
 from .diagnostics import KinefabError, diagnostic, printable
-
-_FREEDOMS = {
-    "xMotion": "slide X",
-    "yMotion": "slide Y",
-    "zMotion": "slide Z",
-    "angularXMotion": "turn X",
-    "angularYMotion": "turn Y",
-    "angularZMotion": "turn Z",
-}
-
 
 def read_scene_file(path: Path) -> Mapping[str, Any]:
     """The JSON of a scene.  Raises KinefabError when it is missing, broken or of another major version."""
@@ -97,9 +87,12 @@ def _unsound_as_finding(path: Path) -> Iterator[None]:
 
 def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
     """The scene in brief: objects, joints with their freedoms, couplings, and what became of each feature."""
+    from .unity.freedoms import freedoms_of_component, world_placements
+
     objects = scene.get("gameObjects", [])
+    placements = world_placements(objects)
     joints = []
-    for entry in objects:
+    for index, entry in enumerate(objects):
         for component in entry.get("components", []):
             if component["type"].endswith("Joint"):
                 connected = component.get("connectedBody")
@@ -108,7 +101,7 @@ def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
                         "type": component["type"],
                         "object": entry["id"],
                         "connected": None if connected is None else objects[connected]["id"],
-                        "freedoms": freedoms_of_component(component),
+                        "freedoms": freedoms_of_component(component, index, placements),
                         "closure": component.get("closure", False),
                         "exact": component.get("exact", True),
                         "because": component.get("because", []),
@@ -136,46 +129,26 @@ def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def freedoms_of_component(component: Mapping[str, Any]) -> list[str]:
-    """What a joint component lets its object do, in words: ``turn X -10 .. 80 deg``."""
-    if component["type"] == "FixedJoint":
-        return []
-    if component["type"] == "HingeJoint":
-        if not component.get("useLimits", False):
-            return ["turn X"]
-        limits = component.get("limits", {})
-        return [f"turn X {limits.get('min', 0):g} .. {limits.get('max', 0):g} deg"]
-    found = []
-    for field, words in _FREEDOMS.items():
-        motion = component.get(field, "Free")
-        if motion != "Locked":
-            found.append(words + (_range(component, field) if motion == "Limited" else ""))
-    return found
-
-
-def _range(component: Mapping[str, Any], field: str) -> str:
-    def limit(name: str) -> float:
-        return component.get(name, {}).get("limit", 0)
-
-    if not field.startswith("angular"):
-        return f" +-{limit('linearLimit'):g} m"
-    if field != "angularXMotion":
-        return f" +-{limit('angularYLimit' if 'Y' in field else 'angularZLimit'):g} deg"
-    low, high = limit("lowAngularXLimit"), limit("highAngularXLimit")
-    # X limits hold for the connected body; told here is what the object itself does.
-    ends = (low, high) if component.get("swapBodies", False) else (-high, -low)
-    return f" {ends[0]:g} .. {ends[1]:g} deg"
+def _by_hierarchy(objects: Sequence[Mapping[str, Any]]) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    """Objects with their depth, children under their parent; the file only has parents before children."""
+    children: dict[int | None, list[int]] = {}
+    for index, entry in enumerate(objects):
+        if entry["parent"] is not None and not 0 <= entry["parent"] < index:
+            raise IndexError("a parent stands before its children")
+        children.setdefault(entry["parent"], []).append(index)
+    waiting = [(0, index) for index in reversed(children.get(None, []))]
+    while waiting:
+        depth, index = waiting.pop()
+        yield depth, objects[index]
+        waiting += [(depth + 1, child) for child in reversed(children.get(index, []))]
 
 
 def render(description: Mapping[str, Any]) -> str:
     """The description as text for a terminal or a log."""
     lines = []
-    depth: list[int] = []
-    for entry in description["objects"]:
-        parent = entry["parent"]
-        depth.append(0 if parent is None else depth[parent] + 1)
+    for depth, entry in _by_hierarchy(description["objects"]):
         mass = "" if entry["mass"] is None else f"  {entry['mass']:.4g} kg"
-        lines.append("  " * depth[-1] + entry["name"] + mass)
+        lines.append("  " * depth + entry["name"] + mass)
     lines += ["", f"{len(description['joints'])} joints"]
     for joint in description["joints"]:
         freedoms = ", ".join(joint["freedoms"]) or "fixed"

@@ -32,8 +32,8 @@ class Joints:
     """joints: as read.  positions: coordinates at the exported pose, as the joint's frames read them, shape
     (6,).
     turns: what to add to get the coordinate the CAD displays (whole turns), shape (6,).  Both by joint id.
-    inactive: ids of joints left out because they, or a component of theirs, are suppressed, or at fault for their
-    type.
+    inactive: ids of joints left out because they, or a component of theirs, are suppressed, or because
+    their type is unknown.
     """
 
     joints: list[Joint] = field(default_factory=list)

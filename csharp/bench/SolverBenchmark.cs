@@ -3,6 +3,7 @@ using System.Diagnostics;
 using System.Globalization;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Exact;
+using Kinefab.Dynamics.Pgs;
 using Kinefab.Tests.Dynamics.Exact;
 
 namespace Kinefab.Bench;
@@ -18,6 +19,8 @@ internal static class SolverBenchmark
     {
         Console.WriteLine("| scene | solver | us/step | ns/joint-step | drift m | energy end % (max) |");
         Console.WriteLine("|---|---|---|---|---|---|");
+        Row("fourbar100", "unity", () => SolverScenes.FourBars(100), m => new UnitySolver(m), 100 * 1.7 * 9.81);
+        Row("dpend1000", "unity", () => SolverScenes.DoublePendulums(1000), m => new UnitySolver(m), 1000 * 9.81 * 2);
         foreach (int width in new[] { 1, 4, 8 })
         {
             string name = $"exact, {width} lanes";
@@ -25,16 +28,18 @@ internal static class SolverBenchmark
             Row("dpend1000", name, () => SolverScenes.DoublePendulums(1000), m => new ExactSolver(m, width), 1000 * 9.81 * 2);
         }
 
-        Row("slidercrank", "exact", SolverScenes.SliderCrank, m => new ExactSolver(m), 1);
+        Row("slidercrank", "unity", SolverScenes.SliderCrank, m => new UnitySolver(m), null);
+        Row("slidercrank", "exact", SolverScenes.SliderCrank, m => new ExactSolver(m), null);
         Row("chain64", "exact", () => SolverScenes.Chain(64), m => new ExactSolver(m), 64 * 9.81 * 12.8);
         Row("heavy8", "exact", SolverScenes.Heavy8, m => new ExactSolver(m), 10.7 * 9.81 * 1.6);
-        Row("para", "exact", SolverScenes.Parallelogram, m => new ExactSolver(m), 1);
+        Row("para", "exact", SolverScenes.Parallelogram, m => new ExactSolver(m), null);
         Row("tilt 1e-6", "exact", () => SolverScenes.FourBars(1, 1e-6), m => new ExactSolver(m), 1.7 * 9.81);
         Row("tilt 1e-4", "exact", () => SolverScenes.FourBars(1, 1e-4), m => new ExactSolver(m), 1.7 * 9.81);
         Row("tilt 1e-2", "exact", () => SolverScenes.FourBars(1, 1e-2), m => new ExactSolver(m), 1.7 * 9.81);
     }
 
-    private static void Row(string scene, string name, Func<Mechanism> make, Func<Mechanism, ISolver> solver, double energyScale)
+    /// <param name="energyScale">What 100 % of energy is, J; null where a motor does work and the energy says nothing.</param>
+    private static void Row(string scene, string name, Func<Mechanism> make, Func<Mechanism, ISolver> solver, double? energyScale)
     {
         Mechanism mechanism = make();
         ISolver judged = solver(mechanism);
@@ -44,7 +49,7 @@ internal static class SolverBenchmark
         {
             judged.Step(Dt);
             drift = Math.Max(drift, MechanismMeasures.Drift(mechanism));
-            end = (MechanismMeasures.Energy(mechanism) - start) / energyScale * 100;
+            end = (MechanismMeasures.Energy(mechanism) - start) / (energyScale ?? 1) * 100;
             most = Math.Abs(end) > Math.Abs(most) ? end : most;
         }
 
@@ -69,8 +74,9 @@ internal static class SolverBenchmark
             mean += time / Steps;
         }
 
+        string energy = energyScale is null ? "driven" : string.Format(CultureInfo.InvariantCulture, "{0:F3} ({1:F3})", end, most);
         Console.WriteLine(string.Format(
-            CultureInfo.InvariantCulture, "| {0} | {1} | {2:F1} | {3:F0} | {4:E1} | {5:F3} ({6:F3}) |",
-            scene, name, mean, mean * 1000 / mechanism.Joints.Length, drift, end, most));
+            CultureInfo.InvariantCulture, "| {0} | {1} | {2:F1} | {3:F0} | {4:E1} | {5} |",
+            scene, name, mean, mean * 1000 / mechanism.Joints.Length, drift, energy));
     }
 }

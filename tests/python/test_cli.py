@@ -53,12 +53,37 @@ def test_help_imports_nothing_heavy(arguments):
     assert done.stdout.strip().endswith("[]"), done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("arguments", [["nonsense"], ["export"], ["export", "a.json"], ["export", "a", "-o", "b", "--colliders", "egg"],
-                                       ["export", "a", "-o", "b", "--density", "-3"], ["inspect"]])  # fmt: skip
+@pytest.mark.parametrize("arguments", [["nonsense"], ["export"], ["export", "a.json"], ["export", "a", "-o", "b.kinefab", "--colliders", "egg"],
+                                       ["export", "a", "-o", "b.kinefab", "--density", "-3"], ["inspect"]])  # fmt: skip
 def test_wrong_usage_exits_2(arguments):
     """What the user mistyped is told on stderr, and nothing on stdout."""
     done = run(*arguments)
     assert done.returncode == 2 and done.stderr and not done.stdout
+
+
+@pytest.mark.parametrize(
+    "command, name", [("export", "x.json"), ("export", "x"), ("export", "x.kinefab.bin"), ("draw", "x.png")]
+)
+def test_output_of_another_ending_is_wrong_usage(lid, tmp_path, command, name):
+    """What no program would find by its name is not written: usage error, with the ending that is wanted."""
+    done = run(command, LEVER if command == "export" else lid, "-o", tmp_path / name, TERMINAL_WIDTH="200")
+    assert done.returncode == 2 and not (tmp_path / name).exists()
+    assert {"export": ".kinefab", "draw": ".svg"}[command] in done.stderr
+
+
+@pytest.mark.parametrize("command, defaults", [("export", ("hull", "minimal")), ("analyse", ("minimal",))])
+def test_help_shows_defaults_as_they_are_typed(command, defaults):
+    """A default reads as the word to type, not as a name of the program's inside."""
+    text = run(command, "--help", TERMINAL_WIDTH="200", NO_COLOR="1").stdout
+    assert "ColliderShape" not in text and "Closures" not in text
+    assert all(f"default: {word}" in text or f"default: ({word})" in text for word in defaults)
+
+
+def test_one_of_a_thing_is_told_in_the_singular(lid, tmp_path):
+    """One error, one joint: in the summaries as in the overview."""
+    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab")
+    assert "was not written: 1 error." in done.stderr
+    assert "\n1 joint\n" in run("inspect", lid).stdout
 
 
 def test_inspect_tells_what_is_in_a_scene(lid):

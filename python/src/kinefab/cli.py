@@ -57,13 +57,14 @@ def export(
         False, "--strict", help="Fail where anything would be approximated or dropped."
     ),
     report: Optional[Path] = typer.Option(None, "--report", help="Write every finding to this JSON file."),
-    colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", help="Collider of each body."),
+    colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", show_default="hull", help="Collider of each body."),
     density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
-    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", help="Equations of loop-closing joints to write."),
+    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", show_default="minimal", help="Equations of loop-closing joints to write."),
     solve: bool = typer.Option(False, "--solve", help="Move the parts to the nearest pose that fits the constraints."),
     limits: bool = typer.Option(False, "--limits", help="Search how far joints can move and write it as limits."),
 ) -> None:
     """Export a CAD assembly as a Unity scene."""
+    _demand_ending(output, ".kinefab")
     if not density > 0.0 or density == float("inf"):
         raise typer.BadParameter("the density must be a number above zero", param_hint="--density")
     if os.path.isdir(output):
@@ -86,7 +87,8 @@ def export(
     if report is not None:
         _write_report(report, report_document(found, str(output), not failed))
     if failed:
-        typer.echo(f"{output} was not written: {reasons} {'losses or ' if strict else ''}errors.", err=True)
+        reason = _count(reasons, "loss or error", "losses or errors") if strict else _count(reasons, "error", "errors")
+        typer.echo(f"{output} was not written: {reason}.", err=True)
         raise typer.Exit(1)
     if _verbosity >= 0:
         typer.echo(_summary(result), err=True)
@@ -96,7 +98,7 @@ def export(
 def analyse(
     source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
     as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
-    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", help="Equations of loop-closing joints to keep."),
+    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", show_default="minimal", help="Equations of loop-closing joints to keep."),
     limits: bool = typer.Option(False, "--limits", help="Search how far joints can move."),
 ) -> None:
     """Show what an assembly's constraints leave free, and which joint connects what."""
@@ -140,6 +142,7 @@ def draw(
     output: Path = typer.Option(..., "--output", "-o", help="Picture to write: NAME.svg.", show_default=False),
 ) -> None:
     """Draw a scene: its bodies, its joints and how far they move."""
+    _demand_ending(output, ".svg")
     from .inspection import picture
 
     try:
@@ -152,6 +155,16 @@ def draw(
     except OSError as error:
         typer.echo(f"{output} cannot be written: {error.strerror}", err=True)
         raise typer.Exit(1)
+
+
+def _demand_ending(output: Path, ending: str) -> None:
+    """A file of another name would not be found by the program that reads it (Unity imports by ending)."""
+    if output.suffix != ending:
+        raise typer.BadParameter(f"{output} does not end in {ending}", param_hint="--output")
+
+
+def _count(number: int, word: str, words: str) -> str:
+    return f"{number} {word if number == 1 else words}"
 
 
 def _log(report: Report) -> None:
@@ -184,7 +197,8 @@ def _summary(result: ExportResult) -> str:
     objects = result.document.tail["gameObjects"]
     joints = sum(c["type"].endswith("Joint") for o in objects for c in o.get("components", ()))
     meshes = len(result.document.meshes)
-    return f"{result.path}: {len(objects)} objects, {joints} joints, {meshes} meshes; features: {counts}."
+    parts = _count(len(objects), "object", "objects"), _count(joints, "joint", "joints"), _count(meshes, "mesh", "meshes")
+    return f"{result.path}: {', '.join(parts)}; features: {counts}."
 
 
 @contextmanager

@@ -149,7 +149,8 @@ def render(description: Mapping[str, Any]) -> str:
     for depth, entry in _by_hierarchy(description["objects"]):
         mass = "" if entry["mass"] is None else f"  {entry['mass']:.4g} kg"
         lines.append("  " * depth + entry["name"] + mass)
-    lines += ["", f"{len(description['joints'])} joints"]
+    joints = len(description["joints"])
+    lines += ["", f"{joints} joint{'' if joints == 1 else 's'}"]
     for joint in description["joints"]:
         freedoms = ", ".join(joint["freedoms"]) or "fixed"
         marks = (" closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else " approximated")

@@ -52,6 +52,10 @@ def tube() -> Joint:
     )
 
 
+def ungrounded(source: Scene) -> Scene:
+    return replace(source, nodes=[replace(node, grounded=False) for node in source.nodes])
+
+
 def shifted(source: Scene) -> Scene:
     second = source.constraints[1]
     a, b = second.features
@@ -124,6 +128,7 @@ CASES = {
         ],
     ),
     "MECHANISM_SINGULAR": lambda: scene("M05"),
+    "NOTHING_GROUNDED": lambda: ungrounded(scene("P03")),
     "CLOSURE_ROWS_FREED": lambda: scene("M01"),
     "CLOSURE_KEPT_WHOLE": lambda: scene("M24"),
     "DOF_RECORD_DIFFERS": lambda: replace(parts(mate()), dof_records=[RECORD]),
@@ -148,3 +153,16 @@ def test_finding_is_reported_with_its_message_filled_in(code):
     assert mine and all("{" not in d.message + d.remedy for d in mine)
     errors = {d.code for d in found.report.diagnostics if d.severity == "error"}
     assert errors <= {code}
+
+
+def test_nothing_grounded_is_told_once_and_only_then():
+    """One warning for a whole scene that floats; none where a part stands or hangs on the world, or alone."""
+
+    def told(source):
+        return [d.code for d in analyse(source).report.diagnostics].count("NOTHING_GROUNDED")
+
+    floating = ungrounded(scene("M27"))
+    hung = Joint("hook", JointKind.SPHERICAL, None, 1, Pose(), Pose(), freedoms_of(JointKind.SPHERICAL))
+    loose = Scene(nodes=[Node("a", "a"), Node("b", "b")])
+    sources = (scene("M27"), floating, replace(floating, joints=[hung]), loose)
+    assert [told(source) for source in sources] == [0, 1, 0, 0]

@@ -73,6 +73,8 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         assembly=assembly,
     )
     _report_singular(assembly, report)
+    if analysis.joints and not any(groups.grounded) and all(island.floating for island in analysis.islands):
+        report.add("NOTHING_GROUNDED", count=len(analysis.joints))
     if scene.dof_records:
         check_records(assembly, analysis.freedoms, report)
     _report_outcomes(assembly, analysis, report)

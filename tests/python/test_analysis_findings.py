@@ -56,6 +56,12 @@ def ungrounded(source: Scene) -> Scene:
     return replace(source, nodes=[replace(node, grounded=False) for node in source.nodes])
 
 
+def listed(translations, rotations) -> Scene:
+    """A part on the plane z = 0, whose freedoms the source lists so."""
+    record = DofRecord(1, np.array(translations), np.array(rotations))
+    return replace(parts(mate()), dof_records=[record])
+
+
 def shifted(source: Scene) -> Scene:
     second = source.constraints[1]
     a, b = second.features
@@ -132,6 +138,7 @@ CASES = {
     "CLOSURE_ROWS_FREED": lambda: scene("M01"),
     "CLOSURE_KEPT_WHOLE": lambda: scene("M24"),
     "DOF_RECORD_DIFFERS": lambda: replace(parts(mate()), dof_records=[RECORD]),
+    "DOF_DIRECTION_DIFFERS": lambda: listed([X, Z], [Z]),
     "CONSTRAINT_RANGE_KEPT": lambda: bounded(SLIDE),
     "CONSTRAINT_RANGE_DROPPED": lambda: bounded(BALL),
     "COUPLING_UNPLACED": lambda: parts(joining("gear", C.GEAR, *LINES, value=2.0)),
@@ -166,3 +173,22 @@ def test_nothing_grounded_is_told_once_and_only_then():
     loose = Scene(nodes=[Node("a", "a"), Node("b", "b")])
     sources = (scene("M27"), floating, replace(floating, joints=[hung]), loose)
     assert [told(source) for source in sources] == [0, 1, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "translations, rotations, differ",
+    [
+        ([X, Y], [Z], []),
+        ([0.6 * X + 0.8 * Y, X], [-Z], []),
+        ([X, Y], [Z + 0.005 * X], []),
+        ([X, Y], [X], ["rotation axes", "90"]),
+        ([X, Y + 0.1 * Z], [Z], ["translations", "5.71"]),
+        ([X, X], [Z], ["translations", "90"]),
+    ],
+)
+def test_stated_directions_are_compared_as_spans(translations, rotations, differ):
+    """Any basis of the plane will do; an axis 0.29 degrees off is rounding, atan(0.1) = 5.71 degrees is not."""
+    found = analyse(listed(translations, rotations)).report.diagnostics
+    messages = [d.message for d in found if d.code == "DOF_DIRECTION_DIFFERS"]
+    assert len(messages) == bool(differ)
+    assert all(word in messages[0] for word in differ)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,8 @@ from .rank import rank_of
 from .twists import twist_space
 
 TOO_FEW = 1e-7
+OFF_DIRECTION = math.radians(0.5)
+"""Angle from which a stated direction is another one: far above the rounding of a CAD program's list."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,3 +117,29 @@ def check_records(assembly: Assembly, freedoms: list[NodeFreedom], report: Repor
                 found_t=len(mine.translations),
                 found_r=len(mine.rotations),
             )
+            continue
+        for what, said, found in (
+            ("translations", record.translations, mine.translations),
+            ("rotation axes", record.rotations, mine.rotations),
+        ):
+            if (angle := _angle_between(said, found)) > OFF_DIRECTION:
+                report.add(
+                    "DOF_DIRECTION_DIFFERS", record.where, node=assembly.scene.nodes[record.node].id, what=what,
+                    stated=_directions(said), found=_directions(found), angle=f"{math.degrees(angle):.3g}",
+                )  # fmt: skip
+
+
+def _angle_between(a: Array, b: Array) -> float:
+    """Largest principal angle of two spans, radians; directions as rows, shape (n, 3).
+
+    Bases of a span are many, so spans are compared, and no points: a rotation may be about a momentary pole.
+    """
+    if not len(a):
+        return 0.0
+    u, v = _orthonormal(a.T), _orthonormal(b.T)
+    outside = max(np.linalg.norm(p - q @ (q.T @ p), 2) for p, q in ((u, v), (v, u)))
+    return math.asin(min(1.0, outside))
+
+
+def _directions(rows: Array) -> str:
+    return ", ".join("(" + " ".join(f"{x + 0.0:.4g}" for x in row.round(4)) + ")" for row in rows)

@@ -1,0 +1,24 @@
+"""Every finding that the exporter can make has a test or a conformance case that names it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from kinefab.diagnostics import diagnostic_table
+
+ROOT = Path(__file__).parents[2]
+
+
+def words(folder: Path, *endings: str) -> set[str]:
+    """Everything in capitals in the files of a folder, this file left out."""
+    files = [p for p in folder.rglob("*") if p.is_file() and p.suffix in endings and p != Path(__file__)]
+    text = "\n".join(path.read_text("utf-8", errors="replace") for path in files)
+    return set(re.findall(r"\b[A-Z][A-Z0-9_]+\b", text))
+
+
+def test_every_code_that_python_raises_is_named_in_a_test():
+    """A code that no test names may be reported wrongly, or never."""
+    raised = diagnostic_table().keys() & words(ROOT / "python" / "src", ".py")
+    tested = words(ROOT / "tests" / "python", ".py") | words(ROOT / "tests" / "conformance", ".json")
+    assert sorted(raised - tested) == []

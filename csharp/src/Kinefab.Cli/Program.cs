@@ -11,7 +11,7 @@ internal static class Program
 
     internal static int Main(string[] args)
     {
-        var root = new RootCommand("Validates and inspects Kinefab scenes.")
+        var root = new RootCommand("Validates, inspects, simulates and sweeps Kinefab scenes, and counts their mobility.")
         {
             ValidateCommand.Create(),
             InspectCommand.Create(),

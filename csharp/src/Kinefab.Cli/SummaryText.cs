@@ -30,8 +30,8 @@ internal static class SummaryText
 
     private static void WriteAnalysis(Analysis analysis, TextWriter target)
     {
-        string redundant = analysis.Redundant is int rows ? FormattableString.Invariant($", {rows} redundant rows") : "";
-        Line(target, $"mobility   {analysis.Mobility} in {analysis.Islands.Count} islands{redundant}");
+        string redundant = analysis.Redundant is int rows ? FormattableString.Invariant($", {rows} redundant {(rows == 1 ? "row" : "rows")}") : "";
+        Line(target, $"mobility   {analysis.Mobility} in {Counted.Of(analysis.Islands.Count, "island", "islands")}{redundant}");
     }
 
     private static string Describe(JointSummary summary, SceneDocument document)

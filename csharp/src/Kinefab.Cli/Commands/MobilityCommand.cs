@@ -47,11 +47,11 @@ internal static class MobilityCommand
     private static void Write(ValidScene scene, MobilityReport counted, TextWriter target)
     {
         foreach (BodyMobility body in counted.Bodies)
-            target.WriteLine($"body       {Id(scene, body.GameObject)}: {body.Translations} translations, {body.Rotations} rotations");
+            target.WriteLine($"body       {Id(scene, body.GameObject)}: {Counted.Of(body.Translations, "translation", "translations")}, {Counted.Of(body.Rotations, "rotation", "rotations")}");
         foreach (RedundantRows joint in counted.Joints)
             target.WriteLine($"redundant  {Id(scene, joint.GameObject)} components[{joint.Component}]: {joint.Redundant} of {joint.Rows} rows");
         foreach (IslandMobility island in counted.Islands)
-            target.WriteLine($"island     {Id(scene, island.GameObjects[0])} and {island.GameObjects.Count - 1} more: mobility {island.Mobility}, {island.Redundant} redundant, {island.Loops} loops");
+            target.WriteLine($"island     {Id(scene, island.GameObjects[0])} and {island.GameObjects.Count - 1} more: mobility {island.Mobility}, {island.Redundant} redundant, {Counted.Of(island.Loops, "loop", "loops")}");
         if (counted.Gap < 100)
             target.WriteLine($"unsure     the rank's gap is only {counted.Gap:F0}");
         string firstOrder = counted.FirstOrder == counted.Mobility ? "" : $" ({counted.FirstOrder} at first order)";

@@ -15,20 +15,19 @@ internal static class SimulateCommand
     internal static Command Create()
     {
         Argument<string> file = SceneArguments.File();
-        var seconds = new Option<double>("--seconds") { Description = "How long to simulate.", Required = true };
-        var step = new Option<double?>("--step") { Description = "Time step in seconds; default: the scene's fixedTimestep." };
-        var solver = new Option<SolverKind>("--solver") { Description = "unity: as Unity moves it; exact: as it truly moves.", DefaultValueFactory = _ => SolverKind.Unity };
-        var output = new Option<string?>("--output", "-o") { Description = "Trajectory file, .json or .csv." };
+        Option<double?> seconds = TypedOptions.Positive("--seconds", "How long to simulate.");
+        seconds.Required = true;
+        Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds; default: the scene's fixedTimestep.");
+        Option<SolverKind> solver = TypedOptions.Solver();
+        Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
         {
             Description = "JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres. JOINT is the id or name of its GameObject.",
         };
-        Positive(seconds);
-        Positive(step);
         var command = new Command("simulate", "Run a scene and say what its joints did.") { file, seconds, step, solver, output, drives };
         command.SetAction(parsed => Run(
             parsed.GetRequiredValue(file),
-            parsed.GetRequiredValue(seconds),
+            parsed.GetRequiredValue(seconds)!.Value,
             parsed.GetValue(step),
             parsed.GetValue(solver),
             parsed.GetValue(output),
@@ -85,16 +84,4 @@ internal static class SimulateCommand
             return false;
         }
     }
-
-    private static void Positive(Option<double> option) => option.Validators.Add(result =>
-    {
-        if (!(result.GetValueOrDefault<double>() is > 0 and < double.PositiveInfinity))
-            result.AddError($"{option.Name} must be a positive number.");
-    });
-
-    private static void Positive(Option<double?> option) => option.Validators.Add(result =>
-    {
-        if (!(result.GetValueOrDefault<double?>() is null or (> 0 and < double.PositiveInfinity)))
-            result.AddError($"{option.Name} must be a positive number.");
-    });
 }

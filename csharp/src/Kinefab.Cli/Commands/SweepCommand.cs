@@ -18,18 +18,11 @@ internal static class SweepCommand
     {
         Argument<string> file = SceneArguments.File();
         var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: id or name of the object with the joint.", Required = true };
-        var from = new Option<double?>("--from") { Description = "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn." };
-        var to = new Option<double?>("--to") { Description = "Last value; default: the high end of the range." };
-        var steps = new Option<int>("--steps") { Description = "Number of steps.", DefaultValueFactory = _ => 72 };
-        var output = new Option<string?>("--output", "-o") { Description = "Trajectory file, .json or .csv." };
+        Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
+        Option<double?> to = TypedOptions.Finite("--to", "Last value; default: the high end of the range.");
+        Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: 1_000_000, standard: 72);
+        Option<string?> output = TypedOptions.Trajectory();
         var animation = new Option<bool>("--into-animation") { Description = "Write the sweep into the scene as an animation clip." };
-        steps.Validators.Add(result =>
-        {
-            if (result.GetValueOrDefault<int>() is < 1 or > 1_000_000)
-                result.AddError("--steps must be between 1 and 1000000.");
-        });
-        Finite(from);
-        Finite(to);
         var command = new Command("sweep", "Take a joint through its range; say how far it goes and where it stops.") { file, joint, from, to, steps, output, animation };
         command.SetAction(parsed => Run(
             parsed.GetRequiredValue(file),
@@ -102,14 +95,14 @@ internal static class SweepCommand
             MechanismCoordinate coordinate = mechanism.Coordinates[i];
             double least = result.States.Min(s => s.Coordinate(index));
             double most = result.States.Max(s => s.Coordinate(index));
-            target.WriteLine($"           {Name(mechanism, coordinate.GameObject)}.{coordinate.Coordinate} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
+            target.WriteLine($"           {Name(mechanism, coordinate.GameObject)}.{coordinate.Coordinate.ToJson()} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
         }
     }
 
     private static string End(Mechanism mechanism, RangeLimit limit) => limit.End switch
     {
         RangeEnd.Open => $"{Number(limit.Value)} (open)",
-        RangeEnd.Limit when limit.Limit is ReachedLimit reached => $"{Number(limit.Value)} (limit of {Name(mechanism, reached.GameObject)}.{reached.Coordinate})",
+        RangeEnd.Limit when limit.Limit is ReachedLimit reached => $"{Number(limit.Value)} (limit of {Name(mechanism, reached.GameObject)}.{reached.Coordinate.ToJson()})",
         RangeEnd.Fold => $"{Number(limit.Value)} (dead centre)",
         RangeEnd.Bifurcation => $"{Number(limit.Value)} (branches cross)",
         _ => $"{Number(limit.Value)} (no pose found beyond)",
@@ -118,10 +111,4 @@ internal static class SweepCommand
     private static string Name(Mechanism mechanism, int gameObject) => mechanism.Scene.Document.GameObjects[gameObject].Id;
 
     private static string Number(double value) => Math.Round(value, 9).ToString("0.######", CultureInfo.InvariantCulture);
-
-    private static void Finite(Option<double?> option) => option.Validators.Add(result =>
-    {
-        if (result.GetValueOrDefault<double?>() is double value && !double.IsFinite(value))
-            result.AddError($"{option.Name} must be a finite number.");
-    });
 }

@@ -29,7 +29,7 @@ internal static class ValidateCommand
             ReportWriter.WriteLines(file, loaded.Report, Console.Error);
             int errors = loaded.Report.Count(Severity.Error);
             int warnings = loaded.Report.Count(Severity.Warning);
-            Console.Out.WriteLine($"{file}: {(errors == 0 ? "valid" : "not valid")}, {errors} errors, {warnings} warnings");
+            Console.Out.WriteLine($"{file}: {(errors == 0 ? "valid" : "not valid")}, {Counted.Of(errors, "error", "errors")}, {Counted.Of(warnings, "warning", "warnings")}");
         }
 
         return loaded.ExitCode;

@@ -29,7 +29,7 @@ internal static class CoordinateChoice
     }
 
     private static string Name(Mechanism mechanism, int coordinate) =>
-        $"{WithComponent(Object(mechanism, coordinate).Id, mechanism.Coordinates[coordinate])}.{mechanism.Coordinates[coordinate].Coordinate}";
+        $"{WithComponent(Object(mechanism, coordinate).Id, mechanism.Coordinates[coordinate])}.{mechanism.Coordinates[coordinate].Coordinate.ToJson()}";
 
     private static List<int> Named(Mechanism mechanism, string name)
     {

@@ -37,7 +37,7 @@ internal static class DriveSetting
 
         return joints.Count switch
         {
-            0 => $"no joint stands on an object of this id or name; there are {string.Join(", ", world.Joints.Select(j => j.Id).Distinct())}.",
+            0 => Stranger(world, scene, name, dot) ?? $"no joint stands on an object of this id or name; there are {string.Join(", ", world.Joints.Select(j => j.Id).Distinct())}.",
             1 => Drive(joints[0], coordinate, number, isSpeed),
             _ => $"{joints.Count} joints go by this name; use an id that only one has.",
         };
@@ -49,14 +49,25 @@ internal static class DriveSetting
         return joints.Count > 0 ? joints : world.Joints.Where(j => scene.Document.GameObjects[j.GameObject].Name == name).ToList();
     }
 
+    // JOINT.WORD of a joint that is there: the word is no coordinate.
+    private static string? Stranger(World world, ValidScene scene, string name, int dot)
+    {
+        List<WorldJoint> joints = dot > 0 ? Named(world, scene, name[..dot]) : [];
+        return joints.Count == 0 ? null : $"{name[(dot + 1)..]} is no coordinate; {Moves([.. joints.SelectMany(FreeCoordinates).Distinct()])}.";
+    }
+
+    private static string Moves(Coordinate[] free) => free.Length == 0 ? "the joint moves nowhere" : $"the joint has {Listed(free)}";
+
+    private static string Listed(Coordinate[] free) => string.Join(", ", free.Select(c => c.ToJson()));
+
     private static string? Drive(WorldJoint joint, Coordinate? given, double value, bool isSpeed)
     {
         Coordinate[] free = FreeCoordinates(joint);
         if (given is null && free.Length != 1)
-            return free.Length == 0 ? "the joint moves nowhere." : $"say which coordinate: {string.Join(", ", free)}.";
+            return free.Length == 0 ? "the joint moves nowhere." : $"say which coordinate: {Listed(free)}.";
         Coordinate coordinate = given ?? free[0];
         if (!free.Contains(coordinate))
-            return $"the joint does not move along {coordinate}.";
+            return $"the joint does not move along {coordinate.ToJson()}; {Moves(free)}.";
         if (isSpeed)
             joint.DriveAt(coordinate, value);
         else

@@ -36,7 +36,7 @@ internal sealed class RunSummary
     internal void Write(TextWriter target, SolverKind kind, long steps, double dt)
     {
         double end = world.KineticEnergy + world.PotentialEnergy;
-        target.WriteLine(Text($"{steps} steps of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
+        target.WriteLine(Text($"{steps} {(steps == 1 ? "step" : "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
         target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
         if (world.Overflows > 0)
             target.WriteLine(Text($"the solver could not follow: motion left the range of numbers {world.Overflows} times"));

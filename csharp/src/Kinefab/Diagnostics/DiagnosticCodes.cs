@@ -21,6 +21,9 @@ public static class DiagnosticCodes
     /// <summary>{path} cannot be read: {detail}.</summary>
     public const string SceneUnreadable = "SCENE_UNREADABLE";
 
+    /// <summary>There is no scene file {path}.</summary>
+    public const string SceneNotFound = "SCENE_NOT_FOUND";
+
     /// <summary>The scene has {size} bytes or more; at most {limit} are read.</summary>
     public const string SceneTooLarge = "SCENE_TOO_LARGE";
 

@@ -26,6 +26,10 @@ public static class SceneFile
             if (bytes is null)
                 findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(size)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
         }
+        catch (Exception fault) when (fault is FileNotFoundException or DirectoryNotFoundException)
+        {
+            findings.Add("", DiagnosticCodes.SceneNotFound, ("path", path));
+        }
         catch (Exception fault) when (BoundedFile.IsExpected(fault))
         {
             findings.Add("", DiagnosticCodes.SceneUnreadable, ("path", path), ("detail", fault.Message.TrimEnd('.')));

@@ -32,7 +32,7 @@ public class CommandLineTests
         using (Assert.EnterMultipleScope())
         {
             Assert.That(exit, Is.EqualTo(1));
-            Assert.That(data.TrimEnd(), Does.EndWith("not valid, 1 errors, 0 warnings"));
+            Assert.That(data.TrimEnd(), Does.EndWith("not valid, 1 error, 0 warnings"));
             Assert.That(findings, Does.StartWith(Invalid + ":10:").And.Contains("error HINGE_LIMITS_ORDER /gameObjects/1/components/1/limits: "));
         }
     }
@@ -65,7 +65,7 @@ public class CommandLineTests
         {
             Assert.That(exit, Is.Zero);
             Assert.That(data, Does.Contain("HingeJoint Box/Lid:1 - Box/Base:1: angle -10..80 deg"));
-            Assert.That(data, Does.Contain("mobility   1 in 1 islands"));
+            Assert.That(data, Does.Contain("mobility   1 in 1 island"));
             Assert.That(data, Does.Contain("1 kept, 1 approximated, 1 dropped"));
             Assert.That(data, Does.Contain("dropped joint Cam:1 JOINT_UNKNOWN: No joint expresses it. (box.bundle.json#/joints/3)"));
         }
@@ -148,8 +148,22 @@ public class CommandLineTests
         using (Assert.EnterMultipleScope())
         {
             Assert.That(exit, Is.EqualTo(1));
-            Assert.That(findings, Does.Contain("SCENE_UNREADABLE").And.Not.Contains("   at "));
+            Assert.That(findings, Does.Contain("SCENE_NOT_FOUND: There is no scene file no_such.kinefab").And.Not.Contains("validate").And.Not.Contains("   at "));
         }
+    }
+
+    [Test]
+    public void Help_Root_NamesWhatTheCommandsDo() =>
+        Assert.That(Run("--help").Data, Does.Contain("Validates, inspects, simulates and sweeps"));
+
+    [TestCase("--steps", "1.5", "--steps must be a whole number between 1 and 1000000, not '1.5'.")]
+    [TestCase("--from", "low", "--from must be a finite number, not 'low'.")]
+    [TestCase("-o", "turn.txt", "--output must end in .json or .csv, not '.txt'.")]
+    public void Sweep_WrongValue_Exits2WithARule(string option, string value, string rule)
+    {
+        (int exit, string data, string findings) = Run("sweep", Lever, "--joint", "x", option, value);
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.StartWith(rule));
     }
 
     internal static (int Exit, string Data, string Findings) Run(params string[] arguments)

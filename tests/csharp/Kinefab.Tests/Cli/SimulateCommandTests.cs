@@ -107,6 +107,27 @@ public sealed class SimulateCommandTests
         Assert.That(findings, Is.Not.Empty.And.Not.Contains("   at "));
     }
 
+    [TestCase("--seconds", "abc", "--seconds must be a positive number, not 'abc'.")]
+    [TestCase("--seconds", "NaN", "--seconds must be a positive number, not 'NaN'.")]
+    [TestCase("--solver", "magic", "--solver must be unity or exact, not 'magic'.")]
+    [TestCase("-o", "run", "--output must end in .json or .csv, not ''.")]
+    [TestCase("-o", "run.jsn", "--output must end in .json or .csv, not '.jsn'.")]
+    [TestCase("--drive", "Lid:1.foo=2", "--drive Lid:1.foo=2: foo is no coordinate; the joint has angle.")]
+    [TestCase("--drive", "Carriage:1.angularY=2", "--drive Carriage:1.angularY=2: the joint does not move along angularY; the joint has x.")]
+    public void Simulate_WrongValue_SaysTheRule(string option, string value, string rule)
+    {
+        string[] seconds = option == "--seconds" ? [] : ["--seconds", "1"];
+
+        (int exit, string data, string findings) = CommandLineTests.Run(["simulate", Scene, option, value, .. seconds]);
+
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.StartWith(rule));
+    }
+
+    [Test]
+    public void Help_Solver_IsNamedInTheWordsItTakes() =>
+        Assert.That(CommandLineTests.Run("simulate", "--help").Data, Does.Contain("unity|exact").And.Not.Contains("Unity|").And.Not.Contains("default: Unity"));
+
     [Test]
     public void Simulate_UnwritableTarget_Exits1WithoutATrace()
     {

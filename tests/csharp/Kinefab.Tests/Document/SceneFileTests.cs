@@ -17,7 +17,7 @@ public class SceneFileTests
 
     [Test]
     public void Load_NoSuchFile_IsADiagnostic() =>
-        Assert.That(Codes(SceneFile.Load("/no/such/file.kinefab")), Is.EqualTo([DiagnosticCodes.SceneUnreadable]));
+        Assert.That(Codes(SceneFile.Load("/no/such/file.kinefab")), Is.EqualTo([DiagnosticCodes.SceneNotFound]));
 
     [Test]
     public void Load_AFolder_IsADiagnostic() =>

@@ -111,6 +111,9 @@ public static class DiagnosticCodes
     /// <summary>{number} is not a finite number.</summary>
     public const string NumberNotFinite = "NUMBER_NOT_FINITE";
 
+    /// <summary>{number} is beyond the largest 32-bit float, and Unity computes in those.</summary>
+    public const string NumberBeyondFloat32 = "NUMBER_BEYOND_FLOAT32";
+
     /// <summary>{value} is not {range}.</summary>
     public const string NumberOutOfRange = "NUMBER_OUT_OF_RANGE";
 

@@ -11,7 +11,7 @@ namespace Kinefab.Json;
 /// <summary>Values: each method reads one, or reports why not and gives a stand-in.</summary>
 internal ref partial struct JsonCursor
 {
-    /// <summary>A finite number.</summary>
+    /// <summary>A finite number that a 32-bit float holds, as Unity's are.</summary>
     internal double Number()
     {
         if (reader.TokenType != JsonTokenType.Number)
@@ -20,11 +20,17 @@ internal ref partial struct JsonCursor
             return 0;
         }
 
+        // Short decimals end at 2^53 * 1e22, far below the largest 32-bit float.
         if (ShortDecimal.TryParse(reader.ValueSpan, out double value))
             return value;
         // .NET reads 1e999 as infinity, older runtimes refuse it.
         if (reader.TryGetDouble(out value) && !double.IsInfinity(value))
+        {
+            if (float.IsInfinity((float)value))
+                Report(DiagnosticCodes.NumberBeyondFloat32, ("number", TokenText()));
             return value;
+        }
+
         Report(DiagnosticCodes.NumberNotFinite, ("number", TokenText()));
         return 0;
     }

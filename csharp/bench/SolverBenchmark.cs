@@ -39,9 +39,9 @@ internal static class SolverBenchmark
     }
 
     /// <param name="energyScale">What 100 % of energy is, J; null where a motor does work and the energy says nothing.</param>
-    private static void Row(string scene, string name, Func<Mechanism> make, Func<Mechanism, ISolver> solver, double? energyScale)
+    private static void Row(string scene, string name, Func<MultibodySystem> make, Func<MultibodySystem, ISolver> solver, double? energyScale)
     {
-        Mechanism mechanism = make();
+        MultibodySystem mechanism = make();
         ISolver judged = solver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
         double drift = 0, most = 0, end = 0;

@@ -14,11 +14,11 @@ namespace Kinefab.Dynamics;
 /// </summary>
 public sealed class World
 {
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly ISolver _solver;
     private readonly bool[] _broken;
 
-    internal World(Mechanism mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
+    internal World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
     {
         _mechanism = mechanism;
         _solver = solver;
@@ -97,12 +97,12 @@ public sealed class World
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
         ISolver chosen = solver switch
         {
-            SolverKind.Unity => new UnitySolver(builder.Mechanism),
-            SolverKind.Exact => new ExactSolver(builder.Mechanism),
+            SolverKind.Unity => new UnitySolver(builder.MultibodySystem),
+            SolverKind.Exact => new ExactSolver(builder.MultibodySystem),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
         Report findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : Report.Empty;
-        return new World(builder.Mechanism, chosen, builder.Bodies, builder.Joints, findings);
+        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, findings);
     }
 
     /// <summary>Moves the world forward.</summary>

@@ -36,7 +36,7 @@ internal sealed class WorldBuilder
             MakeLocks(bodies);
         }
 
-        Mechanism = new Mechanism(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
+        MultibodySystem = new MultibodySystem(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
         Bodies = new WorldBody[objects.Count];
         for (int i = 0; i < Bodies.Length; i++)
         {
@@ -50,14 +50,14 @@ internal sealed class WorldBuilder
         {
             Joints[i] = _settings[i] switch
             {
-                HingeJoint hinge => new WorldHingeJoint(Mechanism, i, _places[i], hinge),
-                ConfigurableJoint configurable => new WorldConfigurableJoint(Mechanism, i, _places[i], configurable),
-                _ => new WorldFixedJoint(Mechanism, i, _places[i]),
+                HingeJoint hinge => new WorldHingeJoint(MultibodySystem, i, _places[i], hinge),
+                ConfigurableJoint configurable => new WorldConfigurableJoint(MultibodySystem, i, _places[i], configurable),
+                _ => new WorldFixedJoint(MultibodySystem, i, _places[i]),
             };
         }
     }
 
-    public Mechanism Mechanism { get; }
+    public MultibodySystem MultibodySystem { get; }
 
     public WorldBody[] Bodies { get; }
 

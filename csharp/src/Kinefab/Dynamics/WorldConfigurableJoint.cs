@@ -14,7 +14,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     private readonly double _sign;
     private ConfigurableJoint _settings;
 
-    internal WorldConfigurableJoint(Mechanism mechanism, int index, JointPlace place, ConfigurableJoint settings)
+    internal WorldConfigurableJoint(MultibodySystem mechanism, int index, JointPlace place, ConfigurableJoint settings)
         : base(mechanism, index, place)
     {
         _settings = settings;

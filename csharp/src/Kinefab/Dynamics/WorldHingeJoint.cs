@@ -11,7 +11,7 @@ public sealed class WorldHingeJoint : WorldJoint
     private HingeJoint _settings;
     private double _unwrapped;
 
-    internal WorldHingeJoint(Mechanism mechanism, int index, JointPlace place, HingeJoint settings)
+    internal WorldHingeJoint(MultibodySystem mechanism, int index, JointPlace place, HingeJoint settings)
         : base(mechanism, index, place) => _settings = settings;
 
     /// <summary>Limits, motor, spring, break limits and mass scales. A new value acts from the next step on; the frames stay as created.</summary>
@@ -85,7 +85,7 @@ public sealed class WorldHingeJoint : WorldJoint
         return angle - 2 * Math.PI * Math.Ceiling((angle - Math.PI) / (2 * Math.PI));
     }
 
-    private Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : Mechanism.Bodies.AngularVelocities[body];
+    private Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : MultibodySystem.Bodies.AngularVelocities[body];
 
     private static double Near(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));
 }

@@ -11,9 +11,9 @@ public abstract class WorldJoint
 {
     private protected const double Degrees = 180 / Math.PI;
 
-    private protected WorldJoint(Mechanism mechanism, int index, JointPlace place)
+    private protected WorldJoint(MultibodySystem mechanism, int index, JointPlace place)
     {
-        Mechanism = mechanism;
+        MultibodySystem = mechanism;
         Index = index;
         GameObject = place.GameObject;
         Component = place.Component;
@@ -33,10 +33,10 @@ public abstract class WorldJoint
     public bool IsBroken => Solved.IsBroken;
 
     /// <summary>Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count.</summary>
-    public Vector3d CurrentForce => Mechanism.Reactions[Index].Force;
+    public Vector3d CurrentForce => MultibodySystem.Reactions[Index].Force;
 
     /// <summary>Torque of the constraint on actor 0 about the connected anchor in the last step, N m; drives do not count.</summary>
-    public Vector3d CurrentTorque => Mechanism.Reactions[Index].Torque;
+    public Vector3d CurrentTorque => MultibodySystem.Reactions[Index].Torque;
 
     /// <summary>How far the joint's locked freedoms have come apart.</summary>
     public JointDrift Drift => JointDrift.Of(Solved, Pose0, Pose1);
@@ -44,15 +44,15 @@ public abstract class WorldJoint
     /// <summary>Whether a limit of the joint is reached or passed.</summary>
     public bool IsAtLimit => JointDrift.IsAtLimit(Solved, Pose0, Pose1);
 
-    internal Kinefab.Joints.Joint Solved => Mechanism.Joints[Index];
+    internal Kinefab.Joints.Joint Solved => MultibodySystem.Joints[Index];
 
     internal int Index { get; }
 
-    private protected Mechanism Mechanism { get; }
+    private protected MultibodySystem MultibodySystem { get; }
 
-    private protected Pose Pose0 => Mechanism.Bodies.PoseOf(Solved.Body0);
+    private protected Pose Pose0 => MultibodySystem.Bodies.PoseOf(Solved.Body0);
 
-    private protected Pose Pose1 => Mechanism.Bodies.PoseOf(Solved.Body1);
+    private protected Pose Pose1 => MultibodySystem.Bodies.PoseOf(Solved.Body1);
 
     /// <summary>A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres.</summary>
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
@@ -87,7 +87,7 @@ public abstract class WorldJoint
 /// <summary>A FixedJoint in a <see cref="World"/>.</summary>
 public sealed class WorldFixedJoint : WorldJoint
 {
-    internal WorldFixedJoint(Mechanism mechanism, int index, JointPlace place)
+    internal WorldFixedJoint(MultibodySystem mechanism, int index, JointPlace place)
         : base(mechanism, index, place)
     {
     }

@@ -16,7 +16,7 @@ internal sealed record PhysXComparison(double Position, double Angle, double Ran
 {
     public static PhysXComparison Run(Scenario scenario)
     {
-        Mechanism mechanism = scenario.Build();
+        MultibodySystem mechanism = scenario.Build();
         var solver = new UnitySolver(mechanism);
         double position = 0;
         double angle = 0;
@@ -58,7 +58,7 @@ internal sealed record PhysXComparison(double Position, double Angle, double Ran
     // Unlike Math.Max of a comparison, keeps a NaN.
     private static double Max(double a, double b) => double.IsNaN(b) || b > a ? b : a;
 
-    private static int Whole(Mechanism mechanism)
+    private static int Whole(MultibodySystem mechanism)
     {
         int whole = 0;
         foreach (Kinefab.Joints.Joint joint in mechanism.Joints)

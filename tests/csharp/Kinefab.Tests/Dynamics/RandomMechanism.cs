@@ -8,7 +8,7 @@ namespace Kinefab.Tests.Dynamics;
 /// <summary>Mechanisms without mercy: masses from 1 g to 1 t in one chain, inertias down to 1e-6, any limits and drives, anchors on each other.</summary>
 internal static class RandomMechanism
 {
-    public static Mechanism Make(int seed)
+    public static MultibodySystem Make(int seed)
     {
         var random = new Random(seed);
         var bodies = new BodyDefinition[random.Next(1, 8)];
@@ -46,7 +46,7 @@ internal static class RandomMechanism
             joints[i].Preprocessing = random.Next(4) != 0;
         }
 
-        return new Mechanism(new Bodies(bodies), joints, []);
+        return new MultibodySystem(new Bodies(bodies), joints, []);
     }
 
     /// <summary>1e-4 to 0.1 s.</summary>

@@ -51,15 +51,15 @@ internal sealed class Scenario
     /// <summary>A body's pose at the start.</summary>
     public Pose Start(int body) => FramePose(_spec.GetProperty("bodies")[body]);
 
-    public Mechanism Build()
+    public MultibodySystem Build()
     {
         BodyDefinition[] bodies = _spec.GetProperty("bodies").EnumerateArray().Select(Body).ToArray();
         Joint[] joints = _spec.GetProperty("joints").EnumerateArray().Select(ToJoint).ToArray();
-        return new Mechanism(new Bodies(bodies), joints, []) { Gravity = Vector(_spec, "gravity", new Vector3d(0, -9.81, 0)) };
+        return new MultibodySystem(new Bodies(bodies), joints, []) { Gravity = Vector(_spec, "gravity", new Vector3d(0, -9.81, 0)) };
     }
 
     /// <summary>Sets the kinematic bodies' targets for the end of a step that ends at time t.</summary>
-    public void Drive(Mechanism mechanism, double t)
+    public void Drive(MultibodySystem mechanism, double t)
     {
         int i = 0;
         foreach (JsonElement b in _spec.GetProperty("bodies").EnumerateArray())

@@ -14,7 +14,7 @@ public sealed class UnitySolverTests
     {
         for (int seed = 0; seed < 500; seed++)
         {
-            Mechanism mechanism = RandomMechanism.Make(seed);
+            MultibodySystem mechanism = RandomMechanism.Make(seed);
             var solver = new UnitySolver(mechanism);
             double dt = RandomMechanism.Step(seed);
             for (int step = 0; step < 20; step++)
@@ -31,7 +31,7 @@ public sealed class UnitySolverTests
     public void Step_MotionBeyondNumbers_StopsTheBodyAndCountsIt()
     {
         var bodies = new Bodies([BodyDefinition.Default with { LinearVelocity = new Vector3d(1e300, 0, 0) }]);
-        var mechanism = new Mechanism(bodies, [], []);
+        var mechanism = new MultibodySystem(bodies, [], []);
 
         new UnitySolver(mechanism).Step(0.02);
 
@@ -52,7 +52,7 @@ public sealed class UnitySolverTests
             Frame1 = new Pose(new Vector3d(-0.5, 0, 0), Quaterniond.AxisAngle(Vector3d.UnitY, -1.5707963267948966)),
             BreakForce = i == 1 ? 1 : double.PositiveInfinity,
         })];
-        var mechanism = new Mechanism(new Bodies(bodies), joints, []);
+        var mechanism = new MultibodySystem(new Bodies(bodies), joints, []);
         var solver = new UnitySolver(mechanism);
 
         for (int i = 0; i < 50; i++)

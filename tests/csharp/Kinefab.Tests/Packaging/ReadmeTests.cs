@@ -8,7 +8,6 @@ using Kinefab.Dynamics;
 using Kinefab.Kinematics;
 using Kinefab.Validation;
 using NUnit.Framework;
-using Mechanism = Kinefab.Kinematics.Mechanism;
 
 namespace Kinefab.Tests.Packaging;
 

@@ -17,14 +17,14 @@ internal sealed class ExactSolver : ISolver
     private const double LeastGap = 1e-11;
     private const double GapSpeed = 6e-8;
 
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
-    public ExactSolver(Mechanism mechanism, int maxWidth = int.MaxValue)
+    public ExactSolver(MultibodySystem mechanism, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
         _maxWidth = maxWidth;

@@ -86,7 +86,7 @@ internal sealed class Island
     public bool HasPreparedRows { get; }
 
     /// <summary>The islands of a mechanism's unbroken joints, by the lowest index of their bodies.</summary>
-    public static List<Island> Find(Mechanism mechanism)
+    public static List<Island> Find(MultibodySystem mechanism)
     {
         Joint[] joints = mechanism.Joints;
         Bodies bodies = mechanism.Bodies;

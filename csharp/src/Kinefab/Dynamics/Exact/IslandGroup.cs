@@ -37,7 +37,7 @@ internal abstract class IslandGroup
 internal sealed class IslandGroup<V> : IslandGroup
     where V : struct, ILane<V>
 {
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly Island[] _islands;
     private readonly Batch<V>[] _batches;
     private readonly bool[] _converged = new bool[Lane<V>.Width];
@@ -45,7 +45,7 @@ internal sealed class IslandGroup<V> : IslandGroup
     private readonly Batch<ScalarLane> _spare;
     private readonly Ladder _ladder;
 
-    public IslandGroup(Mechanism mechanism, List<Island> islands)
+    public IslandGroup(MultibodySystem mechanism, List<Island> islands)
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();
@@ -174,12 +174,12 @@ internal sealed class IslandGroup<V> : IslandGroup
 /// <summary>Islands with laws or other prepared rows, one at a time.</summary>
 internal sealed class PreparedIslands : IslandGroup
 {
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly Island[] _islands;
     private readonly Batch<ScalarLane>[] _batches;
     private readonly Ladder[] _ladders;
 
-    public PreparedIslands(Mechanism mechanism, List<Island> islands)
+    public PreparedIslands(MultibodySystem mechanism, List<Island> islands)
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();

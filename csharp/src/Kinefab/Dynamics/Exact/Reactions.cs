@@ -8,7 +8,7 @@ internal static class Reactions<V>
     where V : struct, ILane<V>
 {
     /// <summary>Writes the mechanism's reactions of one lane's joints; true when one broke.</summary>
-    public static bool Report(Batch<V> batch, int lane, Island island, Mechanism mechanism, double dt)
+    public static bool Report(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt)
     {
         bool isBroken = false;
         int w = Lane<V>.Width;

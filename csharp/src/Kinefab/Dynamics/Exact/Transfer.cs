@@ -12,7 +12,7 @@ internal static class Transfer<V>
     private const double Near = 1e-9;
 
     /// <summary>Constants of bodies and joints.</summary>
-    public static void LoadConstants(Batch<V> batch, int lane, Island island, Mechanism mechanism)
+    public static void LoadConstants(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         for (int b = 0; b < island.Bodies.Length; b++)
         {
@@ -47,7 +47,7 @@ internal static class Transfer<V>
     /// <param name="mechanism">Where from.</param>
     /// <param name="dt">Step, s.</param>
     /// <param name="fastest">Largest angular speed of the moving bodies, rad/s.</param>
-    public static bool Load(Batch<V> batch, int lane, Island island, Mechanism mechanism, double dt, out double fastest)
+    public static bool Load(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt, out double fastest)
     {
         fastest = 0;
         bool isMoved = false;
@@ -101,7 +101,7 @@ internal static class Transfer<V>
     }
 
     /// <summary>Poses and velocities back to the world's bodies; forces are used up.</summary>
-    public static void Store(Batch<V> batch, int lane, Island island, Mechanism mechanism)
+    public static void Store(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;

@@ -12,7 +12,7 @@ internal sealed class CouplingRows
 {
     private const int MaxBodies = 4;
 
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly Row[] _rows;
 
     // MaxBodies for each row.
@@ -40,7 +40,7 @@ internal sealed class CouplingRows
         public Vector3d SqrtAngular;
     }
 
-    public CouplingRows(Mechanism mechanism)
+    public CouplingRows(MultibodySystem mechanism)
     {
         _mechanism = mechanism;
         _rows = new Row[mechanism.Couplings.Length];

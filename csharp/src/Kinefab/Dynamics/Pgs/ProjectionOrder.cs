@@ -16,7 +16,7 @@ internal sealed class ProjectionOrder
     private const long HeldByWorld = 1L << 30;
     private const long HeldByKinematic = 1L << 29;
 
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly long[] _ranks;
     private readonly int[] _anchors;
     private readonly bool[] _found;
@@ -25,7 +25,7 @@ internal sealed class ProjectionOrder
     private readonly bool[] _movesBody1;
     private int _count;
 
-    public ProjectionOrder(Mechanism mechanism)
+    public ProjectionOrder(MultibodySystem mechanism)
     {
         _mechanism = mechanism;
         int bodies = mechanism.Bodies.Count;

@@ -15,14 +15,14 @@ internal sealed class SolveOrder
     // Joints of one body beyond this many are swept last, in order.
     private const int MaxPartitions = 64;
 
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly ulong[] _used;
     private readonly int[] _last;
     private readonly int[] _partition;
     private readonly int[] _order;
     private int _count;
 
-    public SolveOrder(Mechanism mechanism)
+    public SolveOrder(MultibodySystem mechanism)
     {
         _mechanism = mechanism;
         _used = new ulong[mechanism.Bodies.Count];

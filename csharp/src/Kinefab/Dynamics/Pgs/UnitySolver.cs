@@ -11,7 +11,7 @@ namespace Kinefab.Dynamics.Pgs;
 /// </summary>
 internal sealed class UnitySolver : ISolver
 {
-    private readonly Mechanism _mechanism;
+    private readonly MultibodySystem _mechanism;
     private readonly Bodies _bodies;
     private readonly SolveOrder _order;
     private readonly ProjectionOrder _projection;
@@ -49,7 +49,7 @@ internal sealed class UnitySolver : ISolver
         public Vector3d Lever;
     }
 
-    public UnitySolver(Mechanism mechanism)
+    public UnitySolver(MultibodySystem mechanism)
     {
         _mechanism = mechanism;
         _bodies = mechanism.Bodies;

@@ -10,21 +10,21 @@ namespace Kinefab.Tests.Dynamics.Exact;
 /// <summary>A mechanism of tests/reference/dynamics: how it is built, driven and read.</summary>
 internal sealed class BenchmarkMechanism
 {
-    public BenchmarkMechanism(string id, MechanismBuilder builder, Func<Mechanism, (string Quantity, double Value)[]> read)
+    public BenchmarkMechanism(string id, MechanismBuilder builder, Func<MultibodySystem, (string Quantity, double Value)[]> read)
     {
         Id = id;
-        Mechanism = builder.Build();
+        MultibodySystem = builder.Build();
         Read = read;
     }
 
     public string Id { get; }
 
-    public Mechanism Mechanism { get; }
+    public MultibodySystem MultibodySystem { get; }
 
-    public Func<Mechanism, (string Quantity, double Value)[]> Read { get; }
+    public Func<MultibodySystem, (string Quantity, double Value)[]> Read { get; }
 
     /// <summary>Called before every step, for forces.</summary>
-    public Action<Mechanism> Drive { get; set; } = _ => { };
+    public Action<MultibodySystem> Drive { get; set; } = _ => { };
 }
 
 /// <summary>Builds the benchmarks at their initial states.</summary>
@@ -214,7 +214,7 @@ internal static class BenchmarkMechanisms
             Drive = m => Turned(m),
         };
 
-        double Turned(Mechanism m)
+        double Turned(MultibodySystem m)
         {
             double angle = Angle(m, shaft);
             turned += Math.IEEERemainder(angle - lastAngle, 2 * Math.PI);
@@ -319,7 +319,7 @@ internal static class BenchmarkMechanisms
             },
         };
 
-        double Turned(Mechanism m)
+        double Turned(MultibodySystem m)
         {
             double now = Angle(m, rotor);
             turned += Math.IEEERemainder(now - lastAngle, 2 * Math.PI);
@@ -364,11 +364,11 @@ internal static class BenchmarkMechanisms
         {
             for (int target = (int)Math.Round(t / dt); done < target; done++)
             {
-                benchmark.Drive(benchmark.Mechanism);
+                benchmark.Drive(benchmark.MultibodySystem);
                 solver.Step(dt);
             }
 
-            foreach ((string quantity, double value) in benchmark.Read(benchmark.Mechanism))
+            foreach ((string quantity, double value) in benchmark.Read(benchmark.MultibodySystem))
             {
                 double deviation = Math.Abs(value - expected[quantity]);
                 most = Math.Max(most, double.IsNaN(deviation) ? double.PositiveInfinity : deviation);
@@ -388,7 +388,7 @@ internal static class BenchmarkMechanisms
     }
 
     // Turn about Z against the world's axes, (-pi, pi].
-    private static double Angle(Mechanism m, int body)
+    private static double Angle(MultibodySystem m, int body)
     {
         Quaterniond q = m.Bodies.Poses[body].Rotation;
         return 2 * Math.Atan2(q.Z, q.W) is var angle && angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle;

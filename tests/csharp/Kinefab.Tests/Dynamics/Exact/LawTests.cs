@@ -13,7 +13,7 @@ internal sealed class LawTests
     private const double Dt = 1.0 / 100;
 
     // A wheel of I = 2 kg m^2 about Z on a hinge whose actor 1 it is: angle and speed are those of the wheel.
-    private static Mechanism Wheel(Action<RevoluteJoint> set, double speed = 0)
+    private static MultibodySystem Wheel(Action<RevoluteJoint> set, double speed = 0)
     {
         var b = new MechanismBuilder { Gravity = Vector3d.Zero };
         int wheel = b.Body(new Vector3d(1, 2, 3), Quaterniond.Identity, 3, new Vector3d(1.1, 1.3, 2));
@@ -27,11 +27,11 @@ internal sealed class LawTests
         return b.Build();
     }
 
-    private static double Speed(Mechanism m) => m.Bodies.AngularVelocities[0].Z;
+    private static double Speed(MultibodySystem m) => m.Bodies.AngularVelocities[0].Z;
 
-    private static double Angle(Mechanism m) => ((RevoluteJoint)m.Joints[0]).Angle(Pose.Identity, m.Bodies.Poses[0]);
+    private static double Angle(MultibodySystem m) => ((RevoluteJoint)m.Joints[0]).Angle(Pose.Identity, m.Bodies.Poses[0]);
 
-    private static void Run(Mechanism m, double seconds, double dt = Dt, Action? before = null)
+    private static void Run(MultibodySystem m, double seconds, double dt = Dt, Action? before = null)
     {
         var solver = new ExactSolver(m);
         int steps = (int)Math.Round(seconds / dt);
@@ -45,7 +45,7 @@ internal sealed class LawTests
     [Test]
     public void Motor_BelowItsSpeed_AcceleratesWithItsTorque()
     {
-        Mechanism m = Wheel(h => Motor(h, 6, 4, false));
+        MultibodySystem m = Wheel(h => Motor(h, 6, 4, false));
         Run(m, 1);
         Assert.That(Speed(m), Is.EqualTo(4.0 / 2 * 1).Within(1e-9));
     }
@@ -53,7 +53,7 @@ internal sealed class LawTests
     [Test]
     public void Motor_AtItsSpeed_HoldsItAgainstATorque()
     {
-        Mechanism m = Wheel(h => Motor(h, 6, 40, false));
+        MultibodySystem m = Wheel(h => Motor(h, 6, 40, false));
         Run(m, 3, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, -10));
         Assert.That(Speed(m), Is.EqualTo(6).Within(1e-8));
     }
@@ -62,7 +62,7 @@ internal sealed class LawTests
     [TestCase(true, 9)]
     public void Motor_AboveItsSpeed_BrakesUnlessFreeSpin(bool freeSpin, double expected)
     {
-        Mechanism m = Wheel(h => Motor(h, 6, 40, freeSpin), 9);
+        MultibodySystem m = Wheel(h => Motor(h, 6, 40, freeSpin), 9);
         Run(m, 1);
         Assert.That(Speed(m), Is.EqualTo(expected).Within(1e-8));
     }
@@ -70,7 +70,7 @@ internal sealed class LawTests
     [Test]
     public void HardLimit_UnderTorque_StopsAndHolds()
     {
-        Mechanism m = Wheel(h => Limits(h, -10, 80, default), 1);
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, default), 1);
         Run(m, 4, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, 0.5));
         Assert.That(Angle(m), Is.EqualTo(80 * Math.PI / 180).Within(1e-8));
         Assert.That(Speed(m), Is.EqualTo(0).Within(1e-8));
@@ -80,7 +80,7 @@ internal sealed class LawTests
     [Test]
     public void HardLimit_OnTheOtherSide_StopsThere()
     {
-        Mechanism m = Wheel(h => Limits(h, -10, 80, default), -1);
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, default), -1);
         Run(m, 1);
         Assert.That(Angle(m), Is.EqualTo(-10 * Math.PI / 180).Within(1e-8));
     }
@@ -88,7 +88,7 @@ internal sealed class LawTests
     [Test]
     public void BouncyLimit_Hit_GivesBackItsShareOfTheSpeed()
     {
-        Mechanism m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Restitution = 0.5, BounceThreshold = 0.2 }), 2);
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Restitution = 0.5, BounceThreshold = 0.2 }), 2);
         Run(m, 1);
         Assert.That(Speed(m), Is.EqualTo(-1).Within(1e-8));
     }
@@ -96,7 +96,7 @@ internal sealed class LawTests
     [Test]
     public void BouncyLimit_BelowTheThreshold_DoesNotBounce()
     {
-        Mechanism m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Restitution = 0.5, BounceThreshold = 3 }), 2);
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Restitution = 0.5, BounceThreshold = 3 }), 2);
         Run(m, 1);
         Assert.That(Speed(m), Is.EqualTo(0).Within(1e-8));
     }
@@ -104,7 +104,7 @@ internal sealed class LawTests
     [Test]
     public void SoftLimit_UnderTorque_GivesByTorqueOverStiffness()
     {
-        Mechanism m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Stiffness = 50, Damping = 20 }), 1);
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, new LimitResponse { Stiffness = 50, Damping = 20 }), 1);
         Run(m, 20, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, 5));
         Assert.That(Angle(m), Is.EqualTo(80 * Math.PI / 180 + 5.0 / 50).Within(1e-7));
     }
@@ -113,7 +113,7 @@ internal sealed class LawTests
     public void HingeSpring_Released_SwingsWithItsPeriod()
     {
         const double k = 8;
-        Mechanism m = Wheel(h =>
+        MultibodySystem m = Wheel(h =>
         {
             h.Spring = new JointDrive { Stiffness = k, ForceLimit = double.PositiveInfinity };
             h.SpringTarget = 0.7;
@@ -125,7 +125,7 @@ internal sealed class LawTests
     [Test]
     public void HingeSpring_WithDamper_RestsAtItsTarget()
     {
-        Mechanism m = Wheel(h =>
+        MultibodySystem m = Wheel(h =>
         {
             h.Spring = new JointDrive { Stiffness = 1e5, Damping = 1e3, ForceLimit = double.PositiveInfinity };
             h.SpringTarget = -0.4;
@@ -137,7 +137,7 @@ internal sealed class LawTests
     [Test]
     public void Damper_Alone_LetsTheSpeedDecayExponentially()
     {
-        Mechanism m = Wheel(h => h.Spring = new JointDrive { Damping = 3, ForceLimit = double.PositiveInfinity }, 2);
+        MultibodySystem m = Wheel(h => h.Spring = new JointDrive { Damping = 3, ForceLimit = double.PositiveInfinity }, 2);
         Run(m, 1, 1e-3);
         Assert.That(Speed(m), Is.EqualTo(2 * Math.Exp(-3.0 / 2)).Within(1e-6));
     }
@@ -146,7 +146,7 @@ internal sealed class LawTests
     [TestCase(50.0)]
     public void AccelerationDrive_AnyMass_SameMotion(double mass)
     {
-        Mechanism m = Slider(j => j.DriveX = new JointDrive { Stiffness = 9, ForceLimit = double.PositiveInfinity, IsAcceleration = true }, mass);
+        MultibodySystem m = Slider(j => j.DriveX = new JointDrive { Stiffness = 9, ForceLimit = double.PositiveInfinity, IsAcceleration = true }, mass);
         ((D6Joint)m.Joints[0]).DrivePose = new Pose(new Vector3d(0.3, 0, 0), Quaterniond.Identity);
         Run(m, 1, 1e-3);
         Assert.That(m.Bodies.Poses[0].Position.X, Is.EqualTo(0.3 - 0.3 * Math.Cos(3)).Within(1e-5));
@@ -155,7 +155,7 @@ internal sealed class LawTests
     [Test]
     public void Drive_ClampedForce_AcceleratesEvenly()
     {
-        Mechanism m = Slider(j => j.DriveX = new JointDrive { Stiffness = 1e6, ForceLimit = 4 }, 2);
+        MultibodySystem m = Slider(j => j.DriveX = new JointDrive { Stiffness = 1e6, ForceLimit = 4 }, 2);
         ((D6Joint)m.Joints[0]).DrivePose = new Pose(new Vector3d(100, 0, 0), Quaterniond.Identity);
         Run(m, 1);
         Assert.That(m.Bodies.LinearVelocities[0].X, Is.EqualTo(2).Within(1e-9));
@@ -164,7 +164,7 @@ internal sealed class LawTests
     [Test]
     public void Drive_UnderGravity_SagsByWeightOverStiffness()
     {
-        Mechanism m = Slider(j => j.DriveX = new JointDrive { Stiffness = 200, Damping = 30, ForceLimit = double.PositiveInfinity }, 2);
+        MultibodySystem m = Slider(j => j.DriveX = new JointDrive { Stiffness = 200, Damping = 30, ForceLimit = double.PositiveInfinity }, 2);
         m.Gravity = new Vector3d(-9.81, 0, 0);
         Run(m, 10);
         Assert.That(m.Bodies.Poses[0].Position.X, Is.EqualTo(-2 * 9.81 / 200).Within(1e-8));
@@ -187,7 +187,7 @@ internal sealed class LawTests
             Joint.World,
             body,
             Pose.Identity);
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         Run(m, 10);
         Assert.That((m.Bodies.Poses[0].Rotation * goal.Conjugate()).Vector.Length, Is.LessThanOrEqualTo(1e-7));
     }
@@ -206,7 +206,7 @@ internal sealed class LawTests
             Swing2 = AxisMotion.Free, LinearLimit = new LinearLimit { Value = 0.25 },
         };
         b.Add(joint, Joint.World, body, Pose.Identity);
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         m.Bodies.LinearVelocities[0] = new Vector3d(1, 0, 0.3);
         Run(m, 20);
         Assert.That((m.Bodies.Poses[0].Position - new Vector3d(0, -0.25, 0)).Length, Is.LessThanOrEqualTo(1e-6));
@@ -227,7 +227,7 @@ internal sealed class LawTests
         });
         var joint = new D6Joint { Swing1 = AxisMotion.Limited, Swing2 = AxisMotion.Limited, SwingLimit = new ConeLimit { Y = 0.6, Z = 0.6 } };
         b.Add(joint, Joint.World, rod, Vector3d.Zero, Vector3d.UnitY);
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         Run(m, 10);
         Vector3d axis = m.Bodies.Poses[0].Rotation * Vector3d.UnitX;
         Assert.That(Math.Acos(axis.Y), Is.EqualTo(0.6).Within(1e-5));
@@ -244,7 +244,7 @@ internal sealed class LawTests
         RevoluteJoint second = b.Hinge(Joint.World, two, Vector3d.UnitX, Vector3d.UnitZ);
         b.Add(new Coupling(
             new JointCoordinate(first, CoordinateAxis.AngularX, 1), new JointCoordinate(second, CoordinateAxis.AngularX, 1), -2, 0));
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         Run(m, 3, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, 1.3));
 
         // Both wheels on the first one's shaft: I = 1 + (-2)^2 3.
@@ -259,7 +259,7 @@ internal sealed class LawTests
         var b = new MechanismBuilder();
         int body = b.Body(Vector3d.Zero, Quaterniond.Identity, 4, new Vector3d(1, 1, 1));
         b.Add(new D6Joint { BreakForce = share * 4 * 9.81 }, Joint.World, body, Pose.Identity);
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         Run(m, 1);
         Assert.That(m.Joints[0].IsBroken, Is.EqualTo(breaks));
         if (!breaks)
@@ -278,7 +278,7 @@ internal sealed class LawTests
         int hand = b.Body(d);
         int bar = b.Bar(Vector3d.Zero, new Vector3d(0, -1, 0), 1);
         b.Hinge(hand, bar, Vector3d.Zero, Vector3d.UnitZ);
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         int step = 0;
         Run(m, 2, Dt, () =>
         {
@@ -289,7 +289,7 @@ internal sealed class LawTests
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
     }
 
-    private static Mechanism Slider(Action<D6Joint> set, double mass)
+    private static MultibodySystem Slider(Action<D6Joint> set, double mass)
     {
         var b = new MechanismBuilder { Gravity = Vector3d.Zero };
         int body = b.Body(Vector3d.Zero, Quaterniond.Identity, mass, new Vector3d(1, 1, 1));

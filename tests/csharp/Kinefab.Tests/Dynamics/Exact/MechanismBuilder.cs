@@ -70,7 +70,7 @@ internal sealed class MechanismBuilder
 
     public void Add(Coupling coupling) => _couplings.Add(coupling);
 
-    public Mechanism Build() => new(new Bodies(_bodies.ToArray()), _joints.ToArray(), _couplings.ToArray()) { Gravity = Gravity };
+    public MultibodySystem Build() => new(new Bodies(_bodies.ToArray()), _joints.ToArray(), _couplings.ToArray()) { Gravity = Gravity };
 
     private Pose Local(int body, Pose frame) => body < 0 ? frame : _bodies[body].Pose.Inverse() * frame;
 }

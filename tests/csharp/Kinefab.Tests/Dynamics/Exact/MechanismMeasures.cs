@@ -9,7 +9,7 @@ namespace Kinefab.Tests.Dynamics.Exact;
 internal static class MechanismMeasures
 {
     /// <summary>Largest distance between the two anchors of a joint without linear freedom, metres.</summary>
-    public static double Drift(Mechanism mechanism)
+    public static double Drift(MultibodySystem mechanism)
     {
         double most = 0;
         foreach (Joint joint in mechanism.Joints)
@@ -31,7 +31,7 @@ internal static class MechanismMeasures
     }
 
     /// <summary>Kinetic and gravitational energy, J.</summary>
-    public static double Energy(Mechanism mechanism)
+    public static double Energy(MultibodySystem mechanism)
     {
         double sum = 0;
         Bodies bodies = mechanism.Bodies;
@@ -53,7 +53,7 @@ internal static class MechanismMeasures
     }
 
     /// <summary>A number that differs when any bit of any pose or velocity does.</summary>
-    public static ulong Bits(Mechanism mechanism)
+    public static ulong Bits(MultibodySystem mechanism)
     {
         ulong hash = 14695981039346656037;
         Bodies bodies = mechanism.Bodies;

@@ -16,7 +16,7 @@ internal sealed class RobustnessTests
         for (int seed = 0; seed < 600; seed++)
         {
             var random = new Random(seed);
-            Mechanism mechanism = RandomScene(random);
+            MultibodySystem mechanism = RandomScene(random);
             var solver = new ExactSolver(mechanism);
             double dt = Math.Pow(10, -4 + 3 * random.NextDouble());
             for (int i = 0; i < 8; i++)
@@ -42,7 +42,7 @@ internal sealed class RobustnessTests
             last = bar;
         }
 
-        Mechanism m = b.Build();
+        MultibodySystem m = b.Build();
         var solver = new ExactSolver(m);
         for (int i = 0; i < 200; i++)
         {
@@ -56,7 +56,7 @@ internal sealed class RobustnessTests
         }
     }
 
-    private static Mechanism RandomScene(Random random)
+    private static MultibodySystem RandomScene(Random random)
     {
         var b = new MechanismBuilder();
         int bodies = random.Next(1, 6);
@@ -134,7 +134,7 @@ internal sealed class RobustnessTests
 
     private static Vector3d Vector(Random random) => new(2 * random.NextDouble() - 1, 2 * random.NextDouble() - 1, 2 * random.NextDouble() - 1);
 
-    private static bool IsFinite(Mechanism m)
+    private static bool IsFinite(MultibodySystem m)
     {
         for (int i = 0; i < m.Bodies.Count; i++)
         {

@@ -17,20 +17,20 @@ internal sealed class SceneTests
     // its symplectic behaviour; a driven mechanism's energy is its motor's.
     private static readonly TestCaseData[] Scenes =
     {
-        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(4)), 0.005).SetArgDisplayNames("fourbar"),
-        new TestCaseData((Func<Mechanism>)(() => SolverScenes.DoublePendulums(4)), 0.005).SetArgDisplayNames("dpend"),
-        new TestCaseData((Func<Mechanism>)(() => SolverScenes.Chain(64)), 0.03).SetArgDisplayNames("chain64"),
-        new TestCaseData((Func<Mechanism>)SolverScenes.SliderCrank, double.PositiveInfinity).SetArgDisplayNames("slidercrank"),
-        new TestCaseData((Func<Mechanism>)SolverScenes.Heavy8, 0.03).SetArgDisplayNames("heavy8"),
-        new TestCaseData((Func<Mechanism>)SolverScenes.Parallelogram, double.PositiveInfinity).SetArgDisplayNames("para"),
-        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(1, 1e-6)), 0.005).SetArgDisplayNames("tilt 1e-6"),
-        new TestCaseData((Func<Mechanism>)(() => SolverScenes.FourBars(1, 1e-4)), 0.01).SetArgDisplayNames("tilt 1e-4"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(4)), 0.005).SetArgDisplayNames("fourbar"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.DoublePendulums(4)), 0.005).SetArgDisplayNames("dpend"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.Chain(64)), 0.03).SetArgDisplayNames("chain64"),
+        new TestCaseData((Func<MultibodySystem>)SolverScenes.SliderCrank, double.PositiveInfinity).SetArgDisplayNames("slidercrank"),
+        new TestCaseData((Func<MultibodySystem>)SolverScenes.Heavy8, 0.03).SetArgDisplayNames("heavy8"),
+        new TestCaseData((Func<MultibodySystem>)SolverScenes.Parallelogram, double.PositiveInfinity).SetArgDisplayNames("para"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(1, 1e-6)), 0.005).SetArgDisplayNames("tilt 1e-6"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(1, 1e-4)), 0.01).SetArgDisplayNames("tilt 1e-4"),
     };
 
     [TestCaseSource(nameof(Scenes))]
-    public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<Mechanism> make, double mostGain)
+    public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<MultibodySystem> make, double mostGain)
     {
-        Mechanism mechanism = make();
+        MultibodySystem mechanism = make();
         var solver = new ExactSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
         double available = Available(mechanism);
@@ -52,7 +52,7 @@ internal sealed class SceneTests
     [Test]
     public void Step_FourBars_KeepsEnergyToAThousandth()
     {
-        Mechanism mechanism = SolverScenes.FourBars(8);
+        MultibodySystem mechanism = SolverScenes.FourBars(8);
         Assert.That(EnergyError(mechanism), Is.EqualTo(0).Within(0.001));
     }
 
@@ -60,14 +60,14 @@ internal sealed class SceneTests
     public void Step_DoublePendulums_LoseLittleEnergy()
     {
         // Released from the horizontal they whip; the steps that the whips cut short cost up to 3 percent in 10 s.
-        Mechanism mechanism = SolverScenes.DoublePendulums(8);
+        MultibodySystem mechanism = SolverScenes.DoublePendulums(8);
         Assert.That(EnergyError(mechanism), Is.InRange(-0.03, 0.0));
     }
 
     [Test]
     public void Step_SliderCrank_HoldsTheMotorsSpeed()
     {
-        Mechanism mechanism = SolverScenes.SliderCrank();
+        MultibodySystem mechanism = SolverScenes.SliderCrank();
         var solver = new ExactSolver(mechanism);
         double worst = 0;
         for (int i = 0; i < Steps; i++)
@@ -85,7 +85,7 @@ internal sealed class SceneTests
     [Test]
     public void Step_Parallelogram_TurnsThroughItsChangePoints()
     {
-        Mechanism mechanism = SolverScenes.Parallelogram();
+        MultibodySystem mechanism = SolverScenes.Parallelogram();
         var solver = new ExactSolver(mechanism);
         double turned = 0;
         Quaterniond last = mechanism.Bodies.Poses[0].Rotation;
@@ -121,8 +121,8 @@ internal sealed class SceneTests
     [Test]
     public void Step_JointsInAnotherOrder_SameMotion()
     {
-        Mechanism one = SolverScenes.FourBars(1);
-        Mechanism other = SolverScenes.FourBars(1);
+        MultibodySystem one = SolverScenes.FourBars(1);
+        MultibodySystem other = SolverScenes.FourBars(1);
         Array.Reverse(other.Joints);
         var solverOne = new ExactSolver(one);
         var solverOther = new ExactSolver(other);
@@ -141,7 +141,7 @@ internal sealed class SceneTests
     [Test]
     public void Step_AfterWarmUp_AllocatesNothing()
     {
-        foreach (Mechanism mechanism in new[] { SolverScenes.FourBars(9), SolverScenes.SliderCrank(), SolverScenes.Chain(16) })
+        foreach (MultibodySystem mechanism in new[] { SolverScenes.FourBars(9), SolverScenes.SliderCrank(), SolverScenes.Chain(16) })
         {
             var solver = new ExactSolver(mechanism);
             for (int i = 0; i < 60; i++)
@@ -159,7 +159,7 @@ internal sealed class SceneTests
         }
     }
 
-    private static double EnergyError(Mechanism mechanism)
+    private static double EnergyError(MultibodySystem mechanism)
     {
         var solver = new ExactSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
@@ -174,7 +174,7 @@ internal sealed class SceneTests
 
     // Weight times the height that the centres of mass could fall if each hung straight down from the first pivot; a
     // crank-rocker's from its start to its lowest.
-    private static double Available(Mechanism mechanism)
+    private static double Available(MultibodySystem mechanism)
     {
         double sum = 0;
         for (int i = 0; i < mechanism.Bodies.Count; i++)
@@ -186,7 +186,7 @@ internal sealed class SceneTests
         return sum;
     }
 
-    private static ulong BitsAfter(Mechanism mechanism, int width)
+    private static ulong BitsAfter(MultibodySystem mechanism, int width)
     {
         var solver = new ExactSolver(mechanism, width);
         for (int i = 0; i < 300; i++)

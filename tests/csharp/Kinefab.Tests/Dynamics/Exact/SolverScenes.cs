@@ -11,7 +11,7 @@ internal static class SolverScenes
     private static readonly Vector3d Z = Vector3d.UnitZ;
 
     /// <summary>Crank-rockers of 1.0 (ground), 0.4, 0.9 and 0.7 m, 1 kg a link, each released at another crank angle.</summary>
-    public static Mechanism FourBars(int count, double tilt = 0)
+    public static MultibodySystem FourBars(int count, double tilt = 0)
     {
         var builder = new MechanismBuilder();
         for (int i = 0; i < count; i++)
@@ -23,7 +23,7 @@ internal static class SolverScenes
     }
 
     /// <summary>Double pendulums of two 1 m, 1 kg bars, released near the horizontal.</summary>
-    public static Mechanism DoublePendulums(int count)
+    public static MultibodySystem DoublePendulums(int count)
     {
         var builder = new MechanismBuilder();
         for (int i = 0; i < count; i++)
@@ -41,7 +41,7 @@ internal static class SolverScenes
     }
 
     /// <summary>Bars of 0.2 m and 1 kg, released horizontal.</summary>
-    public static Mechanism Chain(int links)
+    public static MultibodySystem Chain(int links)
     {
         var builder = new MechanismBuilder();
         int last = Joint.World;
@@ -56,7 +56,7 @@ internal static class SolverScenes
     }
 
     /// <summary>Seven links of 0.1 kg with a payload of 10 kg at the end, released horizontal.</summary>
-    public static Mechanism Heavy8()
+    public static MultibodySystem Heavy8()
     {
         var builder = new MechanismBuilder();
         int last = Joint.World;
@@ -71,7 +71,7 @@ internal static class SolverScenes
     }
 
     /// <summary>Crank 0.3 m, rod 0.8 m, slider on the X axis; the crank's motor holds 2 pi rad/s with up to 1000 N m.</summary>
-    public static Mechanism SliderCrank()
+    public static MultibodySystem SliderCrank()
     {
         var builder = new MechanismBuilder();
         const double angle = 0.5;
@@ -91,7 +91,7 @@ internal static class SolverScenes
     }
 
     /// <summary>A parallelogram of 0.4 m cranks driven through its change points, where the loop is singular.</summary>
-    public static Mechanism Parallelogram()
+    public static MultibodySystem Parallelogram()
     {
         var builder = new MechanismBuilder();
         (RevoluteJoint crank, _) = FourBar(builder, Vector3d.Zero, 1.0, 0.4, 1.0, 0.4, 1.0, 0);

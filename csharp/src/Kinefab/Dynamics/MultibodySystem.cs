@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics;
 
 /// <summary>Bodies, joints and couplings in PhysX's terms: all that a solver needs. The arrays never change length.</summary>
-internal sealed class Mechanism
+internal sealed class MultibodySystem
 {
     public readonly Bodies Bodies;
 
@@ -21,7 +21,7 @@ internal sealed class Mechanism
     /// <summary>Times that a body's motion left the range of numbers and was stopped; counted by the solver.</summary>
     public int Overflows;
 
-    public Mechanism(Bodies bodies, Joint[] joints, Coupling[] couplings)
+    public MultibodySystem(Bodies bodies, Joint[] joints, Coupling[] couplings)
     {
         Bodies = bodies;
         Joints = joints;

@@ -78,7 +78,7 @@ internal sealed class KinematicTree
 
             if (a < 0 != b < 0)
             {
-                queue.Add((isClosure[j], 0, JointFreedoms.Count(JointFreedoms.LockedAxes(joints[j])), j));
+                queue.Add((isClosure[j], 0, FreeTwists.Count(FreeTwists.LockedAxes(joints[j])), j));
             }
         }
 
@@ -142,7 +142,7 @@ internal sealed class KinematicTree
             {
                 if (ChildOf[j] < 0)
                 {
-                    queue.Add((isClosure[j], _depths[body] + 1, JointFreedoms.Count(JointFreedoms.LockedAxes(joints[j])), j));
+                    queue.Add((isClosure[j], _depths[body] + 1, FreeTwists.Count(FreeTwists.LockedAxes(joints[j])), j));
                 }
             }
         }

@@ -17,7 +17,7 @@ internal static class MechanismCoordinates
         for (int j = 0; j < definition.Joints.Count; j++)
         {
             JointDefinition source = definition.Joints[j];
-            int locked = JointFreedoms.LockedAxes(joints[j]);
+            int locked = FreeTwists.LockedAxes(joints[j]);
             for (int axis = 0; axis < 6; axis++)
             {
                 if ((locked & (1 << axis)) != 0)
@@ -44,7 +44,7 @@ internal static class MechanismCoordinates
             {
                 JointDefinition source = definition.Joints[j];
                 bool isMeant = source.GameObject == place.GameObject && source.Component == place.Component;
-                if (isMeant && (JointFreedoms.LockedAxes(joints[j]) & (1 << axis)) != 0)
+                if (isMeant && (FreeTwists.LockedAxes(joints[j]) & (1 << axis)) != 0)
                 {
                     coordinates.Add(Make(source, joints[j], j, axis, isLocked: true));
                 }

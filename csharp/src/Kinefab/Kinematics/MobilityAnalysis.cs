@@ -92,7 +92,7 @@ public static class MobilityAnalysis
         {
             int body = Math.Max(tree.Moving(mechanism.Joints[joint].Body0), tree.Moving(mechanism.Joints[joint].Body1));
             Tally tally = tallies[sets.Find(body)];
-            tally.Rows += 6 - JointFreedoms.Count(JointFreedoms.LockedAxes(mechanism.Joints[joint]));
+            tally.Rows += 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[joint]));
             tally.Loops++;
         }
 
@@ -135,7 +135,7 @@ public static class MobilityAnalysis
         int row = 0;
         foreach (int joint in mechanism.Tree.Closures)
         {
-            int rows = 6 - JointFreedoms.Count(JointFreedoms.LockedAxes(mechanism.Joints[joint]));
+            int rows = 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[joint]));
             for (int i = 0; i < rows; i++)
             {
                 double[] left = (double[])space.Rows.Row(row++).Clone();
@@ -175,7 +175,7 @@ public static class MobilityAnalysis
             if (redundant.TryGetValue(j, out int count))
             {
                 (int gameObject, int component) = mechanism.JointPlaces[j];
-                int rows = 6 - JointFreedoms.Count(JointFreedoms.LockedAxes(mechanism.Joints[j]));
+                int rows = 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[j]));
                 named.Add(new RedundantRows(gameObject, component, rows, count));
             }
         }

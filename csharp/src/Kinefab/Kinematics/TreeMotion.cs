@@ -35,7 +35,7 @@ internal sealed class TreeMotion
         _locked = new int[n];
         foreach (int body in _tree.Order)
         {
-            _locked[body] = JointFreedoms.LockedAxes(JointOf(body));
+            _locked[body] = FreeTwists.LockedAxes(JointOf(body));
         }
 
         _axes = new Vector3d[freedoms];
@@ -189,7 +189,7 @@ internal sealed class TreeMotion
         int first = _firsts[body];
         Pose pose0 = joint is null ? Pose.Identity : Mechanism.PoseOf(joint.Body0, poses);
         Pose pose1 = joint is null ? poses[body] : Mechanism.PoseOf(joint.Body1, poses);
-        int translations = JointFreedoms.Directions(joint, _locked[body], pose0, pose1, _axes, first, out Vector3d anchor);
+        int translations = FreeTwists.Directions(joint, _locked[body], pose0, pose1, _axes, first, out Vector3d anchor);
         _anchors[body] = anchor;
         _translations[body] = translations;
         Vector3d lever = (anchor - _mechanism.Origin) * (1 / _mechanism.Length);

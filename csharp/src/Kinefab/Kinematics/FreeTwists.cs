@@ -7,7 +7,7 @@ namespace Kinefab.Kinematics;
 /// What a joint leaves free between its two bodies: up to six twists of the child against its parent, such that a motion
 /// along them is finite, not only infinitesimal, wherever the free motions form a group.
 /// </summary>
-internal static class JointFreedoms
+internal static class FreeTwists
 {
     /// <summary>Locked axes of a joint, bit i for <see cref="CoordinateAxis"/> i; 0 for no joint.</summary>
     public static int LockedAxes(Joint? joint) => joint switch

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from derivatives import check_derivative
 from hypothesis import given, settings
 from mechanism_cases import table
 from strategies import random_pose, seeds
@@ -246,28 +247,6 @@ def test_coupled_rows_have_the_right_derivative_too(seed):
     check_derivative(scene, rng)
 
 
-def check_derivative(scene, rng):
-    system = equations_of(scene, Report()).system
-    system.length[:] = 0.7
-    system.row_length[:] = 0.3
-    bodies = np.arange(1, system.bodies)
-    state = system.moved(system.start(), bodies, 0.05 * rng.standard_normal((len(bodies), 6)))
-    _, block_a, block_b = system.linearise(state)
-    jacobian = np.zeros((system.rows, system.bodies, 6))
-    np.add.at(jacobian, (system.row, system.body_a), block_a)
-    np.add.at(jacobian, (system.row, system.body_b), block_b)
-    step = 1e-6
-    for body in bodies:
-        for i in range(6):
-            twist = np.zeros((1, 6))
-            twist[0, i] = step
-            one = np.array([body])
-            difference = system.residual(system.moved(state, one, twist)) - system.residual(
-                system.moved(state, one, -twist)
-            )
-            assert np.abs(difference / (2 * step) - jacobian[:, body, i]).max() < 1e-7
-
-
 def test_one_vendors_distance_of_lines_is_three_rows_and_anothers_one():
     """The reading of a line-line distance decides between skew and parallel lines."""
     rng = np.random.default_rng(5)
@@ -305,39 +284,3 @@ def test_angle_zero_between_axes_needs_a_reference_or_a_common_axis():
         third=geometry(F.LINE, f),
     )
     assert equations_of(with_vector, Report()).system.rows == 1
-
-
-def mirrored_planes(first, second, tilt=0.0):
-    """Three parts: a middle plane on the ground and one plane on each of two parts, symmetric but for ``tilt``."""
-    middle = Pose(np.eye(3), np.array([0.1, 0.2, 0.3]))
-    a = middle @ Pose(rotation_about(np.array([0.0, 1.0, 0.0]), 0.4), np.array([0.2, 0.1, 0.5]))
-    flip = np.diag([1.0, 1.0, -1.0])
-    normal = flip @ a.rotation[:, 2]
-    point = middle.translation + flip @ (a.translation - middle.translation)
-    nodes = [
-        Node("base", "base", grounded=True),
-        Node("a", "a", pose=first),
-        Node("b", "b", pose=second),
-    ]
-    features = (
-        Feature(
-            1, F.PLANE, first.inverse().point(a.translation), first.inverse().direction(a.rotation[:, 2])
-        ),
-        Feature(2, F.PLANE, second.inverse().point(point), second.inverse().direction(normal)),
-        Feature(0, F.PLANE, middle.translation, middle.rotation[:, 2]),
-    )
-    return Scene(nodes=nodes, constraints=[Constraint("mirror", C.SYMMETRY, features)])
-
-
-@settings(max_examples=10, deadline=None)
-@given(seeds)
-def test_symmetric_planes_are_three_equations_between_three_parts(seed):
-    """Satisfied by a mirror image, with the right derivative away from it; nine freedoms of twelve stay."""
-    rng = np.random.default_rng(seed)
-    scene = mirrored_planes(random_pose(rng), random_pose(rng))
-    found = analyse(scene)
-    assert (found.rows, found.rank, found.mobility) == (3, 3, 9) and found.gaps == []
-    assert [o.code for o in found.report.outcomes] == [
-        "RELATION_DROPPED"
-    ]  # no Unity joint joins three bodies
-    check_derivative(scene, rng)

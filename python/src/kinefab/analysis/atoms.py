@@ -30,9 +30,10 @@ class Atom(IntEnum):
     PLD = 4  # distance of p_b from the line (p_a, a) = d > 0
     LLD = 5  # signed distance of the skew lines (p_a, a), (p_b, b) = d
     CPT = 6  # circle (p_b, axis b, radius |k|) touches the plane (p_a, a) from the side of sign(d)
+    MOM = 7  # moment of the line (p_b, b) about the axis (p_a, a) = d
 
 
-LENGTHS = (Atom.PIP, Atom.DIST, Atom.PLD, Atom.LLD, Atom.CPT)
+LENGTHS = (Atom.PIP, Atom.DIST, Atom.PLD, Atom.LLD, Atom.CPT, Atom.MOM)
 """Atoms whose residual is a length; the others' is an angle or its cosine."""
 
 
@@ -105,6 +106,13 @@ def _circle_on_plane(p_a, a, k, p_b, b, d):
     return _dot(n, p_b - p_a) - radius * span, n, p_b - u * radius[..., None], np.zeros_like(n)
 
 
+def _line_moment(p_a, a, k, p_b, b, d):
+    # C = a.((p_b - p_a) x b) - d, the Pluecker moment of B's line, whichever of its points p_b is
+    # J = [b x a, (p_b-o) x (b x a) + b x (a x (p_b - p_a))]
+    offset = p_b - p_a
+    return _dot(a, cross(offset, b)) - d, cross(b, a), p_b, cross(b, cross(a, offset))
+
+
 _KERNELS = {
     Atom.PIP: _pip,
     Atom.DOT: _dot_product,
@@ -113,6 +121,7 @@ _KERNELS = {
     Atom.PLD: _line_distance,
     Atom.LLD: _skew_distance,
     Atom.CPT: _circle_on_plane,
+    Atom.MOM: _line_moment,
 }
 
 

@@ -254,12 +254,9 @@ def _universal(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context)
 
 
 def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, context: Context) -> None:
-    """b is the mirror image of a in the plane: H = I - 2 n n', n fixed on the plane's body.
-
-    Lines have no such equations: their offset ties three bodies at once.
-    """
+    """b is the mirror image of a in the plane: H = I - 2 n n', n fixed on the plane's body."""
     kinds = {plain_family(a), plain_family(b)}
-    if plane.kind is not FeatureKind.PLANE or kinds not in ({"point"}, {"plane"}):
+    if plane.kind is not FeatureKind.PLANE or len(kinds) != 1:
         raise UnknownPairing
 
     def image(direction: Array) -> Array:
@@ -278,6 +275,24 @@ def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, conte
         row = rows.row(False)
         rows.atom(row, Atom.DOT, plane.body, b.body, dir_a=e, p_b=b.p, dir_b=b.z)
         rows.atom(row, Atom.DOT, plane.body, a.body, dir_a=image(e), p_b=a.p, dir_b=a.z, weight=-sense)
+    if kinds == {"line"}:
+        for e in (b.x, b.y):
+            # C = e.m_b + sense (H e).m_a, m = (p - p_0) x z: a moment is an axial vector, its image is -H m.
+            # Moments do not change with the point that names the line; the third, along z, is zero anyway.
+            row = rows.row(True)
+            rows.atom(row, Atom.MOM, plane.body, b.body, p_a=plane.p, dir_a=e, p_b=b.p, dir_b=b.z)
+            rows.atom(
+                row,
+                Atom.MOM,
+                plane.body,
+                a.body,
+                p_a=plane.p,
+                dir_a=image(e),
+                p_b=a.p,
+                dir_b=a.z,
+                weight=sense,
+            )
+        return
     # C = z_b.(p_0 - p_b) - sense z_a.(p_0 - p_a): the plane's point is as far from the one as from the other
     row = rows.row(True)
     rows.atom(row, Atom.PIP, b.body, plane.body, p_a=b.p, dir_a=b.z, p_b=plane.p)

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import csv
+import json
+import tempfile
 from functools import lru_cache
 from pathlib import Path
+
+import numpy as np
 
 from kinefab.analysis import Analysis, analyse
 from kinefab.diagnostics import Report
@@ -21,6 +25,39 @@ def scene(id: str) -> Scene:
     """The scene of a fixture, read from its bundle.  Treat as read-only."""
     report = Report()
     found = read(ROOT / "fixtures" / FOLDERS[id[0]] / f"{id}.bundle.json", report)
+    report.raise_for_errors()
+    return found
+
+
+def scene_written(id: str, up: str, mirrored: bool = False) -> Scene:
+    """The fixture as a program with another up axis writes it and the reader brings it back.
+
+    mirrored: the parts but ground's have left-handed axes, as mirrored parts do in a CAD assembly.
+    """
+    # columns: where the fixture's own X, Y (up) and Z (forward) lie in the other program's axes
+    to = {
+        "X": np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+        "Y": np.eye(3),
+        "Z": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
+    }[up]
+    path = ROOT / "fixtures" / FOLDERS[id[0]] / f"{id}.bundle.json"
+    bundle = json.loads(path.read_text("utf-8"))
+    bundle["meta"]["up"] = up
+    for component in bundle["components"]:
+        pose = component["pose"]
+        own = to @ np.column_stack([pose[k] for k in "xyz"]) @ to.T
+        if mirrored and not component.get("grounded"):
+            own[:, 0] *= -1.0
+        component["pose"] = {"o": (to @ pose["o"]).tolist()}
+        component["pose"] |= {k: own[:, i].tolist() for i, k in enumerate("xyz")}
+    for constraint in bundle["constraints"]:
+        for feature in (constraint[side] for side in "abc" if side in constraint):
+            feature.update({k: (to @ feature[k]).tolist() for k in "pdx" if k in feature})
+    with tempfile.TemporaryDirectory() as folder:
+        written = Path(folder) / path.name
+        written.write_text(json.dumps(bundle), "utf-8")
+        report = Report()
+        found = read(written, report)
     report.raise_for_errors()
     return found
 

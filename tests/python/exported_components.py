@@ -1,0 +1,47 @@
+"""The Unity components of an analysed scene, and what the source's constraints say of moved bodies."""
+
+from __future__ import annotations
+
+import numpy as np
+import unity_d6
+
+from kinefab.diagnostics import Report
+from kinefab.rigid import rigid_groups
+from kinefab.unity.joints import map_joint
+
+
+def components(found):
+    """(node of the own body, node of the connected one or None, component) of every joint."""
+    scene = found.scene()
+    groups = rigid_groups(scene, found.fixed)
+    carrier = lambda node: groups.members[groups.group_of[node]][0]  # noqa: E731
+    mapped = [map_joint(j, scene, groups, carrier, Report()) for j in found.joints]
+    return scene, [(m.owner, m.connected, m.component) for m in mapped]
+
+
+def unity_pose(scene, node):
+    return (
+        (np.eye(3), np.zeros(3))
+        if node is None
+        else unity_d6.mirrored(scene.pose(node).rotation, scene.pose(node).translation)
+    )
+
+
+def constraint_residual(found, moved):
+    """Largest residual of the constraints with the nodes displaced so (right-handed), fraction of the size."""
+    system, body = found.assembly.closing.system, found.assembly.closing.body
+    system.length = np.full(system.bodies, found.assembly.equations.length)
+    system.row_length = np.full(system.rows, found.assembly.equations.length)
+    return float(np.abs(system.residual(state_of(found, system, body, moved))).max(initial=0.0))
+
+
+def state_of(found, system, body, moved):
+    state, nodes = system.start(), len(found.source.nodes)
+    named = [n for n in moved if n is not None and n < nodes]  # a middle body has no constraints of the source
+    for node in range(nodes):
+        own = next((n for n in named if found.groups.together(n, node)), None)
+        if own is not None and body[node + 1]:
+            i = int(body[node + 1])
+            state.rotation[i], t = moved[own]
+            state.shift[i] = t + state.rotation[i] @ system.center[i] - system.center[i]
+    return state

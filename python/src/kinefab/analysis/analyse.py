@@ -39,7 +39,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
     report = Report()
     assembly = assemble(scene, report)
     found = links_of(assembly, report)
-    tree = spanning_tree(found)
+    tree = spanning_tree(assembly, found)
     closed = _closed_scene(assembly, found)
     links = tree.links
     if options.closures is Closures.MINIMAL:

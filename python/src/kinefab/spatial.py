@@ -121,8 +121,3 @@ def matrix_from_quaternion(q: Array) -> Array:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def angle_about(axis: Array, start: Array, end: Array) -> float:
-    """Signed angle from ``start`` to ``end`` about ``axis`` (unit vector), radians, right-hand rule."""
-    return float(np.arctan2(axis @ np.cross(start, end), start @ end - (axis @ start) * (axis @ end)))

@@ -57,7 +57,7 @@ def freedoms_of_component(
     for field, words in TURNS.items():
         motion = component.get(field, "Free")
         if motion != "Locked":
-            found.append(_words(words, _turn(component, field) if motion == "Limited" else None, "deg"))
+            found.append(_words(words, angle_range(component, field) if motion == "Limited" else None, "deg"))
     return found
 
 
@@ -65,7 +65,11 @@ def _limit(component: Mapping[str, Any], name: str) -> float:
     return component.get(name, {}).get("limit", 0)
 
 
-def _turn(component: Mapping[str, Any], field: str) -> tuple[float, float]:
+def angle_range(component: Mapping[str, Any], field: str) -> tuple[float, float]:
+    """Range of a Limited angle of a ConfigurableJoint, degrees, of the object itself.
+
+    field: ``angularXMotion``, ``angularYMotion`` or ``angularZMotion``.
+    """
     if field != "angularXMotion":
         limit = _limit(component, "angularYLimit" if field == "angularYMotion" else "angularZLimit")
         return -limit, limit

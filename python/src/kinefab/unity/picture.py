@@ -12,7 +12,8 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
-from ..spatial import Array, Pose, frame_from_axes, matrix_from_quaternion, rotation_about
+from ..spatial import Array, Pose, frame_from_axes, rotation_about
+from .freedoms import angle_range, world_placements
 
 WIDTH, HEIGHT, LEGEND = 760, 560, 400
 MAX_TRIANGLES = 40_000
@@ -42,7 +43,7 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
 
     document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.
     """
-    poses = world_poses(document["gameObjects"])
+    poses = [Pose(turn, place) for turn, place, _ in world_placements(document["gameObjects"])]
     triangles, colours = _triangles(document, buffers, poses)
     joints = _joints(document["gameObjects"], poses)
     points = [triangles.reshape(-1, 3)] + [joint.pose.translation[None] for joint in joints]
@@ -60,20 +61,6 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
         "</svg>",
     ]
     return "\n".join(part for part in parts if part) + "\n"
-
-
-def world_poses(objects: Sequence[Mapping]) -> list[Pose]:
-    """World pose of each GameObject, by composing the local transforms; scale is not part of a pose."""
-    poses: list[Pose] = []
-    for item in objects:
-        transform = item.get("transform", {})
-        local = Pose(
-            matrix_from_quaternion(np.array(transform.get("localRotation", [0, 0, 0, 1]), float)),
-            np.array(transform.get("localPosition", [0, 0, 0]), float),
-        )
-        parent = item.get("parent")
-        poses.append(local if parent is None else poses[parent] @ local)
-    return poses
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -266,9 +253,8 @@ def _turn(joint: DrawnJoint) -> tuple[float, float]:
         return math.radians(limits.get("min", 0.0)), math.radians(limits.get("max", 0.0))
     if component.get("angularXMotion", "Free") == "Free":
         return 0.0, 2 * math.pi
-    low = component.get("lowAngularXLimit", {}).get("limit", 0.0)
-    high = component.get("highAngularXLimit", {}).get("limit", 0.0)
-    return math.radians(-high), math.radians(-low)
+    low, high = angle_range(component, "angularXMotion")
+    return math.radians(low), math.radians(high)
 
 
 def _slide_middle(joint: DrawnJoint, place: Array, axis: Array) -> Array:

@@ -43,7 +43,7 @@ internal sealed class D6Joint : Joint
     /// <inheritdoc/>
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
     {
-        var f = new JointFrames(this, body0, body1);
+        JointFrames.At(this, body0, body1, out JointFrames f);
         f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
 

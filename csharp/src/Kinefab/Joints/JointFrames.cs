@@ -1,53 +1,60 @@
+using System.Runtime.CompilerServices;
 using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
 
 /// <summary>A joint's two frames in the world and frame 1 in frame 0.</summary>
-internal readonly struct JointFrames
+internal struct JointFrames
 {
     /// <summary>Origins in the world.</summary>
-    public readonly Vector3d P0;
-    public readonly Vector3d P1;
+    public Vector3d P0;
+    public Vector3d P1;
 
     /// <summary>Rotations in the world; Q1 may have been negated.</summary>
-    public readonly Quaterniond Q0;
-    public readonly Quaterniond Q1;
+    public Quaterniond Q0;
+    public Quaterniond Q1;
 
     /// <summary>c = F0^-1 * F1: frame 1 in frame 0.</summary>
-    public readonly Pose Relative;
+    public Pose Relative;
 
-    private readonly Vector3d _x0;
-    private readonly Vector3d _y0;
-    private readonly Vector3d _z0;
+    private Vector3d _x0;
+    private Vector3d _y0;
+    private Vector3d _z0;
 
-    /// <summary>Frames at the given body poses.</summary>
+    /// <summary>As <see cref="At"/>.</summary>
+    public JointFrames(Joint joint, in Pose body0, in Pose body1) => At(joint, body0, body1, out this);
+
+    /// <summary>Frames at the given body poses; written where they stay, since they are large.</summary>
     /// <param name="joint">Gives the frames in the bodies; without extended limits Q1 is taken on Q0's side of the
     /// double cover, so that the relative angle lies in (-pi, pi].</param>
     /// <param name="body0">Pose of body 0.</param>
     /// <param name="body1">Pose of body 1.</param>
-    public JointFrames(Joint joint, in Pose body0, in Pose body1)
+    /// <param name="f">The frames.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void At(Joint joint, in Pose body0, in Pose body1, out JointFrames f)
     {
         Pose f0 = body0 * joint.Frame0;
         Pose f1 = body1 * joint.Frame1;
-        P0 = f0.Position;
-        P1 = f1.Position;
-        Q0 = f0.Rotation;
+        Quaterniond q0 = f0.Rotation;
         Quaterniond q1 = f1.Rotation;
-        if (!joint.ExtendedLimits && Dot(Q0, q1) < 0)
+        if (!joint.ExtendedLimits && Dot(q0, q1) < 0)
         {
             q1 = Negate(q1);
         }
 
-        Q1 = q1;
-        Relative = new Pose(Q0.InverseRotate(P1 - P0), Q0.Conjugate() * Q1);
-        Axes(Q0, out _x0, out _y0, out _z0);
+        f.P0 = f0.Position;
+        f.P1 = f1.Position;
+        f.Q0 = q0;
+        f.Q1 = q1;
+        f.Relative = new Pose(q0.InverseRotate(f1.Position - f0.Position), q0.Conjugate() * q1);
+        Axes(q0, out f._x0, out f._y0, out f._z0);
     }
 
     /// <summary>Axis 0, 1 or 2 of frame 0 in the world.</summary>
-    public Vector3d Axis0(int i) => i == 0 ? _x0 : i == 1 ? _y0 : _z0;
+    public readonly Vector3d Axis0(int i) => i == 0 ? _x0 : i == 1 ? _y0 : _z0;
 
     /// <summary>Axes of frame 1 in the world.</summary>
-    public void Axes1(out Vector3d x, out Vector3d y, out Vector3d z) => Axes(Q1, out x, out y, out z);
+    public readonly void Axes1(out Vector3d x, out Vector3d y, out Vector3d z) => Axes(Q1, out x, out y, out z);
 
     /// <summary>
     /// Rows that turn w1 - w0 into the rate of the vector part of conj(qa) * qb: 1/2 L(qa*) R(qb).
@@ -78,6 +85,7 @@ internal readonly struct JointFrames
     public static Quaterniond Negate(Quaterniond q) => new(-q.X, -q.Y, -q.Z, -q.W);
 
     /// <summary>The columns of a rotation's matrix.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Axes(Quaterniond q, out Vector3d x, out Vector3d y, out Vector3d z)
     {
         double x2 = q.X + q.X, y2 = q.Y + q.Y, z2 = q.Z + q.Z;

@@ -34,7 +34,7 @@ internal sealed class RevoluteJoint : Joint
     /// <inheritdoc/>
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
     {
-        var f = new JointFrames(this, body0, body1);
+        JointFrames.At(this, body0, body1, out JointFrames f);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
         bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
         writer.Locked(f, 7, isLocked ? 7 : 6);

@@ -37,23 +37,28 @@ internal ref struct RowWriter
     {
         if (linear != 0)
         {
+            bool x = (linear & 1) != 0;
+            bool y = (linear & 2) != 0;
+            bool z = (linear & 4) != 0;
             Vector3d p = f.Relative.Position;
             Vector3d error = Vector3d.Zero;
-            for (int i = 0; i < 3; i++)
+            error -= x ? f.Axis0(0) * p.X : Vector3d.Zero;
+            error -= y ? f.Axis0(1) * p.Y : Vector3d.Zero;
+            error -= z ? f.Axis0(2) * p.Z : Vector3d.Zero;
+            Vector3d lever0 = _lever0 + error;
+            if (x)
             {
-                if ((linear & (1 << i)) != 0)
-                {
-                    error -= f.Axis0(i) * p[i];
-                }
+                LinearRow(f.Axis0(0), lever0, _lever1, -p.X, RowFlags.OutputForce, SolveHint.Equality);
             }
 
-            Vector3d lever0 = _lever0 + error;
-            for (int i = 0; i < 3; i++)
+            if (y)
             {
-                if ((linear & (1 << i)) != 0)
-                {
-                    Rigid(ref LinearRow(f.Axis0(i), lever0, _lever1, -p[i]));
-                }
+                LinearRow(f.Axis0(1), lever0, _lever1, -p.Y, RowFlags.OutputForce, SolveHint.Equality);
+            }
+
+            if (z)
+            {
+                LinearRow(f.Axis0(2), lever0, _lever1, -p.Z, RowFlags.OutputForce, SolveHint.Equality);
             }
         }
 
@@ -63,23 +68,23 @@ internal ref struct RowWriter
             Quaterniond q = f.Relative.Rotation;
             if ((angular & 1) != 0)
             {
-                Rigid(ref AngularRow(x, -q.X));
+                LockedAngle(x, -q.X);
             }
 
             if ((angular & 2) != 0)
             {
-                Rigid(ref AngularRow(y, -q.Y));
+                LockedAngle(y, -q.Y);
             }
 
             if ((angular & 4) != 0)
             {
-                Rigid(ref AngularRow(z, -q.Z));
+                LockedAngle(z, -q.Z);
             }
         }
     }
 
     /// <summary>A rigid row on the angular velocity along an axis: J = (0, axis; 0, axis).</summary>
-    public void LockedAngle(Vector3d axis, double error) => Rigid(ref AngularRow(axis, error));
+    public void LockedAngle(Vector3d axis, double error) => AngularRow(axis, error, RowFlags.OutputForce, SolveHint.Equality);
 
     /// <summary>
     /// Upper limit of an ordinate that grows with frame 1's motion along the axis.
@@ -127,9 +132,7 @@ internal ref struct RowWriter
     /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
     public void AngularDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive, SolveHint hint = SolveHint.None)
     {
-        ref ConstraintRow row = ref AngularRow(axis, error);
-        row.Hint = hint;
-        Drive(ref row, velocityTarget, drive);
+        Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive);
     }
 
     /// <summary>A velocity motor: Cdot = J.(w0 - w1) with J = -axis is driven to the target within the limits.</summary>
@@ -140,12 +143,6 @@ internal ref struct RowWriter
         row.Minimum = minimum;
         row.Maximum = maximum;
         row.Flags |= RowFlags.HasDriveLimit | RowFlags.Drive;
-    }
-
-    private static void Rigid(ref ConstraintRow row)
-    {
-        row.Hint = SolveHint.Equality;
-        row.Flags |= RowFlags.OutputForce;
     }
 
     private static void Limit(ref ConstraintRow row, in LimitResponse response)
@@ -189,9 +186,10 @@ internal ref struct RowWriter
         row.Maximum = drive.ForceLimit;
     }
 
-    private ref ConstraintRow LinearRow(Vector3d axis, Vector3d lever0, Vector3d lever1, double error)
+    private ref ConstraintRow LinearRow(
+        Vector3d axis, Vector3d lever0, Vector3d lever1, double error, RowFlags flags = RowFlags.None, SolveHint hint = SolveHint.None)
     {
-        ref ConstraintRow row = ref Next(error);
+        ref ConstraintRow row = ref Next(error, flags, hint);
         row.Linear0 = axis;
         row.Linear1 = axis;
         row.Angular0 = Vector3d.Cross(lever0, axis);
@@ -199,22 +197,30 @@ internal ref struct RowWriter
         return ref row;
     }
 
-    private ref ConstraintRow AngularRow(Vector3d axis, double error)
+    private ref ConstraintRow AngularRow(Vector3d axis, double error, RowFlags flags = RowFlags.None, SolveHint hint = SolveHint.None)
     {
-        ref ConstraintRow row = ref Next(error);
+        ref ConstraintRow row = ref Next(error, flags | RowFlags.Angular, hint);
+        row.Linear0 = Vector3d.Zero;
+        row.Linear1 = Vector3d.Zero;
         row.Angular0 = axis;
         row.Angular1 = axis;
-        row.Flags = RowFlags.Angular;
         return ref row;
     }
 
-    private ref ConstraintRow Next(double error)
+    // Everything but the vectors. Field by field: clearing the row first costs more than the rest of it.
+    private ref ConstraintRow Next(double error, RowFlags flags, SolveHint hint)
     {
         ref ConstraintRow row = ref _rows[Count++];
-        row = default;
         row.GeometricError = error;
+        row.VelocityTarget = 0;
         row.Minimum = double.NegativeInfinity;
         row.Maximum = double.PositiveInfinity;
+        row.Stiffness = 0;
+        row.Damping = 0;
+        row.Restitution = 0;
+        row.BounceThreshold = 0;
+        row.Flags = flags;
+        row.Hint = hint;
         return ref row;
     }
 }

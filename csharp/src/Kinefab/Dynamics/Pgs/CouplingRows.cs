@@ -72,7 +72,7 @@ internal sealed class CouplingRows
         }
     }
 
-    public void Sweep(Double4[] linear, Double4[] angular)
+    public void Sweep(BodyDelta[] deltas)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -81,7 +81,7 @@ internal sealed class CouplingRows
             for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
-                velocity += Vector3d.Dot(part.Linear, linear[part.Body].Vector) + Vector3d.Dot(part.SqrtAngular, angular[part.Body].Vector);
+                velocity += Vector3d.Dot(part.Linear, deltas[part.Body].Linear.Vector) + Vector3d.Dot(part.SqrtAngular, deltas[part.Body].Angular.Vector);
             }
 
             double delta = row.Constant - velocity * row.InverseResponse;
@@ -89,8 +89,8 @@ internal sealed class CouplingRows
             for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
-                linear[part.Body] += new Double4(part.Linear * (delta * part.InverseMass), 0);
-                angular[part.Body] += new Double4(part.SqrtAngular * delta, 0);
+                deltas[part.Body].Linear += new Double4(part.Linear * (delta * part.InverseMass), 0);
+                deltas[part.Body].Angular += new Double4(part.SqrtAngular * delta, 0);
             }
         }
     }
@@ -152,7 +152,7 @@ internal sealed class CouplingRows
         {
             ref Part part = ref _parts[p];
             part.InverseMass = bodies.InverseMasses[part.Body];
-            part.SqrtAngular = sqrtInertia[part.Body].Times(part.Angular);
+            part.SqrtAngular = sqrtInertia[part.Body].Times(part.Angular).Vector;
             response += part.InverseMass * part.Linear.LengthSquared + part.SqrtAngular.LengthSquared;
             velocity += Vector3d.Dot(part.Linear, bodies.LinearVelocities[part.Body])
                 + Vector3d.Dot(part.Angular, bodies.AngularVelocities[part.Body]);

@@ -1,6 +1,7 @@
 using System.Runtime.CompilerServices;
 #if NET
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 #endif
 using Kinefab.Numerics;
 
@@ -26,6 +27,10 @@ internal readonly struct Double4
     /// <summary>The first three.</summary>
     public Vector3d Vector => new(_v.GetElement(0), _v.GetElement(1), _v.GetElement(2));
 
+    /// <summary>The same with another fourth number.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Double4 With(double w) => new(Vector256.ConditionalSelect(Vector256.Create(-1L, -1L, -1L, 0L).AsDouble(), _v, Vector256.Create(w)));
+
     /// <summary>Sum of the first three.</summary>
     public double Sum3
     {
@@ -35,6 +40,32 @@ internal readonly struct Double4
             Vector128<double> low = _v.GetLower();
             return low.ToScalar() + low.GetElement(1) + _v.GetUpper().ToScalar();
         }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Double4 Load(double[] values, int index) => new(Vector256.Create(values, index));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Store(double[] values, int index) => _v.CopyTo(values, index);
+
+    /// <summary>One of its numbers, four times.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Double4 Spread(int i) => new(Vector256.Shuffle(_v, Vector256.Create((long)i)));
+
+    /// <summary>Sum of the first three of each.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Double4 Sums3(Double4 a, Double4 b, Double4 c, Double4 d)
+    {
+        if (!Avx.IsSupported)
+        {
+            return new(Vector256.Create(a.Sum3, b.Sum3, c.Sum3, d.Sum3));
+        }
+
+        // Transposed: x and z of a pair are in the low halves' interleaving, y in the high halves'.
+        Vector256<double> ab = Avx.UnpackLow(a._v, b._v);
+        Vector256<double> cd = Avx.UnpackLow(c._v, d._v);
+        Vector256<double> y = Avx.Permute2x128(Avx.UnpackHigh(a._v, b._v), Avx.UnpackHigh(c._v, d._v), 0x20);
+        return new(Avx.Permute2x128(ab, cd, 0x20) + y + Avx.Permute2x128(ab, cd, 0x31));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -70,8 +101,31 @@ internal readonly struct Double4
     /// <summary>The first three.</summary>
     public Vector3d Vector => new(_x, _y, _z);
 
+    /// <summary>The same with another fourth number.</summary>
+    public Double4 With(double w) => new(_x, _y, _z, w);
+
     /// <summary>Sum of the first three.</summary>
     public double Sum3 => _x + _y + _z;
+
+    public static Double4 Load(double[] values, int index) => new(values[index], values[index + 1], values[index + 2], values[index + 3]);
+
+    public void Store(double[] values, int index)
+    {
+        values[index] = _x;
+        values[index + 1] = _y;
+        values[index + 2] = _z;
+        values[index + 3] = _w;
+    }
+
+    /// <summary>One of its numbers, four times.</summary>
+    public Double4 Spread(int i)
+    {
+        double v = i == 0 ? _x : i == 1 ? _y : i == 2 ? _z : _w;
+        return new Double4(v, v, v, v);
+    }
+
+    /// <summary>Sum of the first three of each.</summary>
+    public static Double4 Sums3(Double4 a, Double4 b, Double4 c, Double4 d) => new(a.Sum3, b.Sum3, c.Sum3, d.Sum3);
 
     public static Double4 operator +(Double4 a, Double4 b) => new(a._x + b._x, a._y + b._y, a._z + b._z, a._w + b._w);
 

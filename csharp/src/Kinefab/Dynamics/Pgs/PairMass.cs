@@ -22,6 +22,6 @@ internal readonly struct PairMass
 
     /// <summary>J_a M^-1 J_b^T.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public double Product(in PgsRow a, in PgsRow b) =>
+    public double Product(in RowVectors a, in RowVectors b) =>
         (a.Linear * b.Linear * (InverseMass0 + InverseMass1) + a.Sqrt0 * b.Sqrt0 * InertiaScale0 + a.Sqrt1 * b.Sqrt1 * InertiaScale1).Sum3;
 }

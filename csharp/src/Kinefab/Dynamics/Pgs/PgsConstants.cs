@@ -5,9 +5,11 @@ namespace Kinefab.Dynamics.Pgs;
 /// <summary>Turns a prepared row into the constants of its sweeps. Source: DySolverConstraint1D.h, setSolverConstants.</summary>
 internal static class PgsConstants
 {
-    /// <summary>Fills a row's constants.</summary>
-    /// <param name="result">Its vectors, what they carry and its response must be set.</param>
-    /// <param name="row">The row as the joint gave it; its error, target and velocity are taken from the result, which preprocessing may have changed.</param>
+    /// <summary>Fills a row's constants, multipliers and bounds, and clears its impulse.</summary>
+    /// <param name="rows">All rows; the vectors of this one, what they carry must be set.</param>
+    /// <param name="i">Which of them.</param>
+    /// <param name="response">J M^-1 J^T.</param>
+    /// <param name="row">The row as the joint gave it; its error, target and velocity are taken from the vectors, which preprocessing may have changed.</param>
     /// <param name="keptError">The row's own error before preprocessing when it keeps its bias, else 0.</param>
     /// <param name="driveScale">What makes a drive limit an impulse.</param>
     /// <param name="dt">Step, s.</param>
@@ -18,12 +20,16 @@ internal static class PgsConstants
     /// force mode x = 1/(1 + a response), lambda = x b - x a Cdot + (1 - x) lambda;
     /// acceleration mode x = 1/(1 + a), lambda = (x b - x a Cdot)/response + (1 - x) lambda.
     /// </remarks>
-    public static void Set(ref PgsRow result, in ConstraintRow row, double keptError, double driveScale, double dt, double inverseDt)
+    public static void Set(SweepRows rows, int i, double response, in ConstraintRow row, double keptError, double driveScale, double dt, double inverseDt)
     {
-        double response = result.Response;
-        double error = result.Linear.W;
-        double target = result.Sqrt0.W;
-        double velocity = result.Sqrt1.W;
+        ref RowBounds bounds = ref rows.Bounds[i];
+        ref RowVectors vectors = ref rows.Vectors[i];
+        double error = vectors.Linear.W;
+        double target = vectors.Sqrt0.W;
+        double velocity = vectors.Sqrt1.W;
+        double constant;
+        double unbiased;
+        double multiplier;
         double inverseResponse = response > 0 ? 1 / response : 0;
         if (row.Has(RowFlags.Spring))
         {
@@ -42,32 +48,33 @@ internal static class PgsConstants
                 scale = 1;
             }
 
-            result.Constant = x * scale * b;
-            result.UnbiasedConstant = result.Constant;
-            result.VelocityMultiplier = -x * scale * a;
-            result.ImpulseMultiplier = 1 - x;
+            constant = x * scale * b;
+            unbiased = constant;
+            multiplier = -x * scale * a;
+            bounds.ImpulseMultiplier = 1 - x;
         }
         else
         {
-            result.VelocityMultiplier = -inverseResponse;
-            result.ImpulseMultiplier = 1;
+            multiplier = -inverseResponse;
+            bounds.ImpulseMultiplier = 1;
             if (row.Has(RowFlags.Restitution) && -velocity > row.BounceThreshold)
             {
-                result.Constant = inverseResponse * row.Restitution * -velocity;
-                result.UnbiasedConstant = result.Constant;
+                constant = inverseResponse * row.Restitution * -velocity;
+                unbiased = constant;
             }
             else
             {
-                result.Constant = inverseResponse * (target - error * inverseDt);
-                result.UnbiasedConstant = inverseResponse * (target - keptError * inverseDt);
+                constant = inverseResponse * (target - error * inverseDt);
+                unbiased = inverseResponse * (target - keptError * inverseDt);
             }
         }
 
-        double start = velocity * result.VelocityMultiplier;
-        result.Constant += start;
-        result.UnbiasedConstant += start;
-        result.Minimum = row.Minimum * driveScale;
-        result.Maximum = row.Maximum * driveScale;
-        result.Impulse = 0;
+        double start = velocity * multiplier;
+        rows.Constants[i] = constant + start;
+        rows.UnbiasedConstants[i] = unbiased + start;
+        rows.VelocityMultipliers[i] = multiplier;
+        rows.Impulses[i] = 0;
+        bounds.Minimum = row.Minimum * driveScale;
+        bounds.Maximum = row.Maximum * driveScale;
     }
 }

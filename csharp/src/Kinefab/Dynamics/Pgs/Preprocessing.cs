@@ -7,15 +7,9 @@ namespace Kinefab.Dynamics.Pgs;
 /// Preparation of one joint's rows for PGS: sorted by solve hint, then made mass-orthogonal, so that solving one rigid
 /// row leaves the others of its joint alone. Source: DyConstraintSetup.cpp, preprocessRows and orthogonalize.
 /// </summary>
-internal sealed class Preprocessing
+internal static class Preprocessing
 {
-    private const int MaxEqualities = 6;
-
     private const double LeastShare = 1e-12;
-
-    // Kept, so that no call has to clear them.
-    private readonly double[] _factor = new double[Joint.MaxRows * MaxEqualities];
-    private readonly double[] _inverse = new double[MaxEqualities];
 
     /// <summary>Stable insertion sort of row indices by hint: drives and soft limits, slerp, equalities, inequalities.</summary>
     public static void Sort(ReadOnlySpan<ConstraintRow> rows, Span<int> order)
@@ -34,64 +28,54 @@ internal sealed class Preprocessing
 
     /// <summary>
     /// Gram-Schmidt in the product J M^-1 J^T: each rigid row loses its part along the equalities before it, together with that part
-    /// of its error, target and velocity; inequalities are not freed from each other. Done as G = L D L^T of the rows' products,
-    /// whose D are the responses of the new rows and whose inverse L makes them: the products then do not wait for each other.
+    /// of its error, target and velocity; inequalities are not freed from each other.
     /// A row that the ones before it leave next to nothing of gets the response 0 and so does nothing, where PhysX would divide by its rounding.
     /// </summary>
-    /// <param name="rows">The joint's rigid rows, equalities first.</param>
-    /// <param name="equalities">How many of them are equalities.</param>
+    /// <param name="rows">All rows.</param>
+    /// <param name="responses">Of the joint's rigid rows.</param>
+    /// <param name="least">As many places to work in.</param>
+    /// <param name="start">The first of them, an equality if there is one.</param>
+    /// <param name="inequalities">The first inequality.</param>
+    /// <param name="end">One past the last row.</param>
     /// <param name="mass">Mass properties of the pair.</param>
-    public void Orthogonalize(Span<PgsRow> rows, int equalities, in PairMass mass)
+    public static void Orthogonalize(SweepRows rows, Span<double> responses, Span<double> least, int start, int inequalities, int end, in PairMass mass)
     {
-        Span<double> factor = _factor;
-        Span<double> inverse = _inverse;
-        Products(rows, equalities, mass, factor);
-        for (int i = 0; i < rows.Length; i++)
-        {
-            Span<double> l = factor.Slice(i * MaxEqualities, MaxEqualities);
-            double response = rows[i].Response;
-            double least = response * LeastShare;
-            int count = Math.Min(i, equalities);
-            for (int j = 0; j < count; j++)
-            {
-                Span<double> other = factor.Slice(j * MaxEqualities, MaxEqualities);
-                double product = l[j];
-                for (int k = 0; k < j; k++)
-                {
-                    product -= l[k] * other[k] * rows[k].Response;
-                }
-
-                l[j] = product * inverse[j];
-                response -= product * l[j];
-            }
-
-            rows[i].Response = response > least ? response : 0;
-            if (i < equalities)
-            {
-                inverse[i] = rows[i].Response > 0 ? 1 / rows[i].Response : 0;
-            }
-
-            for (int j = 0; j < count; j++)
-            {
-                rows[i].Subtract(rows[j], l[j]);
-            }
-        }
-    }
-
-    // The lower half of G, with the equalities alone as columns.
-    private static void Products(Span<PgsRow> rows, int equalities, in PairMass mass, Span<double> products)
-    {
+        Span<RowVectors> vectors = rows.Vectors.AsSpan(start, end - start);
+        Span<Double4> angulars = rows.Angular0.AsSpan(start, end - start);
         double inverseMass = mass.InverseMass0 + mass.InverseMass1;
-        for (int i = 0; i < rows.Length; i++)
+        int equalities = inequalities - start;
+        for (int i = 0; i < vectors.Length; i++)
         {
-            Double4 linear = rows[i].Linear * inverseMass;
-            Double4 sqrt0 = rows[i].Sqrt0 * mass.InertiaScale0;
-            Double4 sqrt1 = rows[i].Sqrt1 * mass.InertiaScale1;
-            int count = Math.Min(i, equalities);
-            for (int j = 0; j < count; j++)
+            least[i] = responses[i] * LeastShare;
+        }
+
+        for (int j = 0; j < vectors.Length; j++)
+        {
+            double response = responses[j] > least[j] ? responses[j] : 0;
+            responses[j] = response;
+            if (j >= equalities)
             {
-                ref PgsRow other = ref rows[j];
-                products[i * MaxEqualities + j] = (linear * other.Linear + sqrt0 * other.Sqrt0 + sqrt1 * other.Sqrt1).Sum3;
+                continue;
+            }
+
+            double inverse = response > 0 ? 1 / response : 0;
+            Double4 linear = vectors[j].Linear;
+            Double4 sqrt0 = vectors[j].Sqrt0;
+            Double4 sqrt1 = vectors[j].Sqrt1;
+            Double4 angular0 = angulars[j];
+            Double4 byMass = linear * inverseMass;
+            Double4 byInertia0 = sqrt0 * mass.InertiaScale0;
+            Double4 byInertia1 = sqrt1 * mass.InertiaScale1;
+            for (int i = j + 1; i < vectors.Length; i++)
+            {
+                ref RowVectors row = ref vectors[i];
+                double product = (byMass * row.Linear + byInertia0 * row.Sqrt0 + byInertia1 * row.Sqrt1).Sum3;
+                double factor = product * inverse;
+                row.Linear -= linear * factor;
+                row.Sqrt0 -= sqrt0 * factor;
+                row.Sqrt1 -= sqrt1 * factor;
+                angulars[i] -= angular0 * factor;
+                responses[i] -= product * factor;
             }
         }
     }

@@ -20,17 +20,20 @@ internal sealed class UnitySolver : ISolver
     // One more than there are bodies: the last stands for the world and never moves.
     private readonly Vector3d[] _startLinear;
     private readonly Vector3d[] _startAngular;
-    private readonly Double4[] _linear;
-    private readonly Double4[] _angular;
-    private readonly Double4[] _motionLinear;
-    private readonly Double4[] _motionAngular;
+    private readonly BodyDelta[] _deltas;
+    private readonly BodyDelta[] _motions;
     private readonly Vector3d[] _rootInertia;
     private readonly SqrtInertia[] _sqrtInertia;
 
     private readonly JointBlock[] _blocks;
-    private readonly PgsRow[] _rows;
-    private readonly Preprocessing _preprocessing = new();
-    private readonly ConstraintRow[] _scratch = new ConstraintRow[Joint.MaxRows];
+    private readonly SweepRows _rows;
+
+    // One joint's rows on their way into the sweeps.
+    private readonly ConstraintRow[] _given = new ConstraintRow[Joint.MaxRows];
+    private readonly int[] _sorted = new int[Joint.MaxRows];
+    private readonly double[] _kept = new double[Joint.MaxRows];
+    private readonly double[] _responses = new double[Joint.MaxRows];
+    private readonly double[] _least = new double[Joint.MaxRows];
 
     // A joint's rows: springs and motors from Start, then equalities, then inequalities.
     private struct JointBlock
@@ -44,9 +47,6 @@ internal sealed class UnitySolver : ISolver
         public int End;
         public bool IsOrthogonal;
         public PairMass Mass;
-
-        /// <summary>From body 0's centre of mass to actor 1's anchor.</summary>
-        public Vector3d Lever;
     }
 
     public UnitySolver(MultibodySystem mechanism)
@@ -59,14 +59,12 @@ internal sealed class UnitySolver : ISolver
         int slots = _bodies.Count + 1;
         _startLinear = new Vector3d[slots];
         _startAngular = new Vector3d[slots];
-        _linear = new Double4[slots];
-        _angular = new Double4[slots];
-        _motionLinear = new Double4[slots];
-        _motionAngular = new Double4[slots];
+        _deltas = new BodyDelta[slots];
+        _motions = new BodyDelta[slots];
         _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
         _sqrtInertia = new SqrtInertia[slots];
         _blocks = new JointBlock[mechanism.Joints.Length];
-        _rows = new PgsRow[mechanism.Joints.Length * Joint.MaxRows];
+        _rows = new SweepRows(mechanism.Joints.Length * Joint.MaxRows);
     }
 
     /// <inheritdoc/>
@@ -86,22 +84,20 @@ internal sealed class UnitySolver : ISolver
 
         int blocks = Prepare(dt);
         _couplings.Prepare(_sqrtInertia, dt);
-        Array.Clear(_linear, 0, _linear.Length);
-        Array.Clear(_angular, 0, _angular.Length);
+        Array.Clear(_deltas, 0, _deltas.Length);
         for (int i = 0; i < positionIterations; i++)
         {
             Sweep(blocks);
-            _couplings.Sweep(_linear, _angular);
+            _couplings.Sweep(_deltas);
         }
 
-        Array.Copy(_linear, _motionLinear, _linear.Length);
-        Array.Copy(_angular, _motionAngular, _angular.Length);
+        Array.Copy(_deltas, _motions, _deltas.Length);
         RemoveBias(blocks);
         _couplings.RemoveBias();
         for (int i = 0; i < velocityIterations; i++)
         {
             Sweep(blocks);
-            _couplings.Sweep(_linear, _angular);
+            _couplings.Sweep(_deltas);
         }
 
         Report(blocks, dt);
@@ -116,45 +112,34 @@ internal sealed class UnitySolver : ISolver
 
     private int Prepare(double dt)
     {
-        Span<int> order = stackalloc int[Joint.MaxRows];
-        Span<double> kept = stackalloc double[Joint.MaxRows];
         ReadOnlySpan<int> joints = _order.Joints;
         double inverseDt = 1 / dt;
         int next = 0;
         for (int b = 0; b < joints.Length; b++)
         {
             Joint joint = _mechanism.Joints[joints[b]];
-            int count = joint.Prepare(_bodies.PoseOf(joint.Body0), _bodies.PoseOf(joint.Body1), _scratch);
-            Span<ConstraintRow> rows = _scratch.AsSpan(0, count);
-            Span<PgsRow> results = _rows.AsSpan(next, count);
             ref JointBlock block = ref _blocks[b];
             SetBodies(ref block, joints[b], joint);
+            int count = joint.Prepare(_bodies.PoseAt(joint.Body0), _bodies.PoseAt(joint.Body1), _given);
             block.Start = next;
             block.Equalities = next;
             next += count;
             block.Inequalities = next;
             block.End = next;
-            Preprocessing.Sort(rows, order);
-            for (int i = 0; i < count; i++)
-            {
-                ref ConstraintRow row = ref rows[order[i]];
-                kept[i] = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
-                Load(ref results[i], row, block);
-                block.Equalities += row.Hint < SolveHint.Equality ? 1 : 0;
-                block.Inequalities -= row.Hint == SolveHint.Inequality ? 1 : 0;
-            }
-
+            Span<int> sorted = _sorted.AsSpan(0, count);
+            Preprocessing.Sort(_given.AsSpan(0, count), sorted);
+            Load(ref block, sorted);
             if (joint.Preprocessing)
             {
-                _preprocessing.Orthogonalize(
-                    results.Slice(block.Equalities - block.Start), block.Inequalities - block.Equalities, block.Mass);
+                Preprocessing.Orthogonalize(
+                    _rows, _responses.AsSpan(block.Equalities - block.Start), _least, block.Equalities, block.Inequalities, block.End, block.Mass);
             }
 
-            for (int i = 0; i < count; i++)
+            for (int i = 0; i < sorted.Length; i++)
             {
-                ref ConstraintRow row = ref rows[order[i]];
+                ref ConstraintRow row = ref _given[sorted[i]];
                 double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
-                PgsConstants.Set(ref results[i], row, kept[i], driveScale, dt, inverseDt);
+                PgsConstants.Set(_rows, block.Start + i, _responses[i], row, _kept[i], driveScale, dt, inverseDt);
             }
         }
 
@@ -172,20 +157,37 @@ internal sealed class UnitySolver : ISolver
         block.Mass = new PairMass(
             mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1);
         block.IsOrthogonal = joint.Preprocessing;
-        block.Lever = _bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - _bodies.PoseOf(joint.Body0).Position;
     }
 
-    private void Load(ref PgsRow result, in ConstraintRow row, in JointBlock block)
+    // Cdot is reckoned with one linear part, as everything after it.
+    private void Load(ref JointBlock block, ReadOnlySpan<int> sorted)
     {
         int body0 = block.Body0;
         int body1 = block.Body1;
-        double velocity = row.Velocity(_startLinear[body0], _startAngular[body0], _startLinear[body1], _startAngular[body1]);
-        result.Linear = new Double4(row.Linear0, row.GeometricError);
-        result.Sqrt0 = new Double4(_sqrtInertia[body0].Times(row.Angular0), row.VelocityTarget);
-        result.Sqrt1 = new Double4(_sqrtInertia[body1].Times(row.Angular1), velocity);
-        result.Angular0 = new Double4(row.Angular0, 0);
-        result.Response = block.Mass.Product(result, result);
-        result.Counts = row.Has(RowFlags.OutputForce);
+        ref SqrtInertia inertia0 = ref _sqrtInertia[body0];
+        ref SqrtInertia inertia1 = ref _sqrtInertia[body1];
+        Vector3d relative = _startLinear[body0] - _startLinear[body1];
+        Vector3d angular0 = _startAngular[body0];
+        Vector3d angular1 = _startAngular[body1];
+        for (int i = 0; i < sorted.Length; i++)
+        {
+            ref ConstraintRow row = ref _given[sorted[i]];
+            int index = block.Start + i;
+            double velocity = Vector3d.Dot(row.Linear0, relative) + Vector3d.Dot(row.Angular0, angular0) - Vector3d.Dot(row.Angular1, angular1);
+            var vectors = new RowVectors
+            {
+                Linear = new Double4(row.Linear0, row.GeometricError),
+                Sqrt0 = inertia0.Times(row.Angular0).With(row.VelocityTarget),
+                Sqrt1 = inertia1.Times(row.Angular1).With(velocity),
+            };
+            _rows.Vectors[index] = vectors;
+            _rows.Angular0[index] = new Double4(row.Angular0, 0);
+            _rows.Counts[index] = row.Has(RowFlags.OutputForce);
+            _responses[i] = block.Mass.Product(vectors, vectors);
+            _kept[i] = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
+            block.Equalities += row.Hint < SolveHint.Equality ? 1 : 0;
+            block.Inequalities -= row.Hint == SolveHint.Inequality ? 1 : 0;
+        }
     }
 
     private void Sweep(int blocks)
@@ -193,41 +195,29 @@ internal sealed class UnitySolver : ISolver
         for (int b = 0; b < blocks; b++)
         {
             ref JointBlock block = ref _blocks[b];
-            var pair = new PairVelocity(_linear[block.Body0], _angular[block.Body0], _linear[block.Body1], _angular[block.Body1]);
-            if (block.Equalities > block.Start)
+            ref BodyDelta body0 = ref _deltas[block.Body0];
+            ref BodyDelta body1 = ref _deltas[block.Body1];
+            int equalities = block.IsOrthogonal ? block.Equalities : block.End;
+            if (equalities > block.Start)
             {
-                pair.SolveInTurn(_rows.AsSpan(block.Start, block.Equalities - block.Start), block.Mass);
+                _rows.SolveInTurn(block.Start, equalities, block.Mass, ref body0, ref body1);
             }
 
-            Span<PgsRow> equalities = _rows.AsSpan(block.Equalities, block.Inequalities - block.Equalities);
             if (block.IsOrthogonal)
             {
-                pair.SolveTogether(equalities, block.Mass);
+                _rows.SolveTogether(equalities, block.Inequalities, block.Mass, ref body0, ref body1);
+                if (block.End > block.Inequalities)
+                {
+                    _rows.SolveInTurn(block.Inequalities, block.End, block.Mass, ref body0, ref body1);
+                }
             }
-            else
-            {
-                pair.SolveInTurn(equalities, block.Mass);
-            }
-
-            if (block.End > block.Inequalities)
-            {
-                pair.SolveInTurn(_rows.AsSpan(block.Inequalities, block.End - block.Inequalities), block.Mass);
-            }
-
-            _linear[block.Body0] = pair.Linear0;
-            _angular[block.Body0] = pair.Angular0;
-            _linear[block.Body1] = pair.Linear1;
-            _angular[block.Body1] = pair.Angular1;
         }
     }
 
     private void RemoveBias(int blocks)
     {
         int end = blocks > 0 ? _blocks[blocks - 1].End : 0;
-        for (int i = 0; i < end; i++)
-        {
-            _rows[i].Constant = _rows[i].UnbiasedConstant;
-        }
+        Array.Copy(_rows.UnbiasedConstants, _rows.Constants, end);
     }
 
     // Force and torque of the rows that count, moved to the anchor; a joint that passes its limits acted in full in
@@ -239,19 +229,22 @@ internal sealed class UnitySolver : ISolver
         for (int b = 0; b < blocks; b++)
         {
             ref JointBlock block = ref _blocks[b];
-            Vector3d linear = Vector3d.Zero;
-            Vector3d angular = Vector3d.Zero;
+            Double4 force = default;
+            Double4 torque = default;
             for (int i = block.Start; i < block.End; i++)
             {
-                if (_rows[i].Counts)
+                if (_rows.Counts[i])
                 {
-                    linear += _rows[i].Linear.Vector * _rows[i].Impulse;
-                    angular += _rows[i].Angular0.Vector * _rows[i].Impulse;
+                    force += _rows.Vectors[i].Linear * _rows.Impulses[i];
+                    torque += _rows.Angular0[i] * _rows.Impulses[i];
                 }
             }
 
-            angular -= Vector3d.Cross(block.Lever, linear);
+            // The poses are still those at which the rows were made.
             Joint joint = _mechanism.Joints[block.Joint];
+            Vector3d lever = _bodies.PoseAt(joint.Body1).Point(joint.Frame1.Position) - _bodies.PoseAt(joint.Body0).Position;
+            Vector3d linear = force.Vector;
+            Vector3d angular = torque.Vector - Vector3d.Cross(lever, linear);
             _mechanism.Reactions[block.Joint] = new JointReaction { Force = linear * inverseDt, Torque = angular * inverseDt };
             if (Exceeds(linear, joint.BreakForce * dt) || Exceeds(angular, joint.BreakTorque * dt))
             {
@@ -277,10 +270,10 @@ internal sealed class UnitySolver : ISolver
             return;
         }
 
-        Vector3d dv = _linear[i].Vector;
-        Vector3d du = _angular[i].Vector;
-        Vector3d motionV = _motionLinear[i].Vector;
-        Vector3d motionU = _motionAngular[i].Vector;
+        Vector3d dv = _deltas[i].Linear.Vector;
+        Vector3d du = _deltas[i].Angular.Vector;
+        Vector3d motionV = _motions[i].Linear.Vector;
+        Vector3d motionU = _motions[i].Angular.Vector;
         BodyLocks locks = _bodies.Locks[i];
         if (locks != BodyLocks.None)
         {
@@ -292,9 +285,9 @@ internal sealed class UnitySolver : ISolver
 
         Vector3d v = _bodies.LinearVelocities[i];
         Vector3d w = _bodies.AngularVelocities[i];
-        Pose pose = BodyMotion.Integrate(_bodies.Poses[i], v + motionV, w + _sqrtInertia[i].Times(motionU), dt);
+        Pose pose = BodyMotion.Integrate(_bodies.Poses[i], v + motionV, w + _sqrtInertia[i].Times(motionU).Vector, dt);
         v += dv;
-        w += _sqrtInertia[i].Times(du);
+        w += _sqrtInertia[i].Times(du).Vector;
         if (!BodyMotion.InRange(pose, v, w))
         {
             _mechanism.Overflows++;

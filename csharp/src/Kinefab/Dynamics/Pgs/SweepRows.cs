@@ -1,0 +1,152 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Kinefab.Dynamics.Pgs;
+
+/// <summary>
+/// The vectors of a row. Velocities are changes since the start of the solve, the angular ones in sqrt(I)-space:
+/// w = w_start + I^(-1/2) u, so that one vector per body serves as Jacobian and as response. One linear part does for
+/// both bodies: every joint row has Linear0 = Linear1, and combining rows keeps that. While a row is prepared the fourth
+/// numbers carry what preprocessing combines along with the vectors; the sweeps never read them.
+/// </summary>
+internal struct RowVectors
+{
+    /// <summary>Linear part; C.</summary>
+    public Double4 Linear;
+
+    /// <summary>I^(-1/2) Angular0; the target of Cdot.</summary>
+    public Double4 Sqrt0;
+
+    /// <summary>I^(-1/2) Angular1; Cdot at the start of the solve.</summary>
+    public Double4 Sqrt1;
+}
+
+/// <summary>What only rows that are solved in turn have: springs, motors and limits, and all rows of a joint without preprocessing.</summary>
+internal struct RowBounds
+{
+    public double ImpulseMultiplier;
+    public double Minimum;
+    public double Maximum;
+}
+
+/// <summary>Change of a body's velocity since the start of the solve, the angular part in sqrt(I)-space.</summary>
+internal struct BodyDelta
+{
+    public Double4 Linear;
+    public Double4 Angular;
+}
+
+/// <summary>
+/// The rows of all joints, an array a quantity so that a sweep reads nothing else, and one sweep over those of a joint.
+/// Source: DySolverConstraint1D.h, SolverConstraint1D; DySolverConstraints.cpp, solve1D.
+/// </summary>
+internal sealed class SweepRows
+{
+    public readonly RowVectors[] Vectors;
+
+    /// <summary>Angular0 itself, for the reported torque.</summary>
+    public readonly Double4[] Angular0;
+
+    /// <summary>Whether the impulse counts for breaking and for the reported force.</summary>
+    public readonly bool[] Counts;
+    public readonly RowBounds[] Bounds;
+
+    /// <summary>Impulse that the start velocity and the bias ask for.</summary>
+    public readonly double[] Constants;
+
+    /// <summary>The same without bias, for the velocity iterations.</summary>
+    public readonly double[] UnbiasedConstants;
+    public readonly double[] VelocityMultipliers;
+
+    /// <summary>Accumulated.</summary>
+    public readonly double[] Impulses;
+
+    public SweepRows(int capacity)
+    {
+        Vectors = new RowVectors[capacity];
+        Angular0 = new Double4[capacity];
+        Counts = new bool[capacity];
+        Bounds = new RowBounds[capacity];
+        Constants = new double[capacity];
+        UnbiasedConstants = new double[capacity];
+        VelocityMultipliers = new double[capacity];
+        Impulses = new double[capacity];
+    }
+
+    /// <summary>Any rows, one after the other: lambda = clamp(i lambda + m Cdot + constant).</summary>
+    public void SolveInTurn(int start, int end, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
+    {
+        for (int i = start; i < end; i++)
+        {
+            ref RowVectors row = ref Vectors[i];
+            ref RowBounds bounds = ref Bounds[i];
+            double velocity = Products(row, body0.Linear - body1.Linear, body0.Angular, body1.Angular).Sum3;
+            double impulse = bounds.ImpulseMultiplier * Impulses[i] + VelocityMultipliers[i] * velocity + Constants[i];
+            impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
+            double delta = impulse - Impulses[i];
+            Impulses[i] = impulse;
+            Apply(row.Linear * delta, row.Sqrt0 * delta, row.Sqrt1 * delta, mass, ref body0, ref body1);
+        }
+    }
+
+    /// <summary>Equalities that are mass-orthogonal: none changes another's Cdot, so all see the velocities from before.</summary>
+    public void SolveTogether(int start, int end, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
+    {
+        Double4 relative = body0.Linear - body1.Linear;
+        Double4 before0 = body0.Angular;
+        Double4 before1 = body1.Angular;
+        Double4 linear = default;
+        Double4 angular0 = default;
+        Double4 angular1 = default;
+        int i = start;
+        for (; i <= end - 4; i += 4)
+        {
+            Span<RowVectors> rows = Vectors.AsSpan(i, 4);
+            Double4 velocities = Double4.Sums3(
+                Products(rows[0], relative, before0, before1),
+                Products(rows[1], relative, before0, before1),
+                Products(rows[2], relative, before0, before1),
+                Products(rows[3], relative, before0, before1));
+            Double4 deltas = Double4.Load(VelocityMultipliers, i) * velocities + Double4.Load(Constants, i);
+            (Double4.Load(Impulses, i) + deltas).Store(Impulses, i);
+            Add(rows[0], deltas.Spread(0), ref linear, ref angular0, ref angular1);
+            Add(rows[1], deltas.Spread(1), ref linear, ref angular0, ref angular1);
+            Add(rows[2], deltas.Spread(2), ref linear, ref angular0, ref angular1);
+            Add(rows[3], deltas.Spread(3), ref linear, ref angular0, ref angular1);
+        }
+
+        for (; i < end; i++)
+        {
+            ref RowVectors row = ref Vectors[i];
+            double delta = VelocityMultipliers[i] * Products(row, relative, before0, before1).Sum3 + Constants[i];
+            Impulses[i] += delta;
+            linear += row.Linear * delta;
+            angular0 += row.Sqrt0 * delta;
+            angular1 += row.Sqrt1 * delta;
+        }
+
+        Apply(linear, angular0, angular1, mass, ref body0, ref body1);
+    }
+
+    /// <summary>What adds up to Cdot.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Double4 Products(in RowVectors row, Double4 relative, Double4 angular0, Double4 angular1) =>
+        row.Linear * relative + row.Sqrt0 * angular0 - row.Sqrt1 * angular1;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Add(in RowVectors row, Double4 delta, ref Double4 linear, ref Double4 angular0, ref Double4 angular1)
+    {
+        linear += row.Linear * delta;
+        angular0 += row.Sqrt0 * delta;
+        angular1 += row.Sqrt1 * delta;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Apply(Double4 linear, Double4 angular0, Double4 angular1, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
+    {
+        body0.Linear += linear * mass.InverseMass0;
+        body1.Linear -= linear * mass.InverseMass1;
+        body0.Angular += angular0 * mass.InertiaScale0;
+        body1.Angular -= angular1 * mass.InertiaScale1;
+    }
+}

@@ -91,13 +91,14 @@ function multiply([ax, ay, az, aw], [bx, by, bz, bw]) {
 }
 
 function makeJoint(px, physics, bodies, j) {
-  const create = { revolute: px.PxRevoluteJointCreate, d6: px.PxD6JointCreate }[j.type];
+  const type = j.spring ? "d6" : j.type;
+  const create = { revolute: px.PxRevoluteJointCreate, d6: px.PxD6JointCreate }[type];
   const actor = (i) => (i === undefined ? null : bodies[i]);
   const joint = create(physics, actor(j.body0), transform(j.frame0), actor(j.body1), transform(j.frame1));
-  if (j.type === "revolute") {
+  if (type === "revolute") {
     configureRevolute(px, joint, j);
   } else {
-    configureD6(px, joint, j);
+    configureD6(px, joint, j.spring ? springAsD6(j.spring) : j);
   }
   if (j.breakForce !== undefined || j.breakTorque !== undefined) {
     joint.setBreakForce(j.breakForce ?? MAX_FLOAT, j.breakTorque ?? MAX_FLOAT);
@@ -123,6 +124,16 @@ function configureRevolute(px, joint, j) {
   if (j.motor) {
     setMotor(px, joint, j.motor);
   }
+}
+
+// A revolute joint with Unity's spring, which PxRevoluteJoint lacks: the same rows but for the spring's error, which is
+// twice the sine of half the angle instead of the angle.
+function springAsD6({ target, ...drive }) {
+  return {
+    motion: { twist: "free" },
+    drives: { twist: drive },
+    drivePose: { rotation: [Math.sin(target / 2), 0, 0, Math.cos(target / 2)] },
+  };
 }
 
 function configureD6(px, joint, j) {

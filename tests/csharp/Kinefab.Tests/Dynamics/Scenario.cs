@@ -178,6 +178,12 @@ internal sealed class Scenario
             joint.MotorFreeSpin = Flag(motor, "freeSpin", false);
         }
 
+        if (j.TryGetProperty("spring", out JsonElement spring))
+        {
+            joint.Spring = Drive(spring);
+            joint.SpringTarget = spring.GetProperty("target").GetDouble();
+        }
+
         return joint;
     }
 
@@ -213,15 +219,7 @@ internal sealed class Scenario
 
         if (j.TryGetProperty("drives", out JsonElement drives))
         {
-            JointDrive Drive(string name) => drives.TryGetProperty(name, out JsonElement d)
-                ? new JointDrive
-                {
-                    Stiffness = Number(d, "stiffness", 0),
-                    Damping = Number(d, "damping", 0),
-                    ForceLimit = Number(d, "forceLimit", double.PositiveInfinity),
-                    IsAcceleration = Flag(d, "acceleration", false),
-                }
-                : default;
+            JointDrive Drive(string name) => drives.TryGetProperty(name, out JsonElement d) ? Scenario.Drive(d) : default;
             joint.DriveX = Drive("x");
             joint.DriveY = Drive("y");
             joint.DriveZ = Drive("z");
@@ -243,6 +241,14 @@ internal sealed class Scenario
 
         return joint;
     }
+
+    private static JointDrive Drive(JsonElement d) => new()
+    {
+        Stiffness = Number(d, "stiffness", 0),
+        Damping = Number(d, "damping", 0),
+        ForceLimit = Number(d, "forceLimit", double.PositiveInfinity),
+        IsAcceleration = Flag(d, "acceleration", false),
+    };
 
     private static AngularLimit Angular(JsonElement limit) => new()
     {

@@ -94,7 +94,7 @@ internal sealed class WorldBuilder
         return objects;
     }
 
-    // The centre of mass is taken in metres along the object's axes, whatever its scale (in Unity unconfirmed).
+    // The centre of mass is given in metres along the object's axes, whatever its scale (ScriptReference, Rigidbody.centerOfMass).
     private static Pose MassFrame(Rigidbody body) => new(body.CenterOfMass, body.InertiaTensorRotation.Normalized());
 
     private BodyDefinition Define(Rigidbody body, in Pose pose)
@@ -120,8 +120,9 @@ internal sealed class WorldBuilder
         };
     }
 
-    // Positions are frozen in the world's axes by PhysX's locks. Rotations are frozen by infinite moments of inertia (Unity's
-    // manual, Joint.enablePreprocessing), and so about the principal axes; that these are the ones meant is unconfirmed.
+    // Positions are frozen in the world's axes, rotations in the body's own (ScriptReference, Rigidbody.constraints): by PhysX's
+    // locks and by infinite moments of inertia (Manual, Joint.enablePreprocessing). The own axes are then the principal ones; that
+    // Unity means these also where inertiaTensorRotation turns them is unconfirmed.
     private static BodyLocks Locks(RigidbodyConstraints frozen) =>
         (Frozen(frozen, RigidbodyConstraints.FreezePositionX) ? BodyLocks.LinearX : 0)
         | (Frozen(frozen, RigidbodyConstraints.FreezePositionY) ? BodyLocks.LinearY : 0)

@@ -174,6 +174,37 @@ public sealed class WorldStepTests
         Assert.That(SmallScene.Way(world).Z, Is.EqualTo(0.005 / 360 * angle).Within(1e-6), "along +axis for a positive turn");
     }
 
+    [TestCase(CouplingKind.Rack)]
+    [TestCase(CouplingKind.Linear)]
+    public void Coupling_AngleToSlide_HoldsMetresADegree(CouplingKind kind)
+    {
+        // A pinion of 20 mm radius, driven, and a rack on X.
+        const double ratio = 0.02 * Math.PI / 180;
+        var rack = new ConfigurableJoint
+        {
+            YMotion = ConfigurableJointMotion.Locked,
+            ZMotion = ConfigurableJointMotion.Locked,
+            AngularXMotion = ConfigurableJointMotion.Locked,
+            AngularYMotion = ConfigurableJointMotion.Locked,
+            AngularZMotion = ConfigurableJointMotion.Locked,
+        };
+        World world = World.Create(SmallScene.Validate(new SceneDocument
+        {
+            Physics = NoGravity,
+            GameObjects =
+            [
+                new GameObject { Id = "pinion", Name = "pinion", Components = [new Rigidbody(), new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = true, Motor = new JointMotor { TargetVelocity = -100, Force = 1e4 } }] },
+                new GameObject { Id = "rack", Name = "rack", Components = [new Rigidbody(), rack] },
+            ],
+            Couplings = [new Coupling { Kind = kind, A = new JointCoordinate { GameObject = 0, Component = 1, Coordinate = Coordinate.Angle }, B = new JointCoordinate { GameObject = 1, Component = 1, Coordinate = Coordinate.X }, Ratio = ratio }],
+        }));
+
+        SmallScene.Run(world, 2);
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(-200).Within(1), "the motor turns it");
+        Assert.That(world.Bodies[1].Pose.Position.X, Is.EqualTo(ratio * world.Joints[0].Coordinate(Coordinate.Angle)).Within(1e-5));
+    }
+
     [Test]
     public void Step_AfterWarmUp_AllocatesNothing()
     {

@@ -15,8 +15,8 @@ internal static class UnityJoints
 {
     private const double Radians = Math.PI / 180;
 
-    // PhysX's own choices (PxJointLimit.h), taken for a contactDistance of 0 and for the bounce threshold that Unity's
-    // SoftJointLimit does not have. That Unity does so is unconfirmed.
+    // PhysX's own choices (PxJointLimit.h): for a contactDistance of 0, which asks for the defaults (ScriptReference,
+    // JointLimits.contactDistance), and for the bounce threshold that Unity's SoftJointLimit does not have (unconfirmed).
     private const double AngularContactDistance = 0.1;
     private const double AngularContactShare = 0.49;
     private const double LinearContactDistance = 0.01;

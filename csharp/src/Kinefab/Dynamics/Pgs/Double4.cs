@@ -50,7 +50,7 @@ internal readonly struct Double4
 
     /// <summary>One of its numbers, four times.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Double4 Spread(int i) => new(Vector256.Shuffle(_v, Vector256.Create((long)i)));
+    public Double4 Spread(int i) => new(Vector256.Create(_v.GetElement(i)));
 
     /// <summary>Sum of the first three of each.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -55,7 +55,7 @@ internal static class SimulateCommand
         double dt = step ?? loaded.Scene.Document.Physics.FixedTimestep;
         long steps = Math.Max(1, (long)Math.Round(seconds / dt));
         var summary = new RunSummary(world, loaded.Scene);
-        Recording? recording = output is null ? null : new Recording(world, kind, dt);
+        Recording? recording = output is null ? null : new Recording(world, loaded.Scene, kind, dt);
         var progress = new Progress(steps);
         for (long i = 1; i <= steps; i++)
         {

@@ -4,7 +4,6 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using Kinefab.Cli.Motion;
-using Kinefab.Document;
 using Kinefab.Kinematics;
 
 namespace Kinefab.Cli.Commands;
@@ -42,8 +41,7 @@ internal static class SweepCommand
         if (loaded.Scene is null)
             return loaded.ExitCode;
         Mechanism mechanism = Mechanism.Create(loaded.Scene);
-        int coordinate = CoordinateChoice.Find(mechanism, joint, out string fault);
-        if (coordinate < 0)
+        if (!mechanism.TryFindCoordinate(joint, out int coordinate, out string fault))
         {
             Console.Error.WriteLine($"--joint {joint}: {fault}");
             return WrongUsage;
@@ -84,6 +82,8 @@ internal static class SweepCommand
         string unit = mechanism.Coordinates[result.Coordinate].IsAngle ? "deg" : "m";
         target.WriteLine($"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {result.States.Count - 1} steps");
         target.WriteLine($"range      {End(mechanism, low)} to {End(mechanism, high)} {unit}");
+        for (int i = 0; i < result.Branches.Count; i++)
+            target.WriteLine($"branch     {(i > 0 ? "not taken" : result.Branches.Count == 1 ? "taken, the only one found" : $"taken, the straightest of {result.Branches.Count}")}: {Rates(mechanism, result.Branches[i])}");
         if (result.Stop is RangeLimit stop)
             target.WriteLine($"stopped    {End(mechanism, stop)} {unit}");
         foreach (double jump in result.Jumps)
@@ -95,20 +95,24 @@ internal static class SweepCommand
             MechanismCoordinate coordinate = mechanism.Coordinates[i];
             double least = result.States.Min(s => s.Coordinate(index));
             double most = result.States.Max(s => s.Coordinate(index));
-            target.WriteLine($"           {Name(mechanism, coordinate.GameObject)}.{coordinate.Coordinate.ToJson()} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
+            target.WriteLine($"           {Name(mechanism, i)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
         }
     }
+
+    // By degree or metre of the driven joint.
+    private static string Rates(Mechanism mechanism, MotionBranch branch) => string.Join(", ", Enumerable.Range(0, branch.Rates.Count)
+        .Select(i => $"{Name(mechanism, i)} {branch.Rates[i].ToString("+0.###;-0.###;0", CultureInfo.InvariantCulture)}"));
 
     private static string End(Mechanism mechanism, RangeLimit limit) => limit.End switch
     {
         RangeEnd.Open => $"{Number(limit.Value)} (open)",
-        RangeEnd.Limit when limit.Limit is ReachedLimit reached => $"{Number(limit.Value)} (limit of {Name(mechanism, reached.GameObject)}.{reached.Coordinate.ToJson()})",
+        RangeEnd.Limit when limit.Limit is ReachedLimit reached => $"{Number(limit.Value)} (limit of {Name(mechanism, mechanism.FindCoordinate(reached.GameObject, reached.Component, reached.Coordinate))})",
         RangeEnd.Fold => $"{Number(limit.Value)} (dead centre)",
         RangeEnd.Bifurcation => $"{Number(limit.Value)} (branches cross)",
         _ => $"{Number(limit.Value)} (no pose found beyond)",
     };
 
-    private static string Name(Mechanism mechanism, int gameObject) => mechanism.Scene.Document.GameObjects[gameObject].Id;
+    private static string Name(Mechanism mechanism, int coordinate) => mechanism.Coordinates[coordinate].Name;
 
     private static string Number(double value) => Math.Round(value, 9).ToString("0.######", CultureInfo.InvariantCulture);
 }

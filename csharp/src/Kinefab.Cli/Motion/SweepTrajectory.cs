@@ -1,5 +1,4 @@
 using System.Linq;
-using Kinefab.Document;
 using Kinefab.Kinematics;
 
 namespace Kinefab.Cli.Motion;
@@ -9,11 +8,11 @@ internal static class SweepTrajectory
 {
     internal static Trajectory Of(Mechanism mechanism, SweepResult sweep)
     {
-        var trajectory = new Trajectory("position") { Driver = Make(mechanism, sweep.Coordinate) };
+        var trajectory = new Trajectory("position") { Driver = TrajectoryCoordinate.Of(mechanism, sweep.Coordinate) };
         trajectory.At.AddRange(sweep.Values);
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
         {
-            TrajectoryCoordinate coordinate = Make(mechanism, i);
+            TrajectoryCoordinate coordinate = TrajectoryCoordinate.Of(mechanism, i);
             coordinate.Values.AddRange(sweep.States.Select(s => s.Coordinate(i)));
             trajectory.Coordinates.Add(coordinate);
         }
@@ -28,11 +27,5 @@ internal static class SweepTrajectory
         }
 
         return trajectory;
-    }
-
-    private static TrajectoryCoordinate Make(Mechanism mechanism, int index)
-    {
-        MechanismCoordinate source = mechanism.Coordinates[index];
-        return new TrajectoryCoordinate(source.GameObject, mechanism.Scene.Document.GameObjects[source.GameObject].Id, source.Component, source.Coordinate);
     }
 }

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using Kinefab.Document;
+using Kinefab.Kinematics;
 using Kinefab.Numerics;
 
 namespace Kinefab.Cli.Motion;
@@ -29,8 +30,15 @@ internal sealed class Trajectory
 }
 
 /// <summary>A joint coordinate over a trajectory, degrees or metres.</summary>
-internal sealed record TrajectoryCoordinate(int GameObject, string Id, int Component, Coordinate Coordinate)
+internal sealed record TrajectoryCoordinate(int GameObject, string Id, int Component, Coordinate Coordinate, string Name)
 {
+    internal static TrajectoryCoordinate Of(Mechanism mechanism, int index)
+    {
+        MechanismCoordinate source = mechanism.Coordinates[index];
+        return new TrajectoryCoordinate(
+            source.GameObject, mechanism.Scene.Document.GameObjects[source.GameObject].Id, source.Component, source.Coordinate, source.Name);
+    }
+
     internal List<double> Values { get; } = [];
 }
 

@@ -6,7 +6,6 @@ using System.Linq;
 using System.Text;
 using System.Text.Encodings.Web;
 using System.Text.Json;
-using Kinefab.Document;
 using Kinefab.Numerics;
 
 namespace Kinefab.Cli.Motion;
@@ -33,9 +32,9 @@ internal static class TrajectoryFile
 
     private static void WriteCsv(Trajectory trajectory, StreamWriter target)
     {
-        IEnumerable<string> columns = trajectory.Coordinates.Select(Column)
+        IEnumerable<string> columns = trajectory.Coordinates.Select(c => c.Name)
             .Concat(trajectory.Bodies.SelectMany(b => PoseParts.Select(p => b.Id + "." + p)))
-            .Prepend(trajectory.Driver is null ? "time" : "driver " + Column(trajectory.Driver));
+            .Prepend(trajectory.Driver is null ? "time" : "driver " + trajectory.Driver.Name);
         target.WriteLine(string.Join(',', columns.Select(Quoted)));
         for (int i = 0; i < trajectory.At.Count; i++)
         {
@@ -99,7 +98,7 @@ internal static class TrajectoryFile
         json.WriteNumber("gameObject", coordinate.GameObject);
         json.WriteString("id", coordinate.Id);
         json.WriteNumber("component", coordinate.Component);
-        json.WriteString("coordinate", Name(coordinate.Coordinate));
+        json.WriteString("coordinate", coordinate.Coordinate.ToJson());
     }
 
     private static void Array(Utf8JsonWriter json, string? name, IEnumerable<double> values)
@@ -114,15 +113,6 @@ internal static class TrajectoryFile
 
     private static double[] Numbers(Pose pose) =>
         [pose.Position.X, pose.Position.Y, pose.Position.Z, pose.Rotation.X, pose.Rotation.Y, pose.Rotation.Z, pose.Rotation.W];
-
-    private static string Column(TrajectoryCoordinate coordinate) => coordinate.Id + "." + Name(coordinate.Coordinate);
-
-    // As scene files write coordinates: angularX.
-    private static string Name(Coordinate coordinate)
-    {
-        string name = coordinate.ToString();
-        return char.ToLowerInvariant(name[0]) + name[1..];
-    }
 
     private static string Quoted(string text) =>
         text.AsSpan().IndexOfAny(',', '"', '\n') < 0 ? text : "\"" + text.Replace("\"", "\"\"", StringComparison.Ordinal) + "\"";

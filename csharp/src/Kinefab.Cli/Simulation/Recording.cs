@@ -1,19 +1,25 @@
 using System.Linq;
 using Kinefab.Cli.Motion;
 using Kinefab.Dynamics;
+using Kinefab.Kinematics;
+using Kinefab.Validation;
 
 namespace Kinefab.Cli.Simulation;
 
-/// <summary>The poses of all bodies' objects after every step, world frame.</summary>
+/// <summary>The poses of all bodies' objects and the joint coordinates after every step, world frame.</summary>
 internal sealed class Recording
 {
     private readonly World world;
+    private readonly MechanismState state;
 
-    internal Recording(World world, SolverKind solver, double step)
+    internal Recording(World world, ValidScene scene, SolverKind solver, double step)
     {
         this.world = world;
+        Mechanism mechanism = Mechanism.Create(scene);
+        state = mechanism.NewState();
         Trajectory = new Trajectory(solver.ToString().ToLowerInvariant()) { Step = step };
         Trajectory.Bodies.AddRange(world.Bodies.Select(b => new TrajectoryBody(b.GameObject, b.Id)));
+        Trajectory.Coordinates.AddRange(Enumerable.Range(0, mechanism.Coordinates.Count).Select(i => TrajectoryCoordinate.Of(mechanism, i)));
         Note();
     }
 
@@ -24,6 +30,12 @@ internal sealed class Recording
     {
         Trajectory.At.Add(world.Time);
         for (int i = 0; i < world.Bodies.Count; i++)
+        {
             Trajectory.Bodies[i].Poses.Add(world.Bodies[i].Pose);
+            state.SetPose(world.Bodies[i].GameObject, world.Bodies[i].Pose);
+        }
+
+        for (int i = 0; i < Trajectory.Coordinates.Count; i++)
+            Trajectory.Coordinates[i].Values.Add(state.Coordinate(i));
     }
 }

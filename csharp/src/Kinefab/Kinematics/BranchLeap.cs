@@ -1,5 +1,4 @@
 using System;
-using Kinefab.Joints;
 
 namespace Kinefab.Kinematics;
 
@@ -12,22 +11,24 @@ internal sealed class BranchLeap
 {
     // Radians, or lengths of the mechanism.
     private static readonly double[] Sizes = { 0.01, 0.03, 0.1 };
-    private const double LeastTrail = 1e-7;
+    private const double LeastTrail = 1e-8;
     private const double LargestCorrection = 0.2;
 
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
     private readonly MechanismState _start;
     private readonly MechanismState _predicted;
-    private readonly double[] _step;
+    private readonly StraightMotion _straight;
+    private readonly double[] _values;
 
-    public BranchLeap(Mechanism mechanism, NewtonSolver newton)
+    public BranchLeap(Mechanism mechanism, NewtonSolver newton, StraightMotion straight)
     {
         _mechanism = mechanism;
         _newton = newton;
         _start = mechanism.NewState();
         _predicted = mechanism.NewState();
-        _step = new double[newton.Motion.Linear.Length];
+        _straight = straight;
+        _values = new double[mechanism.Coordinates.Count];
     }
 
     /// <summary>Moves the state from s over a crossing; false when there is none or nothing tells the way.</summary>
@@ -51,7 +52,12 @@ internal sealed class BranchLeap
             }
 
             state.CopyFrom(_start);
-            double moved = Predict(state, factor);
+            for (int i = 0; i < _values.Length; i++)
+            {
+                _values[i] = _start.Values[i] + factor * (_start.Values[i] - _start.Trail[i]);
+            }
+
+            double moved = _straight.Move(state, _values);
             _predicted.CopyFrom(state);
             _newton.ClearDriven();
             for (int i = 0; i < driven.Length; i++)
@@ -67,6 +73,20 @@ internal sealed class BranchLeap
         }
 
         state.CopyFrom(_start);
+        return false;
+    }
+
+    /// <summary>Whether the driven coordinates have moved on the way here.</summary>
+    public static bool HasTrail(MechanismState state, ReadOnlySpan<int> driven)
+    {
+        foreach (int coordinate in driven)
+        {
+            if (Math.Abs(state.Values[coordinate] - state.Trail[coordinate]) > LeastTrail)
+            {
+                return true;
+            }
+        }
+
         return false;
     }
 
@@ -86,40 +106,6 @@ internal sealed class BranchLeap
         }
 
         return factor;
-    }
-
-    // Each freedom of a tree joint is moved by what its coordinate shall change; the largest such change is returned.
-    private double Predict(MechanismState state, double factor)
-    {
-        Array.Clear(_step, 0, _step.Length);
-        _newton.Motion.Start(state.Poses);
-        double largest = 0;
-        int place = 0;
-        for (int i = 0; i < state.Values.Length; i++)
-        {
-            MechanismCoordinate coordinate = _mechanism.Coordinates[i];
-            place = i > 0 && _mechanism.Coordinates[i - 1].Joint == coordinate.Joint ? place + 1 : 0;
-            int body = _mechanism.Tree.ChildOf[coordinate.Joint];
-            if (body < 0 || coordinate.IsLocked)
-            {
-                continue;
-            }
-
-            double unit = coordinate.IsAngle ? 1 : _mechanism.Length;
-            double change = factor * (state.Values[i] - state.Trail[i]) / unit;
-            // The coordinate is of actor 1 against actor 0 or the reverse; the freedom is of the child against its parent.
-            bool same = coordinate.IsAlongRows != _mechanism.Tree.ChildIsBody0[body];
-            _step[_newton.Firsts[body] + place] = same ? change : -change;
-            largest = Math.Max(largest, Math.Abs(change));
-        }
-
-        _newton.Motion.Move(state.Poses, _step);
-        for (int i = 0; i < state.Values.Length; i++)
-        {
-            _newton.Equations.Evaluate(i, state.Poses, state.Values, out ConstraintRow _);
-        }
-
-        return largest;
     }
 
     private double Correction(MechanismState state)

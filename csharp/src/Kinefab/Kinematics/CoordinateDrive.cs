@@ -1,19 +1,22 @@
 using System;
+using System.Collections.Generic;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>
 /// Continuation from a state to driven values: s goes from 0 to 1, all driven coordinates on straight lines; a step that
 /// Newton's method does not follow is halved, and one that breaks a limit is cut at the contact and the limit held.
-/// Where halving does not help, branches may cross: there the way is kept by a leap.
+/// Where halving does not help, branches may cross: there the way is kept by a leap, or looked for where there is none yet.
 /// </summary>
 internal sealed class CoordinateDrive
 {
+    /// <summary>Steps from this on may cross branches, radians or lengths of the mechanism.</summary>
+    public const double LeapStep = 2e-2;
+
     // Radians, or lengths of the mechanism.
     private const double LargestStep = 0.35;
     private const double LeastStep = 1e-7;
     private const double LeastStepAtLimit = 1e-2;
-    private const double LeapStep = 2e-2;
     private const double LimitTolerance = 1e-12;
     private const int MaxContactIterations = 40;
 
@@ -23,40 +26,55 @@ internal sealed class CoordinateDrive
     private readonly int[] _coordinates;
     private readonly double[] _from;
     private readonly double[] _to;
+    private readonly double[] _first;
     private readonly BranchLeap _leap;
+    private readonly CrossingPose _crossing;
+    private BranchSearch? _search;
     private int _count;
+    private int _branches;
+    private bool _isFresh;
 
     public CoordinateDrive(Mechanism mechanism, NewtonSolver newton)
     {
         _mechanism = mechanism;
         _newton = newton;
         _good = mechanism.NewState();
-        _leap = new BranchLeap(mechanism, newton);
+        var straight = new StraightMotion(mechanism, newton);
+        _leap = new BranchLeap(mechanism, newton, straight);
+        _crossing = new CrossingPose(mechanism, newton, straight);
+        Singular = new SingularPoses(mechanism, newton);
         _coordinates = new int[mechanism.Coordinates.Count];
         _from = new double[_coordinates.Length];
         _to = new double[_coordinates.Length];
+        _first = new double[_coordinates.Length];
     }
+
+    public SingularPoses Singular { get; }
 
     public DriveResult Run(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
     {
         _newton.Iterations = 0;
         double way = Aim(state, targets);
+        _branches = 0;
+        _isFresh = !BranchLeap.HasTrail(state, _coordinates.AsSpan(0, _count));
         _newton.Limits.Begin(state.Poses);
         _good.CopyFrom(state);
         double s = 0;
         double step = way > LargestStep ? LargestStep / way : 1;
         int limit = -1;
         double leaptFrom = -1;
+        bool crosses = way > 0 && (_isFresh ? Singular.Contains(state) : state.IsAtCrossing);
         while (s < 1)
         {
             double next = s + step >= 1 ? 1 : s + step;
-            if (!Track(state, next))
+            if (crosses || !Track(state, next, s > 0 || !_isFresh))
             {
                 state.CopyFrom(_good);
-                step = (next - s) / 2;
-                bool leaps = limit < 0 && step * way <= LeapStep && s > leaptFrom;
+                step = crosses ? step : (next - s) / 2;
+                bool leaps = crosses || (limit < 0 && step * way <= LeapStep && s > leaptFrom);
+                crosses = false;
                 leaptFrom = leaps ? s : leaptFrom;
-                if (!leaps || !_leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next))
+                if (!leaps || !Cross(state, s, way, out next))
                 {
                     if (step * way <= (limit >= 0 ? LeastStepAtLimit : LeastStep))
                     {
@@ -76,6 +94,8 @@ internal sealed class CoordinateDrive
                 _newton.Limits.IsActive[broken] = true;
             }
 
+            state.IsAtCrossing = way > 0 ? next >= 1 && Arrives(state, s, way) : state.IsAtCrossing;
+
             s = next;
             Array.Copy(_good.Values, state.Trail, state.Trail.Length);
             _good.CopyFrom(state);
@@ -84,6 +104,13 @@ internal sealed class CoordinateDrive
 
         return Result(DriveStatus.Reached, 1, limit);
     }
+
+    /// <summary>The ways on from a state; allocates.</summary>
+    /// <param name="state">Closed; not changed.</param>
+    /// <param name="driven">Driven coordinates.</param>
+    /// <param name="step">Their change along the first step, radians or metres.</param>
+    public List<MotionBranch> Branches(MechanismState state, ReadOnlySpan<int> driven, ReadOnlySpan<double> step) =>
+        (_search ??= new BranchSearch(_mechanism, _newton, Singular)).Find(state, driven, step);
 
     private double Aim(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
     {
@@ -101,7 +128,48 @@ internal sealed class CoordinateDrive
         return way;
     }
 
-    private bool Track(MechanismState state, double s)
+    private bool Cross(MechanismState state, double s, double way, out double next) => s == 0 && _isFresh
+        ? Leave(state, way, out next)
+        : _leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next);
+
+    // Off a pose that nothing was travelled to.
+    private bool Leave(MechanismState state, double way, out double next)
+    {
+        next = Math.Min(1, LeapStep / way);
+        for (int i = 0; i < _count; i++)
+        {
+            _first[i] = next * (_to[i] - _from[i]);
+        }
+
+        List<MotionBranch> branches = Branches(state, _coordinates.AsSpan(0, _count), _first.AsSpan(0, _count));
+        if (branches.Count == 0)
+        {
+            return false;
+        }
+
+        _branches = branches.Count;
+        state.CopyFrom(branches[0].State);
+        return true;
+    }
+
+    // Where branches cross, Newton's method alone would leave the pose, and with it the way on, to chance.
+    private bool Arrives(MechanismState state, double s, double way)
+    {
+        if (!Singular.MayBeNear || !Singular.Contains(state))
+        {
+            return false;
+        }
+
+        for (int i = 0; i < _count; i++)
+        {
+            _first[i] = (_to[i] - _from[i]) / way;
+        }
+
+        _crossing.Refine(state, _good, _coordinates.AsSpan(0, _count), _to, _first, (1 - s) * way);
+        return true;
+    }
+
+    private bool Track(MechanismState state, double s, bool acceptsDoubleRoot = true)
     {
         _newton.ClearDriven();
         for (int i = 0; i < _count; i++)
@@ -109,7 +177,7 @@ internal sealed class CoordinateDrive
             _newton.Drive(_coordinates[i], s >= 1 ? _to[i] : _from[i] + s * (_to[i] - _from[i]));
         }
 
-        return _newton.Track(state);
+        return _newton.Track(state, acceptsDoubleRoot);
     }
 
     // The s at which the first limit is met: false position with Illinois' halving between a pose inside and one outside.
@@ -180,5 +248,5 @@ internal sealed class CoordinateDrive
     }
 
     private DriveResult Result(DriveStatus status, double s, int limit) =>
-        new(status, s, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, limit < 0 ? null : LimitNames.Of(_good, _newton.Limits, limit));
+        new(status, s, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, _branches, limit < 0 ? null : LimitNames.Of(_good, _newton.Limits, limit));
 }

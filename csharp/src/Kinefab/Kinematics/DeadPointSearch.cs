@@ -43,17 +43,21 @@ internal sealed class DeadPointSearch
     private const int MaxBisections = 80;
     private const int MaxCorrections = 20;
     private const double Damping = 1e-11;
-    private const double RankTolerance = 1e-5;
+
+    // Of the driven coordinate, asked to move at 1.
+    private const double LeastRate = 0.5;
 
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
+    private readonly SingularPoses _singular;
     private readonly MechanismState _here;
     private readonly MechanismState _base;
 
-    public DeadPointSearch(Mechanism mechanism, NewtonSolver newton)
+    public DeadPointSearch(Mechanism mechanism, NewtonSolver newton, SingularPoses singular)
     {
         _mechanism = mechanism;
         _newton = newton;
+        _singular = singular;
         _here = mechanism.NewState();
         _base = mechanism.NewState();
     }
@@ -65,6 +69,11 @@ internal sealed class DeadPointSearch
     public DeadPoint? Find(MechanismState state, int coordinate, double direction)
     {
         _here.CopyFrom(state);
+        if (StandsStill(coordinate, direction))
+        {
+            return new DeadPoint(_singular.Contains(state) ? DeadPointKind.Bifurcation : DeadPointKind.Fold, state.Coordinate(coordinate));
+        }
+
         int freedom = Fastest(coordinate, direction, out int joint, out double sense);
         if (freedom < 0)
         {
@@ -123,7 +132,7 @@ internal sealed class DeadPointSearch
             }
         }
 
-        DeadPointKind kind = LosesRank(_here, _base) ? DeadPointKind.Bifurcation : DeadPointKind.Fold;
+        DeadPointKind kind = _singular.Contains(_here) ? DeadPointKind.Bifurcation : DeadPointKind.Fold;
         return new DeadPoint(kind, _here.Coordinate(coordinate));
     }
 
@@ -143,8 +152,6 @@ internal sealed class DeadPointSearch
         return null;
     }
 
-    private bool LosesRank(MechanismState at, MechanismState near) => Values(at).Rank(RankTolerance) < Values(near).Rank(RankTolerance);
-
     private SingularValues Values(MechanismState state)
     {
         int n = _newton.Motion.Linear.Length;
@@ -163,10 +170,19 @@ internal sealed class DeadPointSearch
         return new SingularValues(rows.Matrix(columns));
     }
 
+    // At a dead centre the rest of the mechanism moves and the driven coordinate does not; the damping decides how near one
+    // is at one: 1e-9 rad of the driven coordinate.
+    private bool StandsStill(int coordinate, double direction)
+    {
+        double[] step = Tangent(coordinate, direction, NewtonSolver.LeastDamping);
+        _newton.Equations.Evaluate(coordinate, _here.Poses, _here.Values, out ConstraintRow row);
+        return Math.Abs(_newton.Equations.Rate(_mechanism.Coordinates[coordinate].Joint, row, _here.Poses, step)) < LeastRate;
+    }
+
     // The freedom of a tree joint that moves fastest when q does, and its sense.
     private int Fastest(int coordinate, double direction, out int joint, out double sense)
     {
-        double[] step = Tangent(coordinate, direction);
+        double[] step = Tangent(coordinate, direction, Damping);
         int fastest = -1;
         joint = -1;
         foreach (int body in _mechanism.Tree.Order)
@@ -186,14 +202,14 @@ internal sealed class DeadPointSearch
         return fastest;
     }
 
-    private double[] Tangent(int coordinate, double direction)
+    private double[] Tangent(int coordinate, double direction, double damping)
     {
         _newton.ClearDriven();
         double unit = _mechanism.Coordinates[coordinate].IsAngle ? 1 : _mechanism.Length;
         _newton.Drive(coordinate, _here.Values[coordinate] + direction * unit);
         _newton.Motion.Start(_here.Poses);
         _newton.Assemble(_here);
-        return _newton.SolveStep(Damping);
+        return _newton.SolveStep(damping);
     }
 
     // dq over the parameter, q in radians or lengths.

@@ -45,13 +45,14 @@ public readonly struct ReachedLimit
 /// <summary>What a drive or drag came to.</summary>
 public readonly struct DriveResult
 {
-    internal DriveResult(DriveStatus status, double fraction, int iterations, double errorMetres, double errorDegrees, ReachedLimit? limit)
+    internal DriveResult(DriveStatus status, double fraction, int iterations, double errorMetres, double errorDegrees, int branches, ReachedLimit? limit)
     {
         Status = status;
         Fraction = fraction;
         Iterations = iterations;
         ErrorMetres = errorMetres;
         ErrorDegrees = errorDegrees;
+        Branches = branches;
         Limit = limit;
     }
 
@@ -72,6 +73,12 @@ public readonly struct DriveResult
 
     /// <summary>Worst angle left in a joint or coupling, degrees.</summary>
     public double ErrorDegrees { get; }
+
+    /// <summary>
+    /// How many ways lead on from the start, where that is a pose at which branches of motion meet and nothing travelled so
+    /// far tells which to take: the straightest is taken (see <see cref="PositionSolver.Branches"/>). 0 everywhere else.
+    /// </summary>
+    public int Branches { get; }
 
     /// <summary>The limit that stopped it, or that it rests against; null: none.</summary>
     public ReachedLimit? Limit { get; }

@@ -19,6 +19,7 @@ public sealed class Mechanism
     private readonly Pose[] _locals;
     private readonly Pose[] _start;
     private readonly MechanismCoordinate[] _coordinates;
+    private readonly MechanismNames _names;
 
     private Mechanism(ValidScene scene)
     {
@@ -74,6 +75,7 @@ public sealed class Mechanism
             coordinate.Zero = coordinate.Evaluate(PoseOf(rows.Body0, _start), PoseOf(rows.Body1, _start), 0, out _);
         }
 
+        _names = new MechanismNames(scene.Document.GameObjects, _coordinates);
         Couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
         Origin = MechanismScale.Center(this, _start);
         Length = MechanismScale.LinkLength(this, _start);
@@ -145,8 +147,29 @@ public sealed class Mechanism
         return -1;
     }
 
+    /// <summary>Finds a coordinate by its <see cref="MechanismCoordinate.Name"/>, or by the GameObject's id or name alone where that is enough.</summary>
+    /// <param name="name">Such as Lever/Crank:1.angle or Lever/Crank:1.</param>
+    /// <param name="coordinate">Index into <see cref="Coordinates"/>; -1: not found.</param>
+    /// <param name="problem">What is wrong with the name and which there are; empty: nothing.</param>
+    public bool TryFindCoordinate(string name, out int coordinate, out string problem) =>
+        _names.TryFind(name ?? throw new ArgumentNullException(nameof(name)), out coordinate, out problem);
+
+    /// <summary>As <see cref="TryFindCoordinate"/>, for names that are known to be right; else an ArgumentException says which there are.</summary>
+    public int CoordinateNamed(string name) =>
+        TryFindCoordinate(name, out int coordinate, out string problem) ? coordinate : throw new ArgumentException($"{name}: {problem}", nameof(name));
+
+    /// <summary>Index of the GameObject with an id, or with a name that no other has.</summary>
+    public int GameObjectNamed(string idOrName)
+    {
+        int found = _names.GameObject(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
+        return found >= 0 ? found : throw new ArgumentException($"{idOrName}: no GameObject has this id, nor one alone this name.", nameof(idOrName));
+    }
+
     /// <summary>The body that moves a GameObject, or World.</summary>
     internal int BodyOf(int gameObject) => _bodyOf[gameObject];
+
+    /// <summary>Where the body that moves a GameObject stands when the GameObject stands at a pose.</summary>
+    internal Pose PoseOfBody(int gameObject, in Pose world) => world * _locals[gameObject].Inverse();
 
     /// <summary>A point of a GameObject in the frame of the body that moves it.</summary>
     internal Vector3d PointInBody(int gameObject, Vector3d point) => _locals[gameObject].Point(point);

@@ -22,6 +22,12 @@ public sealed class MechanismCoordinate
         _coordinate = source;
     }
 
+    /// <summary>
+    /// What it is called in trajectories and on the command line: the GameObject's id and the coordinate, Lever/Crank:1.angle;
+    /// with the component's index, Arm:2[3].angularX, where one object carries several joints that move.
+    /// </summary>
+    public string Name { get; internal set; } = "";
+
     /// <summary>Index of the GameObject that carries the joint.</summary>
     public int GameObject { get; }
 

@@ -26,13 +26,50 @@ public sealed class MechanismState
     /// <summary>Values a step earlier on the way here: the direction of travel, which tells the branch where branches cross.</summary>
     internal double[] Trail { get; }
 
+    /// <summary>Stands, by the way on the trail, at a pose where branches cross.</summary>
+    internal bool IsAtCrossing { get; set; }
+
     /// <summary>A coordinate, degrees or metres.</summary>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
     public double Coordinate(int coordinate) => Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate]);
 
+    /// <summary>A coordinate by its name (<see cref="MechanismCoordinate.Name"/>), degrees or metres.</summary>
+    public double Coordinate(string name) => Coordinate(Mechanism.CoordinateNamed(name));
+
     /// <summary>World pose of a GameObject in Unity's frame.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
     public Pose Pose(int gameObject) => Mechanism.PoseOfGameObject(gameObject, Poses);
+
+    /// <summary>World pose of the GameObject with an id, or with a name that no other has.</summary>
+    public Pose Pose(string idOrName) => Pose(Mechanism.GameObjectNamed(idOrName));
+
+    /// <summary>
+    /// Puts a body where a GameObject that it moves stands at a pose, and reads the coordinates of the body's joints anew:
+    /// so a state follows a physics engine, or user input. The joints are as open as the poses leave them; see
+    /// <see cref="PositionSolver.Close"/>.
+    /// </summary>
+    /// <param name="gameObject">Index of a GameObject that a Rigidbody moves.</param>
+    /// <param name="world">Metres and a unit quaternion.</param>
+    public void SetPose(int gameObject, in Pose world)
+    {
+        int body = Mechanism.BodyOf(gameObject);
+        if (body < 0)
+            throw new ArgumentException("No Rigidbody moves this GameObject.", nameof(gameObject));
+        if (!world.Position.IsFinite || !(Math.Abs(world.Rotation.LengthSquared - 1) < 1e-4))
+            throw new ArgumentException("The pose is not finite, or its rotation no unit quaternion.", nameof(world));
+        Poses[body] = Mechanism.PoseOfBody(gameObject, world);
+        for (int i = 0; i < Values.Length; i++)
+        {
+            MechanismCoordinate coordinate = Mechanism.Coordinates[i];
+            Joints.Joint rows = coordinate.JointRows;
+            if (rows.Body0 == body || rows.Body1 == body)
+            {
+                Values[i] = coordinate.Evaluate(Mechanism.PoseOf(rows.Body0, Poses), Mechanism.PoseOf(rows.Body1, Poses), Values[i], out _);
+            }
+        }
+
+        ForgetTrail();
+    }
 
     /// <summary>Takes over another state of the same mechanism.</summary>
     public void CopyFrom(MechanismState other)
@@ -44,6 +81,14 @@ public sealed class MechanismState
         Array.Copy(other.Poses, Poses, Poses.Length);
         Array.Copy(other.Values, Values, Values.Length);
         Array.Copy(other.Trail, Trail, Trail.Length);
+        IsAtCrossing = other.IsAtCrossing;
+    }
+
+    /// <summary>Forgets the way here: after it the state stands as if it had always stood there.</summary>
+    internal void ForgetTrail()
+    {
+        Array.Copy(Values, Trail, Trail.Length);
+        IsAtCrossing = false;
     }
 
     /// <summary>A state of its own with the same poses.</summary>

@@ -9,10 +9,18 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class NewtonSolver
 {
+    /// <summary>Damping where nothing asks for more.</summary>
+    public const double LeastDamping = 1e-9;
+
+    // A pivot is the square of a singular value, and damping adds to it.
+    private const double VanishedPivot = 100 * LeastDamping;
+
+    // Most that a singular value changes with a step of length 1.
+    private const double RankReach = 3;
+
     // Errors are lengths of the mechanism or radians.
     private const double Tolerance = 1e-13;
     private const double AcceptedError = 1e-10;
-    private const double LeastDamping = 1e-9;
     private const double LargestStep = 0.5;
 
     // The second step is to the first as the way's curvature is to its length, so halving the way lessens it: but not
@@ -28,6 +36,7 @@ internal sealed class NewtonSolver
     private readonly double[] _step;
     private readonly int[] _driven;
     private readonly double[] _targets;
+    private double _lastStep;
 
     public NewtonSolver(Mechanism mechanism)
     {
@@ -70,6 +79,12 @@ internal sealed class NewtonSolver
     /// <summary>For each body the place of its first freedom in a step.</summary>
     public int[] Firsts => _normal.Firsts;
 
+    /// <summary>Freedoms that the rows last solved for left over.</summary>
+    public int VanishedPivots => _normal.PivotsBelow(VanishedPivot);
+
+    /// <summary>Freedoms that those rows may leave over where the last step of Track led.</summary>
+    public int VanishingPivots => _normal.PivotsBelow(Math.Max(VanishedPivot, RankReach * RankReach * _lastStep * _lastStep));
+
     /// <summary>The damped step for the rows last assembled; valid until the next assembly.</summary>
     public double[] SolveStep(double damping)
     {
@@ -91,10 +106,13 @@ internal sealed class NewtonSolver
     /// Follows a motion: true when the state was brought to the targets by steps that shrank from the first on, as they do
     /// while the branch is not left. On false the state is somewhere between.
     /// </summary>
-    public bool Track(MechanismState state)
+    /// <param name="state">Closed, or predicted; moved.</param>
+    /// <param name="acceptsDoubleRoot">Whether steps that do not shrink may end at a pose that is closed to the accepted error.</param>
+    public bool Track(MechanismState state, bool acceptsDoubleRoot = true)
     {
         Motion.Start(state.Poses);
         double previous = double.PositiveInfinity;
+        _lastStep = 0;
         for (int n = 0; n < MaxTrackIterations; n++)
         {
             Iterations++;
@@ -109,7 +127,7 @@ internal sealed class NewtonSolver
             if (!(size <= LargestStep) || (n > 0 && size > Math.Max((n > 1 ? LeastShrink : LeastFirstShrink) * previous, 1e-9)))
             {
                 // On a crossing itself the root is double and steps only halve: closed is closed there.
-                return n > 0 && Equations.Worst <= Accepted && Finish(state);
+                return acceptsDoubleRoot && n > 0 && Equations.Worst <= Accepted && Finish(state);
             }
 
             if (size < 1e-11 && Equations.Worst <= Accepted)
@@ -118,6 +136,7 @@ internal sealed class NewtonSolver
             }
 
             previous = size;
+            _lastStep = size;
             Motion.Move(state.Poses, _normal.Step);
         }
 

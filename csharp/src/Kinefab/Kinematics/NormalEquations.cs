@@ -16,6 +16,8 @@ internal sealed class NormalEquations
     private readonly Dictionary<RowPath, int[]> _blocks = new();
     private readonly double[] _matrix;
     private readonly double[] _step;
+    private readonly double[] _pivots;
+    private double _largest;
 
     /// <summary>Reserves the blocks that rows along the given paths need.</summary>
     public NormalEquations(KinematicTree tree, IReadOnlyList<RowPath> paths)
@@ -52,6 +54,7 @@ internal sealed class NormalEquations
         _pattern = new BlockPattern(sizes.ToArray(), couplings);
         _matrix = new double[_pattern.Length];
         _step = new double[_pattern.RowCount];
+        _pivots = new double[_pattern.RowCount];
         Firsts = new int[_freedoms.Length];
         foreach (int body in tree.Order)
         {
@@ -159,6 +162,7 @@ internal sealed class NormalEquations
             }
         }
 
+        _largest = largest;
         double mu = damping * largest;
         foreach (BlockPattern.Column column in _pattern.Columns)
         {
@@ -171,6 +175,27 @@ internal sealed class NormalEquations
 
         BlockCholesky<ScalarLane>.Factor(_pattern, _matrix);
         BlockCholesky<ScalarLane>.Solve(_pattern, _matrix, _step);
+        foreach (BlockPattern.Column column in _pattern.Columns)
+        {
+            for (int i = 0; i < column.Size; i++)
+            {
+                // The factor's diagonal is stored inverted.
+                double inverse = _matrix[column.Diagonal + i * (column.Size + 1)];
+                _pivots[column.Row + i] = 1 / (inverse * inverse);
+            }
+        }
+    }
+
+    /// <summary>Pivots of the last Solve that are less than a share of the largest entry: about as many freedoms are left over.</summary>
+    public int PivotsBelow(double share)
+    {
+        int count = 0;
+        foreach (double pivot in _pivots)
+        {
+            count += pivot < share * _largest ? 1 : 0;
+        }
+
+        return count;
     }
 
     private void AddProduct(int offset, ReadOnlySpan<double> rows, ReadOnlySpan<double> columns)

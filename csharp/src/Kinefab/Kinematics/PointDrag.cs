@@ -192,5 +192,5 @@ internal sealed class PointDrag
     private static bool AnyActive(LimitSet limits) => Array.IndexOf(limits.IsActive, true) >= 0;
 
     private DriveResult Result(DriveStatus status, double fraction, int limit) =>
-        new(status, fraction, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, limit < 0 ? null : LimitNames.Of(_good, _newton.Limits, limit));
+        new(status, fraction, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, 0, limit < 0 ? null : LimitNames.Of(_good, _newton.Limits, limit));
 }

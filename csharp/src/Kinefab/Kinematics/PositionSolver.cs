@@ -35,6 +35,8 @@ public sealed class PositionSolver
 
     internal NewtonSolver Newton => _newton;
 
+    internal SingularPoses Singular => _drive.Singular;
+
     /// <summary>
     /// Moves coordinates to values, all together along straight lines, in steps small enough to stay on the branch, and
     /// everything else by as little as can be. Stops at the first limit that cannot be dodged and at the last closed pose
@@ -68,6 +70,32 @@ public sealed class PositionSolver
         return Drive(state, targets);
     }
 
+    /// <summary>Moves one coordinate to a value, degrees or metres.</summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="coordinate">Its <see cref="MechanismCoordinate.Name"/>, or the GameObject's id where that is enough.</param>
+    /// <param name="value">Degrees or metres.</param>
+    public DriveResult Drive(MechanismState state, string coordinate, double value) =>
+        Drive(state, Mechanism.CoordinateNamed(coordinate), value);
+
+    /// <summary>
+    /// The ways that lead on from a pose when a coordinate is driven. One at most poses, none at a dead centre; several
+    /// where branches of motion meet, as in a parallelogram that lies flat. The straightest stands first, it is the one that
+    /// <see cref="Drive(MechanismState, int, double)"/> takes; copy the state of another one to take that.
+    /// Limits are not looked at. Allocates.
+    /// </summary>
+    /// <param name="state">Closed; not changed.</param>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <param name="isRising">Driven upwards, or downwards.</param>
+    public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true)
+    {
+        Check(state);
+        if ((uint)coordinate >= (uint)Mechanism.Coordinates.Count)
+            throw new ArgumentOutOfRangeException(nameof(coordinate));
+        double unit = Mechanism.Coordinates[coordinate].IsAngle ? 1 : Mechanism.Length;
+        ReadOnlySpan<double> step = stackalloc double[] { (isRising ? 1 : -1) * CoordinateDrive.LeapStep * unit };
+        return _drive.Branches(state, stackalloc int[] { coordinate }, step);
+    }
+
     /// <summary>
     /// Pulls a point of a body towards a place in the world as far as joints and limits let it, sliding along the limits.
     /// The first call for a body allocates.
@@ -90,8 +118,14 @@ public sealed class PositionSolver
             _drags.Add(body, drag);
         }
 
-        return drag.Run(state, Mechanism.PointInBody(gameObject, point), target);
+        DriveResult result = drag.Run(state, Mechanism.PointInBody(gameObject, point), target);
+        state.ForgetTrail();
+        return result;
     }
+
+    /// <summary>Pulls a point of a body, named by its GameObject's id or name, towards a place in the world.</summary>
+    public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target) =>
+        Drag(state, Mechanism.GameObjectNamed(gameObject), point, target);
 
     /// <summary>Closes all joints and couplings from wherever the state stands, moving the joints little; limits are not looked at.</summary>
     public DriveResult Close(MechanismState state)
@@ -101,8 +135,9 @@ public sealed class PositionSolver
         _newton.ClearDriven();
         _newton.Limits.Begin(state.Poses);
         bool closed = _newton.Close(state);
+        state.ForgetTrail();
         DriveStatus status = closed ? DriveStatus.Reached : DriveStatus.NotClosed;
-        return new DriveResult(status, closed ? 1 : 0, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, null);
+        return new DriveResult(status, closed ? 1 : 0, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, 0, null);
     }
 
     private void Check(MechanismState state)

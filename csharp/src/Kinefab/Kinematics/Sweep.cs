@@ -22,7 +22,7 @@ public sealed class Sweep
     {
         _solver = solver ?? throw new ArgumentNullException(nameof(solver));
         _mechanism = solver.Mechanism;
-        _deadPoints = new DeadPointSearch(_mechanism, solver.Newton);
+        _deadPoints = new DeadPointSearch(_mechanism, solver.Newton, solver.Singular);
         _back = _mechanism.NewState();
     }
 
@@ -47,29 +47,35 @@ public sealed class Sweep
         double metres = 0;
         double degrees = 0;
         RangeLimit? stop = null;
-        double start = state.Coordinate(coordinate);
+        IReadOnlyList<MotionBranch> branches = Array.Empty<MotionBranch>();
+        MechanismState last = state.Clone();
         for (int i = 0; i <= steps && stop is null; i++)
         {
             double target = i == steps ? to : from + (to - from) * i / steps;
-            double before = state.Coordinate(coordinate);
+            double before = last.Coordinate(coordinate);
             DriveResult result = _solver.Drive(state, coordinate, target);
             metres = Math.Max(metres, result.ErrorMetres);
             degrees = Math.Max(degrees, result.ErrorDegrees);
             if (!result.Converged)
             {
-                stop = StopOf(state, coordinate, i == 0 ? target - start : target - before, result);
+                stop = StopOf(state, coordinate, target - before, result);
             }
 
-            if (i > 0 && !Returns(state, states[^1], coordinate))
+            if (result.Branches > 0 && branches.Count == 0)
+            {
+                branches = _solver.Branches(last, coordinate, target > before);
+            }
+
+            if (i > 0 && !Returns(state, last, coordinate))
             {
                 jumps.Add(state.Coordinate(coordinate));
             }
 
             values.Add(state.Coordinate(coordinate));
-            states.Add(state.Clone());
+            states.Add(last = state.Clone());
         }
 
-        return new SweepResult(coordinate, values, states, jumps, stop, metres, degrees);
+        return new SweepResult(coordinate, values, states, jumps, branches, stop, metres, degrees);
     }
 
     /// <summary>
@@ -111,11 +117,9 @@ public sealed class Sweep
     private bool Returns(MechanismState state, MechanismState before, int coordinate)
     {
         _back.CopyFrom(state);
-        if (!_solver.Drive(_back, coordinate, before.Coordinate(coordinate)).Converged)
-        {
-            return false;
-        }
+        _solver.Drive(_back, coordinate, before.Coordinate(coordinate));
 
+        // A way back that ends just short of a dead centre is a way back.
         // Poses, not coordinates: single angles of a joint that turns freely about several axes lose their meaning at a half turn.
         for (int i = 0; i < _back.Poses.Length; i++)
         {

@@ -44,12 +44,13 @@ public readonly struct RangeLimit
 /// <summary>A swept coordinate: the states on the way, and how far it went.</summary>
 public sealed class SweepResult
 {
-    internal SweepResult(int coordinate, List<double> values, List<MechanismState> states, List<double> jumps, RangeLimit? stop, double worstMetres, double worstDegrees)
+    internal SweepResult(int coordinate, List<double> values, List<MechanismState> states, List<double> jumps, IReadOnlyList<MotionBranch> branches, RangeLimit? stop, double worstMetres, double worstDegrees)
     {
         Coordinate = coordinate;
         Values = values;
         States = states;
         Jumps = jumps;
+        Branches = branches;
         Stop = stop;
         WorstErrorMetres = worstMetres;
         WorstErrorDegrees = worstDegrees;
@@ -66,6 +67,12 @@ public sealed class SweepResult
 
     /// <summary>Values at which the mechanism came to another branch: driven back, it did not come where it had been.</summary>
     public IReadOnlyList<double> Jumps { get; }
+
+    /// <summary>
+    /// The ways that led on from the start, where that is a pose at which branches of motion meet; the first was taken.
+    /// Empty elsewhere.
+    /// </summary>
+    public IReadOnlyList<MotionBranch> Branches { get; }
 
     /// <summary>What stopped the sweep early; null when it went all the way.</summary>
     public RangeLimit? Stop { get; }

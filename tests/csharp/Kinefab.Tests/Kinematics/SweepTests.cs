@@ -113,7 +113,7 @@ public class SweepTests
         MechanismState state = bar.Mechanism.NewState();
         var solver = new PositionSolver(bar.Mechanism);
         solver.Drive(state, bar.Drive, 119.99);
-        DeadPoint? found = new DeadPointSearch(bar.Mechanism, solver.Newton).Find(state, bar.Drive, 1);
+        DeadPoint? found = new DeadPointSearch(bar.Mechanism, solver.Newton, solver.Singular).Find(state, bar.Drive, 1);
         Assert.That(found is null || found.Value.Kind == DeadPointKind.Bifurcation);
     }
 }

@@ -1,0 +1,112 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Document;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Finds GameObjects and coordinates by what they are called. A coordinate is called ID.COORDINATE, with [COMPONENT] behind
+/// the id where one object carries several joints that move: Lever/Crank:1.angle, Arm:2[3].angularX.
+/// </summary>
+internal sealed class MechanismNames
+{
+    private static readonly string[] Words = { "angle", "x", "y", "z", "angularX", "angularY", "angularZ" };
+
+    private readonly IReadOnlyList<GameObject> _objects;
+    private readonly MechanismCoordinate[] _coordinates;
+    private readonly Dictionary<string, int> _objectsById = new(StringComparer.Ordinal);
+    private readonly Dictionary<string, int> _found = new(StringComparer.Ordinal);
+
+    public MechanismNames(IReadOnlyList<GameObject> objects, MechanismCoordinate[] coordinates)
+    {
+        _objects = objects;
+        _coordinates = coordinates;
+        for (int i = 0; i < objects.Count; i++)
+        {
+            _objectsById.TryAdd(objects[i].Id, i);
+        }
+
+        var several = new HashSet<int>();
+        var freedoms = new Dictionary<int, int>();
+        var components = new Dictionary<int, int>();
+        foreach (MechanismCoordinate coordinate in coordinates)
+        {
+            int at = coordinate.GameObject;
+            freedoms[at] = freedoms.GetValueOrDefault(at) + (coordinate.IsLocked ? 0 : 1);
+            if (!components.TryAdd(at, coordinate.Component) && components[at] != coordinate.Component)
+            {
+                several.Add(at);
+            }
+        }
+
+        for (int i = 0; i < coordinates.Length; i++)
+        {
+            MechanismCoordinate coordinate = coordinates[i];
+            string id = objects[coordinate.GameObject].Id;
+            string joint = several.Contains(coordinate.GameObject) ? $"{id}[{coordinate.Component}]" : id;
+            coordinate.Name = $"{joint}.{Words[(int)coordinate.Coordinate]}";
+            _found.TryAdd(coordinate.Name, i);
+            if (!coordinate.IsLocked && freedoms[coordinate.GameObject] == 1)
+            {
+                _found.TryAdd(id, i);
+            }
+        }
+    }
+
+    /// <summary>By id, else by a name that no other object has; -1: none.</summary>
+    public int GameObject(string name)
+    {
+        if (_objectsById.TryGetValue(name, out int index))
+        {
+            return index;
+        }
+
+        int[] named = Enumerable.Range(0, _objects.Count).Where(i => _objects[i].Name == name).ToArray();
+        return named.Length == 1 ? named[0] : -1;
+    }
+
+    /// <summary>By its name, or by as much of it as no other coordinate answers to; the object's name does for its id.</summary>
+    public bool TryFind(string name, out int coordinate, out string problem)
+    {
+        problem = "";
+        if (_found.TryGetValue(name, out coordinate))
+        {
+            return true;
+        }
+
+        List<int> found = Called(name);
+        int dot = name.LastIndexOf('.');
+        if (found.Count == 0 && dot > 0)
+        {
+            int word = Array.FindIndex(Words, w => string.Equals(w, name[(dot + 1)..], StringComparison.OrdinalIgnoreCase));
+            found = Called(name[..dot]).Where(i => (int)_coordinates[i].Coordinate == word).ToList();
+        }
+
+        if (found.Count == 1)
+        {
+            coordinate = found[0];
+            return true;
+        }
+
+        coordinate = -1;
+        problem = found.Count > 1
+            ? $"say which: {List(found)}."
+            : $"no joint moves by this name; there are {List(Enumerable.Range(0, _coordinates.Length))}.";
+        return false;
+    }
+
+    // An id may hold dots itself, so the whole is tried for an object before its last part is taken for a coordinate.
+    private List<int> Called(string name)
+    {
+        List<int> free = Enumerable.Range(0, _coordinates.Length).Where(i => !_coordinates[i].IsLocked).ToList();
+        List<int> byId = free.Where(i => Answers(Object(i).Id, i)).ToList();
+        return byId.Count > 0 ? byId : free.Where(i => Answers(Object(i).Name, i)).ToList();
+
+        bool Answers(string called, int i) => called == name || $"{called}[{_coordinates[i].Component}]" == name;
+    }
+
+    private GameObject Object(int coordinate) => _objects[_coordinates[coordinate].GameObject];
+
+    private string List(IEnumerable<int> coordinates) => string.Join(", ", coordinates.Select(i => _coordinates[i].Name));
+}

@@ -76,6 +76,37 @@ internal sealed class BranchLeap
         return false;
     }
 
+    /// <summary>Moves a state along a share of the straight way to another one.</summary>
+    /// <param name="state">Unchanged on false.</param>
+    /// <param name="towards">On the branch to follow.</param>
+    /// <param name="share">0 to 1.</param>
+    /// <param name="driven">Driven coordinates.</param>
+    /// <param name="targets">Their values there.</param>
+    public bool TryAlong(MechanismState state, MechanismState towards, double share, ReadOnlySpan<int> driven, double[] targets)
+    {
+        _start.CopyFrom(state);
+        for (int i = 0; i < _values.Length; i++)
+        {
+            _values[i] = state.Values[i] + share * (towards.Values[i] - state.Values[i]);
+        }
+
+        double moved = _straight.Move(state, _values);
+        _predicted.CopyFrom(state);
+        _newton.ClearDriven();
+        for (int i = 0; i < driven.Length; i++)
+        {
+            _newton.Drive(driven[i], targets[i]);
+        }
+
+        if (_newton.Track(state) && Correction(state) <= LargestCorrection * moved)
+        {
+            return true;
+        }
+
+        state.CopyFrom(_start);
+        return false;
+    }
+
     /// <summary>Whether the driven coordinates have moved on the way here.</summary>
     public static bool HasTrail(MechanismState state, ReadOnlySpan<int> driven)
     {

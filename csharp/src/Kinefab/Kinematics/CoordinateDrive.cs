@@ -67,6 +67,7 @@ internal sealed class CoordinateDrive
         while (s < 1)
         {
             double next = s + step >= 1 ? 1 : s + step;
+            bool leapt = false;
             if (crosses || !Track(state, next, s > 0 || !_isFresh))
             {
                 state.CopyFrom(_good);
@@ -83,6 +84,8 @@ internal sealed class CoordinateDrive
 
                     continue;
                 }
+
+                leapt = true;
             }
 
             _newton.Limits.Measure(state.Poses);
@@ -94,7 +97,7 @@ internal sealed class CoordinateDrive
                 _newton.Limits.IsActive[broken] = true;
             }
 
-            state.IsAtCrossing = way > 0 ? next >= 1 && Arrives(state, s, way) : state.IsAtCrossing;
+            state.IsAtCrossing = way > 0 ? next >= 1 && Arrives(state, s, way, leapt) : state.IsAtCrossing;
 
             s = next;
             Array.Copy(_good.Values, state.Trail, state.Trail.Length);
@@ -132,13 +135,14 @@ internal sealed class CoordinateDrive
         ? Leave(state, way, out next)
         : _leap.TryOver(state, _coordinates.AsSpan(0, _count), _from, _to, s, way, out next);
 
-    // Off a pose that nothing was travelled to.
+    // Off a pose that nothing was travelled to: branches are told apart some way off, and the one chosen is followed back to
+    // where the drive ends if that is nearer.
     private bool Leave(MechanismState state, double way, out double next)
     {
         next = Math.Min(1, LeapStep / way);
         for (int i = 0; i < _count; i++)
         {
-            _first[i] = next * (_to[i] - _from[i]);
+            _first[i] = LeapStep / way * (_to[i] - _from[i]);
         }
 
         List<MotionBranch> branches = Branches(state, _coordinates.AsSpan(0, _count), _first.AsSpan(0, _count));
@@ -148,14 +152,48 @@ internal sealed class CoordinateDrive
         }
 
         _branches = branches.Count;
-        state.CopyFrom(branches[0].State);
-        return true;
+        MechanismState branch = branches[0].State;
+        if (way < LeapStep && _leap.TryAlong(state, branch, way / LeapStep, _coordinates.AsSpan(0, _count), _to))
+        {
+            return true;
+        }
+
+        state.CopyFrom(branch);
+        return way >= LeapStep || Approach(state, LeapStep / way);
+    }
+
+    // Back to s = 1 from beyond it.
+    private bool Approach(MechanismState state, double s)
+    {
+        double next = 1;
+        for (int n = 0; n < MaxContactIterations && s > 1; n++)
+        {
+            MechanismState before = state.Clone();
+            _newton.ClearDriven();
+            for (int i = 0; i < _count; i++)
+            {
+                _newton.Drive(_coordinates[i], next <= 1 ? _to[i] : _from[i] + next * (_to[i] - _from[i]));
+            }
+
+            if (_newton.Track(state))
+            {
+                s = next;
+                next = 1;
+            }
+            else
+            {
+                state.CopyFrom(before);
+                next = (s + next) / 2;
+            }
+        }
+
+        return s <= 1;
     }
 
     // Where branches cross, Newton's method alone would leave the pose, and with it the way on, to chance.
-    private bool Arrives(MechanismState state, double s, double way)
+    private bool Arrives(MechanismState state, double s, double way, bool leapt)
     {
-        if (!Singular.MayBeNear || !Singular.Contains(state))
+        if (!(leapt || Singular.MayBeNear) || !Singular.Contains(state))
         {
             return false;
         }
@@ -165,7 +203,11 @@ internal sealed class CoordinateDrive
             _first[i] = (_to[i] - _from[i]) / way;
         }
 
-        _crossing.Refine(state, _good, _coordinates.AsSpan(0, _count), _to, _first, (1 - s) * way);
+        if (!_good.IsAtCrossing && !(s == 0 && _isFresh))
+        {
+            _crossing.Refine(state, _good, _coordinates.AsSpan(0, _count), _to, _first, (1 - s) * way);
+        }
+
         return true;
     }
 

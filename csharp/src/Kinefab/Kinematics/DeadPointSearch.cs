@@ -45,7 +45,7 @@ internal sealed class DeadPointSearch
     private const double Damping = 1e-11;
 
     // Of the driven coordinate, asked to move at 1.
-    private const double LeastRate = 0.5;
+    private const double LeastRate = 0.99;
 
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
@@ -170,11 +170,11 @@ internal sealed class DeadPointSearch
         return new SingularValues(rows.Matrix(columns));
     }
 
-    // At a dead centre the rest of the mechanism moves and the driven coordinate does not; the damping decides how near one
-    // is at one: 1e-9 rad of the driven coordinate.
+    // At a dead centre the rest of the mechanism moves and the joints do not let the driven coordinate follow; the damping
+    // decides how near one is at one: 1e-9 rad of the driven coordinate.
     private bool StandsStill(int coordinate, double direction)
     {
-        double[] step = Tangent(coordinate, direction, NewtonSolver.LeastDamping);
+        double[] step = Tangent(coordinate, direction);
         _newton.Equations.Evaluate(coordinate, _here.Poses, _here.Values, out ConstraintRow row);
         return Math.Abs(_newton.Equations.Rate(_mechanism.Coordinates[coordinate].Joint, row, _here.Poses, step)) < LeastRate;
     }
@@ -182,7 +182,7 @@ internal sealed class DeadPointSearch
     // The freedom of a tree joint that moves fastest when q does, and its sense.
     private int Fastest(int coordinate, double direction, out int joint, out double sense)
     {
-        double[] step = Tangent(coordinate, direction, Damping);
+        double[] step = Tangent(coordinate, direction);
         int fastest = -1;
         joint = -1;
         foreach (int body in _mechanism.Tree.Order)
@@ -202,14 +202,14 @@ internal sealed class DeadPointSearch
         return fastest;
     }
 
-    private double[] Tangent(int coordinate, double direction, double damping)
+    private double[] Tangent(int coordinate, double direction)
     {
         _newton.ClearDriven();
         double unit = _mechanism.Coordinates[coordinate].IsAngle ? 1 : _mechanism.Length;
         _newton.Drive(coordinate, _here.Values[coordinate] + direction * unit);
         _newton.Motion.Start(_here.Poses);
         _newton.Assemble(_here);
-        return _newton.SolveStep(damping);
+        return _newton.SolveStep(Damping);
     }
 
     // dq over the parameter, q in radians or lengths.

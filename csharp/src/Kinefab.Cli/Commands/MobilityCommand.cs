@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.IO;
+using System.Linq;
 using System.Text.Json;
 using Kinefab.Diagnostics;
 using Kinefab.Kinematics;
@@ -50,6 +51,8 @@ internal static class MobilityCommand
             target.WriteLine($"body       {Id(scene, body.GameObject)}: {Counted.Of(body.Translations, "translation", "translations")}, {Counted.Of(body.Rotations, "rotation", "rotations")}");
         foreach (RedundantRows joint in counted.Joints)
             target.WriteLine($"redundant  {Id(scene, joint.GameObject)} components[{joint.Component}]: {joint.Redundant} of {joint.Rows} rows");
+        foreach (IdleFreedom idle in counted.Idle)
+            target.WriteLine($"idle       {string.Join(", ", idle.GameObjects.Select(o => Id(scene, o)))}: {Counted.Of(idle.Count, "freedom moves", "freedoms move")} nothing else");
         foreach (IslandMobility island in counted.Islands)
             target.WriteLine($"island     {Id(scene, island.GameObjects[0])} and {island.GameObjects.Count - 1} more: mobility {island.Mobility}, {island.Redundant} redundant, {Counted.Of(island.Loops, "loop", "loops")}");
         if (counted.Gap < 100)
@@ -89,6 +92,19 @@ internal static class MobilityCommand
             json.WriteNumber("gameObject", body.GameObject);
             json.WriteNumber("translations", body.Translations);
             json.WriteNumber("rotations", body.Rotations);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("idle");
+        foreach (IdleFreedom idle in counted.Idle)
+        {
+            json.WriteStartObject();
+            json.WriteStartArray("gameObjects");
+            foreach (int gameObject in idle.GameObjects)
+                json.WriteNumberValue(gameObject);
+            json.WriteEndArray();
+            json.WriteNumber("count", idle.Count);
             json.WriteEndObject();
         }
 

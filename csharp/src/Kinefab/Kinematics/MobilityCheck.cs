@@ -33,12 +33,25 @@ public static class MobilityCheck
             Add("/analysis/firstOrderMobility", DiagnosticCodes.MobilityFirstOrderDiffers, ("stated", Text(firstOrder)), ("counted", Text(counted.FirstOrder)));
         }
 
+        if (stated.Idle is int idle)
+        {
+            Expect("/analysis/idle", "The number of idle freedoms", idle, counted.Idle.Sum(i => i.Count));
+        }
+
+        AtMost("/analysis/redundant", "the mechanism", stated.Redundant, counted.Redundant);
         for (int i = 0; i < stated.Islands.Count; i++)
         {
             // The exporter may count a body that fixed joints hold to the ground as an island of its own or as ground.
             Island island = stated.Islands[i];
-            int sum = counted.Islands.Where(c => c.GameObjects.Any(island.GameObjects.Contains)).Sum(c => c.Mobility);
-            Expect($"/analysis/islands/{Text(i)}/mobility", $"The mobility of the island of {Name(scene, island.GameObjects)}", island.Mobility, sum);
+            string pointer = $"/analysis/islands/{Text(i)}";
+            string name = $"the island of {Name(scene, island.GameObjects)}";
+            IslandMobility[] same = counted.Islands.Where(c => c.GameObjects.Any(island.GameObjects.Contains)).ToArray();
+            Expect($"{pointer}/mobility", $"The mobility of {name}", island.Mobility, same.Sum(c => c.Mobility));
+            AtMost($"{pointer}/redundant", name, island.Redundant, same.Sum(c => c.Redundant));
+            if (island.Loops is int loops)
+            {
+                Expect($"{pointer}/loops", $"The number of loops of {name}", loops, same.Sum(c => c.Loops));
+            }
         }
 
         for (int i = 0; i < stated.Bodies.Count; i++)
@@ -58,6 +71,16 @@ public static class MobilityCheck
             if (inFile != fromJoints)
             {
                 Add(pointer, DiagnosticCodes.MobilityDiffers, ("what", what), ("stated", Text(inFile)), ("counted", Text(fromJoints)));
+            }
+        }
+
+        // A joint carries no more rows than its constraints, and a minimal closure leaves out redundant ones: fewer are as it
+        // should be, more would be rows that no constraint stands for.
+        void AtMost(string pointer, string where, int? inFile, int fromJoints)
+        {
+            if (inFile < fromJoints)
+            {
+                Expect(pointer, $"The greatest number of redundant rows of {where}", inFile.Value, fromJoints);
             }
         }
 

@@ -74,11 +74,28 @@ public sealed class RedundantRows
     public int Redundant { get; }
 }
 
+/// <summary>Freedoms of some bodies that move nothing else, such as a rod's spin between its two balls.</summary>
+public sealed class IdleFreedom
+{
+    internal IdleFreedom(IReadOnlyList<int> gameObjects, int count)
+    {
+        GameObjects = gameObjects;
+        Count = count;
+    }
+
+    /// <summary>Indices of the GameObjects, rising.</summary>
+    public IReadOnlyList<int> GameObjects { get; }
+
+    /// <summary>How many.</summary>
+    public int Count { get; }
+}
+
 /// <summary>Mobility of a mechanism, counted from its joints.</summary>
 public sealed class MobilityReport
 {
     internal MobilityReport(
-        int mobility, int firstOrder, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints)
+        int mobility, int firstOrder, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
+        IReadOnlyList<IdleFreedom> idle)
     {
         Mobility = mobility;
         FirstOrder = firstOrder;
@@ -88,6 +105,7 @@ public sealed class MobilityReport
         Islands = islands;
         Bodies = bodies;
         Joints = joints;
+        Idle = idle;
     }
 
     /// <summary>Freedoms of finite motion.</summary>
@@ -113,4 +131,7 @@ public sealed class MobilityReport
 
     /// <summary>The joints with redundant rows, by GameObject and component.</summary>
     public IReadOnlyList<RedundantRows> Joints { get; }
+
+    /// <summary>Freedoms that move nothing but a part of a loop's leg.</summary>
+    public IReadOnlyList<IdleFreedom> Idle { get; }
 }

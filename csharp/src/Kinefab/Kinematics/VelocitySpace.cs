@@ -82,28 +82,11 @@ internal sealed class VelocitySpace
     /// <summary>Independent translations and rotations of a body.</summary>
     public BodyMobility Of(int body)
     {
-        var onPath = new List<int>();
-        for (int at = body; at >= 0; at = _mechanism.Tree.Parents[at])
-        {
-            for (int i = 0; i < _mechanism.Tree.Freedoms[at]; i++)
-            {
-                onPath.Add(_newton.Firsts[at] + i);
-            }
-        }
-
         var twists = new double[_basis.Count, 6];
         var turns = new double[_basis.Count, 3];
         for (int v = 0; v < _basis.Count; v++)
         {
-            Vector3d linear = Vector3d.Zero;
-            Vector3d angular = Vector3d.Zero;
-            foreach (int column in onPath)
-            {
-                double rate = _basis[v].Vector[column];
-                linear += Linear[column] * rate;
-                angular += Angular[column] * rate;
-            }
-
+            Twist(body, _basis[v].Vector, out Vector3d linear, out Vector3d angular);
             for (int i = 0; i < 3; i++)
             {
                 twists[v, i] = linear[i];
@@ -115,6 +98,25 @@ internal sealed class VelocitySpace
         int rotations = RankOf(turns);
         return new BodyMobility(_mechanism.GameObjects[body], RankOf(twists) - rotations, rotations);
     }
+
+    /// <summary>A body's velocity at the mechanism's origin, in its lengths, and its angular velocity under one motion of all freedoms.</summary>
+    public void Twist(int body, double[] motion, out Vector3d linear, out Vector3d angular)
+    {
+        linear = Vector3d.Zero;
+        angular = Vector3d.Zero;
+        for (int at = body; at >= 0; at = _mechanism.Tree.Parents[at])
+        {
+            for (int i = 0; i < _mechanism.Tree.Freedoms[at]; i++)
+            {
+                int column = _newton.Firsts[at] + i;
+                linear += Linear[column] * motion[column];
+                angular += Angular[column] * motion[column];
+            }
+        }
+    }
+
+    /// <summary>The block of a body's tree freedoms, of which it must have any, or -1.</summary>
+    public int BlockOf(int body) => Blocks.BlockOf[_newton.Firsts[body]];
 
     // Velocities are of length 1 altogether, so what is small in one body is small in itself, not only beside the rest.
     private static int RankOf(double[,] matrix)

@@ -62,16 +62,57 @@ public class ExportedMechanismTests
 
     private static int Number(string text) => int.Parse(text, CultureInfo.InvariantCulture);
 
-    [Test]
-    public void Mobility_AnotherNumberInTheFile_IsAnErrorWithBoth()
+    // A four-bar of four hinges: mobility 1, three rows of the closing one redundant.
+    [TestCase("/analysis/mobility", "is 9 in the file", "1 counted from the joints")]
+    [TestCase("/analysis/idle", "is 9 in the file", "0 counted from the joints")]
+    [TestCase("/analysis/redundant", "is 2 in the file", "3 counted from the joints")]
+    [TestCase("/analysis/islands/0/mobility", "is 9 in the file", "1 counted from the joints")]
+    [TestCase("/analysis/islands/0/redundant", "is 2 in the file", "3 counted from the joints")]
+    [TestCase("/analysis/islands/0/loops", "is 9 in the file", "1 counted from the joints")]
+    [TestCase("/analysis/bodies/0/rotations", "is 9 in the file", "1 counted from the joints")]
+    public void Mobility_AnotherNumberInTheFile_IsAnErrorWithBoth(string place, string stated, string counted)
     {
-        var scene = new MechanismScene { Analysis = new Analysis { Mobility = 2 } };
-        scene.Hinge(scene.Body("lid", Vector3d.UnitX), null, Vector3d.Zero, Vector3d.UnitZ);
-        var valid = new ValidScene(scene.Document());
-        Report report = MobilityCheck.Compare(valid, MobilityAnalysis.Of(Mechanism.Create(valid)));
-        Diagnostic found = report.Diagnostics.Single();
-        Assert.That((found.Code, found.Pointer, found.Severity), Is.EqualTo((DiagnosticCodes.MobilityDiffers, "/analysis/mobility", Severity.Error)));
-        Assert.That(found.Message, Does.Contain("is 2 in the file").And.Contain("1 counted from the joints"));
+        int Wrong(string at, int right) => at != place ? right : at.EndsWith("redundant", StringComparison.Ordinal) ? 2 : 9;
+        var bar = new FourBar(0.4, 1.2, 0.8, 1, 25);
+        bar.Scene.Analysis = new Analysis
+        {
+            Mobility = Wrong("/analysis/mobility", 1),
+            Idle = Wrong("/analysis/idle", 0),
+            Redundant = Wrong("/analysis/redundant", 3),
+            Islands =
+            [
+                new Island
+                {
+                    GameObjects = [0, 1, 2],
+                    Mobility = Wrong("/analysis/islands/0/mobility", 1),
+                    Redundant = Wrong("/analysis/islands/0/redundant", 3),
+                    Loops = Wrong("/analysis/islands/0/loops", 1),
+                },
+            ],
+            Bodies = [new BodyFreedom { GameObject = 0, Rotations = Wrong("/analysis/bodies/0/rotations", 1) }],
+        };
+        var valid = new ValidScene(bar.Scene.Document());
+        Diagnostic found = MobilityCheck.Compare(valid, MobilityAnalysis.Of(Mechanism.Create(valid))).Diagnostics.Single();
+        Assert.That((found.Code, found.Pointer, found.Severity), Is.EqualTo((DiagnosticCodes.MobilityDiffers, place, Severity.Error)));
+        Assert.That(found.Message, Does.Contain(stated).And.Contain(counted));
+    }
+
+    // Fewer redundant rows than the constraints had are what a minimal closure is for.
+    [Test]
+    public void Mobility_FewerRedundantRowsThanInTheFile_AreNoFinding()
+    {
+        var bar = new FourBar(0.4, 1.2, 0.8, 1, 25);
+        bar.Scene.Analysis = new Analysis { Mobility = 1, Redundant = 7 };
+        var valid = new ValidScene(bar.Scene.Document());
+        Assert.That(MobilityCheck.Compare(valid, MobilityAnalysis.Of(Mechanism.Create(valid))).Diagnostics, Is.Empty);
+    }
+
+    [Test]
+    public void Mobility_RodsBetweenBalls_SpinIdly()
+    {
+        MobilityReport counted = MobilityAnalysis.Of(SpatialMechanisms.Delta(withBalls: true).Scene.Mechanism());
+        Assert.That(counted.Idle.Select(i => (i.GameObjects.Count, i.Count)), Is.EqualTo(Enumerable.Repeat((1, 1), 6)));
+        Assert.That(MobilityAnalysis.Of(SpatialMechanisms.Arm().Scene.Mechanism()).Idle, Is.Empty, "an arm's last link is no leg");
     }
 
     [Test]

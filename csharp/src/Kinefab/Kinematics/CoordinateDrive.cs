@@ -54,6 +54,7 @@ internal sealed class CoordinateDrive
     public DriveResult Run(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
     {
         _newton.Iterations = 0;
+        _newton.BeginTracks();
         double way = Aim(state, targets);
         _branches = 0;
         _isFresh = !BranchLeap.HasTrail(state, _coordinates.AsSpan(0, _count));
@@ -193,7 +194,7 @@ internal sealed class CoordinateDrive
     // Where branches cross, Newton's method alone would leave the pose, and with it the way on, to chance.
     private bool Arrives(MechanismState state, double s, double way, bool leapt)
     {
-        if (!(leapt || Singular.MayBeNear) || !Singular.Contains(state))
+        if (!(leapt || _newton.MayBeSingular) || !Singular.Contains(state))
         {
             return false;
         }

@@ -55,26 +55,23 @@ internal sealed class MechanismNames
     }
 
     /// <summary>By id, else by a name that no other object has; -1: none.</summary>
-    public int GameObject(string name)
-    {
-        if (_objectsById.TryGetValue(name, out int index))
-        {
-            return index;
-        }
-
-        int[] named = Enumerable.Range(0, _objects.Count).Where(i => _objects[i].Name == name).ToArray();
-        return named.Length == 1 ? named[0] : -1;
-    }
+    public int GameObject(string name) => _objectsById.TryGetValue(name, out int index) ? index : Named(name);
 
     /// <summary>By its name, or by as much of it as no other coordinate answers to; the object's name does for its id.</summary>
     public bool TryFind(string name, out int coordinate, out string problem)
     {
         problem = "";
-        if (_found.TryGetValue(name, out coordinate))
-        {
-            return true;
-        }
+        return _found.TryGetValue(name, out coordinate) || TryMatch(name, out coordinate, out problem);
+    }
 
+    private int Named(string name)
+    {
+        int[] named = Enumerable.Range(0, _objects.Count).Where(i => _objects[i].Name == name).ToArray();
+        return named.Length == 1 ? named[0] : -1;
+    }
+
+    private bool TryMatch(string name, out int coordinate, out string problem)
+    {
         List<int> found = Called(name);
         int dot = name.LastIndexOf('.');
         if (found.Count == 0 && dot > 0)
@@ -83,17 +80,14 @@ internal sealed class MechanismNames
             found = Called(name[..dot]).Where(i => (int)_coordinates[i].Coordinate == word).ToList();
         }
 
-        if (found.Count == 1)
+        coordinate = found.Count == 1 ? found[0] : -1;
+        problem = found.Count switch
         {
-            coordinate = found[0];
-            return true;
-        }
-
-        coordinate = -1;
-        problem = found.Count > 1
-            ? $"say which: {List(found)}."
-            : $"no joint moves by this name; there are {List(Enumerable.Range(0, _coordinates.Length))}.";
-        return false;
+            1 => "",
+            0 => $"no joint moves by this name; there are {List(Enumerable.Range(0, _coordinates.Length))}.",
+            _ => $"say which: {List(found)}.",
+        };
+        return found.Count == 1;
     }
 
     // An id may hold dots itself, so the whole is tried for an object before its last part is taken for a coordinate.

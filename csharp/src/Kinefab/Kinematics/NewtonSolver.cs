@@ -9,9 +9,6 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class NewtonSolver
 {
-    /// <summary>Damping where nothing asks for more.</summary>
-    public const double LeastDamping = 1e-9;
-
     // A pivot is the square of a singular value, and damping adds to it.
     private const double VanishedPivot = 100 * LeastDamping;
 
@@ -21,6 +18,7 @@ internal sealed class NewtonSolver
     // Errors are lengths of the mechanism or radians.
     private const double Tolerance = 1e-13;
     private const double AcceptedError = 1e-10;
+    private const double LeastDamping = 1e-9;
     private const double LargestStep = 0.5;
 
     // The second step is to the first as the way's curvature is to its length, so halving the way lessens it: but not
@@ -37,6 +35,7 @@ internal sealed class NewtonSolver
     private readonly int[] _driven;
     private readonly double[] _targets;
     private double _lastStep;
+    private int _firstVanished;
 
     public NewtonSolver(Mechanism mechanism)
     {
@@ -79,11 +78,14 @@ internal sealed class NewtonSolver
     /// <summary>For each body the place of its first freedom in a step.</summary>
     public int[] Firsts => _normal.Firsts;
 
-    /// <summary>Freedoms that the rows last solved for left over.</summary>
-    public int VanishedPivots => _normal.PivotsBelow(VanishedPivot);
+    /// <summary>Pivots of the last solved step's matrix.</summary>
+    public ReadOnlySpan<double> Pivots => _normal.Pivots;
 
-    /// <summary>Freedoms that those rows may leave over where the last step of Track led.</summary>
-    public int VanishingPivots => _normal.PivotsBelow(Math.Max(VanishedPivot, RankReach * RankReach * _lastStep * _lastStep));
+    /// <summary>
+    /// Whether more freedoms may be left over where the last step of Track led than were at the first one since
+    /// <see cref="BeginTracks"/>: then it may have led to a singular pose.
+    /// </summary>
+    public bool MayBeSingular => _normal.PivotsBelow(Math.Max(VanishedPivot, RankReach * RankReach * _lastStep * _lastStep)) > _firstVanished;
 
     /// <summary>The damped step for the rows last assembled; valid until the next assembly.</summary>
     public double[] SolveStep(double damping)
@@ -101,6 +103,9 @@ internal sealed class NewtonSolver
         _driven[DrivenCount] = coordinate;
         _targets[DrivenCount++] = target;
     }
+
+    /// <summary>Forgets where the tracks so far began.</summary>
+    public void BeginTracks() => _firstVanished = -1;
 
     /// <summary>
     /// Follows a motion: true when the state was brought to the targets by steps that shrank from the first on, as they do
@@ -123,6 +128,7 @@ internal sealed class NewtonSolver
             }
 
             _normal.Solve(LeastDamping);
+            _firstVanished = _firstVanished < 0 ? _normal.PivotsBelow(VanishedPivot) : _firstVanished;
             double size = LargestEntry(_normal.Step);
             if (!(size <= LargestStep) || (n > 0 && size > Math.Max((n > 1 ? LeastShrink : LeastFirstShrink) * previous, 1e-9)))
             {

@@ -76,6 +76,9 @@ internal sealed class NormalEquations
     /// <summary>J^T C while rows are added, the step once it is solved for.</summary>
     public double[] Step => _step;
 
+    /// <summary>Pivots of the last Solve, in the order of the freedoms.</summary>
+    public ReadOnlySpan<double> Pivots => _pivots;
+
     /// <summary>Forgets all rows.</summary>
     public void Clear()
     {

@@ -3,24 +3,31 @@ using System;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Tells the poses at which the joints lose a rank from all others: more pivots of J^T J vanish there than at a pose in
-/// general position.
+/// Tells the poses at which the joints lose a rank from all others: more freedoms are left over there than at a pose in
+/// general position. A freedom is left over where a pivot of J^T J + mu I is nothing but mu.
 /// </summary>
 internal sealed class SingularPoses
 {
     // Radians, or lengths of the mechanism.
     private const double GeneralStep = 0.05;
 
+    // A singular value s makes a pivot of about s^2 + mu: the two tell s from 0 down to 1e-4.
+    private const double Damping = 1e-7;
+    private const double LessDamping = 1e-9;
+    private const double LeastShrink = 10;
+
     private readonly NewtonSolver _newton;
+    private readonly double[] _pivots;
     private readonly int _regular;
 
     public SingularPoses(Mechanism mechanism, NewtonSolver newton)
     {
         _newton = newton;
+        _pivots = new double[newton.Motion.Linear.Length];
         MechanismState state = mechanism.NewState();
         newton.Close(state);
         _regular = FreeAt(state);
-        var step = new double[newton.Motion.Linear.Length];
+        var step = new double[_pivots.Length];
         for (int i = 0; i < step.Length; i++)
         {
             // Anything without a pattern.
@@ -37,17 +44,27 @@ internal sealed class SingularPoses
     /// <summary>Whether a closed state stands (nearly) at such a pose.</summary>
     public bool Contains(MechanismState state) => FreeAt(state) > _regular;
 
-    /// <summary>Whether the solver's last step, with its drivers, may have led to such a pose or to a dead centre.</summary>
-    public bool MayBeNear => _newton.VanishingPivots > Math.Max(0, _regular - _newton.DrivenCount);
-
-    // Of the joints and couplings alone, no limits and no drivers.
+    // By the joints and couplings alone, no limits and no drivers.
     private int FreeAt(MechanismState state)
     {
         _newton.ClearDriven();
         _newton.Motion.Start(state.Poses);
+        Solve(state, Damping);
+        _newton.Pivots.CopyTo(_pivots);
+        Solve(state, LessDamping);
+        int free = 0;
+        for (int i = 0; i < _pivots.Length; i++)
+        {
+            free += _pivots[i] > LeastShrink * _newton.Pivots[i] ? 1 : 0;
+        }
+
+        return free;
+    }
+
+    private void Solve(MechanismState state, double damping)
+    {
         _newton.Equations.Clear();
         _newton.Equations.AddClosures(state.Poses, state.Values);
-        _newton.SolveStep(NewtonSolver.LeastDamping);
-        return _newton.VanishedPivots;
+        _newton.SolveStep(damping);
     }
 }

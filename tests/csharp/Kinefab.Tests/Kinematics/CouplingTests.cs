@@ -33,6 +33,23 @@ public class CouplingTests
         Assert.That(Driven(scene, pinion, 3600, rack, Coordinate.X), Is.EqualTo(5 * Math.PI).Within(Tolerance));
     }
 
+    // A belt keeps the sense, a linear coupler joins two slides.
+    [TestCase(3600)]
+    [TestCase(-3600)]
+    public void BeltAndLinearCoupler_DrivenTenTurns_KeepTheirRatios(double angle)
+    {
+        var scene = new MechanismScene();
+        JointPlace first = scene.Hinge(scene.Body("pulley1", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace second = scene.Hinge(scene.Body("pulley2", Vector3d.UnitX), null, Vector3d.UnitX, Vector3d.UnitZ);
+        JointPlace carriage = scene.Slide(scene.Body("carriage", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitX);
+        JointPlace counterweight = scene.Slide(scene.Body("counterweight", 2 * Vector3d.UnitY), null, 2 * Vector3d.UnitY, new Vector3d(1, 2, 3));
+        scene.Couple(first, Coordinate.Angle, second, Coordinate.Angle, 1.5);
+        scene.Couple(second, Coordinate.Angle, carriage, Coordinate.X, 0.1 * Math.PI / 180);
+        scene.Couple(carriage, Coordinate.X, counterweight, Coordinate.X, -0.5);
+        Assert.That(Driven(scene, first, angle, second, Coordinate.Angle), Is.EqualTo(1.5 * angle).Within(Tolerance));
+        Assert.That(Driven(scene, first, angle, counterweight, Coordinate.X), Is.EqualTo(-0.075 * angle * Math.PI / 180).Within(Tolerance));
+    }
+
     [Test]
     public void ScrewJack_ScrewDrivenTwoTurns_LowersTheNutByTwoLeads()
     {

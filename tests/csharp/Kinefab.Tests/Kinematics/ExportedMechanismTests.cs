@@ -115,12 +115,79 @@ public class ExportedMechanismTests
         Assert.That(MobilityAnalysis.Of(SpatialMechanisms.Arm().Scene.Mechanism()).Idle, Is.Empty, "an arm's last link is no leg");
     }
 
-    [Test]
-    public void Gears_ExportedAndDrivenTenTurns_TurnByTheTeeth()
+    // Gear 20:50, rack of radius 0.25, screw of lead 0.05, planet on a carrier at 24 / 84 of the sun.
+    [TestCase("M25", "g1", "g2", Coordinate.Angle, -0.4)]
+    [TestCase("M26", "pinion", "rack", Coordinate.X, 0.25 * Math.PI / 180)]
+    [TestCase("M24", "screw", "nut", Coordinate.X, -0.05 / 360)]
+    [TestCase("M27", "sun", "carrier", Coordinate.Angle, 24.0 / 60)]
+    public void Coupling_ExportedAndDrivenTenTurnsAndBack_KeepsItsRatio(string id, string drive, string follower, Coordinate coordinate, double ratio)
     {
-        var driven = new ExportedMechanism("M25");
-        driven.Drive("g1", Coordinate.Angle, 3600);
-        Assert.That(driven.Value("g2", Coordinate.Angle), Is.EqualTo(-1440).Within(1e-9));
+        var driven = new ExportedMechanism(id);
+        foreach (double angle in new[] { 100.0, 3600, -3600, 0 })
+        {
+            driven.Drive(drive, Coordinate.Angle, angle);
+            double unit = coordinate == Coordinate.Angle ? Math.PI / 180 : 1;
+            Assert.That((driven.Value(follower, coordinate) - ratio * angle) * unit, Is.EqualTo(0).Within(1e-9), $"at {angle}");
+        }
+    }
+
+    // Whole turns of all that can turn, through M05's and M39's flat poses and their start in one.
+    [TestCase("M01", "crank")]
+    [TestCase("M02", "crank")]
+    [TestCase("M04", "crank")]
+    [TestCase("M05", "crank")]
+    [TestCase("M06", "b1")]
+    [TestCase("M07", "crank")]
+    [TestCase("M08", "crank")]
+    [TestCase("M09", "shaft")]
+    [TestCase("M10", "crank")]
+    [TestCase("M12", "link1")]
+    [TestCase("M21", "in")]
+    [TestCase("M22", "in")]
+    [TestCase("M23", "in")]
+    [TestCase("M38", "v0")]
+    [TestCase("M39", "v0")]
+    public void Drive_FullTurnAndBack_ReturnsToTheStart(string id, string part)
+    {
+        var driven = new ExportedMechanism(id);
+        MechanismState start = driven.State.Clone();
+        foreach (double angle in new[] { 90.0, 180, 270, 360, 180, 0, 360, 0 })
+        {
+            driven.Drive(part, Coordinate.Angle, angle);
+            if (angle is not (0 or 360))
+            {
+                continue;
+            }
+
+            for (int i = 0; i < start.Poses.Length; i++)
+            {
+                Vector3d turn = 2 * (driven.State.Poses[i].Rotation * start.Poses[i].Rotation.Conjugate()).Vector;
+                Assert.That((driven.State.Poses[i].Position - start.Poses[i].Position).Length, Is.LessThan(1e-9), $"body {i} at {angle}");
+                Assert.That(turn.Length, Is.LessThan(1e-9), $"body {i} at {angle}");
+            }
+        }
+    }
+
+    // Two cranks place the tip where the circles about their ends meet, on the side where it was.
+    [TestCase(10, -20)]
+    [TestCase(-25, 15)]
+    [TestCase(40, 35)]
+    public void FiveBar_ExportedWithTwoDrivers_MeetsTheCircles(double left, double right)
+    {
+        var bar = new ExportedMechanism("M33");
+        Vector3d first = new(-0.2, 0.5, 0), tip = new(0.3, 1, 0), second = new(0.9, 0.6, 0), foot = new(0.8, 0, 0);
+        double rodA = (tip - first).Length, rodB = (tip - second).Length;
+        bar.Drive(("b1", Coordinate.Angle, left), ("b4", Coordinate.Angle, right));
+        Vector3d a = Turn(first, Vector3d.Zero, left), b = Turn(second, foot, right);
+        Vector3d along = b - a;
+        double distance = along.Length;
+        double x = (distance * distance + rodA * rodA - rodB * rodB) / (2 * distance);
+        Vector3d unit = along * (1 / distance);
+        Vector3d expected = a + unit * x + new Vector3d(-unit.Y, unit.X, 0) * Math.Sqrt(rodA * rodA - x * x);
+        Assert.That((bar.Position("b3") - expected).Length, Is.LessThan(1e-9));
+
+        static Vector3d Turn(Vector3d point, Vector3d about, double degrees) =>
+            about + Quaterniond.AxisAngle(Vector3d.UnitZ, degrees * Math.PI / 180) * (point - about);
     }
 
     // The minimal closure reads angles that mean nothing at a half turn; the mechanism itself moves on as before.

@@ -73,6 +73,29 @@ public class PositionSolverTests
         Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
     }
 
+    [TestCase("M09", "shaft", "sliderD")]
+    [TestCase("M14", "up1", "platform")]
+    [TestCase("M27", "sun", "planet")]
+    [TestCase("M04", "crank", "coupler")]
+    public void DriveAndDragByName_OfExportedScenes_AllocateNothing(string id, string joint, string part)
+    {
+        var exported = new ExportedMechanism(id);
+        Run(10);
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        Run(50);
+        Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+
+        void Run(int rounds)
+        {
+            double unit = id == "M14" ? 1e-4 : 1;
+            for (int i = 0; i < rounds; i++)
+            {
+                exported.Solver.Drive(exported.State, joint, unit * (i % 9));
+                exported.Solver.Drag(exported.State, part, Vector3d.Zero, exported.State.Pose(part).Position + new Vector3d(0.01, 0.01 * (i % 3), 0));
+            }
+        }
+    }
+
     [Test]
     public void Drag_WithinReach_BringsThePointThereWithJointsClosed()
     {

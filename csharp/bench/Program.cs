@@ -1,26 +1,37 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- load | drive | solver</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|solver|all [--write]</summary>
 internal static class Program
 {
+    private static readonly Dictionary<string, Func<string>> Benchmarks = new()
+    {
+        ["drive"] = Tables.Drive,
+        ["load"] = Tables.Load,
+        ["solver"] = Tables.Solver,
+    };
+
     private static int Main(string[] args)
     {
-        switch (args.Length == 0 ? "" : args[0])
+        bool writes = args.Contains("--write");
+        string[] names = args.Where(a => a != "--write").ToArray();
+        if (names.Length != 1 || (names[0] != "all" && !Benchmarks.ContainsKey(names[0])))
         {
-            case "load":
-                LoadBench.Run();
-                return 0;
-            case "drive":
-                DriveBench.Run();
-                return 0;
-            case "solver":
-                SolverBenchmark.Run();
-                return 0;
-            default:
-                Console.Error.WriteLine("Name a benchmark: load, drive, solver");
-                return 2;
+            Console.Error.WriteLine($"Name a benchmark: {string.Join(", ", Benchmarks.Keys)}, all; --write puts its table into RESULTS.md");
+            return 2;
         }
+
+        foreach ((string name, Func<string> run) in Benchmarks.Where(b => names[0] == "all" || names[0] == b.Key))
+        {
+            string table = run();
+            Console.WriteLine(table);
+            if (writes)
+                Results.Write(name, table);
+        }
+
+        return 0;
     }
 }

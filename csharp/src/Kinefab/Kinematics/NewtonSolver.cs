@@ -81,11 +81,14 @@ internal sealed class NewtonSolver
     /// <summary>Pivots of the last solved step's matrix.</summary>
     public ReadOnlySpan<double> Pivots => _normal.Pivots;
 
+    /// <summary>Freedoms that the last solved step had no row for.</summary>
+    public int Spare => _normal.Spare;
+
     /// <summary>
     /// Whether more freedoms may be left over where the last step of Track led than were at the first one since
     /// <see cref="BeginTracks"/>: then it may have led to a singular pose.
     /// </summary>
-    public bool MayBeSingular => _normal.PivotsBelow(Math.Max(VanishedPivot, RankReach * RankReach * _lastStep * _lastStep)) > _firstVanished;
+    public bool MayBeSingular => _normal.LeftOver(Math.Max(VanishedPivot, RankReach * RankReach * _lastStep * _lastStep)) > _firstVanished;
 
     /// <summary>The damped step for the rows last assembled; valid until the next assembly.</summary>
     public double[] SolveStep(double damping)
@@ -128,7 +131,7 @@ internal sealed class NewtonSolver
             }
 
             _normal.Solve(LeastDamping);
-            _firstVanished = _firstVanished < 0 ? _normal.PivotsBelow(VanishedPivot) : _firstVanished;
+            _firstVanished = _firstVanished < 0 ? _normal.LeftOver(VanishedPivot) : _firstVanished;
             double size = LargestEntry(_normal.Step);
             if (!(size <= LargestStep) || (n > 0 && size > Math.Max((n > 1 ? LeastShrink : LeastFirstShrink) * previous, 1e-9)))
             {

@@ -17,6 +17,8 @@ internal sealed class NormalEquations
     private readonly double[] _matrix;
     private readonly double[] _step;
     private readonly double[] _pivots;
+    private readonly DualEquations _dual;
+    private bool _isDual;
     private double _largest;
 
     /// <summary>Reserves the blocks that rows along the given paths need.</summary>
@@ -61,6 +63,7 @@ internal sealed class NormalEquations
             Firsts[body] = node[body] < 0 ? 0 : _pattern.Rows[node[body]];
         }
 
+        _dual = new DualEquations(Firsts, _step.Length);
         foreach (RowPath path in paths)
         {
             if (!_blocks.ContainsKey(path))
@@ -73,24 +76,62 @@ internal sealed class NormalEquations
     /// <summary>For each body the place of its first freedom in a step.</summary>
     public int[] Firsts { get; }
 
-    /// <summary>J^T C while rows are added, the step once it is solved for.</summary>
+    /// <summary>The step, once it is solved for.</summary>
     public double[] Step => _step;
 
-    /// <summary>Pivots of the last Solve, in the order of the freedoms.</summary>
-    public ReadOnlySpan<double> Pivots => _pivots;
+    /// <summary>Pivots of the last Solve; in the same order for the same rows.</summary>
+    public ReadOnlySpan<double> Pivots => _isDual ? _dual.Pivots : _pivots;
+
+    /// <summary>Freedoms that the last Solve had no row for, beside those whose pivots vanish.</summary>
+    public int Spare => _isDual ? _step.Length - _dual.Count : 0;
 
     /// <summary>Forgets all rows.</summary>
     public void Clear()
     {
-        Array.Clear(_matrix, 0, _matrix.Length);
-        Array.Clear(_step, 0, _step.Length);
+        _dual.Clear();
+        _isDual = true;
     }
 
     /// <summary>Adds one row of J, packed along its path, and its C.</summary>
     public void Add(RowPath path, ReadOnlySpan<double> row, double c)
     {
+        if (_isDual && _dual.Count == DualEquations.MaxRows)
+        {
+            LeaveDual();
+        }
+
+        if (_isDual)
+        {
+            _dual.Add(path, row, c);
+        }
+        else
+        {
+            AddToMatrix(path, row, c);
+        }
+    }
+
+    private void LeaveDual()
+    {
+        _isDual = false;
+        Array.Clear(_matrix, 0, _matrix.Length);
+        Array.Clear(_step, 0, _step.Length);
+        for (int i = 0; i < _dual.Count; i++)
+        {
+            ReadOnlySpan<double> row = _dual.Row(i, out RowPath path, out double c);
+            AddToMatrix(path, row, c);
+        }
+    }
+
+    private void AddToMatrix(RowPath path, ReadOnlySpan<double> row, double c)
+    {
         int[] blocks = _blocks[path];
         int[] bodies = path.Bodies;
+        if (path.Width == bodies.Length)
+        {
+            AddSingles(blocks, bodies, row, c);
+            return;
+        }
+
         int block = 0;
         for (int k = 0; k < bodies.Length; k++)
         {
@@ -127,9 +168,32 @@ internal sealed class NormalEquations
         }
     }
 
+    // Bodies of one freedom each, as of hinges: blocks are single numbers.
+    private void AddSingles(int[] blocks, int[] bodies, ReadOnlySpan<double> row, double c)
+    {
+        int block = 0;
+        for (int k = 0; k < bodies.Length; k++)
+        {
+            double entry = row[k];
+            _step[Firsts[bodies[k]]] += entry * c;
+            foreach (double other in row[..k])
+            {
+                int offset = blocks[block++];
+                _matrix[offset >= 0 ? offset : ~offset] += entry * other;
+            }
+
+            _matrix[blocks[block++]] += entry * entry;
+        }
+    }
+
     /// <summary>Adds a symmetric matrix over a path's freedoms, full and row by row: second derivatives that J^T J leaves out.</summary>
     public void AddMatrix(RowPath path, ReadOnlySpan<double> matrix)
     {
+        if (_isDual)
+        {
+            LeaveDual();
+        }
+
         int[] blocks = _blocks[path];
         int width = path.Width;
         int block = 0;
@@ -156,6 +220,17 @@ internal sealed class NormalEquations
     /// <param name="damping">mu as a share of 1 plus the largest diagonal entry.</param>
     public void Solve(double damping)
     {
+        if (_isDual && _dual.IsSmall)
+        {
+            _largest = _dual.Solve(damping, _step);
+            return;
+        }
+
+        if (_isDual)
+        {
+            LeaveDual();
+        }
+
         double largest = 1;
         foreach (BlockPattern.Column column in _pattern.Columns)
         {
@@ -189,11 +264,11 @@ internal sealed class NormalEquations
         }
     }
 
-    /// <summary>Pivots of the last Solve that are less than a share of the largest entry: about as many freedoms are left over.</summary>
-    public int PivotsBelow(double share)
+    /// <summary>Spare freedoms and pivots of the last Solve that are less than a share of the largest entry: about as many freedoms are left over.</summary>
+    public int LeftOver(double share)
     {
-        int count = 0;
-        foreach (double pivot in _pivots)
+        int count = Spare;
+        foreach (double pivot in Pivots)
         {
             count += pivot < share * _largest ? 1 : 0;
         }

@@ -52,10 +52,11 @@ internal sealed class SingularPoses
         Solve(state, Damping);
         _newton.Pivots.CopyTo(_pivots);
         Solve(state, LessDamping);
-        int free = 0;
-        for (int i = 0; i < _pivots.Length; i++)
+        ReadOnlySpan<double> pivots = _newton.Pivots;
+        int free = _newton.Spare;
+        for (int i = 0; i < pivots.Length; i++)
         {
-            free += _pivots[i] > LeastShrink * _newton.Pivots[i] ? 1 : 0;
+            free += _pivots[i] > LeastShrink * pivots[i] ? 1 : 0;
         }
 
         return free;

@@ -1,0 +1,80 @@
+using System;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using BenchmarkDotNet.Columns;
+using BenchmarkDotNet.Configs;
+using BenchmarkDotNet.Exporters;
+using BenchmarkDotNet.Jobs;
+using BenchmarkDotNet.Loggers;
+using BenchmarkDotNet.Reports;
+using BenchmarkDotNet.Running;
+using BenchmarkDotNet.Toolchains.InProcess.Emit;
+
+namespace Kinefab.Bench;
+
+/// <summary>Runs the benchmarks, each as a table in Markdown.</summary>
+internal static class Tables
+{
+    /// <summary>A dash under Allocated is no byte.</summary>
+    internal static string Drive()
+    {
+        Summary summary = Run<DriveBenchmark>(Job.ShortRun);
+        double ratio = Mean(summary, "chain, 1000 bars") / Mean(summary, "chain, 10 bars");
+        string exponent = (Math.Log(ratio) / Math.Log(100)).ToString("F2", CultureInfo.InvariantCulture);
+        return Table(summary) + $"\nGrowth of a chain's time from 10 to 1000 bars: exponent {exponent}.\n";
+    }
+
+    internal static string Load()
+    {
+        // One call takes a third of a second: enough for a measurement, too long for many.
+        Summary summary = Run<LoadBenchmark>(Job.Dry.WithWarmupCount(2).WithIterationCount(7));
+        double megabytes = LoadBenchmark.Length / 1e6;
+        string rates = string.Join(", ", summary.Reports.Select(r => string.Create(
+            CultureInfo.InvariantCulture, $"{r.BenchmarkCase.Descriptor.WorkloadMethodDisplayInfo.Trim('\'')} {megabytes / (r.ResultStatistics!.Median / 1e9):F0} MB/s")));
+        return Table(summary) + string.Create(CultureInfo.InvariantCulture, $"\n{megabytes:F1} MB; at the median: {rates}.\n");
+    }
+
+    /// <summary>Drift and energy beside the time, which takes a harness of its own; it prints its table.</summary>
+    internal static string Solver()
+    {
+        TextWriter console = Console.Out;
+        using var text = new StringWriter(CultureInfo.InvariantCulture) { NewLine = "\n" };
+        Console.SetOut(text);
+        try
+        {
+            SolverBenchmark.Run();
+        }
+        finally
+        {
+            Console.SetOut(console);
+        }
+
+        return text.ToString();
+    }
+
+    // In this process: a benchmark of its own process would be built where it runs, which takes longer than to run it.
+    private static Summary Run<T>(Job job)
+    {
+        ManualConfig config = ManualConfig.CreateEmpty()
+            .AddJob(job.WithToolchain(InProcessEmitToolchain.Instance))
+            .AddColumnProvider(DefaultColumnProviders.Descriptor, DefaultColumnProviders.Params, DefaultColumnProviders.Statistics, DefaultColumnProviders.Metrics)
+            .WithSummaryStyle(SummaryStyle.Default.WithMaxParameterColumnWidth(40))
+            .AddLogger(NullLogger.Instance)
+            .WithArtifactsPath(Path.Combine(Path.GetTempPath(), "kinefab-bench"));
+        Summary summary = BenchmarkRunner.Run<T>(config);
+        return summary.HasCriticalValidationErrors || summary.Reports.Any(r => !r.Success)
+            ? throw new InvalidOperationException("A benchmark did not run.")
+            : summary;
+    }
+
+    private static double Mean(Summary summary, string scene) =>
+        summary.Reports.Single(r => (string)r.BenchmarkCase.Parameters["Scene"] == scene).ResultStatistics!.Mean;
+
+    private static string Table(Summary summary)
+    {
+        var log = new AccumulationLogger();
+        MarkdownExporter.GitHub.ExportToLog(summary, log);
+        return string.Join('\n', log.GetLog().Split('\n').Select(line => line.TrimEnd())).Trim('\n') + "\n";
+    }
+}

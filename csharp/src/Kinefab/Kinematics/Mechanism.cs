@@ -88,6 +88,9 @@ public sealed class Mechanism
     /// <summary>All unlocked joint coordinates, in order of GameObject, component and axis; then locked ones that couplings name.</summary>
     public IReadOnlyList<MechanismCoordinate> Coordinates => _coordinates;
 
+    /// <summary>The GameObjects that carry Rigidbodies, by index: what has to be placed to show a state.</summary>
+    public IReadOnlyList<int> Bodies => GameObjects;
+
     internal int BodyCount => GameObjects.Length;
 
     /// <summary>For each body the GameObject with its Rigidbody.</summary>

@@ -11,6 +11,9 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class NormalEquations
 {
+    // With fewer no matrix is large.
+    private const int LeastFreedoms = 12;
+
     private readonly BlockPattern _pattern;
     private readonly int[] _freedoms;
     private readonly Dictionary<RowPath, int[]> _blocks = new();
@@ -90,6 +93,10 @@ internal sealed class NormalEquations
     {
         _dual.Clear();
         _isDual = true;
+        if (_step.Length < LeastFreedoms)
+        {
+            LeaveDual();
+        }
     }
 
     /// <summary>Adds one row of J, packed along its path, and its C.</summary>

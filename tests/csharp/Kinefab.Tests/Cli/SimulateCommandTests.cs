@@ -72,10 +72,49 @@ public sealed class SimulateCommandTests
         }
 
         Assert.That(lines, Has.Length.EqualTo(7), "a header, the start and five steps");
-        Assert.That(lines[0], Does.StartWith("time,Box/Lid:1.px,Box/Lid:1.py"));
+        Assert.That(lines[0], Does.StartWith("time,Box/Lid:1.angle,Box/Carriage:1.x,Box/Lid:1.px,Box/Lid:1.py"));
         double[] last = lines[^1].Split(',').Select(v => double.Parse(v, CultureInfo.InvariantCulture)).ToArray();
         Assert.That(last[0], Is.EqualTo(0.1).Within(1e-12));
-        Assert.That(last[3], Is.EqualTo(world.Bodies[0].Pose.Position.Z));
+        Assert.That(last[1], Is.EqualTo(((WorldHingeJoint)world.Joints[0]).Angle).Within(1e-9));
+        Assert.That(last[5], Is.EqualTo(world.Bodies[0].Pose.Position.Z));
+    }
+
+    // Driven at 720 degrees a second, so that a wrapped angle would show.
+    [Test]
+    public void Simulate_Json_HoldsTheSweepsCoordinatesUnwrapped()
+    {
+        string crank = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "mechanisms", "M07.kinefab");
+        string run = Path.Combine(_folder, "run.json");
+        string swept = Path.Combine(_folder, "swept.json");
+        CommandLineTests.Run("simulate", crank, "--seconds", "2", "--step", "0.002", "--solver", "exact", "-o", run, "--drive", "crank=720/s");
+        CommandLineTests.Run("sweep", crank, "--joint", "crank", "--from", "0", "--to", "360", "--steps", "8", "-o", swept);
+
+        using JsonDocument time = JsonDocument.Parse(File.ReadAllText(run));
+        using JsonDocument driver = JsonDocument.Parse(File.ReadAllText(swept));
+        Assert.That(Names(time), Is.EqualTo(Names(driver)));
+        double[] angles = Values(time, Array.IndexOf(Names(time), "crank 1 angle"));
+        Assert.That(angles[^1], Is.GreaterThan(1000));
+        Assert.That(Enumerable.Range(1, angles.Length - 1).Max(i => Math.Abs(angles[i] - angles[i - 1])), Is.LessThan(10));
+
+        // x = 0.5 cos q + sqrt(1.5^2 - 0.25 sin^2 q), from q = 40 degrees.
+        double[] slides = Values(time, Array.FindIndex(Names(time), n => n.StartsWith("slider", StringComparison.Ordinal)));
+        double start = Slide(0);
+        for (int i = 0; i < angles.Length; i += 50)
+        {
+            Assert.That(slides[i], Is.EqualTo(Slide(angles[i]) - start).Within(1e-6));
+        }
+
+        static double Slide(double angle)
+        {
+            double q = (angle + 40) * Math.PI / 180;
+            return 0.5 * Math.Cos(q) + Math.Sqrt(2.25 - 0.25 * Math.Sin(q) * Math.Sin(q));
+        }
+
+        static string[] Names(JsonDocument of) => of.RootElement.GetProperty("coordinates").EnumerateArray()
+            .Select(c => $"{c.GetProperty("id").GetString()} {c.GetProperty("component").GetInt32()} {c.GetProperty("coordinate").GetString()}").ToArray();
+
+        static double[] Values(JsonDocument of, int index) =>
+            of.RootElement.GetProperty("coordinates")[index].GetProperty("values").EnumerateArray().Select(v => v.GetDouble()).ToArray();
     }
 
     [Test]

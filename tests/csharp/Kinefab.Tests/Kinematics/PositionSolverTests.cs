@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Document;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
@@ -212,6 +213,87 @@ public class PositionSolverTests
         var solver = new PositionSolver(bar.Mechanism);
         Assert.That(() => solver.Drive(bar.Mechanism.NewState(), bar.Drive, double.NaN), Throws.InstanceOf<ArgumentException>());
         Assert.That(() => solver.Drive(bar.Mechanism.NewState(), 99, 1), Throws.InstanceOf<ArgumentException>());
+    }
+
+    [TestCase("crank.angle")]
+    [TestCase("crank")]
+    [TestCase("crank[1]")]
+    [TestCase("crank[1].Angle")]
+    public void CoordinateNamed_AllItsNames_FindIt(string name)
+    {
+        Mechanism mechanism = new ExportedMechanism("M05").Mechanism;
+        Assert.That(mechanism.Coordinates[mechanism.CoordinateNamed(name)].Name, Is.EqualTo("crank.angle"));
+        Assert.That(() => mechanism.CoordinateNamed("rocker"), Throws.ArgumentException.With.Message.Contains("rocker[1].angle, rocker[2].angle"));
+        Assert.That(() => mechanism.GameObjectNamed("nobody"), Throws.ArgumentException.With.Message.Contains("nobody"));
+    }
+
+    [Test]
+    public void SetPose_OfAllBodies_ReadsTheCoordinatesThere()
+    {
+        var exported = new ExportedMechanism("M01");
+        exported.Solver.Drive(exported.State, "crank", 400);
+        MechanismState copy = exported.Mechanism.NewState();
+        for (int turn = 1; turn <= 10; turn++)
+        {
+            MechanismState at = exported.Mechanism.NewState();
+            exported.Solver.Drive(at, "crank", 40 * turn);
+            foreach (int body in exported.Mechanism.Bodies)
+            {
+                copy.SetPose(body, at.Pose(body));
+            }
+        }
+
+        Assert.That(copy.Coordinate("crank"), Is.EqualTo(400).Within(1e-9), "over a whole turn");
+        Assert.That(copy.Pose("rocker").Position, Is.EqualTo(exported.State.Pose("rocker").Position));
+        Assert.That(() => copy.SetPose(exported.Mechanism.GameObjectNamed("base"), Pose.Identity), Throws.ArgumentException);
+        Assert.That(() => copy.SetPose(exported.Mechanism.GameObjectNamed("crank"), new Pose(new Vector3d(double.NaN, 0, 0), Quaterniond.Identity)), Throws.ArgumentException);
+    }
+
+    // More rows than the dual matrix takes and fewer give the same step.
+    [TestCase(10, 3)]
+    [TestCase(100, 3)]
+    [TestCase(30, 29)]
+    public void Solve_FewRowsOrMany_IsTheDampedLeastSquaresStep(int freedoms, int rows)
+    {
+        var scene = new MechanismScene();
+        int? previous = null;
+        for (int i = 0; i < freedoms; i++)
+        {
+            int link = scene.Body($"link{i}", new Vector3d(i, 0.1 * i * i, 0));
+            scene.Hinge(link, previous, new Vector3d(i, 0, 0), Vector3d.UnitZ);
+            previous = link;
+        }
+
+        Mechanism mechanism = scene.Mechanism();
+        RowPath path = RowPath.Between(mechanism.Tree, previous!.Value, KinematicTree.Ground);
+        var normal = new NormalEquations(mechanism.Tree, [path]);
+        var random = new Random(5);
+        var matrix = new double[rows][];
+        var c = new double[rows];
+        normal.Clear();
+        for (int r = 0; r < rows; r++)
+        {
+            matrix[r] = Enumerable.Range(0, path.Width).Select(_ => random.NextDouble() - 0.5).ToArray();
+            c[r] = random.NextDouble() - 0.5;
+            normal.Add(path, matrix[r], c[r]);
+        }
+
+        normal.Solve(1e-3);
+        double largest = Math.Max(1, Enumerable.Range(0, path.Width).Max(k => matrix.Sum(row => row[k] * row[k])));
+        for (int k = 0; k < path.Width; k++)
+        {
+            // (J^T J + mu) dy + J^T C = 0
+            double left = 1e-3 * largest * Step(k);
+            for (int r = 0; r < rows; r++)
+            {
+                left += matrix[r][k] * (c[r] + Enumerable.Range(0, path.Width).Sum(l => matrix[r][l] * Step(l)));
+            }
+
+            Assert.That(left, Is.EqualTo(0).Within(1e-12));
+        }
+
+        // The path runs from the last body to the ground.
+        double Step(int entry) => normal.Step[normal.Firsts[path.Bodies[entry]]];
     }
 
     private static IEnumerable<(MechanismScene Scene, int Body, int Drags)> Draggable()

@@ -6,6 +6,7 @@ using System.Runtime.CompilerServices;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.Numerics;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -32,11 +33,18 @@ public sealed class ReadmeTests
     {
         Mechanism mechanism = Mechanism.Create(ValidScene.Load(Lever));
         MechanismState state = mechanism.NewState();
-        DriveResult result = new PositionSolver(mechanism).Drive(state, coordinate: 0, value: 60);   // the lever, degrees
-        Console.WriteLine($"{result.Status}: the slider stands at {state.Pose(14).Position} m");
+        var solver = new PositionSolver(mechanism);
+        DriveResult result = solver.Drive(state, "Lever/Crank:1", 60);   // degrees from the exported pose
+        Console.WriteLine($"{result.Status}: the slider stands at {state.Pose("Lever/SliderD:1").Position} m");
 
         // At 30 + 60 degrees: x = sqrt(l^2 - r^2), and X is mirrored.
-        Assert.That(state.Pose(14).Position.X, Is.EqualTo(-Math.Sqrt((0.09 * 0.09) - (0.025 * 0.025))).Within(1e-9));
+        Assert.That(state.Pose("Lever/SliderD:1").Position.X, Is.EqualTo(-Math.Sqrt((0.09 * 0.09) - (0.025 * 0.025))).Within(1e-9));
+
+        DriveResult pulled = solver.Drag(state, "Lever/SliderD:1", point: Vector3d.Zero, target: new Vector3d(-0.1, 0.02, 0));
+        foreach (int body in mechanism.Bodies)
+            Console.WriteLine($"{body}: {state.Pose(body).Position}");   // in Unity: transform.SetPositionAndRotation
+        Assert.That(pulled.Status, Is.EqualTo(DriveStatus.OutOfReach), "the slider cannot rise");
+        Assert.That(state.Pose("Lever/SliderD:1").Position.X, Is.EqualTo(-0.1).Within(1e-6));
     }
 
     [Test]

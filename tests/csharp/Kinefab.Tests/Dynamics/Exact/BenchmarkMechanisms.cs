@@ -7,26 +7,6 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Tests.Dynamics.Exact;
 
-/// <summary>A mechanism of tests/reference/dynamics: how it is built, driven and read.</summary>
-internal sealed class BenchmarkMechanism
-{
-    public BenchmarkMechanism(string id, MechanismBuilder builder, Func<MultibodySystem, (string Quantity, double Value)[]> read)
-    {
-        Id = id;
-        MultibodySystem = builder.Build();
-        Read = read;
-    }
-
-    public string Id { get; }
-
-    public MultibodySystem MultibodySystem { get; }
-
-    public Func<MultibodySystem, (string Quantity, double Value)[]> Read { get; }
-
-    /// <summary>Called before every step, for forces.</summary>
-    public Action<MultibodySystem> Drive { get; set; } = _ => { };
-}
-
 /// <summary>Builds the benchmarks at their initial states.</summary>
 internal static class BenchmarkMechanisms
 {
@@ -328,56 +308,6 @@ internal static class BenchmarkMechanisms
         }
     }
 
-    /// <summary>The reference values of a benchmark up to a time, by time.</summary>
-    public static SortedDictionary<double, Dictionary<string, double>> References(string id, double end)
-    {
-        var values = new SortedDictionary<double, Dictionary<string, double>>();
-        foreach (string line in System.IO.File.ReadLines(System.IO.Path.Combine(Root(), "tests", "reference", "dynamics", "benchmarks.csv")))
-        {
-            string[] cells = line.Split(',');
-            if (cells[0] != id)
-            {
-                continue;
-            }
-
-            double t = double.Parse(cells[1], System.Globalization.CultureInfo.InvariantCulture);
-            if (t > 0 && t <= end)
-            {
-                if (!values.TryGetValue(t, out Dictionary<string, double>? at))
-                {
-                    values.Add(t, at = new Dictionary<string, double>());
-                }
-
-                at[cells[2]] = double.Parse(cells[3], System.Globalization.CultureInfo.InvariantCulture);
-            }
-        }
-
-        return values;
-    }
-
-    /// <summary>Largest deviation from the reference values up to a time.</summary>
-    public static double Deviation(BenchmarkMechanism benchmark, ISolver solver, double dt, double end)
-    {
-        double most = 0;
-        int done = 0;
-        foreach ((double t, Dictionary<string, double> expected) in References(benchmark.Id, end))
-        {
-            for (int target = (int)Math.Round(t / dt); done < target; done++)
-            {
-                benchmark.Drive(benchmark.MultibodySystem);
-                solver.Step(dt);
-            }
-
-            foreach ((string quantity, double value) in benchmark.Read(benchmark.MultibodySystem))
-            {
-                double deviation = Math.Abs(value - expected[quantity]);
-                most = Math.Max(most, double.IsNaN(deviation) ? double.PositiveInfinity : deviation);
-            }
-        }
-
-        return most;
-    }
-
     // A slender rod; its moment about its own axis, which no planar motion feels, is that across.
     private static int Rod(MechanismBuilder b, Vector3d from, Vector3d to, double mass)
     {
@@ -392,16 +322,5 @@ internal static class BenchmarkMechanisms
     {
         Quaterniond q = m.Bodies.Poses[body].Rotation;
         return 2 * Math.Atan2(q.Z, q.W) is var angle && angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle;
-    }
-
-    private static string Root()
-    {
-        string? directory = AppContext.BaseDirectory;
-        while (directory != null && !System.IO.Directory.Exists(System.IO.Path.Combine(directory, "tests", "reference")))
-        {
-            directory = System.IO.Path.GetDirectoryName(directory);
-        }
-
-        return directory ?? throw new System.IO.DirectoryNotFoundException("tests/reference");
     }
 }

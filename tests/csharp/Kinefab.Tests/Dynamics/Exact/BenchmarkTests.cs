@@ -25,7 +25,7 @@ internal sealed class BenchmarkTests
     {
         BenchmarkMechanism benchmark = make();
         var solver = new ExactSolver(benchmark.MultibodySystem);
-        Assert.That(BenchmarkMechanisms.Deviation(benchmark, solver, dt, end), Is.LessThanOrEqualTo(1e-6));
+        Assert.That(BenchmarkReferences.Deviation(benchmark, solver, dt, end), Is.LessThanOrEqualTo(1e-6));
     }
 
     [TestCaseSource(nameof(Cases))]
@@ -33,8 +33,8 @@ internal sealed class BenchmarkTests
     {
         BenchmarkMechanism coarse = make();
         BenchmarkMechanism fine = make();
-        double at4 = BenchmarkMechanisms.Deviation(coarse, new ExactSolver(coarse.MultibodySystem), 4 * dt, Math.Min(end, 2));
-        double at2 = BenchmarkMechanisms.Deviation(fine, new ExactSolver(fine.MultibodySystem), 2 * dt, Math.Min(end, 2));
+        double at4 = BenchmarkReferences.Deviation(coarse, new ExactSolver(coarse.MultibodySystem), 4 * dt, Math.Min(end, 2));
+        double at2 = BenchmarkReferences.Deviation(fine, new ExactSolver(fine.MultibodySystem), 2 * dt, Math.Min(end, 2));
         Assert.That(at4 / at2, Is.GreaterThan(2.8));
     }
 
@@ -42,7 +42,7 @@ internal sealed class BenchmarkTests
     public void Step_FortyWindows_PassTheirSingularPoses()
     {
         BenchmarkMechanism benchmark = BenchmarkMechanisms.Windows(40);
-        Assert.That(BenchmarkMechanisms.Deviation(benchmark, new ExactSolver(benchmark.MultibodySystem), 2.5e-3, 2), Is.LessThanOrEqualTo(1e-4));
+        Assert.That(BenchmarkReferences.Deviation(benchmark, new ExactSolver(benchmark.MultibodySystem), 2.5e-3, 2), Is.LessThanOrEqualTo(1e-4));
         Assert.That(MechanismMeasures.Drift(benchmark.MultibodySystem), Is.LessThanOrEqualTo(1e-8));
     }
 

@@ -59,6 +59,7 @@ internal static class Tables
         ManualConfig config = ManualConfig.CreateEmpty()
             .AddJob(job.WithToolchain(InProcessEmitToolchain.Instance))
             .AddColumnProvider(DefaultColumnProviders.Descriptor, DefaultColumnProviders.Params, DefaultColumnProviders.Statistics, DefaultColumnProviders.Metrics)
+            .AddColumn(StatisticColumn.Min)
             .WithSummaryStyle(SummaryStyle.Default.WithMaxParameterColumnWidth(40))
             .AddLogger(NullLogger.Instance)
             .WithArtifactsPath(Path.Combine(Path.GetTempPath(), "kinefab-bench"));
@@ -75,6 +76,7 @@ internal static class Tables
     {
         var log = new AccumulationLogger();
         MarkdownExporter.GitHub.ExportToLog(summary, log);
-        return string.Join('\n', log.GetLog().Split('\n').Select(line => line.TrimEnd())).Trim('\n') + "\n";
+        string text = log.GetLog().Replace("&#39;", "", StringComparison.Ordinal).Replace("**", "", StringComparison.Ordinal);
+        return string.Join('\n', text.Split('\n').Select(line => line.TrimEnd())).Trim('\n') + "\n";
     }
 }

@@ -58,6 +58,8 @@ internal static class MobilityCommand
         if (counted.Gap < 100)
             target.WriteLine($"unsure     the rank's gap is only {counted.Gap:F0}");
         string firstOrder = counted.FirstOrder == counted.Mobility ? "" : $" ({counted.FirstOrder} at first order)";
+        if (counted.AtGeneralPose > counted.Mobility)
+            target.WriteLine($"singular   at every pose: {counted.AtGeneralPose} freedoms at first order in general position too");
         string stated = scene.Document.Analysis is null ? "" : $", {scene.Document.Analysis.Mobility} in the file";
         target.WriteLine($"mobility   {counted.Mobility}{firstOrder}{stated}; {counted.Rows} rows, {counted.Redundant} redundant");
     }
@@ -67,6 +69,7 @@ internal static class MobilityCommand
         json.WriteStartObject("mobility");
         json.WriteNumber("mobility", counted.Mobility);
         json.WriteNumber("firstOrderMobility", counted.FirstOrder);
+        json.WriteNumber("firstOrderAtGeneralPose", counted.AtGeneralPose);
         json.WriteNumber("rows", counted.Rows);
         json.WriteNumber("redundant", counted.Redundant);
         json.WriteStartArray("islands");

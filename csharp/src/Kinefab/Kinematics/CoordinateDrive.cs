@@ -20,6 +20,10 @@ internal sealed class CoordinateDrive
     private const double LimitTolerance = 1e-12;
     private const int MaxContactIterations = 40;
 
+    // Ends a creep along a mechanism that is singular at every pose; beside what the way takes by itself.
+    private const int MaxSteps = 500;
+    private const double StepsOfTheWay = 20;
+
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
     private readonly MechanismState _good;
@@ -65,8 +69,14 @@ internal sealed class CoordinateDrive
         int limit = -1;
         double leaptFrom = -1;
         bool crosses = way > 0 && (_isFresh ? Singular.Contains(state) : state.IsAtCrossing);
+        double left = MaxSteps + StepsOfTheWay * way / LargestStep;
         while (s < 1)
         {
+            if (left-- <= 0)
+            {
+                return End(state, s, limit);
+            }
+
             double next = s + step >= 1 ? 1 : s + step;
             bool leapt = false;
             if (crosses || !Track(state, next, s > 0 || !_isFresh))

@@ -12,6 +12,7 @@ namespace Kinefab.Kinematics;
 internal sealed class FiniteMobility
 {
     private const int WalkSteps = 3;
+    private const int MaxOtherWalks = 8;
     private const double WalkLength = 0.2;
     private const double ProbeLength = 0.01;
     private const double Survives = 0.05;
@@ -26,6 +27,9 @@ internal sealed class FiniteMobility
         _newton = newton;
         _blocks = blocks;
     }
+
+    /// <summary>For each block the freedoms of the velocities at poses in general position, the least that Count found.</summary>
+    public int[] AtGeneralPose { get; private set; } = Array.Empty<int>();
 
     /// <summary>For each block its finite freedoms.</summary>
     public int[] Count(MechanismState start)
@@ -58,7 +62,50 @@ internal sealed class FiniteMobility
             counts[b] = Rank(survivors[b], _blocks.Columns[b]);
         }
 
+        LookAround(start, space, counts);
         return counts;
+    }
+
+    // The walk may have taken a branch along which part of the mechanism stays folded: then others are tried.
+    private void LookAround(MechanismState start, VelocitySpace space, int[] finite)
+    {
+        AtGeneralPose = FirstOrder(space);
+        for (int i = 0; i < MaxOtherWalks && IsMore(); i++)
+        {
+            MechanismState other = start.Clone();
+            for (int k = 0; k < WalkSteps; k++)
+            {
+                Walk(other, (i + 1) * WalkSteps + k);
+            }
+
+            int[] there = FirstOrder(new VelocitySpace(_mechanism, _newton, _blocks, other));
+            for (int b = 0; b < there.Length; b++)
+            {
+                AtGeneralPose[b] = Math.Min(AtGeneralPose[b], there[b]);
+            }
+        }
+
+        bool IsMore()
+        {
+            bool more = false;
+            for (int b = 0; b < finite.Length; b++)
+            {
+                more |= AtGeneralPose[b] > finite[b];
+            }
+
+            return more;
+        }
+    }
+
+    private int[] FirstOrder(VelocitySpace space)
+    {
+        var freedoms = new int[_blocks.Columns.Count];
+        for (int b = 0; b < freedoms.Length; b++)
+        {
+            freedoms[b] = _blocks.Columns[b].Count - space.Ranks[b];
+        }
+
+        return freedoms;
     }
 
     // A step along a mixture of all allowed velocities, the same on every machine; undone when the joints do not close.

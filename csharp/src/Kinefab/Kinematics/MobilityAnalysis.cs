@@ -21,7 +21,14 @@ public static class MobilityAnalysis
         int freedoms = newton.Motion.Linear.Length;
         var blocks = new LoopBlocks(mechanism, newton.Firsts, freedoms);
         var space = new VelocitySpace(mechanism, newton, blocks, state);
-        int[] finite = new FiniteMobility(mechanism, newton, blocks).Count(state);
+        var finiteMobility = new FiniteMobility(mechanism, newton, blocks);
+        int[] finite = finiteMobility.Count(state);
+        int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
+        foreach (int freedom in finiteMobility.AtGeneralPose)
+        {
+            general += freedom;
+        }
+
         Dictionary<int, int> redundant = RedundantOf(mechanism, space);
 
         var islands = Islands(mechanism, newton, space, finite);
@@ -43,7 +50,7 @@ public static class MobilityAnalysis
 
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
-        return new MobilityReport(mobility, firstOrder, rows, redundantRows, space.Gap, islands, bodies, Named(mechanism, redundant), IdleFreedoms.Of(mechanism, space));
+        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, space.Gap, islands, bodies, Named(mechanism, redundant), IdleFreedoms.Of(mechanism, space));
     }
 
     private static List<IslandMobility> Islands(Mechanism mechanism, NewtonSolver newton, VelocitySpace space, int[] finite)

@@ -94,11 +94,12 @@ public sealed class IdleFreedom
 public sealed class MobilityReport
 {
     internal MobilityReport(
-        int mobility, int firstOrder, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
+        int mobility, int firstOrder, int atGeneralPose, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
         IReadOnlyList<IdleFreedom> idle)
     {
         Mobility = mobility;
         FirstOrder = firstOrder;
+        AtGeneralPose = atGeneralPose;
         Rows = rows;
         Redundant = redundant;
         Gap = gap;
@@ -113,6 +114,12 @@ public sealed class MobilityReport
 
     /// <summary>Freedoms of the velocities at the exported pose; more than <see cref="Mobility"/> where the pose is singular.</summary>
     public int FirstOrder { get; }
+
+    /// <summary>
+    /// Freedoms of the velocities at a pose in general position, some steps away. More than <see cref="Mobility"/> where the
+    /// mechanism is singular at every pose: then Newton's method, and with it a drive, has nothing to hold on to.
+    /// </summary>
+    public int AtGeneralPose { get; }
 
     /// <summary>Rows of all joints and couplings.</summary>
     public int Rows { get; }

@@ -38,6 +38,7 @@ public class ExportedMechanismTests
         var exported = new ExportedMechanism(id);
         MobilityReport counted = MobilityAnalysis.Of(exported.Mechanism);
         Assert.That((counted.FirstOrder, counted.Mobility), Is.EqualTo((firstOrder, finite)));
+        Assert.That(counted.AtGeneralPose, Is.EqualTo(id == "M17" ? firstOrder : finite), "M17 alone is singular all along its motion");
         foreach (string[] freedom in freedoms.Select(f => f.Split('=')))
         {
             // "lo" stands for lo1, lo_x and so on.

@@ -105,6 +105,21 @@ public class SingularStartTests
         }
     }
 
+    // Singular at every pose of its motion, M17 gives Newton's method nothing to hold on to: a drive ends, closed, and says so.
+    [Test]
+    public void Drive_MechanismThatIsSingularEverywhere_EndsClosedInBoundedTime()
+    {
+        var exported = new ExportedMechanism("M17");
+        for (int i = 0; i < exported.Mechanism.Coordinates.Count; i += 5)
+        {
+            MechanismState state = exported.Mechanism.NewState();
+            DriveResult result = exported.Solver.Drive(state, i, 3);
+            Assert.That(result.Status, Is.EqualTo(DriveStatus.Reached).Or.EqualTo(DriveStatus.OutOfReach));
+            Assert.That(result.ErrorMetres, Is.LessThan(1e-9));
+            Assert.That(result.Iterations, Is.LessThan(40_000));
+        }
+    }
+
     [Test]
     public void Drive_OffAFlatPose_GivesTheSameBits()
     {

@@ -11,13 +11,14 @@ internal static class Program
 
     internal static int Main(string[] args)
     {
-        var root = new RootCommand("Validates, inspects, simulates and sweeps Kinefab scenes, and counts their mobility.")
+        var root = new RootCommand("Validates, inspects, simulates and sweeps Kinefab scenes, counts their mobility and advises on stability.")
         {
             ValidateCommand.Create(),
             InspectCommand.Create(),
             SimulateCommand.Create(),
             SweepCommand.Create(),
             MobilityCommand.Create(),
+            AdviseCommand.Create(),
         };
         ParseResult parsed = root.Parse(args);
         if (parsed.Errors.Count == 0)

@@ -257,4 +257,37 @@ public static class DiagnosticCodes
 
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
+
+    /// <summary>The {joint} comes apart by {measure} within {seconds} s in Unity's solver{others}.</summary>
+    public const string AdviceJointDrifts = "ADVICE_JOINT_DRIFTS";
+
+    /// <summary>In Unity's solver {body} comes to stand {measure} from where the mechanism truly moves it within {seconds} s.</summary>
+    public const string AdviceMotionDiffers = "ADVICE_MOTION_DIFFERS";
+
+    /// <summary>The {joint} shakes by {measure} from step to step in Unity's solver; the true motion does not.</summary>
+    public const string AdviceJointShakes = "ADVICE_JOINT_SHAKES";
+
+    /// <summary>The {drive} of the {joint} cannot hold the exported pose with {force} N or N m: it sinks by {measure} within {seconds} s.</summary>
+    public const string AdviceDriveWeak = "ADVICE_DRIVE_WEAK";
+
+    /// <summary>The {drive} of the {joint} goes on swinging by {measure} to both sides, {period} s or {steps} steps a swing.</summary>
+    public const string AdviceDriveRings = "ADVICE_DRIVE_RINGS";
+
+    /// <summary>The {joint} ties {light} to {heavy}, 1:{ratio}; joints of its mechanism come apart by {measure}.</summary>
+    public const string AdviceMassesUnlike = "ADVICE_MASSES_UNLIKE";
+
+    /// <summary>Hung up at a joint, {body} would be turned by its weight by {turn} rad within one step, so thin is its inertia; joints of its mechanism come apart by {measure}.</summary>
+    public const string AdviceInertiaThin = "ADVICE_INERTIA_THIN";
+
+    /// <summary>The loop holds {count} of the {rows} locked freedoms of the {joint} already{others}; joints of its mechanism come apart by {measure}.</summary>
+    public const string AdviceLoopOverConstrained = "ADVICE_LOOP_OVERCONSTRAINED";
+
+    /// <summary>The {joint} has a range of {range} degrees; Unity's solver goes {measure} beyond it.</summary>
+    public const string AdviceLimitNarrow = "ADVICE_LIMIT_NARROW";
+
+    /// <summary>The {solver} solver cannot follow the scene: its motion leaves the range of numbers.</summary>
+    public const string AdviceCannotFollow = "ADVICE_CANNOT_FOLLOW";
+
+    /// <summary>Only {count} changes were tried: the scene is large or the limit is low.</summary>
+    public const string AdviceTrialsSpent = "ADVICE_TRIALS_SPENT";
 }

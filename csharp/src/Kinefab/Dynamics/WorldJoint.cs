@@ -48,6 +48,9 @@ public abstract class WorldJoint
 
     internal int Index { get; }
 
+    /// <summary>Actor 1's joint frame in actor 0's.</summary>
+    internal Pose Relative => (Pose0 * Solved.Frame0).Inverse() * (Pose1 * Solved.Frame1);
+
     private protected MultibodySystem MultibodySystem { get; }
 
     private protected Pose Pose0 => MultibodySystem.Bodies.PoseOf(Solved.Body0);

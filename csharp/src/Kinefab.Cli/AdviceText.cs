@@ -1,0 +1,35 @@
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using Kinefab.Advice;
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Cli;
+
+/// <summary>Stability advice as people read it.</summary>
+internal static class AdviceText
+{
+    internal static void Write(string file, AdviceReport advice, TextWriter target)
+    {
+        int warnings = advice.Report.Count(Severity.Warning);
+        Line(target, $"{file}: {Counted.Of(advice.Steps, "step", "steps")} of {advice.Step.ToString(CultureInfo.InvariantCulture)} s in Unity's solver and the exact one; {Counted.Of(warnings, "warning", "warnings")}, {Counted.Of(advice.Trials, "change", "changes")} tried");
+        foreach (AdviceFinding finding in advice.Findings)
+            Write(finding, target);
+        foreach (Diagnostic remark in advice.Report.Diagnostics.Skip(advice.Findings.Count))
+            Line(target, $"{remark.Severity.ToJson()} {remark.Code}: {remark.Message} {remark.Remedy}");
+    }
+
+    private static void Write(AdviceFinding finding, TextWriter target)
+    {
+        Diagnostic found = finding.Diagnostic;
+        Line(target, $"{found.Severity.ToJson()} {found.Code}: {found.Message}");
+        if (finding.Best is not null)
+            Line(target, $"  do     {found.Remedy}");
+        else if (found.Severity == Severity.Warning)
+            Line(target, $"         {found.Remedy}");
+        foreach (TriedChange tried in finding.Tried.Where(t => t != finding.Best))
+            Line(target, $"  tried  {tried.Change}: {tried.After}");
+    }
+
+    private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));
+}

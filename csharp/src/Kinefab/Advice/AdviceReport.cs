@@ -1,0 +1,33 @@
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Advice;
+
+/// <summary>The stability advice for a scene.</summary>
+public sealed class AdviceReport
+{
+    internal AdviceReport(double step, int steps, int trials, IReadOnlyList<AdviceFinding> findings, Report remarks)
+    {
+        Step = step;
+        Steps = steps;
+        Trials = trials;
+        Findings = findings;
+        Report = new Report(findings.Select(f => f.Diagnostic).Concat(remarks.Diagnostics).ToArray());
+    }
+
+    /// <summary>The scene's own time step, seconds.</summary>
+    public double Step { get; }
+
+    /// <summary>Steps simulated in each run.</summary>
+    public int Steps { get; }
+
+    /// <summary>Changes that were run.</summary>
+    public int Trials { get; }
+
+    /// <summary>Worst first.</summary>
+    public IReadOnlyList<AdviceFinding> Findings { get; }
+
+    /// <summary>The findings as diagnostics, and what kept the advice from being complete.</summary>
+    public Report Report { get; }
+}

@@ -1,0 +1,61 @@
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Advice.Runs;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Validation;
+using Island = Kinefab.Advice.Runs.Island;
+
+namespace Kinefab.Advice.Changes;
+
+/// <summary>Changes of how PhysX treats joints, which leave the mechanism what it is.</summary>
+internal static class JointSettings
+{
+    /// <summary>Preprocessing off everywhere.</summary>
+    public static Change? PreprocessingOff(ValidScene scene, World world)
+    {
+        ChangePart[] parts = world.Joints.Where(j => Of(scene, j).EnablePreprocessing)
+            .Select(j => new ChangePart(j.GameObject, "Enable Preprocessing off", Place(scene, j), new SceneEdit(EditText.Pointer(j) + "/enablePreprocessing", "false")))
+            .ToArray();
+        return parts.Length == 0 ? null : new Change("enablePreprocessing off", parts);
+    }
+
+    /// <summary>Projection of every ConfigurableJoint to a thousandth of a link and a tenth of a degree.</summary>
+    public static Change? Projection(ValidScene scene, World world, IEnumerable<Island> islands)
+    {
+        var parts = new List<ChangePart>();
+        foreach (Island island in islands)
+        {
+            string distance = EditText.Number(0.001 * island.Length);
+            foreach (WorldJoint joint in island.Joints.Select(j => world.Joints[j]))
+            {
+                if (Of(scene, joint) is not ConfigurableJoint { ProjectionMode: JointProjectionMode.None })
+                    continue;
+                string at = EditText.Pointer(joint);
+                parts.Add(new ChangePart(
+                    joint.GameObject,
+                    $"Projection Mode Position And Rotation with Projection Distance {distance}, Angle 0.1",
+                    Place(scene, joint),
+                    new SceneEdit(at + "/projectionMode", "\"PositionAndRotation\""),
+                    new SceneEdit(at + "/projectionDistance", distance),
+                    new SceneEdit(at + "/projectionAngle", "0.1")));
+            }
+        }
+
+        return parts.Count == 0 ? null : new Change("projection", parts);
+    }
+
+    public static Joint Of(ValidScene scene, WorldJoint joint) =>
+        (Joint)scene.Document.GameObjects[joint.GameObject].Components[joint.Component];
+
+    /// <summary>A joint as a user finds it: its type and the two objects.</summary>
+    public static string Place(ValidScene scene, WorldJoint joint) => Place(scene, joint.GameObject, joint.Component);
+
+    public static string Place(ValidScene scene, int gameObject, int component)
+    {
+        IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
+        var joint = (Joint)objects[gameObject].Components[component];
+        string other = joint.ConnectedBody is int body ? objects[body].Id : "world";
+        return $"{joint.GetType().Name} {objects[gameObject].Id} - {other}";
+    }
+}

@@ -1,0 +1,32 @@
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Advice.Changes;
+using Kinefab.Advice.Runs;
+using Kinefab.Advice.Trials;
+using Kinefab.Diagnostics;
+
+namespace Kinefab.Advice.Findings;
+
+/// <summary>Joints whose anchors or axes come apart in Unity's solver: the worst of each island.</summary>
+internal static class JointDrifts
+{
+    public static IEnumerable<AdviceFinding> Find(Examination e)
+    {
+        foreach (Island island in e.Islands)
+        {
+            Threshold threshold = Threshold.Drift(island);
+            (Dynamics.WorldJoint? joint, AdviceMeasure before) = e.WorstDrift(e.Unity, island);
+            double score = threshold.Score(before);
+            if (joint is null || score < 1)
+                continue;
+            int others = island.Joints.Count(j => threshold.Score(e.Unity.Joints[j].Drift) >= 1) - 1;
+            var treatment = Treatment.Of(e, island, run => e.WorstDrift(run, island).Measure, threshold, e.Remedies.Ladders);
+            yield return FindingText.Make(
+                DiagnosticCodes.AdviceJointDrifts, Severity.Warning, EditText.Pointer(joint), joint.Id, before, score, treatment,
+                ("joint", JointSettings.Place(e.Scene, joint)),
+                ("measure", before.ToString()),
+                ("seconds", AdviceMeasure.Text(e.Plan.Seconds)),
+                ("others", others == 0 ? "" : $", and {others} more of its mechanism drift too"));
+        }
+    }
+}

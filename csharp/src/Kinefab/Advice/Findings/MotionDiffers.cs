@@ -1,0 +1,31 @@
+using System.Collections.Generic;
+using Kinefab.Advice.Changes;
+using Kinefab.Advice.Runs;
+using Kinefab.Advice.Trials;
+using Kinefab.Diagnostics;
+using Kinefab.Json;
+
+namespace Kinefab.Advice.Findings;
+
+/// <summary>Bodies that Unity's solver moves otherwise than the mechanism truly moves: the worst of each island.</summary>
+internal static class MotionDiffers
+{
+    public static IEnumerable<AdviceFinding> Find(Examination e)
+    {
+        for (int i = 0; i < e.Islands.Count; i++)
+        {
+            Island island = e.Islands[i];
+            Threshold threshold = Threshold.Place(island);
+            (Dynamics.WorldBody? body, AdviceMeasure before) = e.WorstPlace(e.Unity, island);
+            double score = threshold.Score(before);
+            if (body is null || score < 1)
+                continue;
+            var treatment = Treatment.Of(e, island, run => e.WorstPlace(run, island).Measure, threshold, e.Remedies.Ladders);
+            yield return FindingText.Make(
+                DiagnosticCodes.AdviceMotionDiffers, Severity.Warning, "/gameObjects/" + Invariant.Text(body.GameObject), body.Id, before, score, treatment,
+                ("body", body.Id),
+                ("measure", before.ToString()),
+                ("seconds", AdviceMeasure.Text(e.Foreseen[i] * e.Plan.Step)));
+        }
+    }
+}

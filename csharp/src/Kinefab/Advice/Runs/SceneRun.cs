@@ -1,0 +1,83 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+
+namespace Kinefab.Advice.Runs;
+
+/// <summary>A scene simulated from its start pose, with everything that findings ask of it.</summary>
+internal sealed class SceneRun
+{
+    private SceneRun(World world, ValidScene scene, RunPlan plan)
+    {
+        Joints = new JointRecord[world.Joints.Count];
+        for (int j = 0; j < Joints.Length; j++)
+        {
+            WorldJoint joint = world.Joints[j];
+            Joints[j] = new JointRecord(joint, scene.Freedoms(joint.GameObject, joint.Component), plan.Samples);
+        }
+
+        Centers = new Vector3d[plan.Samples][];
+        Rotations = new Quaterniond[plan.Samples][];
+    }
+
+    /// <summary>In the world's order.</summary>
+    public JointRecord[] Joints { get; }
+
+    /// <summary>Centres of mass by sample and body, world, metres.</summary>
+    public Vector3d[][] Centers { get; }
+
+    /// <summary>Rotations of the bodies' objects by sample and body.</summary>
+    public Quaterniond[][] Rotations { get; }
+
+    /// <summary>False where the solver could not follow the scene: nothing it says holds.</summary>
+    public bool IsSound { get; private set; }
+
+    /// <summary>Runs a scene under a solver.</summary>
+    /// <param name="scene">The scene, changed or not.</param>
+    /// <param name="solver">Who moves it.</param>
+    /// <param name="plan">When it is looked at.</param>
+    /// <param name="substeps">Steps from one look to the next.</param>
+    /// <param name="prepare">Done to the world before its first step.</param>
+    public static SceneRun Of(ValidScene scene, SolverKind solver, RunPlan plan, int substeps, Action<World>? prepare = null)
+    {
+        World world = World.Create(scene, solver);
+        prepare?.Invoke(world);
+        var run = new SceneRun(world, scene, plan);
+        double dt = plan.Step / substeps;
+        for (int k = 0; k < plan.Samples; k++)
+        {
+            for (int s = 0; s < substeps; s++)
+            {
+                world.Step(dt);
+                run.Note(world.Joints, k >= plan.Samples / 2);
+            }
+
+            run.Sample(world.Bodies, k);
+        }
+
+        run.IsSound = world.Overflows == 0;
+        return run;
+    }
+
+    private void Note(IReadOnlyList<WorldJoint> joints, bool isLate)
+    {
+        for (int j = 0; j < Joints.Length; j++)
+            Joints[j].Note(joints[j], isLate);
+    }
+
+    private void Sample(IReadOnlyList<WorldBody> bodies, int k)
+    {
+        Centers[k] = new Vector3d[bodies.Count];
+        Rotations[k] = new Quaterniond[bodies.Count];
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            Centers[k][i] = bodies[i].CenterOfMass;
+            Rotations[k][i] = bodies[i].Pose.Rotation;
+        }
+
+        foreach (JointRecord joint in Joints)
+            joint.Sample(k);
+    }
+}

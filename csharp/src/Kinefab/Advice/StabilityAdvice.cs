@@ -1,0 +1,68 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Advice.Findings;
+using Kinefab.Advice.Trials;
+using Kinefab.Diagnostics;
+using Kinefab.Dynamics;
+using Kinefab.Validation;
+
+namespace Kinefab.Advice;
+
+/// <summary>
+/// Runs a scene as Unity would and as it truly moves, says what comes apart, shakes or moves otherwise, and tries changes:
+/// every number given was measured, before and after. The same scene gives the same advice.
+/// </summary>
+public static class StabilityAdvice
+{
+    /// <summary>The advice for a scene.</summary>
+    /// <param name="scene">A scene that was read from a text: changes are made in it as in the file.</param>
+    /// <param name="options">Null: the default ones.</param>
+    /// <exception cref="ArgumentException">The scene was not read from a text.</exception>
+    public static AdviceReport Of(ValidScene scene, AdviceOptions? options = null)
+    {
+        if (scene is null)
+            throw new ArgumentNullException(nameof(scene));
+        if (scene.Document.Text.IsEmpty)
+            throw new ArgumentException("Advice needs a scene that was read from a text.", nameof(scene));
+        var examination = new Examination(scene, options ?? new AdviceOptions());
+        AdviceFinding[] findings = examination.Unity.IsSound
+            ? Findings(examination)
+                .OrderBy(f => f.Diagnostic.Severity == Severity.Warning ? 0 : 1)
+                .ThenByDescending(f => f.Score)
+                .ThenBy(f => f.Diagnostic.Pointer, StringComparer.Ordinal)
+                .ThenBy(f => f.Diagnostic.Code, StringComparer.Ordinal)
+                .ToArray()
+            : Array.Empty<AdviceFinding>();
+        return new AdviceReport(examination.Plan.Step, examination.Plan.Samples, examination.Workbench.Count, findings, Remarks(examination));
+    }
+
+    private static IEnumerable<AdviceFinding> Findings(Examination e) =>
+        JointDrifts.Find(e)
+            .Concat(MotionDiffers.Find(e))
+            .Concat(JointShakes.Find(e))
+            .Concat(WeakDrives.Find(e))
+            .Concat(RingingDrives.Find(e))
+            .Concat(UnlikeMasses.Find(e))
+            .Concat(ThinInertias.Find(e))
+            .Concat(RepeatedRows.Find(e))
+            .Concat(NarrowLimits.Find(e));
+
+    private static Report Remarks(Examination e)
+    {
+        var found = new List<Diagnostic>();
+        if (!e.Unity.IsSound)
+            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "unity")));
+        if (!e.Exact.IsSound)
+            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "exact")));
+        if (e.Workbench.IsSpent)
+            found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
+        return World.Create(e.Scene, SolverKind.Exact).Findings.Concat(new Report(found));
+    }
+
+    private static Diagnostic Remark(string code, params (string Name, string Value)[] values)
+    {
+        DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
+        return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), "", null, null);
+    }
+}

@@ -1,0 +1,114 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Advice.Runs;
+using Kinefab.Dynamics;
+using Kinefab.Kinematics;
+using Kinefab.Validation;
+
+namespace Kinefab.Advice.Trials;
+
+/// <summary>A scene as it stands, run under both solvers, and the changes that may be tried on it.</summary>
+internal sealed class Examination
+{
+    private const double StandardSeconds = 2;
+    private const int FewestSamples = 10;
+
+    // What the runs of the unchanged scene may cost, in joints times steps.
+    private const double MostJointSteps = 600_000;
+
+    // Where the exact motion at the step and at half of it differ by more than this share of what is worth a warning, nothing
+    // can be foretold any more: the mechanism is chaotic.
+    private const double Foretold = 0.1;
+
+    public Examination(ValidScene scene, AdviceOptions options)
+    {
+        Scene = scene;
+        World = World.Create(scene);
+        double step = scene.Document.Physics.FixedTimestep;
+        double samples = options.Seconds is double seconds
+            ? Math.Round(seconds / step)
+            : Math.Min(Math.Round(StandardSeconds / step), MostJointSteps / Math.Max(1, World.Joints.Count));
+        Plan = new RunPlan(step, (int)Math.Max(FewestSamples, Math.Min(samples, int.MaxValue / 2)));
+        options.Progress?.Invoke("unity");
+        Unity = SceneRun.Of(scene, SolverKind.Unity, Plan, 1);
+        options.Progress?.Invoke("exact");
+        Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1);
+        SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2);
+
+        Mechanism mechanism = Mechanism.Create(scene);
+        Mobility = MobilityAnalysis.Of(mechanism);
+        Islands = Island.Of(World, Mobility);
+        Foreseen = Islands.Select(i => Exact.IsSound && half.IsSound ? Horizon(i, half) : 0).ToArray();
+        Workbench = new Workbench(scene, Plan, World.Joints.Count, options);
+        Remedies = new Remedies(this, mechanism);
+    }
+
+    public ValidScene Scene { get; }
+
+    /// <summary>At its start, never moved.</summary>
+    public World World { get; }
+
+    public RunPlan Plan { get; }
+
+    public SceneRun Unity { get; }
+
+    public SceneRun Exact { get; }
+
+    public MobilityReport Mobility { get; }
+
+    public IReadOnlyList<Island> Islands { get; }
+
+    /// <summary>For each island the number of samples up to which its exact motion is known.</summary>
+    public IReadOnlyList<int> Foreseen { get; }
+
+    public Workbench Workbench { get; }
+
+    public Remedies Remedies { get; }
+
+    /// <summary>The joint of an island that comes apart most, and how far.</summary>
+    public (WorldJoint? Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, Island island) => Worst(run, island, r => r.Drift);
+
+    /// <summary>The joint of an island with the worst of some measure; null in an island without joints.</summary>
+    public (WorldJoint? Joint, AdviceMeasure Measure) Worst(SceneRun run, Island island, Func<JointRecord, AdviceMeasure> of)
+    {
+        Threshold threshold = Threshold.Drift(island);
+        int worst = -1;
+        foreach (int j in island.Joints)
+        {
+            if (worst < 0 || threshold.Score(of(run.Joints[j])) > threshold.Score(of(run.Joints[worst])))
+                worst = j;
+        }
+
+        return worst < 0 ? (null, default) : (World.Joints[worst], of(run.Joints[worst]));
+    }
+
+    /// <summary>The body of an island that is furthest from its exact motion, and how far.</summary>
+    public (WorldBody? Body, AdviceMeasure Measure) WorstPlace(SceneRun run, Island island)
+    {
+        int until = Foreseen[island.Index];
+        Threshold threshold = Threshold.Place(island);
+        WorldBody? worst = null;
+        AdviceMeasure measure = default;
+        foreach (int b in island.Bodies)
+        {
+            AdviceMeasure here = Deviation.Of(run, Exact, b, until);
+            if (worst is null || threshold.Score(here) > threshold.Score(measure))
+                (worst, measure) = (World.Bodies[b], here);
+        }
+
+        return (worst, measure);
+    }
+
+    private int Horizon(Island island, SceneRun half)
+    {
+        Threshold threshold = Threshold.Place(island);
+        for (int k = 0; k < Plan.Samples; k++)
+        {
+            if (island.Bodies.Any(b => threshold.Score(Deviation.At(Exact, half, b, k)) > Foretold))
+                return k;
+        }
+
+        return Plan.Samples;
+    }
+}

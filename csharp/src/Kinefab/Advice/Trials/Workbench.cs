@@ -1,0 +1,106 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Advice.Changes;
+using Kinefab.Advice.Runs;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Validation;
+
+namespace Kinefab.Advice.Trials;
+
+/// <summary>Makes changes and runs them, each once, as long as the budget lasts.</summary>
+internal sealed class Workbench
+{
+    /// <summary>Joints times steps times iterations that all trials together may cost: some seconds.</summary>
+    public const double MostWork = 1.5e8;
+
+    private readonly Dictionary<string, Trial?> _trials = new(StringComparer.Ordinal);
+    private readonly ValidScene _scene;
+    private readonly AdviceOptions _options;
+    private readonly double _workOfBase;
+    private double _work;
+
+    public Workbench(ValidScene scene, RunPlan plan, int joints, AdviceOptions options)
+    {
+        _scene = scene;
+        _options = options;
+        Plan = plan;
+        _workOfBase = WorkPerSecond(scene);
+        Joints = joints;
+    }
+
+    public RunPlan Plan { get; }
+
+    /// <summary>How many changes were run.</summary>
+    public int Count { get; private set; }
+
+    /// <summary>Whether something was left untried for the sake of time.</summary>
+    public bool IsSpent { get; private set; }
+
+    private int Joints { get; }
+
+    /// <summary>Unity's run of the changed scene; null when it makes no valid scene, cannot be followed or goes beyond the budget.</summary>
+    public Trial? Try(Change change)
+    {
+        if (!_trials.TryGetValue(change.Kind, out Trial? trial))
+        {
+            trial = Run(change);
+            _trials.Add(change.Kind, trial);
+        }
+
+        return trial;
+    }
+
+    /// <summary>Steps of a changed scene from one look to the next.</summary>
+    public int Substeps(ValidScene scene) => Math.Max(1, (int)Math.Round(Plan.Step / scene.Document.Physics.FixedTimestep));
+
+    private Trial? Run(Change change)
+    {
+        if (Count >= _options.MaxTrials || _work > MostWork)
+        {
+            IsSpent = true;
+            return null;
+        }
+
+        if (EditedScene.Apply(_scene, change.Parts.SelectMany(p => p.Edits)) is not ValidScene changed)
+            return null;
+        _options.Progress?.Invoke(change.Kind);
+        Count++;
+        _work += Math.Max(1, Joints) * Plan.Seconds * WorkPerSecond(changed);
+        SceneRun run = SceneRun.Of(changed, SolverKind.Unity, Plan, Substeps(changed));
+        return run.IsSound ? new Trial(changed, run, WorkPerSecond(changed) / _workOfBase) : null;
+    }
+
+    private static double WorkPerSecond(ValidScene scene)
+    {
+        Physics physics = scene.Document.Physics;
+        int iterations = 1;
+        for (int i = 0; i < scene.Document.GameObjects.Count; i++)
+        {
+            if (scene.Body(i) is Rigidbody body)
+                iterations = Math.Max(iterations, (body.SolverIterations ?? physics.SolverIterations) + (body.SolverVelocityIterations ?? physics.SolverVelocityIterations));
+        }
+
+        return iterations / physics.FixedTimestep;
+    }
+}
+
+/// <summary>A change that was run.</summary>
+internal sealed class Trial
+{
+    public Trial(ValidScene scene, SceneRun run, double work)
+    {
+        Scene = scene;
+        Run = run;
+        Work = work;
+    }
+
+    /// <summary>With the change made.</summary>
+    public ValidScene Scene { get; }
+
+    public SceneRun Run { get; }
+
+    /// <summary>Work a second, the unchanged scene's being 1.</summary>
+    public double Work { get; }
+}

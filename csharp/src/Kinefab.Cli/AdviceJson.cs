@@ -62,8 +62,10 @@ internal static class AdviceJson
     private static void Write(string name, AdviceMeasure measure, Utf8JsonWriter json)
     {
         json.WriteStartObject(name);
-        json.WriteNumber("distance", measure.Distance);
-        json.WriteNumber("angle", measure.Angle);
+        if (measure.Distance is double distance)
+            json.WriteNumber("distance", distance);
+        if (measure.Angle is double angle)
+            json.WriteNumber("angle", angle);
         json.WriteEndObject();
     }
 }

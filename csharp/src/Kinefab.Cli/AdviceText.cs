@@ -28,7 +28,7 @@ internal static class AdviceText
         else if (found.Severity == Severity.Warning)
             Line(target, $"         {found.Remedy}");
         foreach (TriedChange tried in finding.Tried.Where(t => t != finding.Best))
-            Line(target, $"  tried  {tried.Change}: {tried.After}");
+            Line(target, $"  tried  {tried}");
     }
 
     private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));

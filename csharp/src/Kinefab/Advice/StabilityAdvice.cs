@@ -55,6 +55,8 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "unity")));
         if (!e.Exact.IsSound)
             found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "exact")));
+        if (e.IsShortened)
+            found.Add(Remark(DiagnosticCodes.AdviceRunShortened, ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
         return World.Create(e.Scene, SolverKind.Exact).Findings.Concat(new Report(found));

@@ -27,7 +27,7 @@ internal readonly struct Threshold
     /// <summary>1 where a warning begins; 0 for anything that is not a number.</summary>
     public double Score(AdviceMeasure measure)
     {
-        double score = Math.Max(measure.Distance / _distance, measure.Angle / _angle);
+        double score = Math.Max((measure.Distance ?? 0) / _distance, (measure.Angle ?? 0) / _angle);
         return score >= 0 ? score : 0;
     }
 }

@@ -28,4 +28,10 @@ public sealed class TriedChange
 
     /// <summary>Work of Unity's solver for a second simulated, in units of the scene's own.</summary>
     public double Work { get; }
+
+    /// <summary>What the work comes to in words; empty where it is the same.</summary>
+    internal string Cost => Work == 1 ? "" : $", at {AdviceMeasure.Text(Work)} times the work";
+
+    /// <summary>What was done and what came of it.</summary>
+    public override string ToString() => $"{Change}: {After}{Cost}";
 }

@@ -267,7 +267,7 @@ public static class DiagnosticCodes
     /// <summary>The {joint} shakes by {measure} from step to step in Unity's solver; the true motion does not.</summary>
     public const string AdviceJointShakes = "ADVICE_JOINT_SHAKES";
 
-    /// <summary>The {drive} of the {joint} cannot hold the exported pose with {force} N or N m: it sinks by {measure} within {seconds} s.</summary>
+    /// <summary>The {drive} of the {joint} cannot hold the exported pose with {force}: it sinks by {measure} within {seconds} s.</summary>
     public const string AdviceDriveWeak = "ADVICE_DRIVE_WEAK";
 
     /// <summary>The {drive} of the {joint} goes on swinging by {measure} to both sides, {period} s or {steps} steps a swing.</summary>
@@ -282,11 +282,14 @@ public static class DiagnosticCodes
     /// <summary>The loop holds {count} of the {rows} locked freedoms of the {joint} already{others}; joints of its mechanism come apart by {measure}.</summary>
     public const string AdviceLoopOverConstrained = "ADVICE_LOOP_OVERCONSTRAINED";
 
-    /// <summary>The {joint} has a range of {range} degrees; Unity's solver goes {measure} beyond it.</summary>
+    /// <summary>The {joint} has a range of {range} degrees{others}; Unity's solver goes {measure} beyond it.</summary>
     public const string AdviceLimitNarrow = "ADVICE_LIMIT_NARROW";
 
     /// <summary>The {solver} solver cannot follow the scene: its motion leaves the range of numbers.</summary>
     public const string AdviceCannotFollow = "ADVICE_CANNOT_FOLLOW";
+
+    /// <summary>Only {seconds} s were simulated: the scene is large.</summary>
+    public const string AdviceRunShortened = "ADVICE_RUN_SHORTENED";
 
     /// <summary>Only {count} changes were tried: the scene is large or the limit is low.</summary>
     public const string AdviceTrialsSpent = "ADVICE_TRIALS_SPENT";

@@ -132,7 +132,7 @@ internal static class BodySettings
             string value = EditText.Moments(then);
             parts.Add(new ChangePart(
                 body.GameObject,
-                $"Rigidbody > Inertia Tensor {EditText.Moments(now)} -> {value}",
+                $"Rigidbody > Inertia Tensor {EditText.Vector(now)} -> {EditText.Vector(then)}",
                 body.Id,
                 new SceneEdit(Pointer(scene, body) + "/inertiaTensor", value)));
 

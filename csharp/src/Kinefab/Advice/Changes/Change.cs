@@ -11,9 +11,10 @@ internal sealed class Change
 {
     private const int MostNamed = 2;
 
-    public Change(string kind, IEnumerable<ChangePart> parts)
+    public Change(string kind, IEnumerable<ChangePart> parts, bool altersMotion = false)
     {
         Kind = kind;
+        AltersMotion = altersMotion;
         Parts = parts.ToArray();
     }
 
@@ -22,8 +23,11 @@ internal sealed class Change
 
     public IReadOnlyList<ChangePart> Parts { get; }
 
+    /// <summary>Whether the mechanism is meant to move otherwise with it, so that its motion before is no measure.</summary>
+    public bool AltersMotion { get; }
+
     /// <summary>Both at once.</summary>
-    public static Change Both(Change a, Change b) => new(a.Kind + " + " + b.Kind, a.Parts.Concat(b.Parts));
+    public static Change Both(Change a, Change b) => new(a.Kind + " + " + b.Kind, a.Parts.Concat(b.Parts), a.AltersMotion || b.AltersMotion);
 
     /// <summary>What of it an island has to do with.</summary>
     public IReadOnlyList<ChangePart> In(Island island) =>

@@ -43,6 +43,8 @@ internal sealed class DriveSite
     /// <summary>N or N m; infinite: unlimited.</summary>
     public double Force { get; }
 
+    public bool IsAngular => Coordinates[0] is Coordinate.Angle or >= Coordinate.AngularX;
+
     public string Pointer => $"{EditText.Pointer(Joint)}/{Field}";
 
     /// <summary>The same drive with another largest force.</summary>

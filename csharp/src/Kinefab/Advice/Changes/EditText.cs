@@ -18,6 +18,9 @@ internal static class EditText
     /// <summary>Moments of inertia keep more digits: of a flat body the largest is the sum of the others.</summary>
     public static string Moments(Vector3d moments) => $"[{Rounded(moments.X, "G6")}, {Rounded(moments.Y, "G6")}, {Rounded(moments.Z, "G6")}]";
 
+    /// <summary>A vector as people read it.</summary>
+    public static string Vector(Vector3d v) => $"({Number(v.X)}, {Number(v.Y)}, {Number(v.Z)})";
+
     private static string Rounded(double value, string format) =>
         Invariant.Text(double.Parse(value.ToString(format, CultureInfo.InvariantCulture), CultureInfo.InvariantCulture));
 }

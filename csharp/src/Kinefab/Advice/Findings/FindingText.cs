@@ -15,7 +15,7 @@ internal static class FindingText
     {
         DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
         string message = DiagnosticTable.Fill(entry.Message, values);
-        string remedy = DiagnosticTable.Fill(entry.Remedy, new[] { ("advice", Advice(before, tried, best)) });
+        string remedy = DiagnosticTable.Fill(entry.Remedy, new[] { ("advice", Advice(before, score, tried, best)) });
         return new AdviceFinding(new Diagnostic(code, severity, message, remedy, pointer, null, null), id, before, score, tried, best);
     }
 
@@ -24,10 +24,12 @@ internal static class FindingText
         Treatment treatment, params (string Name, string Value)[] values) =>
         Make(code, severity, pointer, id, before, score, treatment.Tried, treatment.Best, values);
 
-    private static string Advice(AdviceMeasure before, IReadOnlyList<TriedChange> tried, TriedChange? best)
+    private static string Advice(AdviceMeasure before, double score, IReadOnlyList<TriedChange> tried, TriedChange? best)
     {
         if (best is not null)
-            return $"{best.Change}: {best.After} instead of {before}.";
-        return tried.Count == 0 ? "Nothing was tried." : $"None of the {tried.Count.ToString(CultureInfo.InvariantCulture)} changes tried helps.";
+            return $"{best.Change}: {best.After} instead of {before}{best.Cost}.";
+        if (score < 1)
+            return "Nothing to do.";
+        return tried.Count == 0 ? "Nothing was tried." : $"None of {tried.Count.ToString(CultureInfo.InvariantCulture)} changes tried against it helps.";
     }
 }

@@ -26,7 +26,7 @@ internal static class JointDrifts
                 ("joint", JointSettings.Place(e.Scene, joint)),
                 ("measure", before.ToString()),
                 ("seconds", AdviceMeasure.Text(e.Plan.Seconds)),
-                ("others", others == 0 ? "" : $", and {others} more of its mechanism drift too"));
+                ("others", others == 0 ? "" : $"; so do {others} more of its mechanism"));
         }
     }
 }

@@ -11,7 +11,7 @@ using Island = Kinefab.Advice.Runs.Island;
 
 namespace Kinefab.Advice.Findings;
 
-/// <summary>Rotations limited to less than 5 degrees: whether Unity's solver keeps within them.</summary>
+/// <summary>Rotations limited to less than 5 degrees, and how far Unity's solver goes beyond them: the worst of each island.</summary>
 internal static class NarrowLimits
 {
     private const double Narrow = 5;
@@ -20,49 +20,50 @@ internal static class NarrowLimits
     {
         foreach (Island island in e.Islands)
         {
-            foreach (int j in island.Joints)
-            {
-                JointRecord record = e.Unity.Joints[j];
-                JointFreedom narrow = record.Freedoms.FirstOrDefault(f => f.IsAngle && f.IsLimited && f.Upper - f.Lower < Narrow);
-                if (narrow.IsLimited && narrow.IsAngle && narrow.Upper > narrow.Lower)
-                    yield return Judge(e, island, j, narrow);
-            }
+            (int Joint, JointFreedom Freedom)[] narrow = island.Joints
+                .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f)))
+                .OrderByDescending(n => e.Unity.Joints[n.j].Overshoot.Angle)
+                .ToArray();
+            if (narrow.Length > 0)
+                yield return Judge(e, island, narrow);
         }
     }
 
-    private static AdviceFinding Judge(Examination e, Island island, int j, JointFreedom narrow)
+    private static bool IsNarrow(JointFreedom freedom) =>
+        freedom.IsAngle && freedom.IsLimited && freedom.Upper > freedom.Lower && freedom.Upper - freedom.Lower < Narrow;
+
+    private static AdviceFinding Judge(Examination e, Island island, (int Joint, JointFreedom Freedom)[] narrow)
     {
-        WorldJoint joint = e.World.Joints[j];
         Threshold threshold = Threshold.Drift(island);
         AdviceMeasure before = Measure(e.Unity);
         double score = threshold.Score(before);
-        IEnumerable<Change[]> ladders = score < 1
-            ? new[] { e.Remedies.SmallerSteps.Take(1).ToArray() }
-            : e.Remedies.Ladders.Concat(new[] { new[] { Locked(e, joint, narrow) }.OfType<Change>().ToArray() });
+        bool isBad = score >= 1;
+        IEnumerable<Change[]> ladders = isBad
+            ? e.Remedies.Ladders.Append(new[] { Locked(e, narrow) }.OfType<Change>().ToArray())
+            : new[] { e.Remedies.SmallerSteps.Take(1).ToArray() };
         var treatment = Treatment.Of(e, island, Measure, threshold, ladders);
+        WorldJoint worst = e.World.Joints[narrow[0].Joint];
         return FindingText.Make(
-            DiagnosticCodes.AdviceLimitNarrow, score < 1 ? Severity.Info : Severity.Warning, EditText.Pointer(joint), joint.Id, before, score,
-            treatment.Tried, score < 1 ? null : treatment.Best,
-            ("joint", JointSettings.Place(e.Scene, joint)),
-            ("range", AdviceMeasure.Text(narrow.Upper - narrow.Lower)),
-            ("measure", before.ToString()));
+            DiagnosticCodes.AdviceLimitNarrow, isBad ? Severity.Warning : Severity.Info, EditText.Pointer(worst), worst.Id, before, score,
+            treatment.Tried, isBad ? treatment.Best : null,
+            ("joint", JointSettings.Place(e.Scene, worst)),
+            ("range", AdviceMeasure.Text(narrow[0].Freedom.Upper - narrow[0].Freedom.Lower)),
+            ("measure", before.ToString()),
+            ("others", narrow.Length == 1 ? "" : $" ({narrow.Length - 1} more of its mechanism are as narrow)"));
 
-        AdviceMeasure Measure(SceneRun run) => new(0, run.Joints[j].Overshoot.Angle);
+        AdviceMeasure Measure(SceneRun run) => new(null, narrow.Max(n => run.Joints[n.Joint].Overshoot.Angle ?? 0));
     }
 
     // So little room may as well be none: only a ConfigurableJoint can lock the axis it limits.
-    private static Change? Locked(Examination e, WorldJoint joint, JointFreedom narrow)
+    private static Change? Locked(Examination e, (int Joint, JointFreedom Freedom)[] narrow)
     {
-        if (JointSettings.Of(e.Scene, joint) is not ConfigurableJoint)
-            return null;
-        MotionField axis = MotionField.Of(narrow.Coordinate);
-        string pointer = $"{EditText.Pointer(joint)}/{axis.Name}";
-        return new Change(
-            "lock " + pointer,
-            new[]
-            {
-                new ChangePart(
-                    joint.GameObject, axis.Label + " Limited -> Locked", JointSettings.Place(e.Scene, joint), new SceneEdit(pointer, "\"Locked\"")),
-            });
+        ChangePart[] parts = narrow.Select(n => (Joint: e.World.Joints[n.Joint], n.Freedom))
+            .Where(n => JointSettings.Of(e.Scene, n.Joint) is ConfigurableJoint)
+            .Select(n => (n.Joint, Field: MotionField.Of(n.Freedom.Coordinate)))
+            .Select(n => new ChangePart(
+                n.Joint.GameObject, n.Field.Label + " Limited -> Locked", JointSettings.Place(e.Scene, n.Joint),
+                new SceneEdit($"{EditText.Pointer(n.Joint)}/{n.Field.Name}", "\"Locked\"")))
+            .ToArray();
+        return parts.Length == 0 ? null : new Change("locked " + parts[0].Edits[0].Pointer, parts);
     }
 }

@@ -9,7 +9,7 @@ using Kinefab.Validation;
 
 namespace Kinefab.Advice.Findings;
 
-/// <summary>Springs that still swing their joint to and fro in the last half of Unity's run, and the damper that stops them.</summary>
+/// <summary>Springs that still swing their joint to and fro in the last half of Unity's run, and the dampers that stop them: the worst of each island.</summary>
 internal static class RingingDrives
 {
     // Crossings of the middle that make a swing of it.
@@ -20,49 +20,63 @@ internal static class RingingDrives
 
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (DriveSite site in DriveSite.Of(e.Scene, e.World).Where(s => s.Spring > 0))
+        ILookup<int, DriveSite> springs = DriveSite.Of(e.Scene, e.World).Where(s => s.Spring > 0).ToLookup(s => s.Joint.Index);
+        foreach (Island island in e.Islands)
         {
-            if (e.Islands.FirstOrDefault(i => i.Joints.Contains(site.Joint.Index)) is not Island island)
-                continue;
-            JointRecord record = e.Unity.Joints[site.Joint.Index];
             Threshold threshold = Threshold.Hold(island);
-            for (int f = 0; f < record.Freedoms.Count; f++)
-            {
-                int freedom = f;
-                AdviceMeasure before = Swing(e.Unity);
-                double score = threshold.Score(before);
-                double period = Period(record.Coordinates[f]) * e.Plan.Step;
-                if (!site.Coordinates.Contains(record.Freedoms[f].Coordinate) || score < 1 || period <= 0)
-                    continue;
+            DriveSite[] sites = island.Joints.SelectMany(j => springs[j]).ToArray();
+            (DriveSite Site, int Freedom)[] ringing = sites.SelectMany(s => Driven(e, s))
+                .Where(d => Period(Values(e.Unity, d)) > 0)
+                .OrderByDescending(d => threshold.Score(Swing(e.Unity, d)))
+                .ToArray();
+            if (ringing.Length == 0 || threshold.Score(Swing(e.Unity, ringing[0])) < 1)
+                continue;
 
-                // Critical damping of what swings with this period on this spring: d = 2 k / omega.
-                double damper = site.Spring * period / Math.PI;
-                Change[] ladder = Dampers.Where(n => n * damper > site.Damper)
-                    .Select(n => new Change($"{site.Pointer}/damper {n}", new[] { site.WithDamper(n * damper) })).ToArray();
-                var treatment = Treatment.Of(e, island, Swing, threshold, new[] { ladder, e.Remedies.SmallerSteps });
-                yield return FindingText.Make(
-                    DiagnosticCodes.AdviceDriveRings, Severity.Warning, site.Pointer, site.Joint.Id, before, score, treatment,
-                    ("drive", site.Label), ("joint", site.Place), ("measure", before.ToString()),
-                    ("period", AdviceMeasure.Text(period)), ("steps", AdviceMeasure.Text(period / e.Plan.Step)));
+            DriveSite worst = ringing[0].Site;
+            AdviceMeasure before = Measure(e.Unity);
+            double period = Period(Values(e.Unity, ringing[0])) * e.Plan.Step;
+            var treatment = Treatment.Of(e, island, Measure, threshold, new[] { Damped(sites, worst, period), e.Remedies.SmallerSteps });
+            yield return FindingText.Make(
+                DiagnosticCodes.AdviceDriveRings, Severity.Warning, worst.Pointer, worst.Joint.Id, before, threshold.Score(before), treatment,
+                ("drive", worst.Label), ("joint", worst.Place), ("measure", before.ToString()),
+                ("period", AdviceMeasure.Text(period)), ("steps", AdviceMeasure.Text(period / e.Plan.Step)));
 
-                AdviceMeasure Swing(SceneRun run)
-                {
-                    JointRecord joint = run.Joints[site.Joint.Index];
-                    double[] late = Late(joint.Coordinates[freedom]);
-                    return JointRecord.Of(joint.Freedoms[freedom], (late.Max() - late.Min()) / 2);
-                }
-            }
+            AdviceMeasure Measure(SceneRun run) => ringing.Select(d => Swing(run, d)).Aggregate(AdviceMeasure.Max);
         }
     }
 
-    /// <summary>Samples from one swing to the next; 0 where there are too few.</summary>
-    private static double Period(double[] values)
+    // Critical damping of what swings with this period: d = 2 k / omega for each spring k that has less.
+    private static Change[] Damped(DriveSite[] sites, DriveSite worst, double period) => Dampers
+        .Select(n => new Change(
+            $"{worst.Pointer} damped {n}",
+            sites.Where(s => s.Damper < n * s.Spring * period / Math.PI).Select(s => s.WithDamper(n * s.Spring * period / Math.PI)),
+            altersMotion: true))
+        .Where(c => c.Parts.Count > 0)
+        .ToArray();
+
+    private static IEnumerable<(DriveSite Site, int Freedom)> Driven(Examination e, DriveSite site)
     {
-        double[] late = Late(values);
-        double middle = (late.Max() + late.Min()) / 2;
-        List<int> crossings = Enumerable.Range(1, late.Length - 1).Where(k => (late[k] > middle) != (late[k - 1] > middle)).ToList();
-        return crossings.Count < FewestCrossings ? 0 : 2.0 * (crossings[crossings.Count - 1] - crossings[0]) / (crossings.Count - 1);
+        IReadOnlyList<JointFreedom> freedoms = e.Unity.Joints[site.Joint.Index].Freedoms;
+        return Enumerable.Range(0, freedoms.Count).Where(f => site.Coordinates.Contains(freedoms[f].Coordinate)).Select(f => (site, f));
     }
 
-    private static double[] Late(double[] values) => values.Skip(values.Length / 2).ToArray();
+    private static AdviceMeasure Swing(SceneRun run, (DriveSite Site, int Freedom) driven)
+    {
+        double[] late = Values(run, driven);
+        return JointRecord.Of(run.Joints[driven.Site.Joint.Index].Freedoms[driven.Freedom], (late.Max() - late.Min()) / 2);
+    }
+
+    private static double[] Values(SceneRun run, (DriveSite Site, int Freedom) driven)
+    {
+        double[] values = run.Joints[driven.Site.Joint.Index].Coordinates[driven.Freedom];
+        return values.Skip(values.Length / 2).ToArray();
+    }
+
+    // Samples from one swing to the next; 0 where there are too few.
+    private static double Period(double[] values)
+    {
+        double middle = (values.Max() + values.Min()) / 2;
+        List<int> crossings = Enumerable.Range(1, values.Length - 1).Where(k => (values[k] > middle) != (values[k - 1] > middle)).ToList();
+        return crossings.Count < FewestCrossings ? 0 : 2.0 * (crossings[crossings.Count - 1] - crossings[0]) / (crossings.Count - 1);
+    }
 }

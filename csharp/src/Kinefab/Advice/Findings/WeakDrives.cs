@@ -57,7 +57,7 @@ internal static class WeakDrives
             findings.Add(FindingText.Make(
                 DiagnosticCodes.AdviceDriveWeak, Severity.Warning, site.Pointer, site.Joint.Id, before, Score(asIs, site, island), tried[site], best,
                 ("drive", site.Label), ("joint", site.Place), ("measure", before.ToString()),
-                ("force", EditText.Number(site.Force)), ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
+                ("force", $"{EditText.Number(site.Force)} {(site.IsAngular ? "N m" : "N")}"), ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
         }
 
         return findings;
@@ -65,12 +65,8 @@ internal static class WeakDrives
         bool Holds(SceneRun run, DriveSite site, Island island) => Score(run, site, island) < 1;
 
         // What a spring gives way by is its own affair.
-        double Score(SceneRun run, DriveSite site, Island island)
-        {
-            AdviceMeasure sinking = Sinking(run, site);
-            AdviceMeasure spring = Sinking(strong, site);
-            return Threshold.Hold(island).Score(new AdviceMeasure(sinking.Distance - spring.Distance, sinking.Angle - spring.Angle));
-        }
+        double Score(SceneRun run, DriveSite site, Island island) =>
+            Threshold.Hold(island).Score(Sinking(run, site)) - Threshold.Hold(island).Score(Sinking(strong, site));
     }
 
     private static SceneRun? Hold(Examination e, IEnumerable<ChangePart> parts)

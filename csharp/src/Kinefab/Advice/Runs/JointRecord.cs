@@ -62,5 +62,5 @@ internal sealed class JointRecord
 
     /// <summary>A value of a freedom as a measure.</summary>
     public static AdviceMeasure Of(in JointFreedom freedom, double value) =>
-        freedom.IsAngle ? new AdviceMeasure(0, value) : new AdviceMeasure(value, 0);
+        freedom.IsAngle ? new AdviceMeasure(null, value) : new AdviceMeasure(value, null);
 }

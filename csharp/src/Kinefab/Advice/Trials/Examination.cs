@@ -14,22 +14,26 @@ internal sealed class Examination
     private const double StandardSeconds = 2;
     private const int FewestSamples = 10;
 
-    // What the runs of the unchanged scene may cost, in joints times steps.
-    private const double MostJointSteps = 600_000;
+    // How long the unchanged scene is run, in joints and bodies times steps, and how much longer where seconds are asked for.
+    private const double MostSteps = 600_000;
+    private const double Patience = 10;
 
     // Where the exact motion at the step and at half of it differ by more than this share of what is worth a warning, nothing
     // can be foretold any more: the mechanism is chaotic.
     private const double Foretold = 0.1;
+
+    // Fewer samples than these say nothing about a motion.
+    private const int FewestForeseen = 10;
 
     public Examination(ValidScene scene, AdviceOptions options)
     {
         Scene = scene;
         World = World.Create(scene);
         double step = scene.Document.Physics.FixedTimestep;
-        double samples = options.Seconds is double seconds
-            ? Math.Round(seconds / step)
-            : Math.Min(Math.Round(StandardSeconds / step), MostJointSteps / Math.Max(1, World.Joints.Count));
-        Plan = new RunPlan(step, (int)Math.Max(FewestSamples, Math.Min(samples, int.MaxValue / 2)));
+        double wanted = Math.Max(FewestSamples, Math.Round((options.Seconds ?? StandardSeconds) / step));
+        double most = (options.Seconds is null ? 1 : Patience) * MostSteps / Math.Max(1, World.Joints.Count + World.Bodies.Count);
+        Plan = new RunPlan(step, (int)Math.Max(FewestSamples, Math.Min(wanted, Math.Floor(most))));
+        IsShortened = Plan.Samples < wanted;
         options.Progress?.Invoke("unity");
         Unity = SceneRun.Of(scene, SolverKind.Unity, Plan, 1);
         options.Progress?.Invoke("exact");
@@ -50,6 +54,9 @@ internal sealed class Examination
     public World World { get; }
 
     public RunPlan Plan { get; }
+
+    /// <summary>Whether the scene is too large for the time asked for.</summary>
+    public bool IsShortened { get; }
 
     public SceneRun Unity { get; }
 
@@ -106,7 +113,7 @@ internal sealed class Examination
         for (int k = 0; k < Plan.Samples; k++)
         {
             if (island.Bodies.Any(b => threshold.Score(Deviation.At(Exact, half, b, k)) > Foretold))
-                return k;
+                return k < FewestForeseen ? 0 : k;
         }
 
         return Plan.Samples;

@@ -30,7 +30,7 @@ internal sealed class Treatment
         _measure = measure;
         _threshold = threshold;
         _before = threshold.Score(measure(examination.Unity));
-        _trouble = Trouble(examination.Unity);
+        _trouble = Trouble(examination.Unity, mayMoveOtherwise: false);
     }
 
     public IReadOnlyList<TriedChange> Tried => _tried.Select(t => t.Tried).ToArray();
@@ -77,7 +77,7 @@ internal sealed class Treatment
             return null;
         AdviceMeasure after = _measure(trial.Run);
         var tried = new TriedChange(Change.Words(parts), parts.SelectMany(p => p.Edits).ToArray(), after, _threshold.Score(after), trial.Work);
-        _tried.Add((change, tried, Trouble(trial.Run) <= Math.Max(1, Harm * _trouble)));
+        _tried.Add((change, tried, Trouble(trial.Run, change.AltersMotion) <= Math.Max(1, Harm * _trouble)));
         return tried;
     }
 
@@ -92,7 +92,7 @@ internal sealed class Treatment
     }
 
     // All that can go wrong in the island.
-    private double Trouble(SceneRun run) => Math.Max(
+    private double Trouble(SceneRun run, bool mayMoveOtherwise) => Math.Max(
         Threshold.Drift(_island).Score(_examination.WorstDrift(run, _island).Measure),
-        Threshold.Place(_island).Score(_examination.WorstPlace(run, _island).Measure));
+        mayMoveOtherwise ? 0 : Threshold.Place(_island).Score(_examination.WorstPlace(run, _island).Measure));
 }

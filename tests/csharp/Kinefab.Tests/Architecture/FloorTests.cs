@@ -22,6 +22,7 @@ public sealed class FloorTests
         ["Joints"] = ["Validation", "Document", "Numerics", "Diagnostics"],
         ["Dynamics"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
         ["Kinematics"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
+        ["Advice"] = ["Kinematics", "Dynamics", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
     };
 
     private static string Library([CallerFilePath] string here = "") =>

@@ -15,7 +15,7 @@ internal sealed class Examination
     private const int FewestSamples = 10;
 
     // How long the unchanged scene is run, in joints and bodies times steps, and how much longer where seconds are asked for.
-    private const double MostSteps = 600_000;
+    private const double MostSteps = 200_000;
     private const double Patience = 10;
 
     // Where the exact motion at the step and at half of it differ by more than this share of what is worth a warning, nothing

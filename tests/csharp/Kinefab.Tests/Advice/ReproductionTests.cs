@@ -1,0 +1,106 @@
+using System;
+using System.IO;
+using System.Linq;
+using Kinefab.Advice;
+using Kinefab.Diagnostics;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Advice;
+
+/// <summary>The figures of the advice come out again when its changes are made by hand and run by hand, to the bit.</summary>
+public sealed class ReproductionTests
+{
+    private const double Degrees = 180 / Math.PI;
+
+    private string _chain = "";
+
+    [OneTimeSetUp]
+    public void WriteChain()
+    {
+        _chain = Path.Combine(Directory.CreateTempSubdirectory("kinefab").FullName, "chain.kinefab");
+        File.WriteAllText(_chain, StabilityAdviceTests.Chain(8, 0.1, 10).Text());
+    }
+
+    [OneTimeTearDown]
+    public void RemoveChain() => Directory.Delete(Path.GetDirectoryName(_chain)!, recursive: true);
+
+    [Test]
+    public void Drift_BeforeAndAfterEveryChange_IsWhatARunByHandShows([Values] bool isLever)
+    {
+        string file = isLever ? AdviceScene.Lever : _chain;
+        AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(file));
+        AdviceFinding drift = StabilityAdviceTests.Single(advice, DiagnosticCodes.AdviceJointDrifts);
+
+        Assert.That(Drifts(ValidScene.Load(file), advice), Does.Contain((drift.Before.Distance, drift.Before.Angle)));
+        Assert.That(drift.Tried, Has.Count.GreaterThan(5));
+        foreach (TriedChange tried in drift.Tried)
+            Assert.That(Drifts(AdviceEdits.Apply(file, tried.Edits), advice), Does.Contain((tried.After.Distance, tried.After.Angle)), tried.Change);
+    }
+
+    [Test]
+    public void Deviation_BeforeAndAfterEveryChange_IsTheDistanceFromTheExactRun()
+    {
+        ValidScene lever = ValidScene.Load(AdviceScene.Lever);
+        AdviceReport advice = StabilityAdvice.Of(lever);
+        AdviceFinding motion = StabilityAdviceTests.Single(advice, DiagnosticCodes.AdviceMotionDiffers);
+
+        (double Distance, double Angle) before = Deviation(lever, lever, advice, body: 0);
+        Assert.That((motion.Before.Distance, motion.Before.Angle), Is.EqualTo(((double?, double?))before));
+        foreach (TriedChange tried in motion.Tried)
+        {
+            // The worst body may be another one after the change, but never a better one.
+            ValidScene changed = AdviceEdits.Apply(AdviceScene.Lever, tried.Edits);
+            var bodies = Enumerable.Range(0, 3).Select(b => Deviation(lever, changed, advice, b)).Select(d => ((double?)d.Distance, (double?)d.Angle));
+            Assert.That(bodies, Does.Contain((tried.After.Distance, tried.After.Angle)), tried.Change);
+        }
+    }
+
+    private static (double?, double?)[] Drifts(ValidScene scene, AdviceReport advice)
+    {
+        World world = World.Create(scene);
+        var worst = new (double Distance, double Angle)[world.Joints.Count];
+        Run(scene, advice, world, atSample: _ => { }, atStep: () =>
+        {
+            for (int j = 0; j < worst.Length; j++)
+            {
+                JointDrift drift = world.Joints[j].Drift;
+                worst[j] = (Math.Max(worst[j].Distance, drift.Distance), Math.Max(worst[j].Angle, drift.Angle * Degrees));
+            }
+        });
+        return worst.Select(w => ((double?)w.Distance, (double?)w.Angle)).ToArray();
+    }
+
+    private static (double Distance, double Angle) Deviation(ValidScene scene, ValidScene changed, AdviceReport advice, int body)
+    {
+        World exact = World.Create(scene, SolverKind.Exact);
+        World unity = World.Create(changed);
+        (double Distance, double Angle) worst = default;
+        Run(changed, advice, unity, atStep: () => { }, atSample: _ =>
+        {
+            exact.Step(advice.Step);
+            Vector3d apart = unity.Bodies[body].CenterOfMass - exact.Bodies[body].CenterOfMass;
+            Quaterniond turn = unity.Bodies[body].Pose.Rotation.Conjugate() * exact.Bodies[body].Pose.Rotation;
+            double angle = 2 * Math.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * Degrees;
+            worst = (Math.Max(worst.Distance, apart.Length), Math.Max(worst.Angle, angle));
+        });
+        return worst;
+    }
+
+    private static void Run(ValidScene scene, AdviceReport advice, World world, Action atStep, Action<int> atSample)
+    {
+        int substeps = (int)Math.Round(advice.Step / scene.Document.Physics.FixedTimestep);
+        for (int k = 0; k < advice.Steps; k++)
+        {
+            for (int s = 0; s < substeps; s++)
+            {
+                world.Step(advice.Step / substeps);
+                atStep();
+            }
+
+            atSample(k);
+        }
+    }
+}

@@ -1,0 +1,221 @@
+using System;
+using System.IO;
+using System.Linq;
+using Kinefab.Advice;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Advice;
+
+/// <summary>What Unity's solver does to a scene, found and cured by changes whose effect is measured.</summary>
+public sealed class StabilityAdviceTests
+{
+    [Test]
+    public void Lever_ClosedWithTheLeastRows_SagsAndIsCuredByLockingTheFreeOnes()
+    {
+        AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(AdviceScene.Lever));
+
+        AdviceFinding drift = Single(advice, DiagnosticCodes.AdviceJointDrifts);
+        AdviceFinding motion = Single(advice, DiagnosticCodes.AdviceMotionDiffers);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(drift.Id, Is.EqualTo("Lever/BarC:1"));
+            Assert.That(drift.Before.Angle, Is.EqualTo(1.0).Within(0.2), "the bar sags");
+            Assert.That(drift.Best!.After.Angle, Is.LessThan(0.02));
+            Assert.That(drift.Best.Work, Is.EqualTo(1), "not by more work");
+            Assert.That(drift.Best.Edits.Select(e => e.Value), Is.All.EqualTo("\"Locked\"").And.Exactly(3).Items, "the three rows of the hinge that the export left out");
+            Assert.That(motion.Id, Is.EqualTo("Lever/Crank:1"));
+            Assert.That(motion.Before.Angle, Is.GreaterThan(20), "the sagging bar turns the lever, which truly stays where it is");
+            Assert.That(motion.Best!.Edits.Select(e => e.Pointer), Is.EqualTo(drift.Best.Edits.Select(e => e.Pointer)));
+            Assert.That(motion.Best.After.Angle, Is.LessThan(0.1));
+            Assert.That(drift.Tried.Select(t => t.Change), Has.Some.Contains("Default Solver Iterations 6 -> 12").And.Some.Contains("Fixed Timestep 0.02 -> 0.01"));
+        }
+    }
+
+    [Test]
+    public void Lever_ClosedWithAllRows_IsClearedOfBeingOverConstrained()
+    {
+        ValidScene whole = AdviceEdits.Apply(AdviceScene.Lever, Single(StabilityAdvice.Of(ValidScene.Load(AdviceScene.Lever)), DiagnosticCodes.AdviceJointDrifts).Best!.Edits);
+
+        AdviceReport advice = StabilityAdvice.Of(whole);
+
+        AdviceFinding loop = advice.Findings.Single();
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(loop.Diagnostic.Code, Is.EqualTo(DiagnosticCodes.AdviceLoopOverConstrained));
+            Assert.That(loop.Diagnostic.Severity, Is.EqualTo(Severity.Info));
+            Assert.That(loop.Best, Is.Null);
+            Assert.That(loop.Diagnostic.Message, Does.Contain("holds 3 of the 5 locked freedoms"));
+            Assert.That(loop.Tried[0].Score, Is.GreaterThan(1), "with the rows freed it sags again");
+        }
+    }
+
+    [Test]
+    public void Chain_WithAHundredfoldLoad_IsWarnedOfItsMassesWhichScalingCures()
+    {
+        AdviceReport advice = StabilityAdvice.Of(Chain(8, 0.1, 10).Read());
+
+        AdviceFinding masses = Single(advice, DiagnosticCodes.AdviceMassesUnlike);
+        AdviceFinding drift = Single(advice, DiagnosticCodes.AdviceJointDrifts);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(masses.Diagnostic.Severity, Is.EqualTo(Severity.Warning));
+            Assert.That(masses.Diagnostic.Message, Does.Contain("Bar6 of 0.1 kg to Bar7 of 10 kg, 1:100"));
+            Assert.That(masses.Diagnostic.Pointer, Is.EqualTo("/gameObjects/7/components/1"));
+            Assert.That(masses.Best!.Change, Does.Contain("Mass Scale 100 on HingeJoint Bar7 - Bar6"));
+            Assert.That(masses.Best.After.Distance, Is.LessThan(0.1 * masses.Before.Distance!.Value));
+            Assert.That(drift.Best!.Score, Is.LessThan(drift.Score));
+        }
+    }
+
+    [Test]
+    public void Chain_WithALoadThatHangsStraightDown_StretchesAtRest()
+    {
+        AdviceFinding masses = Single(StabilityAdvice.Of(Chain(2, 1, 20).Read("""{"gravity": [9.81, 0, 0]}""")), DiagnosticCodes.AdviceMassesUnlike);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(masses.Diagnostic.Severity, Is.EqualTo(Severity.Warning));
+            Assert.That(masses.Before.Distance, Is.GreaterThan(0.01));
+            Assert.That(masses.Best!.After.Distance, Is.LessThan(0.0005));
+        }
+    }
+
+    [Test]
+    public void Chain_WithALoadThatWeighsNothing_IsClearedOfItsMasses()
+    {
+        AdviceReport advice = StabilityAdvice.Of(Chain(2, 1, 20).Read("""{"gravity": [0, 0, 0]}"""));
+
+        AdviceFinding masses = advice.Findings.Single();
+        Assert.That((masses.Diagnostic.Code, masses.Diagnostic.Severity), Is.EqualTo((DiagnosticCodes.AdviceMassesUnlike, Severity.Info)));
+        Assert.That(masses.Tried, Is.Not.Empty);
+    }
+
+    [Test]
+    public void Bars_ThinForTheStep_AreWarnedOfAndCured()
+    {
+        AdviceScene scene = new AdviceScene();
+        for (int i = 0; i < 3; i++)
+            scene.Hinged(0.2).With("centerOfMass", 0.05, 0.03, 0).With("inertiaTensor", 1e-6, 1e-5, 1e-5);
+
+        AdviceReport advice = StabilityAdvice.Of(scene.Read());
+
+        AdviceFinding thin = Single(advice, DiagnosticCodes.AdviceInertiaThin);
+
+        // m g arm h^2 / I about the bar's own axis, from which its anchors stand 0.03 m off.
+        double turn = 0.2 * 9.81 * 0.03 * 0.02 * 0.02 / 1e-6;
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(thin.Diagnostic.Severity, Is.EqualTo(Severity.Warning));
+            Assert.That(thin.Diagnostic.Message, Does.Contain(FormattableString.Invariant($"by {Math.Round(turn, 1)} rad")));
+            Assert.That(thin.Best!.Score, Is.LessThan(0.8 * thin.Score));
+            Assert.That(thin.Tried[0].Change, Does.Contain("Inertia Tensor"));
+        }
+    }
+
+    [Test]
+    public void Limit_OfThreeDegreesOnAChain_IsPassedAndSaidHowFar()
+    {
+        const string limits = """{"useLimits": true, "limits": {"min": -1.5, "max": 1.5}}""";
+
+        AdviceReport advice = StabilityAdvice.Of(new AdviceScene().Hinged(1, limits).Hinged(1, limits).Hinged(1, limits).Hinged(1, limits).Read());
+
+        AdviceFinding narrow = Single(advice, DiagnosticCodes.AdviceLimitNarrow);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(narrow.Diagnostic.Severity, Is.EqualTo(Severity.Warning));
+            Assert.That(narrow.Diagnostic.Message, Does.Contain("range of 3 degrees (3 more of its mechanism are as narrow)"));
+            Assert.That(narrow.Before.Distance, Is.Null);
+            Assert.That(narrow.Best!.After.Angle, Is.LessThan(narrow.Before.Angle!.Value / 2));
+        }
+    }
+
+    [Test]
+    public void Limit_OfThreeDegreesOnOneBar_IsKeptAndOnlyMentioned()
+    {
+        AdviceReport advice = StabilityAdvice.Of(new AdviceScene().Hinged(1, """{"useLimits": true, "limits": {"min": -1.5, "max": 1.5}}""").Read());
+
+        AdviceFinding narrow = Single(advice, DiagnosticCodes.AdviceLimitNarrow);
+        Assert.That((narrow.Diagnostic.Severity, narrow.Diagnostic.Remedy), Is.EqualTo((Severity.Info, "Nothing to do.")));
+        Assert.That(narrow.Before.Angle, Is.LessThan(0.2));
+    }
+
+    [Test]
+    public void Bar_HeldByADampedDrive_HasNothingToAdvise()
+    {
+        AdviceReport advice = StabilityAdvice.Of(new AdviceScene().Configured(1, """{"angularXDrive": {"positionSpring": 100, "positionDamper": 4}}""").Read());
+        Assert.That((advice.Findings, advice.Report.Diagnostics, advice.Trials), Is.EqualTo((Array.Empty<AdviceFinding>(), Array.Empty<Diagnostic>(), 0)));
+    }
+
+    [Test]
+    public void Findings_OfAnyScene_StandWarningsFirstAndWorstFirst()
+    {
+        AdviceReport advice = StabilityAdvice.Of(Chain(8, 0.1, 10).Read());
+        Assert.That(advice.Findings, Has.Count.GreaterThan(2));
+        Assert.That(advice.Findings.Select(f => (f.Diagnostic.Severity == Severity.Info, -f.Score)), Is.Ordered);
+    }
+
+    [Test]
+    public void Scene_WithoutText_IsRefused()
+    {
+        ValidScene made = Dynamics.SmallScene.Validate(Dynamics.SmallScene.Document(new HingeJoint(), new Rigidbody(), connected: false));
+        Assert.That(() => StabilityAdvice.Of(made), Throws.ArgumentException);
+    }
+
+    [Test]
+    public void Trials_OfALimitedNumber_AreRemarked()
+    {
+        AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(AdviceScene.Lever), new AdviceOptions { MaxTrials = 2 });
+        Assert.That(advice.Trials, Is.EqualTo(2));
+        Assert.That(advice.Report.Diagnostics[^1].Code, Is.EqualTo(DiagnosticCodes.AdviceTrialsSpent));
+    }
+
+    [Test]
+    public void Seconds_BeyondAllPatience_AreShortenedAndRemarked()
+    {
+        var scene = new AdviceScene().Configured(1, """{"angularXDrive": {"positionSpring": 100, "positionDamper": 4}}""");
+
+        AdviceReport advice = StabilityAdvice.Of(scene.Read("""{"fixedTimestep": 1e-9}"""));
+
+        Assert.That(advice.Steps, Is.LessThan(1_000_000));
+        Assert.That(advice.Report.Diagnostics.Select(d => d.Code), Is.EqualTo([DiagnosticCodes.AdviceRunShortened]));
+    }
+
+    [Test]
+    public void Scene_BeyondTheRangeOfNumbers_IsSaidToBe()
+    {
+        AdviceReport advice = StabilityAdvice.Of(Wild());
+        Assert.That(advice.Report.Diagnostics.Select(d => d.Code), Does.Contain(DiagnosticCodes.AdviceCannotFollow));
+    }
+
+    [Test]
+    public void ConformanceScenes_All_AreAdvisedOnWithoutAFault()
+    {
+        string folder = Path.Combine(Conformance.ConformanceCases.Folder, "valid");
+        string[] files = Directory.GetFiles(folder, "*.kinefab", SearchOption.AllDirectories).Order(StringComparer.Ordinal).ToArray();
+        Assert.That(files, Is.Not.Empty);
+        foreach (string file in files)
+        {
+            AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(file), new AdviceOptions { Seconds = 0.1, MaxTrials = 8 });
+            foreach (AdviceFinding finding in advice.Findings)
+            {
+                Assert.That(double.IsFinite(finding.Score) && finding.Tried.All(t => double.IsFinite(t.Score)), file);
+                Assert.That(finding.Diagnostic.Message + finding.Diagnostic.Remedy, Does.Not.Contain("{").And.Not.Contains("NaN"), file);
+            }
+        }
+    }
+
+    internal static AdviceFinding Single(AdviceReport advice, string code) => advice.Findings.Single(f => f.Diagnostic.Code == code);
+
+    internal static AdviceScene Chain(int bars, double mass, double last)
+    {
+        var scene = new AdviceScene();
+        for (int i = 0; i < bars; i++)
+            scene.Hinged(i == bars - 1 ? last : mass);
+        return scene;
+    }
+
+    // Its weight throws the bar out of the range of numbers within a step.
+    private static ValidScene Wild() => new AdviceScene().Hinged(1).With("inertiaTensor", 1e-38, 1e-38, 1e-38).With("centerOfMass", 1e18, 0, 0).Read();
+}

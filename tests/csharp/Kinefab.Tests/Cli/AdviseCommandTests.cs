@@ -1,0 +1,90 @@
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using Kinefab.Tests.Advice;
+using Kinefab.Tests.Conformance;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Cli;
+
+[NonParallelizable]
+public sealed class AdviseCommandTests
+{
+    private static readonly string Invalid = Path.Combine(ConformanceCases.Folder, "invalid", "hinge", "limits_exchanged.kinefab");
+
+    [Test]
+    public void Advise_Lever_SaysWhatToDoAndWhatCameOfIt()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("advise", AdviceScene.Lever);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((exit, findings), Is.EqualTo((0, "")));
+            Assert.That(data, Does.Contain("100 steps of 0.02 s in Unity's solver and the exact one; 2 warnings"));
+            Assert.That(data, Does.Match(@"warning ADVICE_JOINT_DRIFTS: The HingeJoint Lever/BarC:1 - Lever/Crank:1 comes apart by [0-9.]+ mm and [0-9.]+ degrees within 2 s"));
+            Assert.That(data, Does.Match(@"  do     .* Free -> Locked on ConfigurableJoint Lever/SliderD:1 - Lever/BarC:1: [0-9.]+ mm and [0-9.]+ degrees instead of [0-9.]+ mm and [0-9.]+ degrees\."));
+            Assert.That(data, Does.Match(@"  tried  Project Settings > Physics > Default Solver Iterations 6 -> 12 \(Physics\.defaultSolverIterations\): .*, at 1\.857 times the work"));
+        }
+    }
+
+    [Test]
+    public void Advise_JsonTwice_IsTheSameAndFollowsItsSchema()
+    {
+        string first = CommandLineTests.Run("advise", AdviceScene.Lever, "--json").Data;
+        string second = CommandLineTests.Run("advise", AdviceScene.Lever, "--json").Data;
+
+        Assert.That(second, Is.EqualTo(first));
+        Assert.That(JsonSchema.Faults("advice.schema.json", first), Is.Empty);
+        using JsonDocument report = JsonDocument.Parse(first);
+        JsonElement finding = report.RootElement.GetProperty("advice").GetProperty("findings")[0];
+        Assert.That(report.RootElement.GetProperty("warnings").GetInt32(), Is.EqualTo(2));
+        Assert.That(finding.GetProperty("tried").EnumerateArray().Count(t => t.GetProperty("best").GetBoolean()), Is.EqualTo(1));
+    }
+
+    [TestCase("\"steps\": 100", "\"steps\": 0")]
+    [TestCase("\"severity\": \"warning\"", "\"severity\": \"grave\"")]
+    [TestCase("\"best\": true", "\"best\": 1")]
+    [TestCase("\"pointer\": ", "\"place\": ")]
+    public void Schema_DamagedAdvice_IsSeen(string good, string bad)
+    {
+        string advice = CommandLineTests.Run("advise", AdviceScene.Lever, "--json", "--trials", "2").Data;
+        Assert.That(advice, Does.Contain(good));
+        Assert.That(JsonSchema.Faults("advice.schema.json", advice.Replace(good, bad, System.StringComparison.Ordinal)), Is.Not.Empty);
+    }
+
+    [Test]
+    public void Advise_InvalidScene_GivesItsDiagnosticsAndNoAdvice()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("advise", Invalid);
+        Assert.That((exit, data), Is.EqualTo((1, "")));
+        Assert.That(findings, Does.Contain("HINGE_LIMITS_ORDER"));
+
+        (exit, data, findings) = CommandLineTests.Run("advise", Invalid, "--json");
+        Assert.That((exit, findings), Is.EqualTo((1, "")));
+        Assert.That(JsonSchema.Faults("advice.schema.json", data), Is.Empty);
+        Assert.That(data, Does.Not.Contain("\"advice\""));
+    }
+
+    [Test]
+    public void Advise_NoSuchFile_Exits1WithoutATrace()
+    {
+        (int exit, _, string findings) = CommandLineTests.Run("advise", "no_such.kinefab");
+        Assert.That(exit, Is.EqualTo(1));
+        Assert.That(findings, Does.Contain("SCENE_NOT_FOUND").And.Not.Contains("   at "));
+    }
+
+    [TestCase("--seconds", "0", "--seconds must be a positive number, not '0'.")]
+    [TestCase("--trials", "0", "--trials must be a whole number between 1 and 10000, not '0'.")]
+    public void Advise_WrongValue_Exits2WithARule(string option, string value, string rule)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("advise", AdviceScene.Lever, option, value);
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.StartWith(rule));
+    }
+
+    [Test]
+    public void Validate_Json_FollowsItsSchema()
+    {
+        Assert.That(JsonSchema.Faults("report.schema.json", CommandLineTests.Run("validate", Invalid, "--json").Data), Is.Empty);
+        Assert.That(JsonSchema.Faults("report.schema.json", CommandLineTests.Run("inspect", AdviceScene.Lever, "--json").Data), Is.Empty);
+    }
+}

@@ -16,7 +16,7 @@ setup: ## .venv with everything Python needs
 tool: ## build the command line tool, so that `dotnet kinefab` works in the recipes here
 	@dotnet build csharp/src/Kinefab.Cli -c Release -v quiet --nologo
 
-demo: setup tool ## the lever: CAD bundle -> Unity scene -> validated, described and moved by C#
+demo: setup tool ## the lever: CAD bundle -> Unity scene -> validated, described, moved and advised on by C#
 	@mkdir -p out
 	.venv/bin/kinefab export fixtures/lever/lever.bundle.json -o out/lever.kinefab
 	dotnet kinefab validate out/lever.kinefab
@@ -24,6 +24,7 @@ demo: setup tool ## the lever: CAD bundle -> Unity scene -> validated, described
 	dotnet kinefab mobility out/lever.kinefab
 	dotnet kinefab sweep out/lever.kinefab --joint Lever/Crank:1 --from 0 --to 360 --steps 12 -o out/lever.motion.json
 	$(PYTHON) fixtures/lever/motion_table.py out/lever.motion.json
+	dotnet kinefab advise out/lever.kinefab
 	.venv/bin/kinefab draw out/lever.kinefab -o out/lever.svg
 
 test: setup ## every test of both languages; the last line counts them

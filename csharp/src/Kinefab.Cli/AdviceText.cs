@@ -23,12 +23,19 @@ internal static class AdviceText
     {
         Diagnostic found = finding.Diagnostic;
         Line(target, $"{found.Severity.ToJson()} {found.Code}: {found.Message}");
+        int width = finding.Tried.Select(t => t.After.ToString().Length).DefaultIfEmpty(0).Max();
         if (finding.Best is not null)
-            Line(target, $"  do     {found.Remedy}");
+            Write("do", finding.Best, width, target);
         else if (found.Severity == Severity.Warning)
-            Line(target, $"         {found.Remedy}");
+            Line(target, $"  {found.Remedy}");
         foreach (TriedChange tried in finding.Tried.Where(t => t != finding.Best))
-            Line(target, $"  tried  {tried}");
+            Write("tried", tried, width, target);
+    }
+
+    private static void Write(string word, TriedChange tried, int width, TextWriter target)
+    {
+        string work = tried.Work == 1 ? "" : $" ({tried.Work.ToString("0.##", CultureInfo.InvariantCulture)} times the work)";
+        Line(target, $"  {word,-6} {tried.After.ToString().PadRight(width)}  {tried.Change}{work}");
     }
 
     private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));

@@ -55,8 +55,12 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "unity")));
         if (!e.Exact.IsSound)
             found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "exact")));
+        if (e.Omitted > 0)
+            found.Add(Remark(DiagnosticCodes.FindingsOmitted, ("count", Json.Invariant.Text(e.Omitted))));
         if (e.IsShortened)
             found.Add(Remark(DiagnosticCodes.AdviceRunShortened, ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
+        if (e.Mobility is null)
+            found.Add(Remark(DiagnosticCodes.AdviceLoopsUncounted, ("count", Json.Invariant.Text(e.World.Joints.Count))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
         return World.Create(e.Scene, SolverKind.Exact).Findings.Concat(new Report(found));

@@ -31,7 +31,4 @@ public sealed class TriedChange
 
     /// <summary>What the work comes to in words; empty where it is the same.</summary>
     internal string Cost => Work == 1 ? "" : $", at {AdviceMeasure.Text(Work)} times the work";
-
-    /// <summary>What was done and what came of it.</summary>
-    public override string ToString() => $"{Change}: {After}{Cost}";
 }

@@ -291,6 +291,9 @@ public static class DiagnosticCodes
     /// <summary>Only {seconds} s were simulated: the scene is large.</summary>
     public const string AdviceRunShortened = "ADVICE_RUN_SHORTENED";
 
+    /// <summary>The scene has {count} joints; its loops were not looked at.</summary>
+    public const string AdviceLoopsUncounted = "ADVICE_LOOPS_UNCOUNTED";
+
     /// <summary>Only {count} changes were tried: the scene is large or the limit is low.</summary>
     public const string AdviceTrialsSpent = "ADVICE_TRIALS_SPENT";
 }

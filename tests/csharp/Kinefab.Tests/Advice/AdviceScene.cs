@@ -29,6 +29,13 @@ internal sealed class AdviceScene
         settings,
         ("xMotion", "Locked"), ("yMotion", "Locked"), ("zMotion", "Locked"), ("angularYMotion", "Locked"), ("angularZMotion", "Locked"));
 
+    /// <summary>Ties the last bar to the world instead of the bar before.</summary>
+    public AdviceScene Apart()
+    {
+        ((JsonObject)_objects[^1]!["components"]![1]!).Remove("connectedBody");
+        return this;
+    }
+
     /// <summary>Changes the last body.</summary>
     public AdviceScene With(string field, params double[] value)
     {

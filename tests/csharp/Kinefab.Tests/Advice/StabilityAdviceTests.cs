@@ -183,6 +183,21 @@ public sealed class StabilityAdviceTests
     }
 
     [Test]
+    public void Scene_OfThousandsOfMechanisms_ListsTheWorstAndCountsTheRest()
+    {
+        var scene = new AdviceScene();
+        for (int i = 0; i < 2001; i++)
+            scene.Hinged(1, """{"useLimits": true, "limits": {"min": -1.5, "max": 1.5}}""").Apart();
+
+        AdviceReport advice = StabilityAdvice.Of(scene.Read(), new AdviceOptions { Seconds = 0.2, MaxTrials = 1 });
+
+        Assert.That(advice.Findings, Has.Count.EqualTo(10));
+        Assert.That(
+            advice.Report.Diagnostics.Skip(10).Select(d => (d.Code, d.Message.Split(' ').First(w => w.All(char.IsDigit)))),
+            Is.EqualTo([(DiagnosticCodes.FindingsOmitted, "1991"), (DiagnosticCodes.AdviceLoopsUncounted, "2001")]));
+    }
+
+    [Test]
     public void Scene_BeyondTheRangeOfNumbers_IsSaidToBe()
     {
         AdviceReport advice = StabilityAdvice.Of(Wild());

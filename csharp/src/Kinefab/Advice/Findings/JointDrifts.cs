@@ -12,13 +12,12 @@ internal static class JointDrifts
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.Islands)
+        foreach (Island island in e.WorstFirst(i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure)))
         {
             Threshold threshold = Threshold.Drift(island);
-            (Dynamics.WorldJoint? joint, AdviceMeasure before) = e.WorstDrift(e.Unity, island);
+            (Dynamics.WorldJoint? worst, AdviceMeasure before) = e.WorstDrift(e.Unity, island);
+            Dynamics.WorldJoint joint = worst!;
             double score = threshold.Score(before);
-            if (joint is null || score < 1)
-                continue;
             int others = island.Joints.Count(j => threshold.Score(e.Unity.Joints[j].Drift) >= 1) - 1;
             var treatment = Treatment.Of(e, island, run => e.WorstDrift(run, island).Measure, threshold, e.Remedies.Ladders);
             yield return FindingText.Make(

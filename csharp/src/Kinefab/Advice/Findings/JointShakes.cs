@@ -11,19 +11,25 @@ internal static class JointShakes
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.Islands)
+        foreach (Island island in e.WorstFirst(i => Score(e, i)))
         {
             Threshold threshold = Threshold.Drift(island);
-            AdviceMeasure truth = e.Worst(e.Exact, island, r => r.Shake).Measure;
-            (Dynamics.WorldJoint? joint, AdviceMeasure before) = e.Worst(e.Unity, island, r => r.Shake);
+            (Dynamics.WorldJoint? worst, AdviceMeasure before) = e.Worst(e.Unity, island, r => r.Shake);
+            Dynamics.WorldJoint joint = worst!;
             double score = threshold.Score(before);
-            if (joint is null || score < 1 || threshold.Score(truth) > score / 2)
-                continue;
             var treatment = Treatment.Of(e, island, run => e.Worst(run, island, r => r.Shake).Measure, threshold, e.Remedies.Ladders);
             yield return FindingText.Make(
                 DiagnosticCodes.AdviceJointShakes, Severity.Warning, EditText.Pointer(joint), joint.Id, before, score, treatment,
                 ("joint", JointSettings.Place(e.Scene, joint)),
                 ("measure", before.ToString()));
         }
+    }
+
+    // 0 where the true motion shakes half as much or more.
+    private static double Score(Examination e, Island island)
+    {
+        double unity = Threshold.Drift(island).Score(e.Worst(e.Unity, island, r => r.Shake).Measure);
+        double exact = Threshold.Drift(island).Score(e.Worst(e.Exact, island, r => r.Shake).Measure);
+        return exact > unity / 2 ? 0 : unity;
     }
 }

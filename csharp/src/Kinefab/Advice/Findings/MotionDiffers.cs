@@ -12,20 +12,18 @@ internal static class MotionDiffers
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        for (int i = 0; i < e.Islands.Count; i++)
+        foreach (Island island in e.WorstFirst(i => Threshold.Place(i).Score(e.WorstPlace(e.Unity, i).Measure)))
         {
-            Island island = e.Islands[i];
             Threshold threshold = Threshold.Place(island);
-            (Dynamics.WorldBody? body, AdviceMeasure before) = e.WorstPlace(e.Unity, island);
+            (Dynamics.WorldBody? worst, AdviceMeasure before) = e.WorstPlace(e.Unity, island);
+            Dynamics.WorldBody body = worst!;
             double score = threshold.Score(before);
-            if (body is null || score < 1)
-                continue;
             var treatment = Treatment.Of(e, island, run => e.WorstPlace(run, island).Measure, threshold, e.Remedies.Ladders);
             yield return FindingText.Make(
                 DiagnosticCodes.AdviceMotionDiffers, Severity.Warning, "/gameObjects/" + Invariant.Text(body.GameObject), body.Id, before, score, treatment,
                 ("body", body.Id),
                 ("measure", before.ToString()),
-                ("seconds", AdviceMeasure.Text(e.Foreseen[i] * e.Plan.Step)));
+                ("seconds", AdviceMeasure.Text(e.Foreseen[island.Index] * e.Plan.Step)));
         }
     }
 }

@@ -14,25 +14,25 @@ namespace Kinefab.Advice.Findings;
 /// <summary>Rotations limited to less than 5 degrees, and how far Unity's solver goes beyond them: the worst of each island.</summary>
 internal static class NarrowLimits
 {
-    private const double Narrow = 5;
+    private const double Range = 5;
 
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.Islands)
-        {
-            (int Joint, JointFreedom Freedom)[] narrow = island.Joints
-                .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f)))
-                .OrderByDescending(n => e.Unity.Joints[n.j].Overshoot.Angle)
-                .ToArray();
-            if (narrow.Length > 0)
-                yield return Judge(e, island, narrow);
-        }
+        IEnumerable<Island> islands = e.Islands.Where(i => i.Joints.Any(j => e.Unity.Joints[j].Freedoms.Any(IsNarrow)));
+        foreach (Island island in e.WorstFirst(islands, i => Narrow(e, i)[0].Beyond, least: 0))
+            yield return Judge(e, island, Narrow(e, island));
     }
 
-    private static bool IsNarrow(JointFreedom freedom) =>
-        freedom.IsAngle && freedom.IsLimited && freedom.Upper > freedom.Lower && freedom.Upper - freedom.Lower < Narrow;
+    // Furthest beyond first, degrees.
+    private static (int Joint, JointFreedom Freedom, double Beyond)[] Narrow(Examination e, Island island) => island.Joints
+        .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f, Beyond: e.Unity.Joints[j].Overshoot.Angle ?? 0)))
+        .OrderByDescending(n => n.Beyond)
+        .ToArray();
 
-    private static AdviceFinding Judge(Examination e, Island island, (int Joint, JointFreedom Freedom)[] narrow)
+    private static bool IsNarrow(JointFreedom freedom) =>
+        freedom.IsAngle && freedom.IsLimited && freedom.Upper > freedom.Lower && freedom.Upper - freedom.Lower < Range;
+
+    private static AdviceFinding Judge(Examination e, Island island, (int Joint, JointFreedom Freedom, double Beyond)[] narrow)
     {
         Threshold threshold = Threshold.Drift(island);
         AdviceMeasure before = Measure(e.Unity);
@@ -55,7 +55,7 @@ internal static class NarrowLimits
     }
 
     // So little room may as well be none: only a ConfigurableJoint can lock the axis it limits.
-    private static Change? Locked(Examination e, (int Joint, JointFreedom Freedom)[] narrow)
+    private static Change? Locked(Examination e, (int Joint, JointFreedom Freedom, double Beyond)[] narrow)
     {
         ChangePart[] parts = narrow.Select(n => (Joint: e.World.Joints[n.Joint], n.Freedom))
             .Where(n => JointSettings.Of(e.Scene, n.Joint) is ConfigurableJoint)

@@ -14,14 +14,12 @@ internal static class RepeatedRows
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        if (e.Mobility.Redundant == 0)
+        if (e.Mobility is not { Redundant: > 0 } counted)
             yield break;
         Change?[] cures = { e.Remedies.ClosuresMinimal, e.Remedies.PreprocessingOff };
-        foreach (Island island in e.Islands)
+        foreach (Island island in Suspects.Islands(e, i => counted.Joints.Any(j => i.Holds(j.GameObject))))
         {
-            RedundantRows[] joints = e.Mobility.Joints.Where(j => island.Holds(j.GameObject)).OrderByDescending(j => j.Redundant).ToArray();
-            if (joints.Length == 0)
-                continue;
+            RedundantRows[] joints = counted.Joints.Where(j => island.Holds(j.GameObject)).OrderByDescending(j => j.Redundant).ToArray();
             yield return Suspects.Judge(
                 e, island, DiagnosticCodes.AdviceLoopOverConstrained, EditText.Component(joints[0].GameObject, joints[0].Component),
                 e.Scene.Document.GameObjects[joints[0].GameObject].Id, cures,

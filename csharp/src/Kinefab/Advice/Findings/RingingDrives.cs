@@ -21,16 +21,11 @@ internal static class RingingDrives
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
         ILookup<int, DriveSite> springs = DriveSite.Of(e.Scene, e.World).Where(s => s.Spring > 0).ToLookup(s => s.Joint.Index);
-        foreach (Island island in e.Islands)
+        foreach (Island island in e.WorstFirst(i => Ringing(e, i, springs).Select(d => Threshold.Hold(i).Score(Swing(e.Unity, d))).FirstOrDefault()))
         {
             Threshold threshold = Threshold.Hold(island);
             DriveSite[] sites = island.Joints.SelectMany(j => springs[j]).ToArray();
-            (DriveSite Site, int Freedom)[] ringing = sites.SelectMany(s => Driven(e, s))
-                .Where(d => Period(Values(e.Unity, d)) > 0)
-                .OrderByDescending(d => threshold.Score(Swing(e.Unity, d)))
-                .ToArray();
-            if (ringing.Length == 0 || threshold.Score(Swing(e.Unity, ringing[0])) < 1)
-                continue;
+            (DriveSite Site, int Freedom)[] ringing = Ringing(e, island, springs);
 
             DriveSite worst = ringing[0].Site;
             AdviceMeasure before = Measure(e.Unity);
@@ -44,6 +39,13 @@ internal static class RingingDrives
             AdviceMeasure Measure(SceneRun run) => ringing.Select(d => Swing(run, d)).Aggregate(AdviceMeasure.Max);
         }
     }
+
+    // Those that go to and fro, widest first.
+    private static (DriveSite Site, int Freedom)[] Ringing(Examination e, Island island, ILookup<int, DriveSite> springs) => island.Joints
+        .SelectMany(j => springs[j]).SelectMany(s => Driven(e, s))
+        .Where(d => Period(Values(e.Unity, d)) > 0)
+        .OrderByDescending(d => Threshold.Hold(island).Score(Swing(e.Unity, d)))
+        .ToArray();
 
     // Critical damping of what swings with this period: d = 2 k / omega for each spring k that has less.
     private static Change[] Damped(DriveSite[] sites, DriveSite worst, double period) => Dampers

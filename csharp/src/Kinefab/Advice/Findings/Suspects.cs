@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Advice.Changes;
@@ -13,6 +14,10 @@ namespace Kinefab.Advice.Findings;
 /// </summary>
 internal static class Suspects
 {
+    /// <summary>Of the islands that hold suspects the ones whose joints drift most.</summary>
+    public static IReadOnlyList<Island> Islands(Examination e, Func<Island, bool> holds) =>
+        e.WorstFirst(e.Islands.Where(holds), i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure), least: 0);
+
     /// <summary>The finding about a suspect.</summary>
     /// <param name="e">The scene.</param>
     /// <param name="island">Where the suspect stands.</param>

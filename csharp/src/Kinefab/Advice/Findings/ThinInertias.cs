@@ -17,11 +17,9 @@ internal static class ThinInertias
     {
         Vector3d[] turns = BodySettings.TurnsInAStep(e.World, e.Plan.Step);
         IEnumerable<Change?> cures = e.Remedies.SmallerSteps.Prepend(e.Remedies.InertiasRaised);
-        foreach (Island island in e.Islands)
+        foreach (Island island in Suspects.Islands(e, i => i.Bodies.Any(b => Largest(turns[b]) > 1)))
         {
-            int worst = island.Bodies.OrderByDescending(b => Largest(turns[b])).DefaultIfEmpty(-1).First();
-            if (worst < 0 || Largest(turns[worst]) <= 1)
-                continue;
+            int worst = island.Bodies.OrderByDescending(b => Largest(turns[b])).First();
             WorldBody body = e.World.Bodies[worst];
             yield return Suspects.Judge(
                 e, island, DiagnosticCodes.AdviceInertiaThin, BodySettings.Pointer(e.Scene, body), body.Id, cures,

@@ -14,16 +14,11 @@ internal static class UnlikeMasses
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        var pairs = BodySettings.UnlikeMasses(e.World).ToList();
-        if (pairs.Count == 0)
-            yield break;
+        var pairs = BodySettings.UnlikeMasses(e.World).ToDictionary(p => p.Joint.Index);
         Change?[] cures = { e.Remedies.MassesScaled, e.Remedies.MassesRaised };
-        foreach (Island island in e.Islands)
+        foreach (Island island in Suspects.Islands(e, i => i.Joints.Any(pairs.ContainsKey)))
         {
-            var here = pairs.Where(p => island.Joints.Contains(p.Joint.Index)).OrderByDescending(p => p.Ratio).ToList();
-            if (here.Count == 0)
-                continue;
-            (WorldJoint joint, double ratio, WorldBody light, WorldBody heavy) = here[0];
+            (WorldJoint joint, double ratio, WorldBody light, WorldBody heavy) = island.Joints.Where(pairs.ContainsKey).Select(j => pairs[j]).OrderByDescending(p => p.Ratio).First();
             yield return Suspects.Judge(
                 e, island, DiagnosticCodes.AdviceMassesUnlike, EditText.Pointer(joint), joint.Id, cures,
                 ("joint", JointSettings.Place(e.Scene, joint)),

@@ -26,8 +26,8 @@ internal static class WeakDrives
         DriveSite[] sites = DriveSite.Of(e.Scene, e.World).Where(s => s.Force < 0.1 * Unlimited).ToArray();
         if (sites.Length == 0 || e.World.Gravity == Vector3d.Zero)
             return Array.Empty<AdviceFinding>();
-        (DriveSite Site, Island Island)[] placed = sites
-            .Select(s => (s, Island: e.Islands.FirstOrDefault(i => i.Joints.Contains(s.Joint.Index))!)).Where(s => s.Island is not null).ToArray();
+        ILookup<int, DriveSite> sitesOf = sites.ToLookup(s => s.Joint.Index);
+        (DriveSite Site, Island Island)[] placed = e.Islands.SelectMany(i => i.Joints.SelectMany(j => sitesOf[j]).Select(s => (s, i))).ToArray();
         SceneRun? asIs = Hold(e, Array.Empty<ChangePart>());
         SceneRun? strong = Hold(e, sites.Select(s => s.WithForce(Unlimited)));
         if (asIs is null || strong is null)

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
 
@@ -11,10 +12,10 @@ internal sealed class Island
 {
     private readonly HashSet<int> _gameObjects;
 
-    private Island(int index, IslandMobility mobility, int[] bodies, int[] joints, double length)
+    private Island(int index, IEnumerable<int> gameObjects, int[] bodies, int[] joints, double length)
     {
         Index = index;
-        _gameObjects = new HashSet<int>(mobility.GameObjects);
+        _gameObjects = new HashSet<int>(gameObjects);
         Bodies = bodies;
         Joints = joints;
         Length = length;
@@ -31,34 +32,35 @@ internal sealed class Island
     /// <summary>About the length of a link, metres: twice the mean distance of joints, or the radius of gyration, from the centre of mass.</summary>
     public double Length { get; }
 
-    /// <summary>Whether a GameObject's Rigidbody belongs to it.</summary>
+    /// <summary>Whether the Rigidbody of a GameObject belongs to it.</summary>
     public bool Holds(int gameObject) => _gameObjects.Contains(gameObject);
 
-    public static List<Island> Of(World world, MobilityReport mobility)
+    /// <summary>The islands of a world, by their first body.</summary>
+    public static List<Island> Of(World world, IReadOnlyList<Coupling> couplings)
     {
-        var islands = new List<Island>();
-        var islandOf = new Dictionary<int, int>();
-        for (int i = 0; i < mobility.Islands.Count; i++)
+        var sets = new DisjointSets(world.Bodies.Count);
+        var joints = world.Joints.ToDictionary(j => (j.GameObject, j.Component));
+        foreach (WorldJoint joint in world.Joints)
+            Join(joint, joint);
+        foreach (Coupling coupling in couplings)
         {
-            foreach (int gameObject in mobility.Islands[i].GameObjects)
-                islandOf[gameObject] = i;
+            if (joints.TryGetValue((coupling.A.GameObject, coupling.A.Component), out WorldJoint? a) && joints.TryGetValue((coupling.B.GameObject, coupling.B.Component), out WorldJoint? b))
+                Join(a, b);
         }
 
-        ILookup<int, int> bodies = Enumerable.Range(0, world.Bodies.Count).ToLookup(b => At(world.Bodies[b].GameObject));
-        ILookup<int, int> joints = Enumerable.Range(0, world.Joints.Count).ToLookup(j => OfJoint(world.Joints[j]));
-        for (int i = 0; i < mobility.Islands.Count; i++)
-            islands.Add(new Island(i, mobility.Islands[i], bodies[i].ToArray(), joints[i].ToArray(), LinkLength(world, bodies[i], joints[i])));
-        return islands;
+        ILookup<int, int> jointsOf = world.Joints.Where(j => Moving(j).Any()).ToLookup(j => sets.Find(Moving(j).First()), j => j.Index);
+        return Enumerable.Range(0, world.Bodies.Count).Where(b => !world.Bodies[b].IsKinematic).GroupBy(sets.Find)
+            .Select((bodies, index) => new Island(
+                index, bodies.Select(b => world.Bodies[b].GameObject), bodies.ToArray(), jointsOf[bodies.Key].ToArray(), LinkLength(world, bodies, jointsOf[bodies.Key])))
+            .ToList();
 
-        int At(int gameObject) => islandOf.TryGetValue(gameObject, out int island) ? island : -1;
-
-        int OfJoint(WorldJoint joint)
+        void Join(WorldJoint a, WorldJoint b)
         {
-            int own = BodyIsland(joint.Solved.Body0);
-            return own >= 0 ? own : BodyIsland(joint.Solved.Body1);
+            foreach (int body in Moving(a).Concat(Moving(b)))
+                sets.Join(Moving(a).Concat(Moving(b)).First(), body);
         }
 
-        int BodyIsland(int body) => body < 0 ? -1 : At(world.Bodies[body].GameObject);
+        IEnumerable<int> Moving(WorldJoint joint) => new[] { joint.Solved.Body0, joint.Solved.Body1 }.Where(b => b >= 0 && !world.Bodies[b].IsKinematic);
     }
 
     private static double LinkLength(World world, IEnumerable<int> bodies, IEnumerable<int> joints)
@@ -66,13 +68,13 @@ internal sealed class Island
         var squares = new Dictionary<int, double>();
         foreach (int b in bodies)
         {
-            Document.Rigidbody body = world.Bodies[b].Settings;
+            Rigidbody body = world.Bodies[b].Settings;
             squares[b] = (body.InertiaTensor.X + body.InertiaTensor.Y + body.InertiaTensor.Z) / (2 * body.Mass);
         }
 
         foreach (int j in joints)
         {
-            Joints.Joint joint = world.Joints[j].Solved;
+            Kinefab.Joints.Joint joint = world.Joints[j].Solved;
             Raise(joint.Body0, joint.Frame0.Position.LengthSquared);
             Raise(joint.Body1, joint.Frame1.Position.LengthSquared);
         }

@@ -22,6 +22,12 @@ internal sealed class Examination
     // can be foretold any more: the mechanism is chaotic.
     private const double Foretold = 0.1;
 
+    // Findings of one kind that are listed.
+    private const int MostOfAKind = 10;
+
+    // Loops are not looked at in larger scenes.
+    private const int MostJointsCounted = 2000;
+
     // Fewer samples than these say nothing about a motion.
     private const int FewestForeseen = 10;
 
@@ -40,11 +46,11 @@ internal sealed class Examination
         Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1);
         SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2);
 
-        Mechanism mechanism = Mechanism.Create(scene);
-        Mobility = MobilityAnalysis.Of(mechanism);
-        Islands = Island.Of(World, Mobility);
+        Islands = Island.Of(World, scene.Document.Couplings);
         Foreseen = Islands.Select(i => Exact.IsSound && half.IsSound ? Horizon(i, half) : 0).ToArray();
         Workbench = new Workbench(scene, Plan, World.Joints.Count, options);
+        Mechanism? mechanism = World.Joints.Count <= MostJointsCounted ? Mechanism.Create(scene) : null;
+        Mobility = mechanism is null ? null : MobilityAnalysis.Of(mechanism);
         Remedies = new Remedies(this, mechanism);
     }
 
@@ -62,7 +68,8 @@ internal sealed class Examination
 
     public SceneRun Exact { get; }
 
-    public MobilityReport Mobility { get; }
+    /// <summary>Null in a scene of too many joints to count rows in.</summary>
+    public MobilityReport? Mobility { get; }
 
     public IReadOnlyList<Island> Islands { get; }
 
@@ -71,7 +78,22 @@ internal sealed class Examination
 
     public Workbench Workbench { get; }
 
+    /// <summary>Findings left out, since there are worse ones of the same kind.</summary>
+    public int Omitted { get; private set; }
+
     public Remedies Remedies { get; }
+
+    /// <summary>The islands to speak of for one kind of finding, worst first.</summary>
+    /// <param name="score">How bad an island is.</param>
+    /// <param name="least">How bad it must be.</param>
+    public IReadOnlyList<Island> WorstFirst(Func<Island, double> score, double least = 1) => WorstFirst(Islands, score, least);
+
+    public IReadOnlyList<Island> WorstFirst(IEnumerable<Island> islands, Func<Island, double> score, double least)
+    {
+        Island[] bad = islands.Select(i => (Island: i, Score: score(i))).Where(i => i.Score >= least).OrderByDescending(i => i.Score).Select(i => i.Island).ToArray();
+        Omitted += Math.Max(0, bad.Length - MostOfAKind);
+        return bad.Take(MostOfAKind).ToArray();
+    }
 
     /// <summary>The joint of an island that comes apart most, and how far.</summary>
     public (WorldJoint? Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, Island island) => Worst(run, island, r => r.Drift);

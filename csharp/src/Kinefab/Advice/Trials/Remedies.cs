@@ -11,10 +11,14 @@ internal sealed class Remedies
     private static readonly int[] Divisors = { 2, 4 };
     private static readonly int[] Factors = { 2, 4, 8 };
 
-    public Remedies(Examination e, Mechanism mechanism)
+    public Remedies(Examination e, Mechanism? mechanism)
     {
-        ClosuresWhole = ClosureRows.Whole(e.Scene, mechanism, e.Mobility);
-        ClosuresMinimal = ClosureRows.Minimal(e.Scene, e.Mobility);
+        if (mechanism is not null && e.Mobility is MobilityReport counted)
+        {
+            ClosuresWhole = ClosureRows.Whole(e.Scene, mechanism, counted);
+            ClosuresMinimal = ClosureRows.Minimal(e.Scene, counted);
+        }
+
         PreprocessingOff = JointSettings.PreprocessingOff(e.Scene, e.World);
         InertiasRaised = BodySettings.RaiseInertias(e.Scene, e.World);
         MassesRaised = BodySettings.RaiseMasses(e.Scene, e.World);

@@ -28,6 +28,17 @@ public sealed class AdviseCommandTests
     }
 
     [Test]
+    public void Readme_AdviceOnTheLever_IsWhatTheToolSays()
+    {
+        string readme = File.ReadAllText(Path.Combine(ConformanceCases.Folder, "..", "..", "README.md")).ReplaceLineEndings("\n");
+        string shown = readme.Split("```\n").Single(block => block.StartsWith("out/lever.kinefab: ", System.StringComparison.Ordinal));
+
+        string data = CommandLineTests.Run("advise", AdviceScene.Lever).Data.ReplaceLineEndings("\n");
+
+        Assert.That(data.Replace(AdviceScene.Lever, "out/lever.kinefab", System.StringComparison.Ordinal), Does.StartWith(shown));
+    }
+
+    [Test]
     public void Advise_JsonTwice_IsTheSameAndFollowsItsSchema()
     {
         string first = CommandLineTests.Run("advise", AdviceScene.Lever, "--json").Data;

@@ -22,6 +22,14 @@ internal sealed class AdviceScene
     /// <summary>Adds a bar on a HingeJoint with these fields.</summary>
     public AdviceScene Hinged(double mass, string settings = "{}") => Add(mass, "HingeJoint", settings);
 
+    /// <summary>A bar tied to nothing.</summary>
+    public AdviceScene Loose(double mass)
+    {
+        Hinged(mass);
+        _objects[^1]!["components"]!.AsArray().RemoveAt(1);
+        return this;
+    }
+
     /// <summary>As Hinged, by a ConfigurableJoint that leaves the turn about X, which stands along world Z.</summary>
     public AdviceScene Configured(double mass, string settings) => Add(
         mass,

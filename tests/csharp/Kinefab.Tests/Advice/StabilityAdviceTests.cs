@@ -1,6 +1,8 @@
 using System;
+using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using Kinefab.Advice;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -139,6 +141,43 @@ public sealed class StabilityAdviceTests
         AdviceFinding narrow = Single(advice, DiagnosticCodes.AdviceLimitNarrow);
         Assert.That((narrow.Diagnostic.Severity, narrow.Diagnostic.Remedy), Is.EqualTo((Severity.Info, "Nothing to do.")));
         Assert.That(narrow.Before.Angle, Is.LessThan(0.2));
+    }
+
+    [Test]
+    public void Chain_ThrownApart_ShakesInUnityAloneAndIsCured()
+    {
+        AdviceFinding shakes = Single(StabilityAdvice.Of(Chain(8, 0.1, 10).Read()), DiagnosticCodes.AdviceJointShakes);
+        Assert.That(shakes.Before.Distance, Is.GreaterThan(0.1));
+        Assert.That(shakes.Best!.Score, Is.LessThan(1));
+    }
+
+    [Test]
+    public void Chain_InChaos_IsHeldAgainstTheExactMotionOnlyWhileThatIsSure()
+    {
+        // Four bars falling from the horizontal: after the first swing half the step gives another motion.
+        AdviceFinding motion = Single(StabilityAdvice.Of(Chain(4, 1, 1).Read(), new AdviceOptions { Seconds = 3 }), DiagnosticCodes.AdviceMotionDiffers);
+
+        double seconds = double.Parse(Regex.Match(motion.Diagnostic.Message, "within ([0-9.]+) s").Groups[1].Value, CultureInfo.InvariantCulture);
+        Assert.That(seconds, Is.InRange(0.2, 2));
+    }
+
+    [Test]
+    public void Bars_FallingFreely_AreNotHeldAgainstTheErrorOfTheirFall()
+    {
+        // Semi-implicit Euler falls g h t / 2 = 196 mm too far in 2 s; the hinge has no part in it.
+        Assert.That(StabilityAdvice.Of(new AdviceScene().Loose(1).Hinged(1).Read()).Findings, Is.Empty);
+        Assert.That(StabilityAdvice.Of(new AdviceScene().Loose(1).Read()).Findings, Is.Empty);
+    }
+
+    [Test]
+    public void Iterations_OfABodysOwn_AreRaisedWithTheProjects()
+    {
+        AdviceScene chain = Chain(8, 0.1, 10).With("solverIterations", 12);
+        TriedChange tried = Single(StabilityAdvice.Of(chain.Read()), DiagnosticCodes.AdviceJointDrifts).Tried.First(t => t.Change.Contains("Iterations", StringComparison.Ordinal));
+        Assert.That(
+            tried.Edits.Select(e => (e.Pointer, e.Value)),
+            Is.EqualTo([("/physics/solverIterations", "24"), ("/gameObjects/7/components/0/solverIterations", "24")]));
+        Assert.That(tried.Work, Is.EqualTo(25.0 / 13).Within(1e-12), "position and velocity iterations");
     }
 
     [Test]

@@ -15,8 +15,7 @@ internal static class JointDrifts
         foreach (Island island in e.WorstFirst(i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure)))
         {
             Threshold threshold = Threshold.Drift(island);
-            (Dynamics.WorldJoint? worst, AdviceMeasure before) = e.WorstDrift(e.Unity, island);
-            Dynamics.WorldJoint joint = worst!;
+            (Dynamics.WorldJoint joint, AdviceMeasure before) = e.WorstDrift(e.Unity, island);
             double score = threshold.Score(before);
             int others = island.Joints.Count(j => threshold.Score(e.Unity.Joints[j].Drift) >= 1) - 1;
             var treatment = Treatment.Of(e, island, run => e.WorstDrift(run, island).Measure, threshold, e.Remedies.Ladders);

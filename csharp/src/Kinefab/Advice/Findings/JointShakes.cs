@@ -14,8 +14,7 @@ internal static class JointShakes
         foreach (Island island in e.WorstFirst(i => Score(e, i)))
         {
             Threshold threshold = Threshold.Drift(island);
-            (Dynamics.WorldJoint? worst, AdviceMeasure before) = e.Worst(e.Unity, island, r => r.Shake);
-            Dynamics.WorldJoint joint = worst!;
+            (Dynamics.WorldJoint joint, AdviceMeasure before) = e.Worst(e.Unity, island, r => r.Shake);
             double score = threshold.Score(before);
             var treatment = Treatment.Of(e, island, run => e.Worst(run, island, r => r.Shake).Measure, threshold, e.Remedies.Ladders);
             yield return FindingText.Make(

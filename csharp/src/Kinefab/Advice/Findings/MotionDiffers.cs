@@ -15,8 +15,7 @@ internal static class MotionDiffers
         foreach (Island island in e.WorstFirst(i => Threshold.Place(i).Score(e.WorstPlace(e.Unity, i).Measure)))
         {
             Threshold threshold = Threshold.Place(island);
-            (Dynamics.WorldBody? worst, AdviceMeasure before) = e.WorstPlace(e.Unity, island);
-            Dynamics.WorldBody body = worst!;
+            (Dynamics.WorldBody body, AdviceMeasure before) = e.WorstPlace(e.Unity, island);
             double score = threshold.Score(before);
             var treatment = Treatment.Of(e, island, run => e.WorstPlace(run, island).Measure, threshold, e.Remedies.Ladders);
             yield return FindingText.Make(

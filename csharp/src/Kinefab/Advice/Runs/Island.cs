@@ -7,14 +7,15 @@ using Kinefab.Kinematics;
 
 namespace Kinefab.Advice.Runs;
 
-/// <summary>Bodies that hang together; what happens in one has no effect on another.</summary>
+/// <summary>Bodies that hang together by joints; what happens in one island has no effect on another.</summary>
 internal sealed class Island
 {
     private readonly HashSet<int> _gameObjects;
 
-    private Island(int index, IEnumerable<int> gameObjects, int[] bodies, int[] joints, double length)
+    private Island(int index, IEnumerable<int> gameObjects, int[] bodies, int[] joints, double length, bool isFloating)
     {
         Index = index;
+        IsFloating = isFloating;
         _gameObjects = new HashSet<int>(gameObjects);
         Bodies = bodies;
         Joints = joints;
@@ -31,6 +32,9 @@ internal sealed class Island
 
     /// <summary>About the length of a link, metres: twice the mean distance of joints, or the radius of gyration, from the centre of mass.</summary>
     public double Length { get; }
+
+    /// <summary>Whether nothing ties it to the world or to a kinematic body, so that it falls.</summary>
+    public bool IsFloating { get; }
 
     /// <summary>Whether the Rigidbody of a GameObject belongs to it.</summary>
     public bool Holds(int gameObject) => _gameObjects.Contains(gameObject);
@@ -50,8 +54,10 @@ internal sealed class Island
 
         ILookup<int, int> jointsOf = world.Joints.Where(j => Moving(j).Any()).ToLookup(j => sets.Find(Moving(j).First()), j => j.Index);
         return Enumerable.Range(0, world.Bodies.Count).Where(b => !world.Bodies[b].IsKinematic).GroupBy(sets.Find)
+            .Where(bodies => jointsOf.Contains(bodies.Key))
             .Select((bodies, index) => new Island(
-                index, bodies.Select(b => world.Bodies[b].GameObject), bodies.ToArray(), jointsOf[bodies.Key].ToArray(), LinkLength(world, bodies, jointsOf[bodies.Key])))
+                index, bodies.Select(b => world.Bodies[b].GameObject), bodies.ToArray(), jointsOf[bodies.Key].ToArray(), LinkLength(world, bodies, jointsOf[bodies.Key]),
+                jointsOf[bodies.Key].All(j => Moving(world.Joints[j]).Count() == 2)))
             .ToList();
 
         void Join(WorldJoint a, WorldJoint b)

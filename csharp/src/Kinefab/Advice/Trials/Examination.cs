@@ -96,45 +96,44 @@ internal sealed class Examination
     }
 
     /// <summary>The joint of an island that comes apart most, and how far.</summary>
-    public (WorldJoint? Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, Island island) => Worst(run, island, r => r.Drift);
+    public (WorldJoint Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, Island island) => Worst(run, island, r => r.Drift);
 
-    /// <summary>The joint of an island with the worst of some measure; null in an island without joints.</summary>
-    public (WorldJoint? Joint, AdviceMeasure Measure) Worst(SceneRun run, Island island, Func<JointRecord, AdviceMeasure> of)
+    /// <summary>The joint of an island with the worst of some measure.</summary>
+    public (WorldJoint Joint, AdviceMeasure Measure) Worst(SceneRun run, Island island, Func<JointRecord, AdviceMeasure> of)
     {
         Threshold threshold = Threshold.Drift(island);
-        int worst = -1;
+        int worst = island.Joints[0];
         foreach (int j in island.Joints)
         {
-            if (worst < 0 || threshold.Score(of(run.Joints[j])) > threshold.Score(of(run.Joints[worst])))
+            if (threshold.Score(of(run.Joints[j])) > threshold.Score(of(run.Joints[worst])))
                 worst = j;
         }
 
-        return worst < 0 ? (null, default) : (World.Joints[worst], of(run.Joints[worst]));
+        return (World.Joints[worst], of(run.Joints[worst]));
     }
 
     /// <summary>The body of an island that is furthest from its exact motion, and how far.</summary>
-    public (WorldBody? Body, AdviceMeasure Measure) WorstPlace(SceneRun run, Island island)
+    public (WorldBody Body, AdviceMeasure Measure) WorstPlace(SceneRun run, Island island)
     {
-        int until = Foreseen[island.Index];
         Threshold threshold = Threshold.Place(island);
-        WorldBody? worst = null;
-        AdviceMeasure measure = default;
-        foreach (int b in island.Bodies)
+        AdviceMeasure[] all = new Deviation(run, Exact, island, World.Bodies).Worst(Foreseen[island.Index]);
+        int worst = 0;
+        for (int i = 1; i < all.Length; i++)
         {
-            AdviceMeasure here = Deviation.Of(run, Exact, b, until);
-            if (worst is null || threshold.Score(here) > threshold.Score(measure))
-                (worst, measure) = (World.Bodies[b], here);
+            if (threshold.Score(all[i]) > threshold.Score(all[worst]))
+                worst = i;
         }
 
-        return (worst, measure);
+        return (World.Bodies[island.Bodies[worst]], all[worst]);
     }
 
     private int Horizon(Island island, SceneRun half)
     {
         Threshold threshold = Threshold.Place(island);
+        var deviation = new Deviation(Exact, half, island, World.Bodies);
         for (int k = 0; k < Plan.Samples; k++)
         {
-            if (island.Bodies.Any(b => threshold.Score(Deviation.At(Exact, half, b, k)) > Foretold))
+            if (deviation.At(k).Any(m => threshold.Score(m) > Foretold))
                 return k < FewestForeseen ? 0 : k;
         }
 

@@ -63,7 +63,7 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceLoopsUncounted, ("count", Json.Invariant.Text(e.World.Joints.Count))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
-        return World.Create(e.Scene, SolverKind.Exact).Findings.Concat(new Report(found));
+        return ExactSolverCheck.Of(e.Scene).Concat(new Report(found));
     }
 
     private static Diagnostic Remark(string code, params (string Name, string Value)[] values)

@@ -3,6 +3,7 @@ using System.IO;
 using System.Linq;
 using Kinefab.Advice;
 using Kinefab.Diagnostics;
+using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -56,6 +57,31 @@ public sealed class ReproductionTests
             var bodies = Enumerable.Range(0, 3).Select(b => Deviation(lever, changed, advice, b)).Select(d => ((double?)d.Distance, (double?)d.Angle));
             Assert.That(bodies, Does.Contain((tried.After.Distance, tried.After.Angle)), tried.Change);
         }
+    }
+
+    [Test]
+    public void Sinking_BeforeAndAfterEveryForce_IsWhatTheExactSolverShowsOfAHeldPose()
+    {
+        string file = Path.Combine(Path.GetDirectoryName(_chain)!, "arm.kinefab");
+        const string drive = """{"angularXDrive": {"positionSpring": 1000, "positionDamper": 20, "maximumForce": 0.7}}""";
+        File.WriteAllText(file, new AdviceScene().Configured(1, drive).Configured(0.5, drive).Text());
+        AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(file));
+        AdviceFinding weak = StabilityAdviceTests.Single(advice, DiagnosticCodes.AdviceDriveWeak);
+
+        Assert.That(Sinking(ValidScene.Load(file), advice), Is.EqualTo(weak.Before.Angle));
+        Assert.That(weak.Tried, Has.Count.GreaterThan(1));
+        foreach (TriedChange tried in weak.Tried)
+            Assert.That(Sinking(AdviceEdits.Apply(file, tried.Edits), advice), Is.EqualTo(tried.After.Angle), tried.Change);
+    }
+
+    private static double Sinking(ValidScene scene, AdviceReport advice)
+    {
+        World world = World.Create(scene, SolverKind.Exact);
+        foreach (WorldJoint joint in world.Joints)
+            joint.DriveTo(Coordinate.AngularX, 0);
+        double worst = 0;
+        Run(scene, advice, world, () => { }, _ => worst = Math.Max(worst, Math.Abs(world.Joints[0].Coordinate(Coordinate.AngularX))));
+        return worst;
     }
 
     private static (double?, double?)[] Drifts(ValidScene scene, AdviceReport advice)

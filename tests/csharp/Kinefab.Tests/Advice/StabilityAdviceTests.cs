@@ -188,6 +188,32 @@ public sealed class StabilityAdviceTests
     }
 
     [Test]
+    public void Best_OfSeveralThatAreEnough_IsTheOneOfLeastWork()
+    {
+        AdviceFinding drift = Single(StabilityAdvice.Of(Mechanism("M29")), DiagnosticCodes.AdviceJointDrifts);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(drift.Best!.Change, Does.Contain("Default Solver Iterations 6 -> 12"));
+            Assert.That(drift.Tried.Where(t => t.Score < drift.Best.Score).Select(t => t.Work), Is.Not.Empty.And.All.GreaterThan(drift.Best.Work));
+        }
+    }
+
+    [Test]
+    public void Best_IsNeverOneThatMakesOtherTroubleWorse()
+    {
+        AdviceReport advice = StabilityAdvice.Of(Mechanism("M06"));
+        AdviceFinding motion = Single(advice, DiagnosticCodes.AdviceMotionDiffers);
+        AdviceFinding drift = Single(advice, DiagnosticCodes.AdviceJointDrifts);
+        TriedChange whole = motion.Tried.First(t => t.Change.Contains("Free -> Locked", StringComparison.Ordinal));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(whole.Score < 1 && whole.Work == 1, "enough, and cheaper than any other");
+            Assert.That(drift.Tried.First(t => t.Change == whole.Change).Score, Is.GreaterThan(1.1 * drift.Score), "but the joints come apart further");
+            Assert.That(motion.Best, Is.Not.Null.And.Not.SameAs(whole));
+        }
+    }
+
+    [Test]
     public void Findings_OfAnyScene_StandWarningsFirstAndWorstFirst()
     {
         AdviceReport advice = StabilityAdvice.Of(Chain(8, 0.1, 10).Read());
@@ -269,6 +295,9 @@ public sealed class StabilityAdviceTests
             scene.Hinged(i == bars - 1 ? last : mass);
         return scene;
     }
+
+    private static ValidScene Mechanism(string name) =>
+        ValidScene.Load(Path.Combine(Path.GetDirectoryName(AdviceScene.Lever)!, "..", "mechanisms", name + ".kinefab"));
 
     // Its weight throws the bar out of the range of numbers within a step.
     private static ValidScene Wild() => new AdviceScene().Hinged(1).With("inertiaTensor", 1e-38, 1e-38, 1e-38).With("centerOfMass", 1e18, 0, 0).Read();

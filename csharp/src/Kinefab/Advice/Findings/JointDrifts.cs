@@ -24,7 +24,7 @@ internal static class JointDrifts
                 ("joint", JointSettings.Place(e.Scene, joint)),
                 ("measure", before.ToString()),
                 ("seconds", AdviceMeasure.Text(e.Plan.Seconds)),
-                ("others", others == 0 ? "" : $"; so do {others} more of its mechanism"));
+                ("others", others == 0 ? "" : $"; so {(others == 1 ? "does" : "do")} {others} more of its mechanism"));
         }
     }
 }

@@ -28,7 +28,7 @@ internal static class JointShakes
     private static double Score(Examination e, Island island)
     {
         double unity = Threshold.Drift(island).Score(e.Worst(e.Unity, island, r => r.Shake).Measure);
-        double exact = Threshold.Drift(island).Score(e.Worst(e.Exact, island, r => r.Shake).Measure);
+        double exact = !e.Exact.IsSound ? 0 : Threshold.Drift(island).Score(e.Worst(e.Exact, island, r => r.Shake).Measure);
         return exact > unity / 2 ? 0 : unity;
     }
 }

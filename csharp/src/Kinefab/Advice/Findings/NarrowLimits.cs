@@ -49,7 +49,7 @@ internal static class NarrowLimits
             ("joint", JointSettings.Place(e.Scene, worst)),
             ("range", AdviceMeasure.Text(narrow[0].Freedom.Upper - narrow[0].Freedom.Lower)),
             ("measure", before.ToString()),
-            ("others", narrow.Length == 1 ? "" : $" ({narrow.Length - 1} more of its mechanism are as narrow)"));
+            ("others", narrow.Length == 1 ? "" : $" ({narrow.Length - 1} more of its mechanism {(narrow.Length == 2 ? "is" : "are")} as narrow)"));
 
         AdviceMeasure Measure(SceneRun run) => new(null, narrow.Max(n => run.Joints[n.Joint].Overshoot.Angle ?? 0));
     }

@@ -26,7 +26,7 @@ internal static class RepeatedRows
                 ("joint", JointSettings.Place(e.Scene, joints[0].GameObject, joints[0].Component)),
                 ("count", Invariant.Text(joints[0].Redundant)),
                 ("rows", Invariant.Text(joints[0].Rows)),
-                ("others", joints.Length == 1 ? "" : $", and of {joints.Length - 1} more joints of the mechanism"));
+                ("others", joints.Length == 1 ? "" : $", and some of {joints.Length - 1} more of its mechanism"));
         }
     }
 }

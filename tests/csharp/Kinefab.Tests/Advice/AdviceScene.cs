@@ -59,9 +59,11 @@ internal sealed class AdviceScene
         ["gameObjects"] = _objects.DeepClone(),
     }.ToJsonString();
 
-    public ValidScene Read(string physics = "{}")
+    public ValidScene Read(string physics = "{}") => Parse(Text(physics));
+
+    public static ValidScene Parse(string text)
     {
-        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(Text(physics)));
+        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(text));
         Assert.That(reading.Document, Is.Not.Null, reading.Report.ToString());
         SceneValidation validation = SceneValidator.Validate(reading.Document!);
         Assert.That(validation.Scene, Is.Not.Null, string.Join("\n", validation.Report.Diagnostics));

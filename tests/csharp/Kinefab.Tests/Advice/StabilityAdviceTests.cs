@@ -14,6 +14,18 @@ namespace Kinefab.Tests.Advice;
 /// <summary>What Unity's solver does to a scene, found and cured by changes whose effect is measured.</summary>
 public sealed class StabilityAdviceTests
 {
+    // A heavy body slides and swings on a light one that slides on the world.
+    private const string Slider =
+        """
+        {"format": "kinefab.scene", "version": "1.0", "gameObjects": [
+                 {"id": "b0", "name": "b0", "transform": {"localPosition": [-0.069, -0.339, -0.195], "localRotation": [-0.176984, -0.968912, 0.145987, 0.092592]}, "components": [
+                    {"type": "Rigidbody", "mass": 0.163, "inertiaTensor": [0.000898, 0.0039, 0.004798], "centerOfMass": [0.00407, -0.028, 0.0559]},
+                    {"type": "ConfigurableJoint", "anchor": [0.18, -0.184, -0.114], "axis": [-0.432, -0.443, 0.48], "xMotion": "Locked", "yMotion": "Free", "zMotion": "Limited", "angularXMotion": "Limited", "angularYMotion": "Locked", "angularZMotion": "Locked", "linearLimit": {"limit": 0.05}, "lowAngularXLimit": {"limit": -1}, "highAngularXLimit": {"limit": 30}}]},
+                 {"id": "b1", "name": "b1", "transform": {"localPosition": [-0.0559, -0.364, -0.118], "localRotation": [0.34201, 0.095203, -0.655019, -0.66702]}, "components": [
+                    {"type": "Rigidbody", "mass": 17.8, "inertiaTensor": [0.476, 0.649, 1.12], "centerOfMass": [-0.0609, -0.0174, -0.0595]},
+                    {"type": "ConfigurableJoint", "connectedBody": 0, "anchor": [0.243, -0.239, -0.263], "axis": [0.121, 0.91, -0.297], "yMotion": "Locked", "angularYMotion": "Locked", "angularZMotion": "Locked"}]}]}
+        """;
+
     [Test]
     public void Lever_ClosedWithTheLeastRows_SagsAndIsCuredByLockingTheFreeOnes()
     {
@@ -199,17 +211,29 @@ public sealed class StabilityAdviceTests
     }
 
     [Test]
-    public void Best_IsNeverOneThatMakesOtherTroubleWorse()
+    public void Best_OfCures_IsNotOneThatMakesTheMotionWorse()
     {
-        AdviceReport advice = StabilityAdvice.Of(Mechanism("M06"));
+        AdviceReport advice = StabilityAdvice.Of(AdviceScene.Parse(Slider), new AdviceOptions { Seconds = 0.5 });
+
+        AdviceFinding masses = Single(advice, DiagnosticCodes.AdviceMassesUnlike);
         AdviceFinding motion = Single(advice, DiagnosticCodes.AdviceMotionDiffers);
-        AdviceFinding drift = Single(advice, DiagnosticCodes.AdviceJointDrifts);
-        TriedChange whole = motion.Tried.First(t => t.Change.Contains("Free -> Locked", StringComparison.Ordinal));
+        Assert.That((masses.Best, masses.Diagnostic.Severity, masses.Tried.Count), Is.EqualTo(((TriedChange?)null, Severity.Info, 2)));
+        foreach (TriedChange cure in masses.Tried)
+        {
+            Assert.That(cure.Score, Is.LessThan(0.8 * masses.Score), "the joints would stand closer");
+            Assert.That(motion.Tried.Single(t => t.Change == cure.Change).Score, Is.GreaterThan(1.1 * motion.Score), "but move still less as they should");
+        }
+    }
+
+    [Test]
+    public void Suspect_WhoseRemovalDoesNotHelp_IsNoWarning()
+    {
+        AdviceFinding loop = Single(StabilityAdvice.Of(Mechanism("M05")), DiagnosticCodes.AdviceLoopOverConstrained);
         using (Assert.EnterMultipleScope())
         {
-            Assert.That(whole.Score < 1 && whole.Work == 1, "enough, and cheaper than any other");
-            Assert.That(drift.Tried.First(t => t.Change == whole.Change).Score, Is.GreaterThan(1.1 * drift.Score), "but the joints come apart further");
-            Assert.That(motion.Best, Is.Not.Null.And.Not.SameAs(whole));
+            Assert.That(loop.Score, Is.GreaterThan(1), "the loop does drift");
+            Assert.That(loop.Diagnostic.Severity, Is.EqualTo(Severity.Info));
+            Assert.That(loop.Diagnostic.Remedy, Is.EqualTo("None of 2 changes tried against it helps."));
         }
     }
 

@@ -12,7 +12,7 @@ internal sealed class Treatment
     // A change that leaves more than this of the trouble does not count as help.
     private const double Help = 0.8;
 
-    // A change may not bring about more of other trouble than this.
+    // A change may not leave more than this of the drift or of the wrong motion that there was, nor more than is worth a warning.
     private const double Harm = 1.1;
 
     private readonly Examination _examination;
@@ -20,7 +20,8 @@ internal sealed class Treatment
     private readonly Func<SceneRun, AdviceMeasure> _measure;
     private readonly Threshold _threshold;
     private readonly double _before;
-    private readonly double _trouble;
+    private readonly double _drift;
+    private readonly double _place;
     private readonly List<(Change Change, TriedChange Tried, bool IsHarmless)> _tried = new();
 
     private Treatment(Examination examination, Island island, Func<SceneRun, AdviceMeasure> measure, Threshold threshold)
@@ -30,7 +31,8 @@ internal sealed class Treatment
         _measure = measure;
         _threshold = threshold;
         _before = threshold.Score(measure(examination.Unity));
-        _trouble = Trouble(examination.Unity, mayMoveOtherwise: false);
+        _drift = Drift(examination.Unity);
+        _place = Place(examination.Unity);
     }
 
     public IReadOnlyList<TriedChange> Tried => _tried.Select(t => t.Tried).ToArray();
@@ -77,7 +79,9 @@ internal sealed class Treatment
             return null;
         AdviceMeasure after = _measure(trial.Run);
         var tried = new TriedChange(Change.Words(parts), parts.SelectMany(p => p.Edits).ToArray(), after, _threshold.Score(after), trial.Work);
-        _tried.Add((change, tried, Trouble(trial.Run, change.AltersMotion) <= Math.Max(1, Harm * _trouble)));
+        bool isHarmless = Drift(trial.Run) <= Math.Max(1, Harm * _drift)
+            && (change.AltersMotion || Place(trial.Run) <= Math.Max(1, Harm * _place));
+        _tried.Add((change, tried, isHarmless));
         return tried;
     }
 
@@ -91,8 +95,7 @@ internal sealed class Treatment
         return good.Length == 0 ? null : good[0];
     }
 
-    // All that can go wrong in the island.
-    private double Trouble(SceneRun run, bool mayMoveOtherwise) => Math.Max(
-        Threshold.Drift(_island).Score(_examination.WorstDrift(run, _island).Measure),
-        mayMoveOtherwise ? 0 : Threshold.Place(_island).Score(_examination.WorstPlace(run, _island).Measure));
+    private double Drift(SceneRun run) => Threshold.Drift(_island).Score(_examination.WorstDrift(run, _island).Measure);
+
+    private double Place(SceneRun run) => Threshold.Place(_island).Score(_examination.WorstPlace(run, _island).Measure);
 }

@@ -210,7 +210,7 @@ def test_pairing_has_the_rows_and_the_rest_of_the_table(row):
         np.add.at(stacked, system.row, block)
         rank, basis, _ = null_space(stacked)
         assert (rank, 6 - rank) == (int(row["dof_removed"]), int(row["dof_left"]))
-        space = twist_space(basis, np.zeros(3), 0.5)
+        space = twist_space(basis, np.zeros(3), 0.5, np.eye(3))
         assert (space.r, space.t) == (int(row["r"]), int(row["t"]))
 
 

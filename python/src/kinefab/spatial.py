@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+ROUNDING = 6
+"""Digits of a unit vector by which a choice is made, so that the last bit of a turned one decides nothing."""
 
 
 def vector(values) -> Array:
@@ -66,11 +68,13 @@ def rotation_exp(w: Array) -> Array:
     return rotation_about(w / angle, angle) if angle > 0.0 else np.eye(3)
 
 
-def perpendicular(axis: Array) -> Array:
-    """A unit vector at right angles to ``axis`` (unit vector); the choice is deterministic."""
-    helper = np.zeros(3)
-    helper[int(np.argmin(np.abs(axis)))] = 1.0
-    side = np.cross(axis, helper)
+def perpendicular(axis: Array, axes: Array | None = None) -> Array:
+    """A unit vector at right angles to ``axis`` (unit vector); the choice is deterministic.
+
+    axes: rotation matrix, the frame in whose columns the choice is made; the outer frame's where it is None.
+    """
+    axes = np.eye(3) if axes is None else axes
+    side = np.cross(axis, axes[:, int(np.argmin(np.abs(axis @ axes).round(ROUNDING)))])
     return side / np.linalg.norm(side)
 
 

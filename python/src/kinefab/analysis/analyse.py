@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Scene
+from ..model import Joint, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly import Assembly, assemble
 from .couplings import couplings_of
 from .freedoms import check_records
 from .idle import idle_freedoms
-from .jointing import Links, links_of
+from .jointing import Link, Links, links_of
 from .limits import found_ranges, with_found_ranges
 from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
@@ -39,7 +39,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
     report = Report()
     assembly = assemble(scene, report)
     found = links_of(assembly, report)
-    tree = spanning_tree(assembly, found)
+    tree = spanning_tree(found)
     closed = _closed_scene(assembly, found)
     links = tree.links
     if options.closures is Closures.MINIMAL:
@@ -61,7 +61,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         fixed=fixed,
         islands=_islands(assembly, tree),
         idle=idle_freedoms(assembly),
-        joints=[*(link.joint for link in links), *found.aside],
+        joints=[*_in_source_order(assembly, links), *found.aside],
         couplings=couplings,
         nodes=found.nodes,
         poses=assembly.poses,
@@ -79,6 +79,14 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
         check_records(assembly, analysis.freedoms, report)
     _report_outcomes(assembly, analysis, report)
     return analysis
+
+
+def _in_source_order(assembly: Assembly, links: list[Link]) -> list[Joint]:
+    """The links' joints by the first nodes of the two bodies."""
+    bodies, first = np.unique(assembly.body, return_index=True)
+    place = {int(b): int(i) for b, i in zip(bodies, first)}
+    key = lambda l: sorted(place.get(b, len(assembly.body) + b) for b in (l.a, l.b))  # noqa: E731
+    return [link.joint for link in sorted(links, key=key)]
 
 
 def _closed_scene(assembly: Assembly, found: Links) -> Scene:

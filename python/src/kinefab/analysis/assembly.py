@@ -13,6 +13,7 @@ from ..rigid import RigidGroups
 from ..spatial import Array, Pose
 from .blocks import Blocks, blocks_of, edges_of, relative_system
 from .bodies import Partition, stated_bodies
+from .canonical import canonical
 from .closing import Closing, closed
 from .duplicates import without_duplicates
 from .equations import Equations, equations_of
@@ -71,8 +72,11 @@ class Assembly:
 
 def assemble(scene: Scene, report: Report) -> Assembly:
     """Bring a scene's constraints to the point where every question about freedoms can be answered."""
-    equations = equations_of(scene, report)
     body, stated = stated_bodies(scene)
+    order = canonical(scene, body)
+    body = order.body
+    equations = equations_of(order.scene, report, order.frame.rotation)
+    equations.places = {s.id: i for i, s in enumerate([*scene.constraints, *scene.joints, *scene.couplings])}
     closing = closed(equations, body, report)
     system, duplicates = without_duplicates(closing.system, equations, report)
     counted = system.rows

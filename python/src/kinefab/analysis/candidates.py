@@ -14,7 +14,7 @@ from typing import Iterable, Iterator
 import numpy as np
 
 from ..model import FREE, LOCKED, RX, RZ, TX, TY, JointKind
-from ..spatial import Array, frame_from_axes
+from ..spatial import Array, frame_from_axes, perpendicular
 from .finite import Candidate
 from .twists import TwistSpace, revolving_point
 
@@ -29,11 +29,17 @@ class Geometry:
     """Points and directions that the pair's constraints name, WORLD.
 
     points: shape (n, 3), the likeliest anchor first.  first, second: directions fixed on either body.
+    axes: see ``System.axes``.
     """
 
     points: Array
     first: Array
     second: Array
+    axes: Array
+
+    def frame(self, x: Array) -> Array:
+        """Joint axes with X along ``x``, the others where the geometry's axes put them."""
+        return frame_from_axes(x, perpendicular(x, self.axes))
 
 
 def candidates(space: TwistSpace, geometry: Geometry, length: float) -> list[Candidate]:
@@ -54,13 +60,13 @@ def _none(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Cand
 def _sliding(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
     anchor = geometry.points[0]
     if space.t == 0:
-        yield Candidate(JointKind.FIXED, np.eye(3), anchor)
+        yield Candidate(JointKind.FIXED, geometry.axes, anchor)
     elif space.t == 1:
-        yield Candidate(JointKind.PRISMATIC, frame_from_axes(space.translations[0]), anchor)
+        yield Candidate(JointKind.PRISMATIC, geometry.frame(space.translations[0]), anchor)
     elif space.t == 2:
-        yield Candidate(JointKind.TRANSLATE_2, frame_from_axes(np.cross(*space.translations)), anchor)
+        yield Candidate(JointKind.TRANSLATE_2, geometry.frame(np.cross(*space.translations)), anchor)
     else:
-        yield Candidate(JointKind.TRANSLATE_3, np.eye(3), anchor)
+        yield Candidate(JointKind.TRANSLATE_3, geometry.axes, anchor)
 
 
 def _turning_once(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
@@ -69,24 +75,24 @@ def _turning_once(space: TwistSpace, geometry: Geometry, length: float) -> Itera
     on_axis = revolving_point(space, anchor) if space.center is not None else anchor
     if space.t == 0:
         if abs(space.pitch) > ALIGNED * length:
-            yield Candidate(JointKind.SCREW, frame_from_axes(axis), on_axis, lead=space.pitch * 2.0 * np.pi)
+            yield Candidate(JointKind.SCREW, geometry.frame(axis), on_axis, lead=space.pitch * 2.0 * np.pi)
         else:
-            yield Candidate(JointKind.REVOLUTE, frame_from_axes(axis), on_axis)
+            yield Candidate(JointKind.REVOLUTE, geometry.frame(axis), on_axis)
     elif space.t == 1:
         along = space.translations[0]
         if np.linalg.norm(np.cross(axis, along)) < ALIGNED:
-            yield Candidate(JointKind.CYLINDRICAL, frame_from_axes(axis), on_axis)
+            yield Candidate(JointKind.CYLINDRICAL, geometry.frame(axis), on_axis)
         elif abs(axis @ along) < ALIGNED:
             yield from _both_orders(JointKind.PIN_SLOT, frame_from_axes(axis, along), geometry.points)
     elif space.t == 2:
         if np.abs(space.translations @ axis).max() < ALIGNED:
-            yield Candidate(JointKind.PLANAR, frame_from_axes(axis), anchor)
+            yield Candidate(JointKind.PLANAR, geometry.frame(axis), anchor)
         elif abs(np.linalg.norm(space.translations @ axis) - 1.0) < ALIGNED:
             across = np.cross(axis, np.cross(*space.translations))
             free = tuple(FREE if i in (TX, TY, RX) else LOCKED for i in range(6))
             yield from _both_orders(JointKind.GENERAL, frame_from_axes(axis, across), geometry.points, free)
     else:
-        yield Candidate(JointKind.PARALLEL_PLANES, frame_from_axes(axis), anchor)
+        yield Candidate(JointKind.PARALLEL_PLANES, geometry.frame(axis), anchor)
 
 
 def _turning_twice(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
@@ -127,13 +133,13 @@ def _one_slide(space: TwistSpace, axes: Array):
 
 def _turning_freely(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
     if space.t == 3:
-        yield Candidate(JointKind.FREE, np.eye(3), geometry.points[0])
+        yield Candidate(JointKind.FREE, geometry.axes, geometry.points[0])
     elif space.t == 0:
         if space.center is not None:
-            yield Candidate(JointKind.SPHERICAL, np.eye(3), space.center)
+            yield Candidate(JointKind.SPHERICAL, geometry.axes, space.center)
     elif space.t == 1:
         yield from _both_orders(
-            JointKind.POINT_ON_LINE, frame_from_axes(space.translations[0]), geometry.points
+            JointKind.POINT_ON_LINE, geometry.frame(space.translations[0]), geometry.points
         )
     else:
         x, y = space.translations

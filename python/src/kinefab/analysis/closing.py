@@ -144,6 +144,7 @@ def _gaps(system: System, residual: Array, equations: Equations) -> tuple[list[G
                 isinstance(statement, Joint),
             )
         )
+    gaps.sort(key=lambda gap: equations.places[gap.constraint])
     return gaps, (float(by_metres.max(initial=0.0)), float(by_degrees.max(initial=0.0)))
 
 
@@ -190,7 +191,7 @@ def _held_fast(system: System, equations: Equations, report: Report) -> list[str
     """Rows inside one rigid group that are not satisfied: nothing can move to mend them."""
     residual = np.abs(system.residual(system.start()))
     fast = ~system.joining() & (residual > ABSORBED)
-    names = _names(system.owner[fast], equations)
+    names = equations.names(system.owner[fast])
     if names:
         report.add(
             "CONSTRAINTS_CONTRADICT", names=", ".join(names[:MOST_NAMES]), gap=f"{residual[fast].max():.3g}"
@@ -209,13 +210,9 @@ def _contradiction(
     mine = (solver.row_part == part) & (
         np.abs(residual) > 0.01 * np.abs(residual[solver.row_part == part]).max()
     )
-    names = _names(system.owner[mine], equations)
+    names = equations.names(system.owner[mine])
     shown = ", ".join(names[:MOST_NAMES]) + (
         f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     )
     report.add("CONSTRAINTS_CONTRADICT", names=shown, gap=f"{np.abs(residual[mine]).max():.3g}")
     return names
-
-
-def _names(owners: np.ndarray, equations: Equations) -> list[str]:
-    return [equations.statements[i].id for i in np.unique(owners)]

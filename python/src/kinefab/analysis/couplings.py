@@ -58,7 +58,8 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
                     where=statement.where,
                 )
             )
-    return found
+    first = len(scene.couplings)
+    return found[:first] + sorted(found[first:], key=lambda c: assembly.equations.places[c.id])
 
 
 def _body(assembly: Assembly, node: int | None) -> int:

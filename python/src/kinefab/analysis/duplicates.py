@@ -41,7 +41,7 @@ def without_duplicates(system: System, equations: Equations, report: Report) -> 
             kept &= ~(mine & others)
             left_out.update((int(i), speaker) for i in doubles)
         else:
-            names = ", ".join(equations.statements[i].id for i in doubles)
+            names = ", ".join(equations.names(doubles))
             report.add(
                 "JOINT_CONSTRAINTS_DISAGREE",
                 equations.statements[speaker].where,

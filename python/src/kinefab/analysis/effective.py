@@ -44,9 +44,10 @@ def effective(assembly: Assembly, body_a: int, body_b: int) -> Effective:
     columns = columns[:, size > 1e-9]
     u, s, _ = np.linalg.svd(columns / np.linalg.norm(columns, axis=0), full_matrices=False)
     basis = u[:, : int(np.sum(s > 1e-6))]
-    space = twist_space(basis, origin, length)
+    axes = assembly.relative.axes
+    space = twist_space(basis, origin, length, axes)
     point = space.center if space.center is not None else origin
-    for candidate in candidates(space, Geometry(point[None], np.zeros((0, 3)), np.zeros((0, 3))), length):
+    for candidate in candidates(space, Geometry(point[None], np.zeros((0, 3)), np.zeros((0, 3)), axes), length):
         if candidate.dof == basis.shape[1]:
             stays = _stays(assembly, body_a, body_b, candidate, length)
             return Effective(
@@ -56,7 +57,7 @@ def effective(assembly: Assembly, body_a: int, body_b: int) -> Effective:
                 candidate.origin,
                 not stays,
             )
-    return Effective(JointKind.GENERAL, basis.shape[1], np.eye(3), origin, _has_pole(space))
+    return Effective(JointKind.GENERAL, basis.shape[1], axes, origin, _has_pole(space))
 
 
 def _has_pole(space: TwistSpace) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Iterable
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from ..model import (
     Motion,
     Scene,
 )
+from ..spatial import Array
 from .atoms import Atom
 from .constraints import Context, RangedCoordinate, build
 from .features import UnknownPairing, sides_of
@@ -42,6 +44,7 @@ class Equations:
     length: metres, the assembly's characteristic length.
     directions: for each constraint between two directions the cosine of the angle between them at the
         exported pose, by statement number.
+    places: the statements' places in the source, by id.
     """
 
     system: System
@@ -49,13 +52,23 @@ class Equations:
     ranges: list[RangedCoordinate] = field(default_factory=list)
     length: float = DEFAULT_LENGTH
     directions: dict[int, float] = field(default_factory=dict)
+    places: dict[str, int] = field(default_factory=dict)
+
+    def names(self, owners: Iterable[int]) -> list[str]:
+        """Ids of statements, each once, in the source's order."""
+        ids = {self.statements[i].id for i in owners}
+        return sorted(ids, key=self.places.__getitem__)
 
 
-def equations_of(scene: Scene, report: Report) -> Equations:
-    """All equations, body = node + 1.  What cannot be turned into equations is reported, by name."""
+def equations_of(scene: Scene, report: Report, axes: Array | None = None) -> Equations:
+    """All equations in the scene's order, body = node + 1.  What cannot be turned into equations is reported.
+
+    axes: see ``System.axes``.
+    """
+    axes = np.eye(3) if axes is None else axes
     usable = [c for c in scene.constraints if _usable(c, scene, report)]
-    sides = sides_of(scene, [f for c in usable for f in c.features])
-    rows, context = Rows(), Context()
+    sides = sides_of(scene, [f for c in usable for f in c.features], axes)
+    rows, context = Rows(axes), Context()
     statements: list[Constraint | Joint | Coupling] = []
     directions: dict[int, float] = {}
     spans, at = [], 0
@@ -92,7 +105,10 @@ def equations_of(scene: Scene, report: Report) -> Equations:
         statements.append(coupling)
         _coupling_rows(rows, coupling, by_id, scene)
     system = rows.system(len(scene.nodes) + 1)
-    return Equations(system, statements, context.ranges, characteristic_length(system, scene), directions)
+    places = {s.id: i for i, s in enumerate(statements)}
+    return Equations(
+        system, statements, context.ranges, characteristic_length(system, scene), directions, places
+    )
 
 
 def characteristic_length(system: System, scene: Scene) -> float:

@@ -7,15 +7,16 @@ from typing import Sequence
 import numpy as np
 
 from ..model import Feature, FeatureKind, Scene
-from ..spatial import Array
+from ..spatial import ROUNDING, Array
 from .atoms import cross
 from .rows import NOWHERE, Side
 
 
-def sides_of(scene: Scene, features: Sequence[Feature]) -> list[Side]:
+def sides_of(scene: Scene, features: Sequence[Feature], axes: Array) -> list[Side]:
     """Every feature as a ``Side``, in order; body = node + 1, or 0 for ground.
 
     Directions are made unit vectors here; one of no length stays zero (``constraints`` refuses it).
+    axes: see ``System.axes``.
     """
     if not features:
         return []
@@ -29,7 +30,7 @@ def sides_of(scene: Scene, features: Sequence[Feature]) -> list[Side]:
     p = world([f.point for f in features]) + translation
     z = _unit(world([NOWHERE if f.direction is None else f.direction for f in features]))
     given = world([NOWHERE if f.secondary is None else f.secondary for f in features])
-    x, framed = _beside(z, given)
+    x, framed = _beside(z, given, axes)
     y = cross(z, x)
     return [
         Side(int(node[i]) + 1, p[i], z[i], x[i], y[i], f.kind, f.radius, f.half_angle, bool(framed[i]))
@@ -42,12 +43,11 @@ def _unit(v: Array) -> Array:
     return np.divide(v, size, out=np.zeros_like(v), where=size > 0.0)
 
 
-def _beside(z: Array, given: Array) -> tuple[Array, np.ndarray]:
+def _beside(z: Array, given: Array, axes: Array) -> tuple[Array, np.ndarray]:
     """Unit vectors at right angles to z, towards ``given`` where it has a part across z."""
     across = given - z * np.einsum("ni,ni->n", given, z)[:, None]
     framed = np.linalg.norm(across, axis=1) > 1e-9
-    helper = np.zeros_like(z)
-    helper[np.arange(len(z)), np.argmin(np.abs(z), axis=1)] = 1.0
+    helper = axes.T[np.argmin(np.abs(z @ axes).round(ROUNDING), axis=1)]
     chosen = np.where(framed[:, None], across, helper - z * np.einsum("ni,ni->n", helper, z)[:, None])
     return _unit(chosen), framed
 

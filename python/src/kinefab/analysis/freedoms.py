@@ -92,7 +92,8 @@ def node_freedoms(assembly: Assembly) -> list[NodeFreedom]:
             continue
         body = int(assembly.body[i + 1])
         if body not in spaces:
-            space = twist_space(twists[body], relative.center[body], float(relative.length[body]))
+            length = float(relative.length[body])
+            space = twist_space(twists[body], relative.center[body], length, relative.axes)
             spaces[body] = space
         space = spaces[body]
         found.append(NodeFreedom(i, space.translations, space.rotations, space.center))

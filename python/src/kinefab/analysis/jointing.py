@@ -156,12 +156,13 @@ class _Jointing:
         self.links.append(Link(a, b, joint))
 
     def _doubled(self, joint: Joint) -> list[str]:
-        statements = self.assembly.equations.statements
-        return [statements[i].id for i, by in self.assembly.duplicates.items() if statements[by] is joint]
+        equations = self.assembly.equations
+        return equations.names(
+            i for i, by in self.assembly.duplicates.items() if equations.statements[by] is joint
+        )
 
     def _names(self, relation: Relation) -> list[str]:
-        owners = np.unique(self.assembly.system.owner[relation.rows])
-        return [self.assembly.equations.statements[i].id for i in owners]
+        return self.assembly.equations.names(self.assembly.system.owner[relation.rows])
 
     def _label(self, body: int) -> str:
         nodes = np.flatnonzero(self.assembly.body[1:] == body)
@@ -222,7 +223,7 @@ class _Jointing:
         arm = (relation.origin - alone.center[1]) / relation.length
         v = finite.tangent[:3] * alone.length[1] / relation.length + np.cross(finite.tangent[3:].T, arm).T
         basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
-        relation.space = twist_space(basis, relation.origin, relation.length)
+        relation.space = twist_space(basis, relation.origin, relation.length, system.axes)
         pairs = Pairs(
             np.array([0]),
             np.array([1]),
@@ -289,7 +290,7 @@ class _Jointing:
         a, b = bodies if first_is_a else bodies[::-1]
         axes = candidate.axes
         if candidate.kind is not JointKind.UNIVERSAL:
-            axes = _along(axes, self._directions(relation))
+            axes = _along(axes, self._directions(relation, a))
         world = Pose(axes, candidate.origin)
         node_a, node_b = self._node(a, relation), self._node(b, relation)
         joint = Joint(
@@ -306,14 +307,15 @@ class _Jointing:
         )
         self.links.append(Link(a, b, joint))
 
-    def _directions(self, relation: Relation) -> list[Array]:
-        """Directions that the relation's constraints name, in their order, WORLD at the closed pose."""
-        found = []
+    def _directions(self, relation: Relation, body: int) -> list[Array]:
+        """Directions that the relation's constraints name, this body's first, WORLD at the closed pose."""
+        own, others = [], []
         for owner in np.unique(self.assembly.system.owner[relation.rows]):
             for feature in getattr(self.assembly.equations.statements[owner], "features", ()):
                 if feature.direction is not None:
-                    found.append(self._pose(feature.node).direction(feature.direction))
-        return found
+                    mine = self.assembly.body[0 if feature.node is None else feature.node + 1] == body
+                    (own if mine else others).append(self._pose(feature.node).direction(feature.direction))
+        return own + others
 
     def _rank(self, body: int) -> int:
         return int(self.depth[body]) if body < len(self.depth) else body

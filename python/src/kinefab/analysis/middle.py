@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model import FREE, LOCKED, RX, RZ, TZ, JointKind
-from ..spatial import Array, frame_from_axes, perpendicular
+from ..spatial import Array, perpendicular
 from .atoms import Atom
 from .finite import Candidate
 from .pairs import Relation
@@ -26,8 +26,11 @@ def middle_body(system: System, rows: np.ndarray, relation: Relation) -> tuple[C
         return None
     last = atoms[np.argmax(system.kind[atoms])]
     first_is_a = system.body_a[last] == relation.first
-    on_a, on_b = recipe(system.p_a[last], system.a[last], system.p_b[last], system.b[last], system.k[last])
-    # recipes speak of the atom's own body a first
+    a, b = system.a[last], system.b[last]
+    side_a, side_b = (system.p_a[last], a), (system.p_b[last], b if b.any() else a)
+    if recipe is not _point_round_line and not first_is_a:  # the same from either side
+        side_a, side_b, first_is_a = side_b, side_a, True
+    on_a, on_b = recipe(*side_a, *side_b, relation.geometry)
     return (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
 
 
@@ -44,11 +47,11 @@ def _joint(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = True,
     return place
 
 
-def _rod(p_a, a, p_b, b, k):
+def _rod(p_a, a, p_b, b, geometry):
     along = (p_b - p_a) / np.linalg.norm(p_b - p_a)
-    z = perpendicular(along)
+    z = perpendicular(along, geometry.axes)
     cross = np.column_stack([np.cross(along, z), along, z])  # Y, the rod's own axis, is the locked one
-    return _joint(JointKind.UNIVERSAL, cross, p_a), _far(JointKind.SPHERICAL, np.eye(3), p_b)
+    return _joint(JointKind.UNIVERSAL, cross, p_a), _far(JointKind.SPHERICAL, geometry.axes, p_b)
 
 
 def _far(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = False, freedoms=()):
@@ -60,19 +63,19 @@ def _far(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = False, 
     return place
 
 
-def _point_round_line(p_a, a, p_b, b, k):
+def _point_round_line(p_a, a, p_b, b, geometry):
     foot = p_a + a * (a @ (p_b - p_a))
-    return _joint(JointKind.CYLINDRICAL, frame_from_axes(a), foot), _far(JointKind.SPHERICAL, np.eye(3), p_b)
+    return _joint(JointKind.CYLINDRICAL, geometry.frame(a), foot), _far(JointKind.SPHERICAL, geometry.axes, p_b)
 
 
-def _line_round_line(p_a, a, p_b, b, k):
+def _line_round_line(p_a, a, p_b, b, geometry):
     foot = p_a + a * (a @ (p_b - p_a))
-    return _joint(JointKind.REVOLUTE, frame_from_axes(a), foot), _far(
-        JointKind.CYLINDRICAL, frame_from_axes(a), p_b
+    return _joint(JointKind.REVOLUTE, geometry.frame(a), foot), _far(
+        JointKind.CYLINDRICAL, geometry.frame(a), p_b
     )
 
 
-def _skew_lines(p_a, a, p_b, b, k):
+def _skew_lines(p_a, a, p_b, b, geometry):
     normal = np.cross(a, b)
     size = normal @ normal
     offset = p_b - p_a
@@ -83,14 +86,14 @@ def _skew_lines(p_a, a, p_b, b, k):
         [x, np.cross(z, x), z]
     )  # slides along b and turns about b, all swinging about n
     return (
-        _joint(JointKind.CYLINDRICAL, frame_from_axes(a), foot_a),
+        _joint(JointKind.CYLINDRICAL, geometry.frame(a), foot_a),
         _far(JointKind.GENERAL, carried, foot_b, outer_is_a=True, freedoms=CARRIED),
     )
 
 
-def _angled(p_a, a, p_b, b, k):
-    return _joint(JointKind.PARALLEL_PLANES, frame_from_axes(a), p_b), _far(
-        JointKind.REVOLUTE, frame_from_axes(b), p_b
+def _angled(p_a, a, p_b, b, geometry):
+    return _joint(JointKind.PARALLEL_PLANES, geometry.frame(a), p_b), _far(
+        JointKind.REVOLUTE, geometry.frame(b), p_b
     )
 
 

@@ -160,7 +160,7 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
                 float(length[i]),
                 basis,
                 6 - int(rank[i]),
-                twist_space(basis, origin[i], float(length[i])),
+                twist_space(basis, origin[i], float(length[i]), system.axes),
                 _geometry(system, atoms, int(pairs.first[i]), float(length[i])),
             )
         )
@@ -170,14 +170,19 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
 def _geometry(system: System, atoms: np.ndarray, first: int, length: float) -> Geometry:
     """The pair's points and directions; the system must stand at its start pose."""
     pointed = atoms[np.isin(system.kind[atoms], LENGTHS)]
-    points = _distinct(np.concatenate([system.p_b[pointed], system.p_a[pointed]]), 1e-6 * length)
-    on_a = np.concatenate([system.a[atoms], system.k[atoms]])
+    pointed = pointed if len(pointed) else atoms
+    a_first = (system.body_a[pointed] == first)[:, None]
+    p_a, p_b = system.p_a[pointed], system.p_b[pointed]
+    points = np.concatenate([np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)])  # the second body's first
+    points = _distinct(points, 1e-6 * length)
+    on_a = np.stack([system.a[atoms], system.k[atoms]], axis=1)
+    on_b = np.stack([system.b[atoms], np.zeros((len(atoms), 3))], axis=1)
+    a_first = (system.body_a[atoms] == first)[:, None, None]
     sides = []
-    for mine in (True, False):
-        a_here = (system.body_a[atoms] == first) == mine
-        here = np.concatenate([on_a[np.concatenate([a_here, a_here])], system.b[atoms[~a_here]]])
+    for here in (np.where(a_first, on_a, on_b), np.where(a_first, on_b, on_a)):
+        here = here.reshape(-1, 3)
         sides.append(_distinct(here[np.linalg.norm(here, axis=1) > 0.5], 1e-6))
-    return Geometry(points if len(points) else np.zeros((1, 3)), *sides)
+    return Geometry(points, *sides, system.axes)
 
 
 def _distinct(vectors: Array, tolerance: float) -> Array:

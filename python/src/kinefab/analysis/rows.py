@@ -35,9 +35,13 @@ class Side:
 
 
 class Rows:
-    """Collects equations; ``owner`` is the number of the statement that the next ones belong to."""
+    """Collects equations; ``owner`` is the number of the statement that the next ones belong to.
 
-    def __init__(self) -> None:
+    axes: see ``System.axes``.
+    """
+
+    def __init__(self, axes: Array | None = None) -> None:
+        self.axes = np.eye(3) if axes is None else axes
         self.owner = 0
         self._owners: list[int] = []
         self._is_length: list[bool] = []
@@ -73,7 +77,7 @@ class Rows:
 
     def point(self, a: Side, b: Side) -> None:
         """Point of b on the point of a."""
-        for axis in np.eye(3):
+        for axis in self.axes.T:
             self.plane(a, axis, b)
 
     def on_line(self, a: Side, b: Side) -> None:
@@ -82,7 +86,7 @@ class Rows:
         self.plane(a, a.y, b)
 
     def dot(self, a: Side, along_a: Array, b: Side, along_b: Array, d: float = 0.0) -> None:
-        self.atom(self.row(False), Atom.DOT, a.body, b.body, dir_a=along_a, p_b=b.p, dir_b=along_b, d=d)
+        self.atom(self.row(False), Atom.DOT, a.body, b.body, p_a=a.p, dir_a=along_a, p_b=b.p, dir_b=along_b, d=d)
 
     def parallel(self, a: Side, b: Side) -> None:
         """The directions of a and b parallel, either way round."""
@@ -91,9 +95,8 @@ class Rows:
 
     def angle(self, a: Side, along_a: Array, about: Array, b: Side, along_b: Array, d: float) -> None:
         """Angle from a direction of a to one of b about an axis of a, radians."""
-        self.atom(
-            self.row(False), Atom.ANG, a.body, b.body, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d
-        )
+        row = self.row(False)
+        self.atom(row, Atom.ANG, a.body, b.body, p_a=a.p, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d)
 
     def system(self, bodies: int) -> System:
         """Everything collected, for bodies 0..bodies-1 (body 0: ground)."""
@@ -117,6 +120,7 @@ class Rows:
             center=np.zeros((bodies, 3)),
             length=np.ones(bodies),
             row_length=np.ones(len(self._owners)),
+            axes=self.axes,
         )
 
 

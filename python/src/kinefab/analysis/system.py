@@ -7,7 +7,7 @@ in assemblies far from the origin.  Body 0 never moves.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -47,6 +47,8 @@ class System:
     residual is in metres (else radians or a cosine).  center: shape (bodies, 3), the points g.
     length: shape (bodies,), metres, the size of each body's surroundings; it balances lengths against
     angles in a body's twist (v / length, w).  row_length: shape (rows,), the same for residuals.
+    axes: shape (3, 3), columns, WORLD: in these a direction is chosen where the geometry leaves it open, so
+    that the choice moves with the assembly.
     """
 
     kind: np.ndarray
@@ -65,6 +67,7 @@ class System:
     center: Array
     length: Array
     row_length: Array
+    axes: Array = field(default_factory=lambda: np.eye(3))
 
     @property
     def rows(self) -> int:

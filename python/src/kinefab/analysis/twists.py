@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..spatial import Array, skew
+from ..spatial import ROUNDING, Array, skew
 
 SPLIT = 1e-4
 """Below this rotation part (of an orthonormal basis) a twist counts as a pure translation."""
@@ -49,16 +49,19 @@ class TwistSpace:
         return v - self.translations.T @ (self.translations @ v)
 
 
-def twist_space(basis: Array, origin: Array, length: float) -> TwistSpace:
-    """The space spanned by scaled twists (v / length, w), columns of ``basis``, shape (6, k)."""
+def twist_space(basis: Array, origin: Array, length: float, axes: Array) -> TwistSpace:
+    """The space spanned by scaled twists (v / length, w), columns of ``basis``, shape (6, k).
+
+    axes: see ``System.axes``; of the many bases of a span the one nearest to them is taken.
+    """
     k = basis.shape[1]
     if not k:
         return TwistSpace(origin, np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), None)
     u, s, vt = np.linalg.svd(basis[3:], full_matrices=True)
     r = int(np.sum(s > SPLIT))
-    translations = _orthonormal(basis[:3] @ vt[r:].T)
-    rotations = u[:, :r].T
-    velocity = (basis[:3] @ vt[:r].T / s[:r]).T * length
+    translations = _nearest_basis(_orthonormal(basis[:3] @ vt[r:].T), axes)
+    rotations = _nearest_basis(u[:, :r].T, axes)
+    velocity = rotations @ u[:, :r] @ (basis[:3] @ vt[:r].T / s[:r]).T * length
     space = TwistSpace(origin, translations, rotations, velocity, None)
     return TwistSpace(origin, translations, rotations, velocity, _center(space, length))
 
@@ -68,6 +71,19 @@ def _orthonormal(columns: Array) -> Array:
         return np.zeros((0, 3))
     u, s, _ = np.linalg.svd(columns, full_matrices=False)
     return u.T[: int(np.sum(s > SPLIT))]
+
+
+def _nearest_basis(directions: Array, axes: Array) -> Array:
+    """The span of orthonormal ``directions``, shape (k, 3), by what the nearest of the axes leave in it."""
+    inside = directions.T @ directions
+    found = np.zeros_like(directions)
+    for i in range(len(directions)):
+        shadows = (inside @ axes).T
+        size = np.linalg.norm(shadows, axis=1)
+        nearest = int(np.argmax(size.round(ROUNDING)))
+        found[i] = shadows[nearest] / size[nearest]
+        inside = inside - np.outer(found[i], found[i])
+    return found
 
 
 def _center(space: TwistSpace, length: float) -> Array | None:

@@ -74,7 +74,7 @@ class _Places:
             for owner, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
                 side(i, owner, frame.translation, frame.rotation[:, 0], joint.lead)
         self.statement, self.node = np.array(statement, dtype=np.int64), np.array(node, dtype=np.int64)
-        self.value = np.nan_to_num(np.array(value, dtype=float))
+        self.value = np.nan_to_num(np.array(value, dtype=float), posinf=0.0, neginf=0.0)
         vectors = np.nan_to_num(np.array([point, direction], dtype=float).reshape(2, -1, 3), posinf=0.0, neginf=0.0)
         turned = np.einsum("nij,snj->sni", self.rotation[self.node], vectors)
         self.point, self.direction = turned[0] + self.origin[self.node], turned[1]

@@ -28,7 +28,7 @@ from .middle import middle_body
 from .motion import finite_freedoms
 from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
 from .solve import Solver
-from .twists import twist_space
+from .twists import NAMED, snapped, twist_space
 
 MIDDLE_SHARE = 0.1
 """Mass of a middle body against the lighter of its neighbours."""
@@ -223,7 +223,10 @@ class _Jointing:
         arm = (relation.origin - alone.center[1]) / relation.length
         v = finite.tangent[:3] * alone.length[1] / relation.length + np.cross(finite.tangent[3:].T, arm).T
         basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
-        relation.space = twist_space(basis, relation.origin, relation.length, system.axes)
+        space = twist_space(basis, relation.origin, relation.length, system.axes, NAMED)
+        named = relation.geometry
+        directions = np.concatenate([named.first, named.second])
+        relation.space = snapped(space, named.points, directions, relation.length)
         pairs = Pairs(
             np.array([0]),
             np.array([1]),

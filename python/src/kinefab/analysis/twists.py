@@ -7,7 +7,7 @@ P (v_i + w_i x (c - o)) = 0 (Hunt, *Kinematic Geometry of Mechanisms*, ch. 4; He
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from ..spatial import ROUNDING, Array, skew
 
 SPLIT = 1e-4
 """Below this rotation part (of an orthonormal basis) a twist counts as a pure translation."""
+NAMED = 1e-3
+"""Distance (as a fraction of the length) and sine up to which a point or direction is a named one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,28 +51,55 @@ class TwistSpace:
         return v - self.translations.T @ (self.translations @ v)
 
 
-def twist_space(basis: Array, origin: Array, length: float, axes: Array) -> TwistSpace:
+def twist_space(
+    basis: Array, origin: Array, length: float, axes: Array, split: float = SPLIT
+) -> TwistSpace:
     """The space spanned by scaled twists (v / length, w), columns of ``basis``, shape (6, k).
 
     axes: see ``System.axes``; of the many bases of a span the one nearest to them is taken.
+    split: error that the twists may have.
     """
     k = basis.shape[1]
     if not k:
         return TwistSpace(origin, np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), None)
     u, s, vt = np.linalg.svd(basis[3:], full_matrices=True)
-    r = int(np.sum(s > SPLIT))
-    translations = _nearest_basis(_orthonormal(basis[:3] @ vt[r:].T), axes)
+    r = int(np.sum(s > split))
+    translations = _nearest_basis(_orthonormal(basis[:3] @ vt[r:].T, split), axes)
     rotations = _nearest_basis(u[:, :r].T, axes)
     velocity = rotations @ u[:, :r] @ (basis[:3] @ vt[:r].T / s[:r]).T * length
     space = TwistSpace(origin, translations, rotations, velocity, None)
-    return TwistSpace(origin, translations, rotations, velocity, _center(space, length))
+    return TwistSpace(origin, translations, rotations, velocity, _center(space, length, split))
 
 
-def _orthonormal(columns: Array) -> Array:
+def _orthonormal(columns: Array, split: float) -> Array:
     if not columns.shape[1]:
         return np.zeros((0, 3))
     u, s, _ = np.linalg.svd(columns, full_matrices=False)
-    return u.T[: int(np.sum(s > SPLIT))]
+    return u.T[: int(np.sum(s > split))]
+
+
+def snapped(space: TwistSpace, points: Array, directions: Array, length: float) -> TwistSpace:
+    """The space with its point and a single rotation or translation moved onto named ones within ``NAMED``.
+
+    Where a pose is singular, motions are known to the root of the closing tolerance; the geometry is exact.
+    points, directions: shape (n, 3), WORLD.
+    """
+
+    def turned(single: Array) -> Array:
+        for d in directions if len(single) == 1 else ():
+            if np.linalg.norm(np.cross(d, single[0])) < NAMED:
+                return d[None] * np.sign(d @ single[0])
+        return single
+
+    rotations, center = turned(space.rotations), space.center
+    if center is not None and len(points):
+        offsets = points - center
+        if space.r == 1:
+            offsets = offsets - np.outer(offsets @ rotations[0], rotations[0])
+        distances = np.linalg.norm(offsets, axis=1)
+        if distances.min() < NAMED * length:
+            center = points[np.argmin(distances)]
+    return replace(space, rotations=rotations, translations=turned(space.translations), center=center)
 
 
 def _nearest_basis(directions: Array, axes: Array) -> Array:
@@ -86,7 +115,7 @@ def _nearest_basis(directions: Array, axes: Array) -> Array:
     return found
 
 
-def _center(space: TwistSpace, length: float) -> Array | None:
+def _center(space: TwistSpace, length: float, split: float) -> Array | None:
     if space.r == 0:
         return None
     project = np.eye(3) - space.translations.T @ space.translations
@@ -96,9 +125,9 @@ def _center(space: TwistSpace, length: float) -> Array | None:
         project = project @ (np.eye(3) - np.outer(w, w))
         matrix = project @ skew(w)
     target = np.concatenate([-project @ v for v in space.velocity])
-    offset = np.linalg.lstsq(matrix, target, rcond=SPLIT)[0]
+    offset = np.linalg.lstsq(matrix, target, rcond=split)[0]
     misfit = np.linalg.norm(matrix @ offset - target)
-    return space.origin + offset if misfit < SPLIT * length else None
+    return space.origin + offset if misfit < split * length else None
 
 
 def revolving_point(space: TwistSpace, near: Array) -> Array:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..model import FREE, LOCKED, RX, RZ, TX, TY, JointKind
 from ..spatial import Array, frame_from_axes, perpendicular
+from .atoms import cross
 from .finite import Candidate
 from .twists import TwistSpace, revolving_point
 
@@ -38,8 +39,9 @@ class Geometry:
     axes: Array
 
     def frame(self, x: Array) -> Array:
-        """Joint axes with X along ``x``, the others where the geometry's axes put them."""
-        return frame_from_axes(x, perpendicular(x, self.axes))
+        """Joint axes with X along ``x`` (unit vector), the others where the geometry's axes put them."""
+        y = perpendicular(x, self.axes)
+        return np.column_stack([x, y, cross(x, y)])
 
 
 def candidates(space: TwistSpace, geometry: Geometry, length: float) -> list[Candidate]:

@@ -11,6 +11,7 @@ from ..diagnostics import Report
 from ..model import NodeKind
 from ..spatial import Array
 from .assembly import Assembly
+from .atoms import cross
 from .rank import rank_of
 from .twists import twist_space
 
@@ -60,7 +61,7 @@ def body_twists(assembly: Assembly) -> list[Array]:
             continue
         if carried.shape[1]:
             arm = relative.center[body] - relative.center[root]
-            v = carried[:3] * relative.length[root] + np.cross(carried[3:].T, arm).T
+            v = carried[:3] * relative.length[root] + cross(carried[3:].T, arm).T
             carried = np.concatenate([v / relative.length[body], carried[3:]])
         found[body] = _orthonormal(np.concatenate([carried, own[body]], axis=1))
     return found

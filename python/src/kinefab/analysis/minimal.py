@@ -54,6 +54,7 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
         if len(rows) < len(locked):
             reduced[i] = replace_link(links[i], freedoms=_freed(joint, rows), kind=_kind(joint, rows))
     refused = _refused(assembly, links, reduced, scene)
+    mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
     for i, link in reduced.items():
         joint = links[i].joint
         rows, freed = len(_locked(joint)), len(_locked(joint)) - len(_locked(link.joint))
@@ -68,7 +69,7 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
                 rows=rows,
                 kept=rows - freed,
                 freed=freed,
-                mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating,
+                mobility=mobility,
             )
     return links
 

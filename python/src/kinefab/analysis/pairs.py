@@ -18,6 +18,8 @@ SLACK = 20.0
 """A candidate may miss by this many times the misfit that the exported pose already has ..."""
 MOST_SLACK = 1e-4
 """... up to here, as a fraction of the characteristic length."""
+MOST = 64
+"""Points or directions of one pair looked at."""
 
 
 @dataclass(slots=True, eq=False)
@@ -186,11 +188,10 @@ def _geometry(system: System, atoms: np.ndarray, first: int, length: float) -> G
 
 
 def _distinct(vectors: Array, tolerance: float) -> Array:
-    kept: list[Array] = []
-    for v in vectors[:64]:
-        if all(abs(v - w).max() > tolerance for w in kept):
-            kept.append(v)
-    return np.array(kept).reshape(-1, 3)
+    """The vectors, up to ``MOST``, without those near an earlier one."""
+    vectors = vectors[:MOST]
+    near = np.abs(vectors[:, None] - vectors).max(axis=2) <= tolerance
+    return vectors[~np.tril(near, -1).any(axis=1)]
 
 
 def find_joints(system: System, pairs: Pairs, relations: list[Relation], residual: Array) -> None:

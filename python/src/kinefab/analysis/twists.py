@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..spatial import ROUNDING, Array, skew
+from .atoms import cross
 
 SPLIT = 1e-4
 """Below this rotation part (of an orthonormal basis) a twist counts as a pure translation."""
@@ -104,6 +105,9 @@ def snapped(space: TwistSpace, points: Array, directions: Array, length: float) 
 
 def _nearest_basis(directions: Array, axes: Array) -> Array:
     """The span of orthonormal ``directions``, shape (k, 3), by what the nearest of the axes leave in it."""
+    if len(directions) < 2:
+        parts = directions @ axes
+        return directions * np.sign(parts[:, np.argmax(np.abs(parts[0]).round(ROUNDING))]) if len(parts) else directions
     inside = directions.T @ directions
     found = np.zeros_like(directions)
     for i in range(len(directions)):
@@ -118,6 +122,8 @@ def _nearest_basis(directions: Array, axes: Array) -> Array:
 def _center(space: TwistSpace, length: float, split: float) -> Array | None:
     if space.r == 0:
         return None
+    if space.r == 1 and space.t == 0:
+        return space.origin + cross(space.rotations[0], space.velocity[0])
     project = np.eye(3) - space.translations.T @ space.translations
     matrix = np.concatenate([project @ skew(w) for w in space.rotations])
     if space.r == 1:  # a screw's travel along its axis has no point to vanish at

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from mechanism_cases import analysed, node, table
 
+from kinefab.analysis.freedom import block_freedoms
+from kinefab.analysis.system import State
 from kinefab.model import RX, TX
 
 TOLERANCE = 1e-9
@@ -146,8 +148,10 @@ def test_bennett_output_follows_its_ratio_of_half_angle_tangents():
 
 
 def test_cardan_output_angle_and_speed():
-    """tan(out) = tan(in) cos(beta), and the speed ratio of its derivative."""
+    """tan(out) = tan(in) cos(beta); the speeds, from the exact Jacobian at the driven pose, are as the derivative of
+    that: cos(beta) / (1 - sin(beta)^2 sin(in)^2), which the table has rounded."""
     found = analysed("M21")
+    beta = math.radians(30.0)
     ratio = {
         r["driver"]: float(r["value"])
         for r in table("closed_forms")
@@ -156,23 +160,30 @@ def test_cardan_output_angle_and_speed():
     for row in (r for r in table("closed_forms") if r["id"] == "M21" and "angle" in r["quantity"]):
         drive = found.drive((joint(found, "base", "in").id, RX))
         output = found.drive((joint(found, "base", "out").id, RX))
-        start = math.degrees(math.atan(math.tan(math.radians(20.0)) * math.cos(math.radians(30.0))))
+        start = math.degrees(math.atan(math.tan(math.radians(20.0)) * math.cos(beta)))
         drive.to([math.radians(float(row["driver"]) - 20.0)])
         output.to([math.radians(float(row["value"]) - start)])
         for driven, followed in zip(drive.poses(), output.poses()):
             assert np.abs(driven.rotation - followed.rotation).max() < TOLERANCE
-        step = 1e-4
-        angles = []
-        for sign in (1.0, -1.0):
-            drive.to([math.radians(float(row["driver"]) - 20.0) + sign * step])
-            axis = np.array([math.cos(math.radians(30.0)), math.sin(math.radians(30.0)), 0.0])
-            out = (
-                drive.poses()[node(found.source, "out")].rotation
-                @ found.source.nodes[node(found.source, "out")].pose.rotation.T
-            )
-            vector = np.array([out[2, 1] - out[1, 2], out[0, 2] - out[2, 0], out[1, 0] - out[0, 1]])
-            angles.append(math.atan2(axis @ vector, np.trace(out) - 1.0))
-        assert abs((angles[0] - angles[1]) / (2 * step) - ratio[row["driver"]]) < 1e-7
+        turning = {name: spin(found, drive, name) for name in ("in", "out")}
+        axes = {"in": np.array([1.0, 0.0, 0.0]), "out": np.array([math.cos(beta), math.sin(beta), 0.0])}
+        speed = {name: axes[name] @ turning[name] for name in axes}
+        for name in axes:  # each shaft turns about its own axis alone
+            assert np.linalg.norm(turning[name] - speed[name] * axes[name]) < TOLERANCE
+        angle = math.radians(float(row["driver"]))
+        exact = math.cos(beta) / (1.0 - (math.sin(beta) * math.sin(angle)) ** 2)
+        assert abs(speed["out"] / speed["in"] - exact) < TOLERANCE
+        assert abs(exact - ratio[row["driver"]]) < TOLERANCE
+
+
+def spin(found, drive, name):
+    """Angular velocity of a part in the one motion that a mechanism has at the pose it is driven to."""
+    assembly = found.assembly
+    state = State(drive.state.rotation, drive.state.shift, assembly.start.angle)
+    (freedom,) = block_freedoms(assembly.solver, state)
+    (velocity,) = freedom.basis.T
+    body = assembly.body[node(found.source, name) + 1]
+    return velocity.reshape(-1, 6)[np.flatnonzero(freedom.bodies == body)[0], 3:]
 
 
 def test_wedge_lowers_its_follower():
@@ -187,25 +198,51 @@ def test_wedge_lowers_its_follower():
     )
 
 
-def test_delta_platform_follows_its_three_arms():
-    """Arms at 10, 25 and 40 degrees put the Delta's platform where three spheres meet."""
+@pytest.mark.parametrize("arms", [(30, 30, 30), (10, 25, 40)])
+def test_delta_platform_follows_its_three_arms(arms):
+    """The angles of the three arms put the Delta's platform where three spheres meet."""
     found = analysed("M18")
     expected = [
         float(r["value"])
         for r in table("closed_forms")
-        if r["id"] == "M18" and "(10, 25, 40)" in r["quantity"]
+        if r["id"] == "M18" and str(arms) in r["quantity"]
     ]
     joints = [joint(found, "base", f"arm{k}") for k in range(3)]
     drive = found.drive(*[(j.id, RX) for j in joints])
-    drive.to([math.radians(a - 30.0) for a in (10.0, 25.0, 40.0)])
+    drive.to([math.radians(a - 30.0) for a in arms])
     assert np.abs(drive.poses()[node(found.source, "platform")].translation - expected).max() < TOLERANCE
 
 
+def turn(axis, degrees):
+    """Rotation matrix about a coordinate axis."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    matrix = np.eye(3)
+    matrix[i, i] = matrix[j, j] = c
+    matrix[j, i], matrix[i, j] = s, -s
+    return matrix
+
+
+def stewart_legs(position, rotation):
+    """Leg lengths of the Stewart platform: base joints on radius 1 at 120 k -+ 10 degrees, platform joints on radius
+    0.6 at 120 k - 60 +- 10 degrees, in this order."""
+    lengths = []
+    for k in range(3):
+        for base, platform in ((120 * k - 10, 120 * k - 50), (120 * k + 10, 120 * k + 50)):
+            low = np.array([math.cos(math.radians(base)), math.sin(math.radians(base)), 0.0])
+            high = np.array([math.cos(math.radians(platform)), math.sin(math.radians(platform)), 0.0])
+            lengths.append(float(np.linalg.norm(position + rotation @ (0.6 * high) - low)))
+    return lengths
+
+
 def test_stewart_platform_follows_its_six_legs():
-    """The six leg lengths of a stated pose bring the platform to that pose."""
+    """The six leg lengths of a pose, which the table has rounded to ten digits, bring the platform to that pose."""
     found = analysed("M14")
-    lengths = [float(r["value"]) for r in table("closed_forms") if r["id"] == "M14"]
-    home = 1.3714031749
+    position, rotation = np.array([0.08, -0.05, 1.25]), turn(2, 12.0) @ turn(1, -7.0) @ turn(0, 5.0)
+    lengths = stewart_legs(position, rotation)
+    stated = [float(r["value"]) for r in table("closed_forms") if r["id"] == "M14"]
+    assert np.abs(np.subtract(lengths, stated)).max() < 1e-10
+    home = stewart_legs(np.array([0.0, 0.0, 1.2]), np.eye(3))[0]
     legs = [joint(found, f"lo{i}", f"up{i}") for i in range(1, 7)]
     drive = found.drive(*[(j.id, TX) for j in legs])
     signs = []
@@ -220,10 +257,5 @@ def test_stewart_platform_follows_its_six_legs():
         )
     drive.to([s * (length - home) for s, length in zip(signs, lengths)])
     pose = drive.poses()[node(found.source, "platform")]
-    z, y, x = (math.radians(a) for a in (12.0, -7.0, 5.0))
-    rz = np.array([[math.cos(z), -math.sin(z), 0], [math.sin(z), math.cos(z), 0], [0, 0, 1]])
-    ry = np.array([[math.cos(y), 0, math.sin(y)], [0, 1, 0], [-math.sin(y), 0, math.cos(y)]])
-    rx = np.array([[1, 0, 0], [0, math.cos(x), -math.sin(x)], [0, math.sin(x), math.cos(x)]])
-    # the table's lengths have ten digits, so the pose is known to a few of the tenth
-    assert np.abs(pose.rotation - rz @ ry @ rx).max() < 2e-9
-    assert np.abs(pose.translation - [0.08, -0.05, 1.25]).max() < 2e-9
+    assert np.abs(pose.rotation - rotation).max() < TOLERANCE
+    assert np.abs(pose.translation - position).max() < TOLERANCE

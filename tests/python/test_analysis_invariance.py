@@ -116,8 +116,6 @@ def test_a_floating_ring_is_the_same_up_to_its_own_symmetry(seed):
     expected, found = analyse(source), analyse(it.scene)
     assert nameless(expected) == nameless(found) and sum(j.closure for j in found.joints) == 1
     assert (expected.mobility, expected.rank) == (found.mobility, found.rank)
-    bars = [found.source.pose(j.a).translation - found.source.pose(j.b).translation for j in found.joints]
-    assert np.ptp([np.linalg.norm(b) for b in bars]) < 1e-9 * it.scale * 1e3
 
 
 def summary(found) -> tuple:

@@ -7,16 +7,29 @@ import unity_d6
 
 from kinefab.diagnostics import Report
 from kinefab.rigid import rigid_groups
+from kinefab.unity.couplings import coupling_entry, screw_couplings
 from kinefab.unity.joints import map_joint
 
 
 def components(found):
     """(node of the own body, node of the connected one or None, component) of every joint."""
+    return found.scene(), [(m.owner, m.connected, m.component) for m in _mapped(found)]
+
+
+def couplings(found):
+    """Every coupling as the scene file has it; a coordinate's component is the number of its joint."""
+    mapped = _mapped(found)
+    numbered = {m.source.id: (m, i) for i, m in enumerate(mapped)}
+    scene = found.scene()
+    stated = [*scene.couplings, *screw_couplings(mapped, scene.couplings)]
+    return [coupling_entry(c, numbered, range(len(scene.nodes)), Report()) for c in stated]
+
+
+def _mapped(found):
     scene = found.scene()
     groups = rigid_groups(scene, found.fixed)
     carrier = lambda node: groups.members[groups.group_of[node]][0]  # noqa: E731
-    mapped = [map_joint(j, scene, groups, carrier, Report()) for j in found.joints]
-    return scene, [(m.owner, m.connected, m.component) for m in mapped]
+    return [map_joint(j, scene, groups, carrier, Report()) for j in found.joints]
 
 
 def unity_pose(scene, node):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import unity_d6
-from exported_components import components, constraint_residual, state_of, unity_pose
+from exported_components import components, constraint_residual, couplings, state_of, unity_pose
 from mechanism_cases import all_ids, analysed, scene, scene_written
 from strategies import random_pose
 
@@ -15,6 +17,7 @@ from kinefab.spatial import Pose
 
 MOTIONS = 200
 EXACT = 1e-9
+REST = np.eye(3), np.zeros(3)
 PAIRS = [id for id in all_ids() if id[0] == "P"]
 
 
@@ -72,10 +75,48 @@ def test_component_moves_keep_the_constraints(id, how):
         return
     scene_, parts = components(found)
     dof = sum(sum(unity_d6.freedoms(component)) for _, _, component in parts)
-    screw = sum(j.lead != 0.0 for j in found.joints)
-    assert dof - screw == found.mobility
-    if not screw:  # a screw's component is a cylinder; its coupling is a script's
+    screws = couplings(found)
+    assert dof - len(screws) == found.mobility
+    if not screws:  # a screw's component alone is a cylinder: see the next test
         assert worst_violation(found, parts, scene_, rng) < EXACT
+
+
+@pytest.mark.parametrize("lead", [0.05, -0.03])
+@pytest.mark.parametrize("how", ["Y", "Z", "X", "Z mirrored", "any pose"])
+def test_screw_and_its_coupling_keep_the_constraint_over_three_turns(how, lead):
+    """q_b = ratio q_a + offset (SPEC 5), each q of the own body against the connected one by the left-hand rule about,
+    or along, the joint's axis (SPEC 4): so moved, to either side, the part stays on the screw's own constraint."""
+    up, *mirrored = how.split()
+    source = scene_written("P22", up, bool(mirrored)) if how != "any pose" else scene("P22")
+    source = replace(source, constraints=[replace(c, value=lead) for c in source.constraints])
+    if how == "any pose":
+        source = turned(source, random_pose(np.random.default_rng(22)))
+    found = analyse(source)
+    scene_, ((own, connected, component),) = components(found)
+    (coupling,) = couplings(found)
+    assert (coupling["a"]["coordinate"], coupling["b"]["coordinate"]) == ("angularX", "x")
+    frame, anchor = unity_d6.frame(component)
+    rotation, translation = unity_pose(scene_, own)
+    axis, point = rotation @ frame[:, 0], rotation @ anchor + translation
+    system, body = found.assembly.closing.system, found.assembly.closing.body
+    size = found.assembly.equations.length
+    system.length[:], system.row_length[:] = size, size
+    for step in (0.1, -0.1):
+        last = system.start()
+        for k in range(1, 201):
+            angle = k * step
+            travel = coupling["ratio"] * np.degrees(angle) + coupling.get("offset", 0.0)
+            turn = unity_d6.any_turn(angle * axis)
+            moved = turn, point + travel * axis - turn @ point
+            assert np.abs(
+                unity_d6.broken(component, (rotation, translation), unity_pose(scene_, connected), moved, REST)
+            ).max() < EXACT
+            state = state_of(found, system, body, {own: unity_d6.mirrored(*moved), connected: REST})
+            state.angle = last.angle
+            assert np.abs(system.residual(state)).max() < EXACT
+            system.remember(state)
+            last = state
+        assert abs(abs(travel) - 20.0 / (2.0 * np.pi) * abs(lead)) < EXACT
 
 
 @pytest.mark.parametrize("id", PAIRS)

@@ -109,7 +109,9 @@ def analyse(
 
     found = Report()
     try:
-        analysis = run(read(source, found), AnalysisOptions(closures, limits))
+        with _progress_bar() as progress:
+            scene = read(source, found)
+            analysis = run(scene, AnalysisOptions(closures, limits), lambda done: progress("limits", done))
     except KinefabError as error:
         _log(error.report or Report(list(error.diagnostics)))
         raise typer.Exit(1)

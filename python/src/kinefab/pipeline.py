@@ -56,7 +56,9 @@ def export(
         report.raise_for_errors()
         progress("analyse", 0.0)
         scene = replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, rigid_groups(scene), report)])
-        found = analyse(scene, AnalysisOptions(options.closures, options.limits))
+        found = analyse(
+            scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
+        )
         report.extend(found.report)
         report.raise_for_errors()
         scene = found.scene(options.solve)

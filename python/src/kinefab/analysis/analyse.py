@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Callable
 
 import numpy as np
 
@@ -31,10 +32,15 @@ class AnalysisOptions:
     limits: bool = False
 
 
-def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analysis:
+def analyse(
+    scene: Scene,
+    options: AnalysisOptions = AnalysisOptions(),
+    progress: Callable[[float], None] = lambda done: None,
+) -> Analysis:
     """Find the mechanism in a scene's constraints, joints and couplings.
 
     What is wrong with the data is in the result's report, by name; nothing is raised for it.
+    progress: called with the share of the joints whose limits are searched.
     """
     report = Report()
     assembly = assemble(scene, report)
@@ -45,7 +51,7 @@ def analyse(scene: Scene, options: AnalysisOptions = AnalysisOptions()) -> Analy
     if options.closures is Closures.MINIMAL:
         links = minimal_closures(assembly, tree, closed, report)
     links = with_ranges(assembly, links, closed, report)
-    ranges = found_ranges(assembly, links, closed, report) if options.limits else []
+    ranges = found_ranges(assembly, links, closed, report, progress) if options.limits else []
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
     couplings = couplings_of(assembly, links, closed, report)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ..diagnostics import Report
-from ..model import RX, TX, Freedom, Motion, Scene
+from ..model import RX, TX, Motion, Scene
 from .assembly import Assembly
 from .jointing import Link
 from .loops import replace_link
@@ -35,7 +36,8 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         joint = links[index].joint
         old = joint.freedoms[freedom]
         freedoms = list(joint.freedoms)
-        freedoms[freedom] = Freedom(Motion.LIMITED, max(old.lower, low), min(old.upper, high), old.drive)
+        low, high = max(old.lower, low), min(old.upper, high)
+        freedoms[freedom] = replace(old, motion=Motion.LIMITED, lower=low, upper=high)
         links[index] = replace_link(
             links[index], freedoms=tuple(freedoms), because=(*joint.because, constraint.id)
         )

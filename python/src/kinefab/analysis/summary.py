@@ -167,8 +167,8 @@ def table(analysis: Analysis) -> str:
         lines.append(f"idle: {idle.count} of {parts} moves nothing else")
     for found in analysis.ranges:
         unit, factor = ("deg", math.degrees(1.0)) if found.freedom >= RX else ("m", 1.0)
-        ends = (f"{found.lower * factor:.6g} to {found.upper * factor:.6g} {unit}", "no end")
-        lines.append(f"range of {found.joint}: {ends[0] if math.isfinite(found.lower) else ends[1]}")
+        ends = f"{found.lower * factor:.6g} to {found.upper * factor:.6g} {unit}"
+        lines.append(f"range of {found.joint}: {'no end' if found.endless else ends}")
     loops = sum(i.loops for i in analysis.islands)
     first = f", {analysis.first_order} at first order" if analysis.first_order != analysis.mobility else ""
     lines.append(

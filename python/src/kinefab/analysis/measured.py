@@ -1,0 +1,110 @@
+"""Joint coordinates of one block, measured along its motions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Sequence
+
+import numpy as np
+
+from ..model import RX, Motion, Scene
+from ..spatial import Array
+from .assembly import Assembly
+from .blocks import relative_system
+from .equations import coordinate, joint_sides
+from .jointing import Link
+from .rows import Rows
+from .solve import Solver
+from .system import State, System, joined
+
+CLOSED = 1e-9
+"""Scaled residual up to which a pose is one of the mechanism's."""
+
+
+class Measured:
+    """A block and coordinates (a link and its freedom TX..RZ each) to measure in it.
+
+    rows: the block's, a mask or numbers of the assembly's.  bodies: numbers 1 to n here.  lower, upper: the source's limits, infinite where there are none.
+    rotary: which coordinates are angles.  system, start, turns: the block's equations, the exported pose, and
+    the last angles there (``State.angle`` of ``probe``).  length: metres, of its twists.
+    """
+
+    def __init__(
+        self,
+        assembly: Assembly,
+        rows: np.ndarray,
+        bodies: np.ndarray,
+        coordinates: Sequence[tuple[Link, int]],
+        scene: Scene,
+    ):
+        label = np.zeros(assembly.system.bodies, dtype=np.int64)
+        label[bodies] = self.bodies = np.arange(1, len(bodies) + 1)
+        self.system: System = assembly.relative.select(rows).relabel(label)
+        self.system.center[1:] = assembly.relative.center[bodies]
+        self.system.length[1:] = assembly.relative.length[bodies]
+        self.length = float(self.system.length[1])
+        self.solver = Solver(self.system)
+        probe = Rows()
+        for i, (link, freedom) in enumerate(coordinates):
+            probe.owner = i
+            a, b = (replace(s, body=n) for s, n in zip(joint_sides(link.joint, scene), (link.a, link.b)))
+            coordinate(probe, probe.row(freedom < RX), a, b, freedom, 1.0)
+        self.probe = relative_system(probe.system(assembly.system.bodies), assembly.blocks).relabel(label)
+        self.probe.center, self.probe.length = self.system.center, self.system.length
+        self.start = self.system.start()
+        self.turns = self.probe.start().angle
+        self.rotary = np.array([f >= RX for _, f in coordinates], dtype=bool)
+        limits = [link.joint.freedoms[freedom] for link, freedom in coordinates]
+        self.lower, self.upper = (
+            np.array([getattr(f, end) if f.motion is Motion.LIMITED else away for f in limits])
+            for end, away in (("lower", -np.inf), ("upper", np.inf))
+        )
+
+    def read(self, state: State, turns: Array) -> tuple[Array, Array]:
+        """Coordinates, metres and radians, and their rates: rows on the bodies' scaled twists, (k, 6 n)."""
+        here = State(state.rotation, state.shift, turns)
+        value, block_a, block_b = self.probe.linearise(here)
+        rates = np.zeros((self.probe.rows, self.probe.bodies, 6))
+        np.add.at(rates, (self.probe.row, self.probe.body_a), block_a)
+        np.add.at(rates, (self.probe.row, self.probe.body_b), block_b)
+        return value, rates[:, 1:].reshape(self.probe.rows, -1)
+
+    def passed(self, state: State, turns: Array) -> Array:
+        """Note a pose as the one further turns are counted from; the angles there."""
+        here = State(state.rotation, state.shift, turns)
+        self.probe.remember(here)
+        self.system.remember(state)
+        return here.angle
+
+    def moved(self, state: State, twist: Array) -> State | None:
+        """The pose after scaled twists (6 n) of the bodies, back on the block's rows; None where it is off them."""
+        there = self.system.moved(state, self.bodies, twist.reshape(-1, 6))
+        there, left = self.solver.project(there)
+        return there if left.max(initial=0.0) < CLOSED else None
+
+    def held(self, at: np.ndarray, values: Array) -> "Held":
+        """The block with some of the coordinates held at values."""
+        return Held(self, at, values)
+
+
+class Held:
+    """A block whose coordinates ``at`` keep ``values``."""
+
+    def __init__(self, block: Measured, at: np.ndarray, values: Array):
+        self.block = block
+        held = block.probe.select(at)
+        held.d = held.d + np.asarray(values)[held.row]
+        held.row_length = np.where(held.is_length, block.length, 1.0)
+        self.system = joined(block.system, held)
+        self.solver = Solver(self.system)
+        self._own = len(block.system.kind)
+        self._held = np.isin(block.probe.row, at)
+
+    def moved(self, state: State, turns: Array, twist: Array) -> State | None:
+        """As ``Measured.moved``, back on the held values too."""
+        there = self.block.system.moved(state, self.block.bodies, twist.reshape(-1, 6))
+        angle = np.concatenate([state.angle, turns[self._held]])
+        there, left = self.solver.project(State(there.rotation, there.shift, angle))
+        if not left.max(initial=0.0) < CLOSED:
+            return None
+        return State(there.rotation, there.shift, there.angle[: self._own])

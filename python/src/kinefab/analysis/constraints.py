@@ -205,7 +205,7 @@ def _lock_orientation(rows: Rows, c: Constraint, a: Side, b: Side, *, context: C
         rows.parallel(a, b)
         rows.dot(a, a.x, b, b.y)
     else:
-        x, y, z = np.eye(3)
+        x, y, z = rows.axes.T
         for along_a, along_b in ((x, z), (y, z), (x, y)):
             rows.dot(a, along_a, b, along_b)
 
@@ -215,7 +215,7 @@ def _lock(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> N
     if a.kind is FeatureKind.FRAME and b.kind is FeatureKind.FRAME:
         rows.point(a, b)
     else:
-        for axis in np.eye(3):
+        for axis in rows.axes.T:
             rows.plane(a, axis, b, float(axis @ (b.p - a.p)))
 
 

@@ -101,10 +101,6 @@ def _meta(bundle: Record, path: Path) -> tuple[SourceFrame, MeshSource, str]:
     if generator := meta.record("generator", GENERATOR):
         for key in sorted(GENERATOR):
             generator.text(key, "")
-    if meta.text("handed", "right") == "left":
-        meta.fault("SOURCE_LEFT_HANDED", "handed")
-    elif meta.has("handed"):
-        meta.choice("handed", {"right": True})
     if meta.choice("poseState", {"solved": True, "dirty": False}, True) is False:
         meta.fault("POSE_STATE_DIRTY", "poseState")
     up, turn = _axes(meta)
@@ -124,7 +120,8 @@ def _axes(meta: Record) -> tuple[str, np.ndarray]:
         if meta.sound:
             meta.fault("AXES_CONFLICT", "forward", up=up, forward=forward)
         forward = FORWARD[up]
-    return up, turn_to_scene(DIRECTIONS[up], DIRECTIONS[forward])
+    left = meta.choice("handed", {"right": False, "left": True}, False)
+    return up, turn_to_scene(DIRECTIONS[up], DIRECTIONS[forward], left)
 
 
 def _meshes(meta: Record, folder: Path, length: float) -> tuple[float, MeshSource]:

@@ -39,7 +39,8 @@ ONE_SIDED = frozenset({ConstraintKind.GROUND, ConstraintKind.OTHER})
 
 IN_ANGLES = frozenset({ConstraintKind.ANGLE, ConstraintKind.PARALLEL, ConstraintKind.PERPENDICULAR})
 IN_RATIOS = frozenset({ConstraintKind.GEAR, ConstraintKind.BELT, ConstraintKind.LINEAR, ConstraintKind.OTHER})
-"""Kinds whose value is no length: an angle; a plain number."""
+IN_TRAVEL = frozenset({ConstraintKind.SCREW, ConstraintKind.RACK})
+"""Kinds whose value is no length: an angle; a plain number; a travel for a turn."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,9 +108,11 @@ def _fields(
             drafts.append(draft)
     if record.sound and len(sides) > 1 and sides.get("a") == sides.get("b"):
         record.fault("SAME_COMPONENT", "b", feature=feature, component=sides["a"])
-    unit = frame.angle if kind in IN_ANGLES else 1.0 if kind in IN_RATIOS else frame.length
-    value = record.number("value", 0.0) * unit
     lower, upper = record.number("min", None), record.number("max", None)
+    reading = _reading(record)
+    signed = "c" in sides or reading.get("angle") == "directed" or not lower is upper is None
+    unit = _unit(kind, signed, frame)
+    value = record.number("value", 0.0) * unit
     if record.sound and lower is not None and upper is not None and lower > upper:
         record.fault("LIMITS_REVERSED", "min", lower=lower, upper=upper)
     suppressed = record.flag("suppressed")
@@ -120,16 +123,31 @@ def _fields(
         # A coincidence at a distance is what CAD programs call a mate with an offset.
         kind=ConstraintKind.DISTANCE if kind is ConstraintKind.COINCIDENT and value else kind,
         value=value,
-        lower=None if lower is None else lower * unit,
-        upper=None if upper is None else upper * unit,
+        lower=_end(lower, upper, unit),
+        upper=_end(upper, lower, unit),
         sense=record.choice("sense", SENSES, Sense.EITHER),
         side=record.choice("side", SIDES, Side.EITHER),
         lock_rotation=record.flag("lockRotation"),
         suppressed=suppressed,
         name=record.text("name", ""),
         raw_kind=record.text("rawKind", "") or word,
-        reading=_reading(record),
+        reading=reading,
     )
+
+
+def _unit(kind: ConstraintKind, signed: bool, frame: SourceFrame) -> float:
+    """What one unit of a constraint's value is; an angle between two directions has no sign, one about an axis has."""
+    if kind in IN_ANGLES:
+        return frame.about if signed else frame.angle
+    if kind in IN_RATIOS:
+        return 1.0
+    return frame.travel if kind in IN_TRAVEL else frame.length
+
+
+def _end(own: float | None, other: float | None, unit: float) -> float | None:
+    """One end of a range in the scene's terms: where the unit turns the sign, the other one becomes it."""
+    end = own if unit > 0.0 else other
+    return None if end is None else end * unit
 
 
 def _reading(constraint: Record) -> dict[str, str]:

@@ -72,7 +72,7 @@ def _ratio(
 ) -> float | None:
     """dq_b / dq_a in metres and radians, from whichever way the source states it; None after a report."""
     turning = [freedom >= RX for _, freedom in ends]
-    units = [frame.angle if turns else frame.length for turns in turning]
+    units = [_unit(joint, freedom, frame) for joint, freedom in ends]
     if record.has("ratio"):
         ratio = record.number("ratio") * units[1] / units[0]
     elif kind in (CouplingKind.GEAR, CouplingKind.BELT) and (key := _pair(record)):
@@ -81,7 +81,7 @@ def _ratio(
         ratio = (-a if kind is CouplingKind.GEAR else a) / (b or math.nan)
     elif kind in (CouplingKind.RACK, CouplingKind.SCREW) and turning[0] != turning[1] and _travel_key(record):
         travel = record.number("pitch") / (2.0 * math.pi) if record.has("pitch") else record.number("radius")
-        travel *= frame.length
+        travel *= frame.travel
         ratio = travel if turning[0] else 1.0 / (travel or math.nan)
     else:
         record.fault("COUPLING_RATIO_MISSING", "", kind=kind.value)
@@ -89,6 +89,11 @@ def _ratio(
     if record.sound and not (math.isfinite(ratio) and ratio != 0.0):
         record.fault("COUPLING_RATIO_ZERO", "", kind=kind.value)
     return ratio if record.sound else None
+
+
+def _unit(joint: Joint, freedom: int, frame: SourceFrame) -> float:
+    """Metres or radians in one unit of a joint's coordinate."""
+    return frame.coordinate(next(name for name, i in freedom_names(joint.kind).items() if i == freedom))
 
 
 def _pair(record: Record) -> str:
@@ -113,7 +118,7 @@ def _coupling(
     q_a, q_b = joints.positions[a.id][freedom_a], joints.positions[b.id][freedom_b]
     offset = q_b - ratio * q_a
     if record.has("offset"):
-        unit, slack = (frame.angle, GAP_ANGLE) if freedom_b >= RX else (frame.length, GAP_LENGTH)
+        unit, slack = _unit(b, freedom_b, frame), GAP_ANGLE if freedom_b >= RX else GAP_LENGTH
         # Stated for the coordinates that the CAD displays, which may have whole turns more.
         stated = record.number("offset") * unit
         stated += ratio * joints.turns[a.id][freedom_a] - joints.turns[b.id][freedom_b]

@@ -108,7 +108,7 @@ def read_draft(
     if frame_a is None:  # only a rigid joint has none: any common frame will do
         frame_a = FrameDraft(b, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
     dof = _coordinates(record, kind, word, frame)
-    lead = record.number("lead") * frame.length if kind is JointKind.SCREW else 0.0
+    lead = record.number("lead") * frame.travel if kind is JointKind.SCREW else 0.0
     if kind is JointKind.SCREW and record.sound and lead == 0.0:
         record.fault("SCREW_LEAD_ZERO", "lead", feature=feature)
     suppressed, flipped = record.flag("suppressed"), record.flag("flipped")
@@ -157,7 +157,7 @@ def _coordinates(joint: Record, kind: JointKind, word: str, frame: SourceFrame) 
     for record in joint.records("dof", DOF):
         name = record.text("name")
         freedom = names.get(name)
-        unit = frame.length if name.startswith("t") else frame.angle
+        unit = frame.coordinate(name)
         value = record.number("value", None)
         ends = {end: record.number(end, None) for end in ("min", "max", "rest")}
         # A limit that is stored but not switched on is no limit (every CAD program keeps old numbers).
@@ -170,8 +170,8 @@ def _coordinates(joint: Record, kind: JointKind, word: str, frame: SourceFrame) 
         elif freedom in found:
             record.fault("JOINT_FREEDOM_REPEATED", "name", freedom=name)
         elif record.sound:
-            lower = ends["min"] * unit if enabled["min"] else -math.inf
-            upper = ends["max"] * unit if enabled["max"] else math.inf
+            lower = ends["min"] if enabled["min"] else -math.inf
+            upper = ends["max"] if enabled["max"] else math.inf
             if lower > upper:
                 record.fault("LIMITS_REVERSED", "min", lower=ends["min"], upper=ends["max"])
             if unused := [end for end in ("min", "max") if ends[end] is not None and not record.has(f"{end}Enabled")]:
@@ -183,6 +183,7 @@ def _coordinates(joint: Record, kind: JointKind, word: str, frame: SourceFrame) 
                 record.log.dropped(
                     f"rest position of joint {joint.text('id')}", "JOINT_REST_DROPPED", record.pointer
                 )
+            lower, upper = sorted((lower * unit, upper * unit))
             found[freedom] = Coordinate(record, None if value is None else value * unit, lower, upper)
         joint.sound &= record.sound
     return found

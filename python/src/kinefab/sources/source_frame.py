@@ -1,5 +1,9 @@
-"""The units and axes of a source, and the turn into the scene's frame: a rotation and a scale, never a
-mirror."""
+"""The units and axes of a source, and the turn into the scene's frame: a rotation and a scale, and for a
+left-handed source a mirror.
+
+Mirrored, every vector goes by the same matrix, the third axis of a joint (z x x) turns round, and what is counted
+about an axis, by the left hand there, changes its sign.  All of these signs are decided here.
+"""
 
 from __future__ import annotations
 
@@ -40,8 +44,9 @@ FORWARD = {"X": "Z", "Y": "Z", "Z": "-Y"}
 class SourceFrame:
     """How numbers of the source become numbers of the scene.
 
-    turn: proper rotation, source axes to scene axes, shape (3, 3).  length, angle, mass: metres, radians and
-    kilograms in one unit of the source.  mesh_length: metres in one unit of its mesh files.
+    turn: orthogonal, source axes to scene axes, shape (3, 3), a mirror in it for a left-handed source.  length,
+    angle, mass: metres, radians and kilograms in one unit of the source.  mesh_length: metres in one unit of
+    its mesh files.
     """
 
     turn: Array = field(default_factory=lambda: np.eye(3))
@@ -50,7 +55,31 @@ class SourceFrame:
     mass: float = 1.0
     mesh_length: float = 1.0
 
+    @property
+    def hand(self) -> float:
+        """1, or -1 for a left-handed source."""
+        return math.copysign(1.0, np.linalg.det(self.turn))
 
-def turn_to_scene(up: tuple[float, ...], forward: tuple[float, ...]) -> Array:
-    """Rotation matrix that takes ``up`` to +Y and ``forward`` to +Z (unit vectors, perpendicular)."""
-    return np.vstack([np.cross(up, forward), up, forward])
+    @property
+    def about(self) -> float:
+        """Radians in one unit of an angle that is counted about an axis."""
+        return self.hand * self.angle
+
+    @property
+    def travel(self) -> float:
+        """Metres in one unit of a travel for a turn about the axis travelled along: a lead, a pitch."""
+        return self.hand * self.length
+
+    def coordinate(self, name: str) -> float:
+        """Metres or radians in one unit of a joint's coordinate, by its name in the source (tx ... rz)."""
+        along = self.hand if name.endswith("y") else 1.0
+        return along * (self.length if name.startswith("t") else self.about)
+
+
+def turn_to_scene(up: tuple[float, ...], forward: tuple[float, ...], left_handed: bool = False) -> Array:
+    """Orthogonal matrix that takes ``up`` to +Y and ``forward`` to +Z (unit vectors, perpendicular).
+
+    A right-handed source's right, up x forward, goes to +X; a left-handed one's to -X.
+    """
+    right = np.cross(up, forward)
+    return np.vstack([-right if left_handed else right, up, forward])

@@ -143,7 +143,7 @@ CASES = {
     "CONSTRAINT_RANGE_DROPPED": lambda: bounded(BALL),
     "COUPLING_UNPLACED": lambda: parts(joining("gear", C.GEAR, *LINES, value=2.0)),
     "LIMITS_FOUND": lambda: scene("M03"),
-    "LIMITS_NOT_SWEPT": lambda: scene("M33"),
+    "LIMITS_NOT_SWEPT": lambda: scene("M05"),
 }
 
 

@@ -50,15 +50,15 @@ def test_a_hinge_is_told_with_its_limits():
     """The legend names the joint, escaped, and its range."""
     svg = picture.draw(*document([0, 3, 2], type="HingeJoint", axis=[0, 0, 1], useLimits=True, limits={"min": -10, "max": 80}))
     text = " ".join(ElementTree.fromstring(svg).itertext())
-    assert "A & B" in text and "hinge -10\u202680\u00b0" in text
+    assert "A & B" in text and "turn X -10 .. 80 deg" in text
 
 
-def test_a_slide_is_told_in_millimetres():
-    """A Limited linear axis is drawn around the connected anchor and named with its reach."""
+def test_a_slide_is_told_as_inspect_tells_it():
+    """A Limited linear axis is drawn around the connected anchor and named with its range from the pose in the file."""
     svg = picture.draw(*document([0, 3, 2], type="ConfigurableJoint", axis=[1, 0, 0], connectedAnchor=[0.2, 0, 0], xMotion="Limited",
                                  linearLimit={"limit": 0.045}, **{m: "Locked" for m in (
                                      "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")}))
-    assert "slide x \u00b145 mm" in " ".join(ElementTree.fromstring(svg).itertext())
+    assert "slide X -0.045 .. 0.045 m" in " ".join(ElementTree.fromstring(svg).itertext())
 
 
 def test_a_scene_of_too_many_triangles_is_drawn_as_boxes(monkeypatch: pytest.MonkeyPatch):

@@ -13,7 +13,7 @@ from typing import Mapping, Sequence
 import numpy as np
 
 from ..spatial import Array, Pose, frame_from_axes, rotation_about
-from .freedoms import angle_range, world_placements
+from .freedoms import Placement, angle_range, freedoms_of_component, world_placements
 
 WIDTH, HEIGHT, LEGEND = 760, 560, 400
 MAX_TRIANGLES = 40_000
@@ -43,9 +43,10 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
 
     document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.
     """
-    poses = [Pose(turn, place) for turn, place, _ in world_placements(document["gameObjects"])]
+    placements = world_placements(document["gameObjects"])
+    poses = [Pose(turn, place) for turn, place, _ in placements]
     triangles, colours = _triangles(document, buffers, poses)
-    joints = _joints(document["gameObjects"], poses)
+    joints = _joints(document["gameObjects"], placements)
     points = [triangles.reshape(-1, 3)] + [joint.pose.translation[None] for joint in joints]
     cloud = np.concatenate(points) if points else np.zeros((1, 3))
     view = _view(cloud if len(cloud) else np.zeros((1, 3)), joints)
@@ -65,7 +66,7 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnJoint:
-    """A joint component in the world: pose's X is its axis; connected_anchor is None where not given."""
+    """A joint component in the world: pose's X is its axis; connected_anchor is None where not given; freedoms in words."""
 
     name: str
     kind: str
@@ -73,10 +74,12 @@ class DrawnJoint:
     component: Mapping
     connected: str
     connected_anchor: Array | None
+    freedoms: str
 
 
-def _joints(objects: Sequence[Mapping], poses: Sequence[Pose]) -> list[DrawnJoint]:
+def _joints(objects: Sequence[Mapping], placements: Sequence[Placement]) -> list[DrawnJoint]:
     found = []
+    poses = [Pose(turn, place) for turn, place, _ in placements]
     for index, item in enumerate(objects):
         for component in item.get("components", []):
             if component["type"] not in COLOURS:
@@ -89,7 +92,9 @@ def _joints(objects: Sequence[Mapping], poses: Sequence[Pose]) -> list[DrawnJoin
             anchor = component.get("connectedAnchor")
             if anchor is not None:
                 anchor = (Pose() if other is None else poses[other]).point(np.array(anchor, float))
-            found.append(DrawnJoint(item["name"], component["type"], poses[index] @ local, component, connected, anchor))
+            words = ", ".join(freedoms_of_component(component, index, placements)) or "fixed"
+            pose = poses[index] @ local
+            found.append(DrawnJoint(item["name"], component["type"], pose, component, connected, anchor, words))
     return found
 
 
@@ -274,29 +279,7 @@ def _legend(document: Mapping, joints: Sequence[DrawnJoint]) -> str:
         y = 32 + 27 * number
         lines.append(f'<circle cx="8" cy="{y - 4.5}" r="9" fill="{COLOURS[joint.kind]}"/>')
         lines.append(f'<text x="8" y="{y}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
-        lines.append(f'<text x="26" y="{y}">{escape(joint.name)} \u2013 {escape(joint.connected)}: {_freedoms(joint)}</text>')
+        lines.append(f'<text x="26" y="{y}">{escape(joint.name)} \u2013 {escape(joint.connected)}: {joint.freedoms}</text>')
     if len(joints) > 18:
         lines.append(f'<text y="{59 + 27 * 18}" fill="#495057">and {len(joints) - 18} more</text>')
     return "\n".join([*lines, "</g>"])
-
-
-def _freedoms(joint: DrawnJoint) -> str:
-    """The joint's freedoms in words, short."""
-    component = joint.component
-    if joint.kind == "FixedJoint":
-        return "fixed"
-    if joint.kind == "HingeJoint":
-        low, high = _turn(joint)
-        free = not component.get("useLimits", False)
-        return "hinge, free" if free else f"hinge {math.degrees(low):.4g}\u2026{math.degrees(high):.4g}\u00b0"
-    words = []
-    for name in ("x", "y", "z"):
-        motion = component.get(f"{name}Motion", "Free")
-        if motion == "Limited":
-            words.append(f"slide {name} \u00b1{component.get('linearLimit', {}).get('limit', 0.0) * 1000:.4g} mm")
-        elif motion == "Free":
-            words.append(f"slide {name}")
-    for name in ("X", "Y", "Z"):
-        if component.get(f"angular{name}Motion", "Free") != "Locked":
-            words.append(f"turn {name.lower()}")
-    return ", ".join(words) or "locked"

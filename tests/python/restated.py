@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from kinefab.model import Constraint, ConstraintKind, Feature, Motion, Scene
 from kinefab.spatial import Pose, rotation_exp
 

@@ -218,7 +218,7 @@ def test_draw_writes_a_picture(lid, tmp_path):
     """draw makes an SVG of a scene that names its joints."""
     done = run("draw", lid, "-o", tmp_path / "lid.svg")
     assert done.returncode == 0, done.stderr
-    assert "hinge" in (tmp_path / "lid.svg").read_text("utf-8")
+    assert "turn X 0 .. 110 deg" in (tmp_path / "lid.svg").read_text("utf-8")
 
 
 def test_draw_tells_of_a_missing_buffer(lid, tmp_path):

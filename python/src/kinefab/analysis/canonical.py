@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..model import Constraint, Coupling, Joint, Scene
+from ..model import Scene
 from ..spatial import Array, Pose
 
 APART = 1e-6

@@ -8,7 +8,6 @@ there is one road from a source of records to a ``Scene``.  The format is stated
 from __future__ import annotations
 
 import hashlib
-import math
 import re
 from pathlib import Path
 from typing import Mapping

@@ -1,0 +1,85 @@
+"""Screws, gears and other couplings in the exported scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kinefab
+from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind
+from kinefab.spatial import rotation_about
+from scenes import BOX, exported, lid_scene
+
+
+def test_screw_is_a_cylindrical_joint_and_a_coupling(tmp_path):
+    """A right-handed lead of 3 mm a turn couples x to angularX with -3 mm a turn: the mirror turns the screw."""
+    scene = kinefab.Scene()
+    nut = scene.add_part("Nut", BOX)
+    scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=0.003)
+    scene.couplings.append(Coupling("S", CouplingKind.SCREW, "Screw", RX, "Screw", TX, 0.003 / (2 * math.pi)))
+    content, _ = exported(scene, tmp_path)
+    (coupling,) = content["couplings"]
+    assert coupling["a"]["coordinate"] == "angularX" and coupling["b"]["coordinate"] == "x"
+    assert coupling["ratio"] == pytest.approx(-0.003 / 360)
+
+
+def test_screw_without_a_stated_coupling_gets_one_from_its_lead(tmp_path):
+    """A left-handed lead of 3 mm a turn becomes a coupling that is zero at the exported pose."""
+    scene = kinefab.Scene()
+    nut = scene.add_part("Nut", BOX)
+    scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=-0.003)
+    content, _ = exported(scene, tmp_path)
+    (coupling,) = content["couplings"]
+    assert (coupling["kind"], coupling["a"]["coordinate"], coupling["b"]["coordinate"]) == ("screw", "angularX", "x")
+    assert coupling["ratio"] == pytest.approx(0.003 / 360, rel=1e-11) and "offset" not in coupling
+
+
+def test_small_coupling_ratio_keeps_its_digits(tmp_path):
+    """A lead of 1 um a turn is 2.777...e-9 m a degree: no fixed number of decimals may cut it."""
+    scene = kinefab.Scene()
+    nut = scene.add_part("Nut", BOX)
+    scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=1e-6)
+    content, _ = exported(scene, tmp_path)
+    assert content["couplings"][0]["ratio"] == pytest.approx(-1e-6 / 360, rel=1e-11)
+
+
+def test_gear_between_hinges_keeps_its_ratio_in_degrees(tmp_path):
+    """q_b = -2 q_a between two hinges stays -2, as hinge angles read CAD angles; a rack's unit is per degree."""
+    scene = kinefab.Scene()
+    parts = [scene.add_part(name, BOX, translation=(x, 0, 0)) for name, x in (("A", 0), ("B", 1), ("R", 2))]
+    for part in parts[:2]:
+        scene.add_hinge(None, part, point=(part, 0, 0), axis=(0, 0, 1), name=f"H{part}")
+    scene.add_slider(None, parts[2], point=(2, 0, 0), axis=(1, 0, 0), name="S")
+    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "H0", RX, "H1", RX, -2.0))
+    scene.couplings.append(Coupling("K", CouplingKind.RACK, "H1", RX, "S", TX, 0.05))
+    content, _ = exported(scene, tmp_path)
+    assert content["couplings"][0]["ratio"] == pytest.approx(-2.0)
+    assert content["couplings"][1]["ratio"] == pytest.approx(0.05 * math.pi / 180)
+    assert content["couplings"][1]["b"]["coordinate"] == "x"
+
+
+def test_coupling_starts_from_the_angles_at_export(tmp_path):
+    """With q_a = 20 and q_b = 10 degrees at export, q_b = -2 q_a + 50 holds there: no offset is left; 55 leaves 5."""
+    for offset, left in ((50, 0), (55, 5)):
+        scene = kinefab.Scene()
+        for name, angle in (("A", 20), ("B", 10)):
+            part = scene.add_part(
+                name, BOX, rotation=rotation_about(np.array([0.0, 0, 1]), math.radians(angle))
+            )
+            joint = scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 0, 1), name=name)
+            scene.joints[-1] = replace(joint, frame_b=joint.frame_a)  # zero where the part stands unturned
+        scene.couplings.append(Coupling("G", CouplingKind.GEAR, "A", RX, "B", RX, -2.0, math.radians(offset)))
+        content, _ = exported(scene, tmp_path)
+        assert content["couplings"][0].get("offset", 0) == pytest.approx(left)
+
+
+def test_coupling_on_a_missing_joint_is_dropped_with_a_report(tmp_path):
+    """A coupling whose joint has no component is named in the report."""
+    scene = lid_scene()
+    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "Hinge", RX, "Nowhere", RX, 1.0))
+    content, result = exported(scene, tmp_path)
+    assert "couplings" not in content
+    assert "COUPLING_WITHOUT_JOINT" in {o.code for o in result.report.outcomes}

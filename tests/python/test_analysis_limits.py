@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from five_bars import CRANK, CRANK_2, ROD, ROD_2, five_bar, ring, tip, tip_2
+from linkages import CRANK, CRANK_2, ROD, ROD_2, five_bar, ring, tip, tip_2
 from mechanism_cases import scene, table
 
 from kinefab.analysis import AnalysisOptions, analyse

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from linkages import flat_ladder
 from mechanism_cases import analysed, table
+
+from kinefab.analysis import analyse
 
 EXPECTED = table("mobility")
 
@@ -60,3 +63,12 @@ def test_loops_are_joints_minus_moving_bodies(id, loops):
     found = analysed(id)
     assert sum(j.closure for j in found.joints) == loops
     assert sum(i.loops for i in found.islands) == loops
+
+
+@pytest.mark.parametrize(("rods", "loose"), [(1, 0), (8, 0), (30, 0), (60, 0), (1, 3), (4, 4), (30, 5)])
+def test_a_flat_ladder_of_any_length_has_one_motion(rods, loose):
+    """Flat, every crank of a ladder of parallelograms seems to turn by itself: rods + 1 freedoms, of which one is a
+    motion.  An arch of bars from its last tip to the ground adds its own, three less than hinges and bars count."""
+    found = analyse(flat_ladder(rods, loose))
+    arch = max(0, loose - 2)
+    assert (found.first_order, found.mobility) == (rods + 1 + arch, 1 + arch)

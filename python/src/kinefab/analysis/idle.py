@@ -9,6 +9,10 @@ import numpy as np
 from .assembly import Assembly
 
 
+ALONE = 1e-12
+"""Share of a motion, squared, that all other bodies may have in it."""
+
+
 @dataclass(frozen=True, slots=True)
 class IdleFreedom:
     """Freedoms of some nodes that move nothing else, such as a rod's spin."""
@@ -32,11 +36,9 @@ def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
         for leg in _legs(freedom.bodies.tolist(), neighbours):
             if len(leg) == len(freedom.bodies):
                 continue
-            others = np.ones(len(freedom.basis), dtype=bool)
-            for body in leg:
-                others[6 * place[body] : 6 * place[body] + 6] = False
-            s = np.linalg.svd(freedom.basis[others], compute_uv=False)
-            count = freedom.mobility - int(np.sum(s > 1e-6))
+            own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
+            # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
+            count = int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
             if count:
                 nodes = [n for n in range(len(assembly.scene.nodes)) if int(assembly.body[n + 1]) in leg]
                 found.append(IdleFreedom(tuple(nodes), count))

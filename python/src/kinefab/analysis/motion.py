@@ -26,8 +26,13 @@ DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
 MOST_DIRECTIONS = 12
 """Directions tried at the start pose itself; beyond, the tangent is the one found some steps away."""
-MOST_WORK = 20_000
-"""Directions times unknowns tried; beyond, the first-order mobility some steps away stands as an upper bound."""
+MOST_WORK = 1_000
+"""Directions times unknowns tried one by one; beyond, random ones are tried until they add nothing."""
+MOST_SAMPLES = 30
+"""Random directions tried; beyond, the first-order mobility some steps away stands as an upper bound."""
+SPARE = 3
+LONG_STEP = 3e-2
+"""Size of their trial steps: what obstructs a long chain shows at the root of its closing error, far above STEP's."""
 WALK = 3
 WALK_STEP = 0.05
 
@@ -86,15 +91,15 @@ def _floor(solver: Solver, state: State) -> Array:
     return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
 
 
-def _trial(solver: Solver, first_order: list[BlockFreedom], start: State, directions: dict[int, Array]):
-    """Displacements over STEP (6 n of each part) after a step along each direction and back onto the rows."""
+def _trial(solver: Solver, first_order: list[BlockFreedom], start: State, directions: dict[int, Array], step: float = STEP):
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
-    twists = STEP * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
+    twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
     active = np.zeros(solver.parts, dtype=bool)
     active[list(directions)] = True
     state = solver.system.moved(start, bodies, twists)
     state, _ = solver.project(state, active, _floor(solver, start))
-    return {p: _displacement(solver, first_order[p].bodies, start, state) / STEP for p in directions}
+    return {p: _displacement(solver, first_order[p].bodies, start, state) / step for p in directions}
 
 
 def _displacement(solver: Solver, bodies: np.ndarray, start: State, end: State) -> Array:
@@ -128,10 +133,10 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom, start: State
     solver, part = Solver(solver.system.select(first_order.rows)), 0
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
-    if (
-        there[part].mobility * len(first_order.basis) > MOST_WORK
-    ):  # an upper bound: trying them all would take minutes
-        return FiniteFreedom(there[part].mobility, there[part].basis, True)
+    if there[part].mobility * len(first_order.basis) > MOST_WORK:
+        sampled = _sampled(solver, part, there[part], away)
+        tangent = there[part].basis if sampled is None else sampled
+        return FiniteFreedom(tangent.shape[1], tangent, True)
     tangent = _survivors(solver, part, there[part], away)
     if tangent.shape[1] == 0:
         return FiniteFreedom(0, tangent, True)
@@ -143,15 +148,34 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom, start: State
 
 def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
     """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
-    kept = []
-    listed: list = [None] * solver.parts
-    listed[part] = freedom
-    for direction in freedom.basis.T:
-        direction = direction / np.abs(direction).max()
-        there = _trial(solver, listed, state, {part: direction})[part]
-        back = _trial(solver, listed, state, {part: -direction})[part]
-        kept.append(0.5 * (there - back) / np.linalg.norm(direction))
+    kept = [_left_of(solver, part, freedom, state, direction, STEP) for direction in freedom.basis.T]
     if not kept:
         return np.zeros((len(freedom.bodies) * 6, 0))
     u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
     return u[:, s > DIRECTION]
+
+
+def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array | None:
+    """As ``_survivors``, from random directions: what is left of one lies in the motions, so that a few more than
+    their number span them all.  None where ``MOST_SAMPLES`` are not enough."""
+    draw = np.random.default_rng(31)
+    kept: list[Array] = []
+    for _ in range(MOST_SAMPLES):
+        kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP))
+        u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
+        least = DIRECTION * max(s[0], 1.0 / np.sqrt(freedom.mobility))  # a random direction's share of one motion
+        if (found := int(np.sum(s > least))) <= len(kept) - SPARE:
+            return u[:, :found]
+    return None
+
+
+def _left_of(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, direction: Array, step: float
+) -> Array:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,)."""
+    listed: list = [None] * solver.parts
+    listed[part] = freedom
+    direction = direction / np.abs(direction).max()
+    there = _trial(solver, listed, state, {part: direction}, step)[part]
+    back = _trial(solver, listed, state, {part: -direction}, step)[part]
+    return 0.5 * (there - back) / np.linalg.norm(direction)

@@ -51,8 +51,12 @@ def shuffled(it: Restated, rng) -> Restated:
         for k, c in enumerate(source.constraints)
     ]
     back = {f"c{k}": it.constraints[c.id] for k, c in enumerate(source.constraints)}
+    joints = [replace(j, id=f"j{k}", a=number.get(j.a), b=number[j.b]) for k, j in enumerate(source.joints)]
     scene = replace(
-        source, nodes=nodes, constraints=[constraints[i] for i in rng.permutation(len(constraints))]
+        source,
+        nodes=nodes,
+        constraints=[constraints[i] for i in rng.permutation(len(constraints))],
+        joints=[joints[i] for i in rng.permutation(len(joints))],
     )
     return replace(it, scene=scene, parts=[it.parts[i] for i in order], constraints=back)
 
@@ -108,8 +112,17 @@ def transformed(source: Scene, by: Pose, scale: float = 1.0) -> Scene:
             c, features=tuple(map(feature, c.features)), value=c.value * (scale if length else 1.0)
         )
 
+    def rescaled(frame: Pose) -> Pose:
+        return Pose(frame.rotation, frame.translation * scale)
+
+    joints = [
+        replace(j, frame_a=rescaled(j.frame_a), frame_b=rescaled(j.frame_b), lead=j.lead * scale)
+        for j in source.joints
+    ]
     nodes = [replace(n, pose=by @ Pose(n.pose.rotation, n.pose.translation * scale)) for n in source.nodes]
-    return replace(source, nodes=nodes, constraints=[constraint(c) for c in source.constraints])
+    return replace(
+        source, nodes=nodes, joints=joints, constraints=[constraint(c) for c in source.constraints]
+    )
 
 
 def swapped(source: Scene) -> Scene:

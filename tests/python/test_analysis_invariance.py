@@ -14,7 +14,7 @@ from mechanism_cases import all_ids, analysed, scene
 from restated import as_given, placed, shaken, shuffled, told, turned_round
 from strategies import random_pose, seeds
 
-from kinefab.analysis import analyse
+from kinefab.analysis import AnalysisOptions, Closures, analyse
 from kinefab.model import Constraint, ConstraintKind, Feature, FeatureKind, Node, Scene
 from kinefab.spatial import Pose, rotation_exp
 
@@ -57,6 +57,17 @@ def test_nothing_but_names_and_units_changes_at_random(id, seed):
     """The same, for further orders, poses and units."""
     it = restated(scene(id), seed)
     assert_same(told_of(id), told(analyse(it.scene), it), analysed(id).assembly.equations.length)
+
+
+@pytest.mark.parametrize("id", ["M01", "M06", "M09", "M14", "M19", "M21", "M23", "M36", "M40"])
+def test_explicit_joints_are_ordered_by_place_too(id):
+    """The same mechanism stated by joints instead of constraints, those that close loops among them."""
+    joints = analyse(scene(id), AnalysisOptions(closures=Closures.EXACT)).joints
+    source = replace(scene(id), constraints=[], joints=[replace(j, closure=False) for j in joints])
+    expected = told(analyse(source), as_given(source))
+    for seed in range(2):
+        it = restated(source, seed)
+        assert_same(expected, told(analyse(it.scene), it), analysed(id).assembly.equations.length)
 
 
 @pytest.mark.parametrize("id", ["P03", "P20", "P30", "M01", "M06", "M09", "M12", "M14", "M19", "M27", "M36"])

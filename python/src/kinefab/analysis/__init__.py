@@ -6,13 +6,16 @@
   geometry brought into the world by ``features``.
 * As numbers: ``equations`` writes a scene's statements through ``rows`` into a ``system``; ``duplicates`` counts
   what is said twice once.
+* In which order: ``canonical``, so that no name and no source's order decides.
 * Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``drive`` (to stated coordinates).
 * Freedoms: ``rank``, ``freedom`` (first order, block by ``blocks``), ``motion`` (finite), ``idle``, ``freedoms``
   (of each part against ground).
 * Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to what Unity
   can have, with ``middle`` bodies and ``rehanging`` where one joint is not enough.
-* The mechanism: ``bodies`` and ``assembly`` (rigid groups), ``loops``, ``minimal`` closures, ``ranges`` and ``limits``,
-  ``couplings``; ``result`` and ``summary`` tell it.
+* The mechanism: ``bodies`` and ``assembly`` (rigid groups), ``loops``, ``minimal`` closures, ``couplings``.
+* How far it goes: ``ranges`` that the source states; ``limits`` found along the ``curve`` of one freedom or, of several,
+  by each joint's ``reach``, both over ``measured`` coordinates.
+* ``result`` and ``summary`` tell it.
 """
 
 from ..options import Closures

@@ -57,6 +57,8 @@ def analyse(
     couplings = couplings_of(assembly, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)
+    joints = _in_source_order(assembly, links)
+    place = {joint.id: i for i, joint in enumerate(joints)}
     analysis = Analysis(
         source=scene,
         mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating,
@@ -67,11 +69,11 @@ def analyse(
         fixed=fixed,
         islands=_islands(assembly, tree),
         idle=idle_freedoms(assembly),
-        joints=[*_in_source_order(assembly, links), *found.aside],
+        joints=[*joints, *found.aside],
         couplings=couplings,
         nodes=found.nodes,
         poses=assembly.poses,
-        ranges=ranges,
+        ranges=sorted(ranges, key=lambda r: place.get(r.joint, -1)),
         gaps=assembly.closing.gaps,
         worst_gap=assembly.closing.worst,
         contradictory=assembly.closing.contradictory,

@@ -85,7 +85,7 @@ def _ranges_in(assembly: Assembly, first, finite, inside: list[Link], swept: lis
         yield from ((link, "its mechanism cannot move") for link in swept)
         return
     if mobility > 1 and len(swept) * (6.0 * bodies) ** 3 > MOST_WORK:
-        size = f"its mechanism has {mobility} freedoms, {bodies} parts and {len(swept)} joints, which would take minutes"
+        size = f"its mechanism has {mobility} freedoms and {bodies} parts, which would take minutes"
         yield from ((link, size) for link in swept)
         return
     coordinates = [(l, _single(l)) for l in swept]

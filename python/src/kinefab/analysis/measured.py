@@ -24,9 +24,10 @@ CLOSED = 1e-9
 class Measured:
     """A block and coordinates (a link and its freedom TX..RZ each) to measure in it.
 
-    rows: the block's, a mask or numbers of the assembly's.  bodies: numbers 1 to n here.  lower, upper: the source's limits, infinite where there are none.
-    rotary: which coordinates are angles.  system, start, turns: the block's equations, the exported pose, and
-    the last angles there (``State.angle`` of ``probe``).  length: metres, of its twists.
+    rows, bodies: numbers of the block's in the assembly; in here its bodies are 1 to n.
+    lower, upper: the source's limits, infinite where there are none.  rotary: which coordinates are angles.
+    system, start, turns: the block's equations, the exported pose, and the last angles there (``State.angle``
+    of ``probe``).  length: metres, of its twists.
     """
 
     def __init__(

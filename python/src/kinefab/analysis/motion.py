@@ -91,7 +91,13 @@ def _floor(solver: Solver, state: State) -> Array:
     return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
 
 
-def _trial(solver: Solver, first_order: list[BlockFreedom], start: State, directions: dict[int, Array], step: float = STEP):
+def _trial(
+    solver: Solver,
+    first_order: list[BlockFreedom],
+    start: State,
+    directions: dict[int, Array],
+    step: float = STEP,
+):
     """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
     twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])

@@ -43,7 +43,7 @@ class Analysis:
     groups: the rigid groups, with what the constraints fix.  fixed: pairs of nodes that constraints fix to
     each other (None: ground).  joints, couplings: what to export.  nodes: middle bodies, to be appended to
     the scene's.  poses: of the scene's own nodes with every constraint closed.
-    ranges: of the joints of one-freedom mechanisms, when asked for.
+    ranges: of hinges and slides that close no loop, when asked for.
     """
 
     source: Scene

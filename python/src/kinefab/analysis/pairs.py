@@ -147,6 +147,7 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
     rank, gap, vt, order, starts = batched_null_spaces(rows, pairs.row_pair, len(pairs))
     atoms_of = np.argsort(pairs.atom_pair, kind="stable")
     atom_starts = np.searchsorted(pairs.atom_pair[atoms_of], np.arange(len(pairs) + 1))
+    pointed = np.isin(system.kind, LENGTHS)
     found = []
     for i in range(len(pairs)):
         basis = vt[i, rank[i] :].T
@@ -163,18 +164,18 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
                 basis,
                 6 - int(rank[i]),
                 twist_space(basis, origin[i], float(length[i]), system.axes),
-                _geometry(system, atoms, int(pairs.first[i]), float(length[i])),
+                _geometry(system, atoms, pointed, int(pairs.first[i]), float(length[i])),
             )
         )
     return found
 
 
-def _geometry(system: System, atoms: np.ndarray, first: int, length: float) -> Geometry:
-    """The pair's points and directions; the system must stand at its start pose."""
-    pointed = atoms[np.isin(system.kind[atoms], LENGTHS)]
-    pointed = pointed if len(pointed) else atoms
-    a_first = (system.body_a[pointed] == first)[:, None]
-    p_a, p_b = system.p_a[pointed], system.p_b[pointed]
+def _geometry(system: System, atoms: np.ndarray, pointed: np.ndarray, first: int, length: float) -> Geometry:
+    """The pair's points and directions; the system must stand at its start pose.  pointed: mask of atoms with points."""
+    mine = atoms[pointed[atoms]]
+    mine = mine if len(mine) else atoms
+    a_first = (system.body_a[mine] == first)[:, None]
+    p_a, p_b = system.p_a[mine], system.p_b[mine]
     points = np.concatenate([np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)])  # the second body's first
     points = _distinct(points, 1e-6 * length)
     on_a = np.stack([system.a[atoms], system.k[atoms]], axis=1)

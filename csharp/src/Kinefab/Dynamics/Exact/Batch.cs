@@ -47,8 +47,7 @@ internal sealed class Batch<V>
         MaxChange = new double[w];
         MaxGap = new double[w];
         LastMaxError = new double[w];
-        Turning = new double[w];
-        Rotation = new double[9 * w];
+        FirstMaxError = new double[w];
         if (shape.Laws > 0)
         {
             Laws = new Laws<V>(this);
@@ -110,14 +109,11 @@ internal sealed class Batch<V>
     /// <summary>Largest error one iteration before.</summary>
     public double[] LastMaxError { get; }
 
+    /// <summary>Largest error of the first flight.</summary>
+    public double[] FirstMaxError { get; }
+
     /// <summary>Largest error of a row that is not angular alone, m.</summary>
     public double[] MaxGap { get; }
-
-    /// <summary>See <see cref="Flight{V}.MeasureTurning"/>; then 1 in lanes that turn much, else 0.</summary>
-    public double[] Turning { get; }
-
-    /// <summary>Room for a rotation matrix.</summary>
-    public double[] Rotation { get; }
 
     /// <summary>Rows with a law, or null without any.</summary>
     public Laws<V>? Laws { get; }

@@ -22,7 +22,7 @@ internal static class BodySlot
     public const int EndX = 13;
     public const int EndQ = 16;
 
-    /// <summary>Angular velocity of the flight.</summary>
+    /// <summary>Mean angular velocity of the flight: of kinematic bodies, and of all where laws need it.</summary>
     public const int W = 20;
 
     /// <summary>Rotation matrix at the end of the flight, row-major.</summary>
@@ -41,14 +41,11 @@ internal static class BodySlot
     public const int Acceleration = 42;
     public const int Torque = 45;
 
-    /// <summary>Largest over least principal moment.</summary>
-    public const int InertiaRatio = 48;
-
     /// <summary>Largest inverse principal moment.</summary>
-    public const int MostInverseInertia = 49;
+    public const int MostInverseInertia = 48;
 
     /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
-    public const int Stiffness = 50;
+    public const int Stiffness = 49;
 
-    public const int Count = 51;
+    public const int Count = 50;
 }

@@ -4,108 +4,38 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Exact;
 
 /// <summary>
-/// Motion of each body under its own momentum over a step h, angular momentum kept exactly:
-/// x' = x + h v; q' = exp(h w) q with w = R(m) I^-1 R(m)^T L at the middle rotation m = exp(h/2 w) q, found by iteration.
-/// Second order and time-reversible.
+/// Motion of each body under its own momentum over a step h: x' = x + h v, and rotation with the angular momentum L kept
+/// exactly. The kinetic energy of rotation is split into that of a sphere and those of single principal axes,
+/// |L|^2 / (2 I_c) + sum over i of (1 / I_i - 1 / I_c) L_i^2 / 2, I_c the middle moment: a turn about L, which commutes with
+/// the others, and turns about two body axes, half of the one before and after the other. Explicit, second order,
+/// symplectic and time-reversible; exact for a body with two equal moments and for a turn about one axis.
+/// Source: Touma and Wisdom 1994; Dullweber, Leimkuhler and McLachlan 1997.
 /// </summary>
 internal static class Flight<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills W and R.</summary>
-    /// <param name="batch">The bodies.</param>
-    /// <param name="h">Step, s; |w| h up to 1.</param>
-    /// <param name="passes">Iterations for w.</param>
-    /// <param name="isFirst">Start from w at the start's rotation, else from the last flight's w. Lanes that are not
-    /// active keep that w, and so the flight they had.</param>
-    public static void Run(Batch<V> batch, double h, int passes, bool isFirst)
+    /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills R; and W with their mean rates, where laws need them.</summary>
+    public static void Run(Batch<V> batch, double h)
     {
-        if (isFirst)
-        {
-            MoveKinematic(batch, h);
-        }
-
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
         Lane<V> step = Lane<V>.Splat(h);
-        Lane<V> quarter = Lane<V>.Splat(h / 4);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = Batch<V>.Body(body, 0);
             LaneVector<V> x = LaneVector<V>.Load(a, o + BodySlot.X * w);
             (x + step * LaneVector<V>.Load(a, o + BodySlot.V * w)).Store(a, o + BodySlot.EndX * w);
-
-            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
-            LaneVector<V> momentum = LaneVector<V>.Load(a, o + BodySlot.L * w);
-            LaneVector<V> inverse = LaneVector<V>.Load(a, o + BodySlot.InverseInertia * w);
-            LaneVector<V> rate = isFirst ? Rate(q, momentum, inverse) : LaneVector<V>.Load(a, o + BodySlot.W * w);
-            for (int pass = 0; pass < passes; pass++)
-            {
-                LaneQuaternion<V> middle = LaneQuaternion<V>.Exponential(quarter * rate) * q;
-                rate = LaneVector<V>.Select(active, Rate(middle, momentum, inverse), rate);
-            }
-
-            rate.Store(a, o + BodySlot.W * w);
-            LaneQuaternion<V> half = LaneQuaternion<V>.Exponential(quarter * rate);
-            q = (half * (half * q)).NearlyNormalized();
-            q.Store(a, o + BodySlot.EndQ * w);
-            q.StoreMatrix(a, o + BodySlot.R * w);
+            Turn(a, o, h, batch.Shape.Spins[body]);
         }
-    }
 
-    /// <summary>Poses and matrices of the start as those of the end, for all bodies.</summary>
-    public static void Stay(Batch<V> batch)
-    {
-        double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
-        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        if (batch.Laws != null)
         {
-            int o = Batch<V>.Body(body, 0);
-            LaneVector<V>.Load(a, o + BodySlot.X * w).Store(a, o + BodySlot.EndX * w);
-            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
-            q.Store(a, o + BodySlot.EndQ * w);
-            q.StoreMatrix(a, o + BodySlot.R * w);
+            MeanRates(batch, h);
         }
     }
 
-    /// <summary>
-    /// How much the inverse inertia turns on the way from the start to the middle of the last flight, against its least
-    /// principal value: the largest (h |w| / 2)^2 I_max / I_min of each lane's bodies, written to Turning.
-    /// </summary>
-    public static void MeasureTurning(Batch<V> batch, double h)
-    {
-        double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
-        Lane<V> most = Lane<V>.Splat(0);
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
-        {
-            int o = Batch<V>.Body(body, 0);
-            LaneVector<V> rate = LaneVector<V>.Load(a, o + BodySlot.W * w);
-            most = Lane<V>.Max(most, LaneVector<V>.Dot(rate, rate) * Lane<V>.Load(a, o + BodySlot.InertiaRatio * w));
-        }
-
-        (Lane<V>.Splat(h * h / 4) * most).Store(batch.Turning, 0);
-    }
-
-    /// <summary>World inverse inertias at the middle of the last flight where the mask is not 0, at its start elsewhere.</summary>
-    public static void MiddleInertias(Batch<V> batch, double h, double[] mask)
-    {
-        double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
-        Lane<V> isMiddle = Lane<V>.Load(mask, 0);
-        Lane<V> quarter = Lane<V>.Select(isMiddle, Lane<V>.Splat(h / 4), Lane<V>.Splat(0));
-        double[] matrix = batch.Rotation;
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
-        {
-            int o = Batch<V>.Body(body, 0);
-            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
-            LaneVector<V> rate = LaneVector<V>.Load(a, o + BodySlot.W * w);
-            (LaneQuaternion<V>.Exponential(quarter * rate) * q).StoreMatrix(matrix, 0);
-            ResponseMatrix<V>.InverseInertia(batch, body, matrix, 0);
-        }
-    }
-
-    private static void MoveKinematic(Batch<V> batch, double h)
+    /// <summary>Moves kinematic bodies at their velocities from X, Q to EndX, EndQ.</summary>
+    public static void MoveKinematic(Batch<V> batch, double h)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
@@ -129,7 +59,99 @@ internal static class Flight<V>
         }
     }
 
+    /// <summary>Poses and matrices of the start as those of the end, for all bodies.</summary>
+    public static void Stay(Batch<V> batch)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            LaneVector<V>.Load(a, o + BodySlot.X * w).Store(a, o + BodySlot.EndX * w);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
+            q.Store(a, o + BodySlot.EndQ * w);
+            q.StoreMatrix(a, o + BodySlot.R * w);
+        }
+    }
+
+    private static void MeanRates(Batch<V> batch, double h)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w) * LaneQuaternion<V>.Load(a, o + BodySlot.Q * w).Conjugate();
+            (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o + BodySlot.W * w);
+        }
+    }
+
+    // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
+    // leaves all formulas as they are.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Rate(LaneQuaternion<V> q, LaneVector<V> momentum, LaneVector<V> inverse) =>
-        q.Rotate(LaneVector<V>.Scale(inverse, q.InverseRotate(momentum)));
+    private static void Turn(double[] a, int o, double h, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        int i = spin.First * w, j = spin.Second * w, k = spin.Sphere * w;
+        int at = o + BodySlot.Q * w;
+        var q = new LaneQuaternion<V>(Load(a, at, i, j, k), Lane<V>.Load(a, at + 3 * w));
+        LaneVector<V> momentum = Load(a, o + BodySlot.L * w, i, j, k);
+        LaneVector<V> inverse = Load(a, o + BodySlot.InverseInertia * w, i, j, k);
+        LaneQuaternion<V> turned = LaneQuaternion<V>.Exponential(Lane<V>.Splat(h / 2) * inverse.Z * momentum) * q;
+        if (spin.IsFirstOther)
+        {
+            LaneVector<V> local = q.InverseRotate(momentum);
+            Lane<V> first = inverse.X - inverse.Z;
+            if (spin.IsSecondOther)
+            {
+                Lane<V> quarter = Lane<V>.Splat(h / 4);
+                Axial(quarter * first * local.X, out Lane<V> s, out Lane<V> c);
+                turned = turned.TurnedAboutX(s, c);
+                local = AgainstX(local, s, c);
+                Axial(Lane<V>.Splat(h / 2) * (inverse.Y - inverse.Z) * local.Y, out s, out c);
+                turned = turned.TurnedAboutY(s, c);
+                Lane<V> x = AgainstY(local, s, c);
+                Axial(quarter * first * x, out s, out c);
+                turned = turned.TurnedAboutX(s, c);
+            }
+            else
+            {
+                Axial(Lane<V>.Splat(h / 2) * first * local.X, out Lane<V> s, out Lane<V> c);
+                turned = turned.TurnedAboutX(s, c);
+            }
+        }
+
+        turned = turned.NearlyNormalized();
+        at = o + BodySlot.EndQ * w;
+        turned.Vector.X.Store(a, at + i);
+        turned.Vector.Y.Store(a, at + j);
+        turned.Vector.Z.Store(a, at + k);
+        turned.W.Store(a, at + 3 * w);
+        LaneQuaternion<V>.Load(a, at).StoreMatrix(a, o + BodySlot.R * w);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static LaneVector<V> Load(double[] a, int at, int i, int j, int k) =>
+        new(Lane<V>.Load(a, at + i), Lane<V>.Load(a, at + j), Lane<V>.Load(a, at + k));
+
+    // Sine and cosine of half the angle of a turn.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Axial(Lane<V> half, out Lane<V> sine, out Lane<V> cosine)
+    {
+        Lane<V> square = half * half;
+        sine = half * LaneQuaternion<V>.SineSeries(square);
+        cosine = LaneQuaternion<V>.CosineSeries(square);
+    }
+
+    // A vector fixed in the world, seen from a body that turned about its x axis (y axis: its x component alone).
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static LaneVector<V> AgainstX(LaneVector<V> v, Lane<V> s, Lane<V> c)
+    {
+        Lane<V> sine = (s + s) * c;
+        Lane<V> cosine = c * c - s * s;
+        return new LaneVector<V>(v.X, cosine * v.Y + sine * v.Z, cosine * v.Z - sine * v.Y);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Lane<V> AgainstY(LaneVector<V> v, Lane<V> s, Lane<V> c) => (c * c - s * s) * v.X - (s + s) * c * v.Z;
 }

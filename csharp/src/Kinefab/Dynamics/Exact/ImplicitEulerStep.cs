@@ -44,10 +44,11 @@ internal sealed class ImplicitEulerStep
         Gather(_aim);
         Array.Clear(batch.First, 0, batch.First.Length);
         laws?.StartFromZero();
+        Flight<ScalarLane>.MoveKinematic(batch, h);
         int lawPasses = 0;
         for (int iteration = 0; iteration < MaxIterations; iteration++)
         {
-            Flight<ScalarLane>.Run(batch, h, 3, true);
+            Flight<ScalarLane>.Run(batch, h);
             RigidRows<ScalarLane>.Evaluate(batch);
             laws?.Evaluate(h);
             RigidRows<ScalarLane>.Build(batch);

@@ -28,7 +28,7 @@ internal sealed class Island
         public readonly int Block;
     }
 
-    private Island(int[] bodies, int movingBodies, Node[] nodes)
+    private Island(int[] bodies, int movingBodies, Node[] nodes, Vector3d[] inverseInertias)
     {
         Bodies = bodies;
         MovingBodies = movingBodies;
@@ -61,6 +61,13 @@ internal sealed class Island
             }
         }
 
+        IsWorkless = System.Array.IndexOf(IsStatic, false, movingBodies) < 0;
+        Spins = new Spin[movingBodies];
+        for (int b = 0; b < movingBodies; b++)
+        {
+            Spins[b] = new Spin(inverseInertias[bodies[b]]);
+        }
+
         Pattern = new BlockPattern(sizes, Couplings(touching));
         Links = MakeLinks(touching, Pattern);
     }
@@ -73,11 +80,17 @@ internal sealed class Island
     /// <summary>Whether a body is the world; the other fixed ones are kinematic.</summary>
     public bool[] IsStatic { get; }
 
+    /// <summary>How each moving body's rotation is split.</summary>
+    public Spin[] Spins { get; }
+
     public Node[] Nodes { get; }
 
     public BlockPattern Pattern { get; }
 
     public Link[] Links { get; }
+
+    /// <summary>Whether nothing but the bodies' own forces does work on them: no law, no kinematic body.</summary>
+    public bool IsWorkless { get; }
 
     /// <summary>Rows with a law, of all nodes.</summary>
     public int Laws { get; }
@@ -197,6 +210,14 @@ internal sealed class Island
             }
         }
 
+        for (int b = 0; b < MovingBodies; b++)
+        {
+            if (!Spins[b].Equals(other.Spins[b]))
+            {
+                return false;
+            }
+        }
+
         for (int n = 0; n < Nodes.Length; n++)
         {
             if (!Nodes[n].HasShapeOf(other.Nodes[n]))
@@ -281,7 +302,7 @@ internal sealed class Island
             }
 
             _moving.AddRange(_fixed);
-            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, nodes);
+            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, nodes, _bodies.InverseInertias);
         }
 
         private Node MakeNode(Coupling coupling, int index)

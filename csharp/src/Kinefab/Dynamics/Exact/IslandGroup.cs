@@ -42,6 +42,7 @@ internal sealed class IslandGroup<V> : IslandGroup
     private readonly Batch<V>[] _batches;
     private readonly bool[] _converged = new bool[Lane<V>.Width];
     private readonly bool[] _isHard = new bool[Lane<V>.Width];
+    private readonly StepCut[] _cuts;
     private readonly Batch<ScalarLane> _spare;
     private readonly Ladder _ladder;
 
@@ -62,6 +63,7 @@ internal sealed class IslandGroup<V> : IslandGroup
             _batches[i] = batch;
         }
 
+        _cuts = new StepCut[_islands.Length];
         _spare = new Batch<ScalarLane>(_islands[0]);
         _ladder = new Ladder(_spare);
     }
@@ -80,12 +82,13 @@ internal sealed class IslandGroup<V> : IslandGroup
             RattleStep<V>.Fly(batch, dt, tolerance, _converged);
             for (int lane = 0; lane < Lane<V>.Width; lane++)
             {
-                _isHard[lane] |= !_converged[lane];
-                if (_isHard[lane] && IsOccupied(i, lane))
+                bool hasFailed = !_converged[lane];
+                if ((_isHard[lane] || hasFailed) && IsOccupied(i, lane))
                 {
-                    Climb(batch, lane, Occupant(i, lane), dt, tolerance);
+                    Climb(batch, i, lane, dt, tolerance, hasFailed);
                 }
 
+                _isHard[lane] |= hasFailed;
                 batch.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
@@ -122,7 +125,7 @@ internal sealed class IslandGroup<V> : IslandGroup
                 isMoved = true;
             }
 
-            _isHard[lane] = Ladder.Demand(stiffest, fastest, dt) > 1;
+            _isHard[lane] = Ladder.Demand(stiffest, fastest, dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
             batch.Active[lane] = _isHard[lane] ? 0 : 1;
         }
 
@@ -134,8 +137,9 @@ internal sealed class IslandGroup<V> : IslandGroup
     }
 
     // The world still holds the island's state before the step, the lane its impulses.
-    private void Climb(Batch<V> batch, int lane, Island island, double dt, double tolerance)
+    private void Climb(Batch<V> batch, int index, int lane, double dt, double tolerance, bool hasFailed)
     {
+        Island island = Occupant(index, lane);
         Transfer<ScalarLane>.LoadConstants(_spare, 0, island, _mechanism);
         Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt, out _);
         for (int i = 0; i < _spare.Half.Length; i++)
@@ -151,7 +155,7 @@ internal sealed class IslandGroup<V> : IslandGroup
         Flight<ScalarLane>.Stay(_spare);
         RattleStep<ScalarLane>.Build(_spare);
         int stops = _ladder.Stops;
-        _ladder.Step(dt, tolerance);
+        _ladder.Step(dt, tolerance, ref Cut(index, lane), hasFailed);
         _mechanism.Overflows += _ladder.Stops - stops;
         Transfer<V>.CopyFrom(batch, lane, _spare);
     }
@@ -163,6 +167,8 @@ internal sealed class IslandGroup<V> : IslandGroup
             batch.Half[i] = 0;
         }
     }
+
+    private ref StepCut Cut(int batch, int lane) => ref _cuts[batch * Lane<V>.Width + lane];
 
     private bool IsOccupied(int batch, int lane) => batch * Lane<V>.Width + lane < _islands.Length;
 
@@ -178,6 +184,7 @@ internal sealed class PreparedIslands : IslandGroup
     private readonly Island[] _islands;
     private readonly Batch<ScalarLane>[] _batches;
     private readonly Ladder[] _ladders;
+    private readonly StepCut[] _cuts;
 
     public PreparedIslands(MultibodySystem mechanism, List<Island> islands)
     {
@@ -185,6 +192,7 @@ internal sealed class PreparedIslands : IslandGroup
         _islands = islands.ToArray();
         _batches = new Batch<ScalarLane>[_islands.Length];
         _ladders = new Ladder[_islands.Length];
+        _cuts = new StepCut[_islands.Length];
         for (int i = 0; i < _islands.Length; i++)
         {
             _batches[i] = new Batch<ScalarLane>(_islands[i]);
@@ -212,7 +220,7 @@ internal sealed class PreparedIslands : IslandGroup
             // Targets and other fields of the joints may have changed since the last step: their rows are read again.
             RattleStep<ScalarLane>.Build(batch);
             int stops = _ladders[i].Stops;
-            _ladders[i].Step(dt, tolerance);
+            _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
             _mechanism.Overflows += _ladders[i].Stops - stops;
             Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
             isBroken |= Reactions<ScalarLane>.Report(batch, 0, _islands[i], _mechanism, dt);

@@ -4,33 +4,45 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Exact;
 
 /// <summary>
-/// One island's step by whatever it takes: RATTLE; RATTLE in halves while it does not converge; implicit Euler below
-/// that. Also cuts the step up front where bodies turn far or where tension makes it stiff.
+/// One island's step by whatever it takes: RATTLE; where that does not converge, or energy shows that it is too coarse, the
+/// step again in even parts, from its start; below the finest of these, halves of a part; at last implicit Euler. Steps are
+/// also cut up front where bodies turn far or where tension makes them stiff. Even parts from the start, and kept for a
+/// while, since RATTLE keeps energy over long times at a constant step and pays for a change amid a violent motion.
 /// </summary>
 internal sealed class Ladder
 {
-    /// <summary>Halvings before implicit Euler, and of the substeps chosen up front.</summary>
-    private const int MaxHalvings = 3;
+    /// <summary>Halvings into even parts, and, below these, of a part alone.</summary>
+    public const int MaxHalvings = 7;
+    private const int MaxDepth = 9;
+
+    // Failures in a step after which parts that fail are left to implicit Euler.
+    private const int MaxFailures = 48;
 
     // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given halves.
-    private const double MostStiffness = 3.5;
+    private const double MostStiffness = 1;
 
     // Largest turn of a body in a substep, radians.
     private const double MostTurn = 0.5;
 
+    // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
+    private const double MostEnergyChange = 0.01;
+
     private readonly Batch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _floor;
-    private readonly Snapshot[] _snapshots = new Snapshot[MaxHalvings + 1];
+    private readonly Snapshot _start;
+    private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
-    private double _lastStep;
+    private double _part;
+    private int _failures;
 
     public Ladder(Batch<ScalarLane> batch)
     {
         _batch = batch;
         _floor = new ImplicitEulerStep(batch);
-        for (int i = 0; i < _snapshots.Length; i++)
+        _start = new Snapshot(batch);
+        for (int i = 0; i < _parts.Length; i++)
         {
-            _snapshots[i] = new Snapshot(batch);
+            _parts[i] = new Snapshot(batch);
         }
     }
 
@@ -48,46 +60,86 @@ internal sealed class Ladder
         Math.Max(dt * Math.Sqrt(stiffness / MostStiffness), dt * speed / MostTurn);
 
     /// <summary>A whole step of dt from the loaded state; the batch is built at the start pose.</summary>
-    public void Step(double dt, double tolerance)
+    /// <param name="dt">Step, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    /// <param name="cut">The island's cut; takes note of the step.</param>
+    /// <param name="hasFailed">Whether the plain step was tried already.</param>
+    public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed)
     {
-        int halvings = 0;
         double demand = Demand(Stiffest(), Fastest(), dt);
-        while (halvings < MaxHalvings && demand > 1)
+        int halvings = Math.Max(cut.Halvings, hasFailed ? 1 : 0);
+        while (halvings < MaxHalvings && demand > 1 << halvings)
         {
-            demand /= 2;
             halvings++;
         }
 
-        int substeps = 1 << halvings;
-        _lastStep = dt;
         Array.Clear(_batch.Total, 0, _batch.Total.Length);
-        for (int i = 0; i < substeps; i++)
+        _part = dt;
+        _failures = 0;
+        _start.Save(_batch);
+        bool isAudited = _batch.Laws == null && _batch.Shape.IsWorkless;
+        double energy = isAudited ? Energy.Of(_batch) : 0;
+        while (!TryParts(dt, halvings, tolerance) || (isAudited && halvings < MaxHalvings && !IsKept(energy)))
         {
-            Advance(dt / substeps, halvings, tolerance);
+            _start.Restore(_batch);
+            _part = dt;
+            if (halvings == MaxHalvings)
+            {
+                ForceParts(dt, tolerance);
+                break;
+            }
+
+            halvings++;
         }
 
-        SetStep(dt);
+        cut.Note(halvings, demand);
+        SetPart(dt);
     }
 
-    private void Advance(double h, int depth, double tolerance)
+    private bool IsKept(double energy) => Math.Abs(Energy.Of(_batch) - energy) <= MostEnergyChange * Energy.Kinetic(_batch);
+
+    private bool TryParts(double dt, int halvings, double tolerance)
     {
-        Snapshot start = _snapshots[depth];
+        double h = dt / (1 << halvings);
+        SetPart(h);
+        for (int i = 1 << halvings; i > 0; i--)
+        {
+            if (!TryRattle(h, tolerance))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    private void ForceParts(double dt, double tolerance)
+    {
+        for (int i = 1 << MaxHalvings; i > 0; i--)
+        {
+            Force(dt / (1 << MaxHalvings), MaxHalvings, tolerance);
+        }
+    }
+
+    private void Force(double h, int depth, double tolerance)
+    {
+        Snapshot start = _parts[depth - MaxHalvings];
+        SetPart(h);
         start.Save(_batch);
-        SetStep(h);
         if (TryRattle(h, tolerance))
         {
             return;
         }
 
         start.Restore(_batch);
-        if (depth < MaxHalvings)
+        if (depth < MaxDepth && _failures++ < MaxFailures)
         {
-            Advance(h / 2, depth + 1, tolerance);
-            Advance(h / 2, depth + 1, tolerance);
+            Force(h / 2, depth + 1, tolerance);
+            Force(h / 2, depth + 1, tolerance);
+            SetPart(h);
             return;
         }
 
-        SetStep(h);
         if (TryFloor(h, tolerance))
         {
             Falls++;
@@ -142,12 +194,12 @@ internal sealed class Ladder
         }
     }
 
-    // Impulses are proportional to the step; the guess is scaled to it.
-    private void SetStep(double h)
+    // Impulses are proportional to the part's length; the guess is scaled to it.
+    private void SetPart(double h)
     {
-        if (_lastStep > 0 && _lastStep != h)
+        if (_part > 0 && _part != h)
         {
-            double factor = h / _lastStep;
+            double factor = h / _part;
             for (int i = 0; i < _batch.Half.Length; i++)
             {
                 _batch.Half[i] *= factor;
@@ -156,7 +208,7 @@ internal sealed class Ladder
             _batch.Laws?.ScaleHistory(factor);
         }
 
-        _lastStep = h;
+        _part = h;
     }
 
     private double Stiffest()
@@ -215,39 +267,5 @@ internal sealed class Ladder
 
         Array.Clear(_batch.Half, 0, _batch.Half.Length);
         _batch.Laws?.ClearHistory();
-    }
-
-    /// <summary>All that an attempt at a step changes.</summary>
-    private sealed class Snapshot
-    {
-        private readonly double[] _bodies;
-        private readonly double[] _half;
-        private readonly double[] _total;
-        private readonly Law[] _laws;
-
-        public Snapshot(Batch<ScalarLane> batch)
-        {
-            _bodies = new double[batch.Bodies.Length];
-            _half = new double[batch.Half.Length];
-            _total = new double[batch.Half.Length];
-            _laws = new Law[batch.Shape.Laws];
-        }
-
-        public void Save(Batch<ScalarLane> batch)
-        {
-            Array.Copy(batch.Bodies, _bodies, _bodies.Length);
-            Array.Copy(batch.Half, _half, _half.Length);
-            Array.Copy(batch.Total, _total, _total.Length);
-            batch.Laws?.Save(_laws);
-        }
-
-        public void Restore(Batch<ScalarLane> batch)
-        {
-            Array.Copy(_bodies, batch.Bodies, _bodies.Length);
-            Array.Copy(_half, batch.Half, _half.Length);
-            Array.Copy(_total, batch.Total, _total.Length);
-            RattleStep<ScalarLane>.Build(batch);
-            batch.Laws?.Restore(_laws);
-        }
     }
 }

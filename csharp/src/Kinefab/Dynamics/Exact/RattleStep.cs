@@ -16,23 +16,21 @@ internal static class RattleStep<V>
     /// <summary>Iterations after which a step counts as failed.</summary>
     public const int MaxIterations = 12;
 
-    private const int FirstPasses = 3;
-
-    // Contraction of the iteration on a slender body's turns that is still good enough.
-    private const double MuchTurning = 0.3;
-
     // A limit this many tolerances away counts as reached.
     private const double LimitReach = 10;
 
-    // A mode that contracts by less than one part in thirty is not sped up: it is the part of an inexact loop that cannot
-    // close, and chasing it would load the loop without end.
-    private const double MostMixing = 30;
+    // A mode that contracts by less than one part in four is not sped up further: it is the part of an inexact loop that
+    // cannot close, and chasing it would load the loop without end.
+    private const double MostMixing = 4;
 
     // An error that does not fall below this share of itself in an iteration gets no better.
     private const double StillShare = 0.25;
 
     // Largest error of an angle that may be left then, radians.
     private const double MostAngle = 1e-3;
+
+    // Growth of the error against the first flight's at which the iteration is given up.
+    private const double MostGrowth = 4;
 
     // Keeps 0 / 0 out of the mixing.
     private const double LeastSquare = 1e-300;
@@ -60,13 +58,15 @@ internal static class RattleStep<V>
             Factor(batch, true);
         }
 
+        Flight<V>.MoveKinematic(batch, h);
         int lawPasses = 0;
         int restart = 0;
         for (int iteration = 0; ; iteration++)
         {
-            Flight<V>.Run(batch, h, iteration == 0 ? FirstPasses : 1, iteration == 0);
+            Flight<V>.Run(batch, h);
             RigidRows<V>.Evaluate(batch);
             batch.Laws?.Evaluate(h);
+            
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
@@ -87,14 +87,9 @@ internal static class RattleStep<V>
                 Factor(batch, true);
                 batch.Laws.Evaluate(h);
             }
-            else if (isDone || iteration - restart == MaxIterations)
+            else if (isDone || iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
             {
                 return iteration;
-            }
-
-            if (iteration == 0)
-            {
-                TurnMatrix(batch, h);
             }
 
             Correct(batch, h, iteration == restart);
@@ -216,28 +211,31 @@ internal static class RattleStep<V>
         bool isStill = error >= StillShare * batch.LastMaxError[lane];
         batch.LastMaxError[lane] = error;
         return error < tolerance
-            || (isRepeated && batch.MaxChange[lane] < tolerance)
+            || (isRepeated && batch.MaxChange[lane] < tolerance && error < MostAngle)
             || (isRepeated && isStill && batch.MaxGap[lane] < tolerance && error < MostAngle);
     }
 
-    // The flight answers to impulses by the inertia at its middle, the matrix was built with that at its start. For a slender
-    // body the two differ by the turn times I_max / I_min, and the iteration diverges once (h|w|/2)^2 I_max / I_min nears 2.
-    private static void TurnMatrix(Batch<V> batch, double h)
+    // Lanes whose error grows beyond what they started with are given up; true when none is left.
+    private static bool IsHopeless(Batch<V> batch, bool isFirst)
     {
-        Flight<V>.MeasureTurning(batch, h);
-        bool isTurning = false;
+        bool isAny = false;
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
-            bool isLaneTurning = batch.Active[lane] != 0 && batch.Turning[lane] > MuchTurning;
-            batch.Turning[lane] = isLaneTurning ? 1 : 0;
-            isTurning |= isLaneTurning;
+            double error = batch.MaxError[lane];
+            if (isFirst)
+            {
+                batch.FirstMaxError[lane] = error;
+            }
+
+            if (!(error <= MostGrowth * batch.FirstMaxError[lane]))
+            {
+                batch.Active[lane] = 0;
+            }
+
+            isAny |= batch.Active[lane] != 0;
         }
 
-        if (isTurning)
-        {
-            Flight<V>.MiddleInertias(batch, h, batch.Turning);
-            Factor(batch, true);
-        }
+        return !isAny;
     }
 
     // d = -A^-1 C / h, then Anderson's mixing of depth one: with d and the change of d since the last iteration, the share

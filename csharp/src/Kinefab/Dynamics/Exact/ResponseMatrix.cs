@@ -21,20 +21,20 @@ internal static class ResponseMatrix<V>
     {
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            InverseInertia(batch, body, batch.Bodies, Batch<V>.Body(body, BodySlot.R));
+            InverseInertia(batch.Bodies, body);
         }
     }
 
-    /// <summary>A body's world inverse inertia R I^-1 R^T for a rotation matrix in an array.</summary>
+    // R I^-1 R^T.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseInertia(Batch<V> batch, int body, double[] matrix, int r)
+    private static void InverseInertia(double[] a, int body)
     {
-        double[] a = batch.Bodies;
         int w = Lane<V>.Width;
+        int r = Batch<V>.Body(body, BodySlot.R);
         LaneVector<V> inverse = LaneVector<V>.Load(a, Batch<V>.Body(body, BodySlot.InverseInertia));
-        LaneVector<V> x = LaneVector<V>.Load(matrix, r);
-        LaneVector<V> y = LaneVector<V>.Load(matrix, r + 3 * w);
-        LaneVector<V> z = LaneVector<V>.Load(matrix, r + 6 * w);
+        LaneVector<V> x = LaneVector<V>.Load(a, r);
+        LaneVector<V> y = LaneVector<V>.Load(a, r + 3 * w);
+        LaneVector<V> z = LaneVector<V>.Load(a, r + 6 * w);
         LaneVector<V> sx = LaneVector<V>.Scale(inverse, x);
         LaneVector<V> sy = LaneVector<V>.Scale(inverse, y);
         int o = Batch<V>.Body(body, BodySlot.WorldInverse);

@@ -21,9 +21,7 @@ internal static class Transfer<V>
             Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
             batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
-            double least = Math.Min(inverse.X, Math.Min(inverse.Y, inverse.Z));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
-            batch.Bodies[Batch<V>.Body(b, BodySlot.InertiaRatio) + lane] = least > 0 ? most / least : 1;
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);

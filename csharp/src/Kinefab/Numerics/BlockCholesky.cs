@@ -1,33 +1,43 @@
+using System.Runtime.CompilerServices;
+
 namespace Kinefab.Numerics;
 
 /// <summary>
 /// A = G G^T in place for symmetric positive definite block-sparse matrices of one pattern, several at a time in lanes.
-/// Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted.
+/// Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. Rows of five, those
+/// of a hinge, go through registers; the order of operations is the same for all sizes.
 /// </summary>
 internal static class BlockCholesky<V>
     where V : struct, ILane<V>
 {
+    private const int Five = 5;
+
     // A pivot lost to rounding is replaced, so that the result stays finite; the caller's residual then tells.
     private const double LeastPivot = 1e-30;
 
     /// <summary>Replaces the matrix by its factor.</summary>
     public static void Factor(BlockPattern pattern, double[] a)
     {
+        int w = Lane<V>.Width;
         foreach (BlockPattern.Column column in pattern.Columns)
         {
             int n = column.Size;
-            FactorDiagonal(a, column.Diagonal, n);
+            int diagonal = column.Diagonal * w;
+            FactorDiagonal(a, diagonal, n);
             BlockPattern.Block[] below = column.Below;
             int product = 0;
             for (int i = 0; i < below.Length; i++)
             {
-                SolveRight(a, below[i].Offset, column.Diagonal, below[i].Size, n);
-                for (int k = 0; k < i; k++)
+                int x = below[i].Offset * w;
+                for (int row = 0; row < below[i].Size; row++)
                 {
-                    SubtractProduct(a, column.Products[product++], below[i].Offset, below[k].Offset, below[i].Size, below[k].Size, n);
+                    Forward(a, diagonal, a, x + row * n * w, n);
                 }
 
-                SubtractSquare(a, column.Products[product++], below[i].Offset, below[i].Size, n);
+                for (int k = 0; k <= i; k++)
+                {
+                    SubtractProduct(a, column.Products[product++] * w, x, below[k].Offset * w, below[i].Size, k < i ? below[k].Size : 0, n);
+                }
             }
         }
     }
@@ -39,147 +49,195 @@ internal static class BlockCholesky<V>
         BlockPattern.Column[] columns = pattern.Columns;
         foreach (BlockPattern.Column column in columns)
         {
-            int n = column.Size;
-            for (int i = 0; i < n; i++)
-            {
-                int row = column.Diagonal + i * n;
-                Lane<V> s = Lane<V>.Load(b, (column.Row + i) * w);
-                for (int t = 0; t < i; t++)
-                {
-                    s -= Lane<V>.Load(a, (row + t) * w) * Lane<V>.Load(b, (column.Row + t) * w);
-                }
-
-                (s * Lane<V>.Load(a, (row + i) * w)).Store(b, (column.Row + i) * w);
-            }
-
+            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size);
             foreach (BlockPattern.Block block in column.Below)
             {
-                for (int i = 0; i < block.Size; i++)
-                {
-                    int row = block.Offset + i * n;
-                    Lane<V> s = Lane<V>.Load(b, (block.Row + i) * w);
-                    for (int t = 0; t < n; t++)
-                    {
-                        s -= Lane<V>.Load(a, (row + t) * w) * Lane<V>.Load(b, (column.Row + t) * w);
-                    }
-
-                    s.Store(b, (block.Row + i) * w);
-                }
+                Subtract(a, block.Offset * w, block.Size, column.Size, b, column.Row * w, b, block.Row * w);
             }
         }
 
         for (int turn = columns.Length - 1; turn >= 0; turn--)
         {
             BlockPattern.Column column = columns[turn];
-            int n = column.Size;
-            for (int i = n - 1; i >= 0; i--)
+            foreach (BlockPattern.Block block in column.Below)
             {
-                Lane<V> s = Lane<V>.Load(b, (column.Row + i) * w);
-                foreach (BlockPattern.Block block in column.Below)
-                {
-                    for (int t = 0; t < block.Size; t++)
-                    {
-                        s -= Lane<V>.Load(a, (block.Offset + t * n + i) * w) * Lane<V>.Load(b, (block.Row + t) * w);
-                    }
-                }
-
-                for (int t = i + 1; t < n; t++)
-                {
-                    s -= Lane<V>.Load(a, (column.Diagonal + t * n + i) * w) * Lane<V>.Load(b, (column.Row + t) * w);
-                }
-
-                (s * Lane<V>.Load(a, (column.Diagonal + i * n + i) * w)).Store(b, (column.Row + i) * w);
+                SubtractTransposed(a, block.Offset * w, block.Size, column.Size, b, block.Row * w, column.Row * w);
             }
+
+            Backward(a, column.Diagonal * w, b, column.Row * w, column.Size);
         }
     }
 
-    private static void FactorDiagonal(double[] a, int offset, int n)
+    private static void FactorDiagonal(double[] a, int diagonal, int n)
     {
         int w = Lane<V>.Width;
         Lane<V> one = Lane<V>.Splat(1);
         Lane<V> least = Lane<V>.Splat(LeastPivot);
-        for (int i = 0; i < n; i++)
+        int row = diagonal;
+        for (int i = 0; i < n; i++, row += n * w)
         {
-            int row = offset + i * n;
-            for (int j = 0; j < i; j++)
+            Lane<V> pivot = Lane<V>.Load(a, row + i * w);
+            int other = diagonal;
+            for (int j = 0; j < i; j++, other += n * w)
             {
-                int other = offset + j * n;
-                Lane<V> s = Lane<V>.Load(a, (row + j) * w);
-                for (int t = 0; t < j; t++)
+                Lane<V> s = Lane<V>.Load(a, row + j * w);
+                for (int t = 0; t < j * w; t += w)
                 {
-                    s -= Lane<V>.Load(a, (row + t) * w) * Lane<V>.Load(a, (other + t) * w);
+                    s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(a, other + t);
                 }
 
-                (s * Lane<V>.Load(a, (other + j) * w)).Store(a, (row + j) * w);
+                s *= Lane<V>.Load(a, other + j * w);
+                s.Store(a, row + j * w);
+                pivot -= s * s;
             }
 
-            Lane<V> pivot = Lane<V>.Load(a, (row + i) * w);
-            for (int t = 0; t < i; t++)
-            {
-                Lane<V> g = Lane<V>.Load(a, (row + t) * w);
-                pivot -= g * g;
-            }
-
-            (one / Lane<V>.Sqrt(Lane<V>.Max(pivot, least))).Store(a, (row + i) * w);
+            (one / Lane<V>.Sqrt(Lane<V>.Max(pivot, least))).Store(a, row + i * w);
         }
     }
 
-    // X G^T = B, B (m x n) replaced by X.
-    private static void SolveRight(double[] a, int block, int diagonal, int m, int n)
-    {
-        int w = Lane<V>.Width;
-        for (int i = 0; i < m; i++)
-        {
-            int row = block + i * n;
-            for (int j = 0; j < n; j++)
-            {
-                int other = diagonal + j * n;
-                Lane<V> s = Lane<V>.Load(a, (row + j) * w);
-                for (int t = 0; t < j; t++)
-                {
-                    s -= Lane<V>.Load(a, (row + t) * w) * Lane<V>.Load(a, (other + t) * w);
-                }
-
-                (s * Lane<V>.Load(a, (other + j) * w)).Store(a, (row + j) * w);
-            }
-        }
-    }
-
-    // C -= X Y^T, X m x n, Y k x n.
+    // C -= X Y^T, X m x n, Y k x n; with k = 0 the lower triangle of C -= X X^T.
     private static void SubtractProduct(double[] a, int c, int x, int y, int m, int k, int n)
     {
         int w = Lane<V>.Width;
+        int columns = k > 0 ? k : m;
         for (int i = 0; i < m; i++)
         {
-            for (int j = 0; j < k; j++)
-            {
-                Lane<V> s = Lane<V>.Load(a, (c + i * k + j) * w);
-                for (int t = 0; t < n; t++)
-                {
-                    s -= Lane<V>.Load(a, (x + i * n + t) * w) * Lane<V>.Load(a, (y + j * n + t) * w);
-                }
+            Subtract(a, y, k > 0 ? k : i + 1, n, a, x + i * n * w, a, c + i * columns * w);
+        }
+    }
 
-                s.Store(a, (c + i * k + j) * w);
+    // Solves G x = b in place.
+    private static void Forward(double[] a, int diagonal, double[] b, int at, int n)
+    {
+        if (n == Five)
+        {
+            ForwardFive(a, diagonal, b, at);
+            return;
+        }
+
+        int w = Lane<V>.Width;
+        int row = diagonal;
+        for (int i = 0; i < n; i++, row += n * w)
+        {
+            Lane<V> s = Lane<V>.Load(b, at + i * w);
+            for (int t = 0; t < i * w; t += w)
+            {
+                s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(b, at + t);
+            }
+
+            (s * Lane<V>.Load(a, row + i * w)).Store(b, at + i * w);
+        }
+    }
+
+    private static void ForwardFive(double[] a, int g, double[] b, int at)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, g);
+        x0.Store(b, at);
+        g += Five * w;
+        Lane<V> x1 = (Lane<V>.Load(b, at + w) - x0 * Lane<V>.Load(a, g)) * Lane<V>.Load(a, g + w);
+        x1.Store(b, at + w);
+        g += Five * w;
+        Lane<V> x2 = (Lane<V>.Load(b, at + 2 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w)) * Lane<V>.Load(a, g + 2 * w);
+        x2.Store(b, at + 2 * w);
+        g += Five * w;
+        Lane<V> x3 = (Lane<V>.Load(b, at + 3 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w))
+            * Lane<V>.Load(a, g + 3 * w);
+        x3.Store(b, at + 3 * w);
+        g += Five * w;
+        Lane<V> x4 = (Lane<V>.Load(b, at + 4 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w)
+            - x3 * Lane<V>.Load(a, g + 3 * w)) * Lane<V>.Load(a, g + 4 * w);
+        x4.Store(b, at + 4 * w);
+    }
+
+    // Solves G^T x = b in place.
+    private static void Backward(double[] a, int diagonal, double[] b, int at, int n)
+    {
+        int w = Lane<V>.Width;
+        for (int t = n - 1; t >= 0; t--)
+        {
+            int row = diagonal + t * n * w;
+            Lane<V> x = Lane<V>.Load(b, at + t * w) * Lane<V>.Load(a, row + t * w);
+            x.Store(b, at + t * w);
+            for (int i = 0; i < t * w; i += w)
+            {
+                (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
             }
         }
     }
 
-    // Lower triangle of C -= X X^T, X m x n.
-    private static void SubtractSquare(double[] a, int c, int x, int m, int n)
+    // to -= M from, M m x n.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Subtract(double[] a, int matrix, int m, int n, double[] b, int from, double[] c, int to)
     {
         int w = Lane<V>.Width;
-        for (int i = 0; i < m; i++)
+        int t = 0;
+        if (n >= Five)
         {
-            for (int j = 0; j <= i; j++)
+            Lane<V> x0 = Lane<V>.Load(b, from), x1 = Lane<V>.Load(b, from + w), x2 = Lane<V>.Load(b, from + 2 * w);
+            Lane<V> x3 = Lane<V>.Load(b, from + 3 * w), x4 = Lane<V>.Load(b, from + 4 * w);
+            int row = matrix;
+            for (int i = 0; i < m * w; i += w, row += n * w)
             {
-                Lane<V> s = Lane<V>.Load(a, (c + i * m + j) * w);
-                for (int t = 0; t < n; t++)
-                {
-                    s -= Lane<V>.Load(a, (x + i * n + t) * w) * Lane<V>.Load(a, (x + j * n + t) * w);
-                }
-
-                s.Store(a, (c + i * m + j) * w);
+                Lane<V> s = Lane<V>.Load(c, to + i);
+                s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row + w) - x2 * Lane<V>.Load(a, row + 2 * w)
+                    - x3 * Lane<V>.Load(a, row + 3 * w) - x4 * Lane<V>.Load(a, row + 4 * w);
+                s.Store(c, to + i);
             }
+
+            t = Five;
+        }
+
+        for (; t < n; t++)
+        {
+            Lane<V> x = Lane<V>.Load(b, from + t * w);
+            int cell = matrix + t * w;
+            for (int i = 0; i < m * w; i += w, cell += n * w)
+            {
+                (Lane<V>.Load(c, to + i) - x * Lane<V>.Load(a, cell)).Store(c, to + i);
+            }
+        }
+    }
+
+    // to -= M^T from, M m x n.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void SubtractTransposed(double[] a, int matrix, int m, int n, double[] b, int from, int to)
+    {
+        int w = Lane<V>.Width;
+        int i = 0;
+        if (n >= Five)
+        {
+            Lane<V> s0 = Lane<V>.Load(b, to), s1 = Lane<V>.Load(b, to + w), s2 = Lane<V>.Load(b, to + 2 * w);
+            Lane<V> s3 = Lane<V>.Load(b, to + 3 * w), s4 = Lane<V>.Load(b, to + 4 * w);
+            int row = matrix;
+            for (int t = 0; t < m * w; t += w, row += n * w)
+            {
+                Lane<V> x = Lane<V>.Load(b, from + t);
+                s0 -= x * Lane<V>.Load(a, row);
+                s1 -= x * Lane<V>.Load(a, row + w);
+                s2 -= x * Lane<V>.Load(a, row + 2 * w);
+                s3 -= x * Lane<V>.Load(a, row + 3 * w);
+                s4 -= x * Lane<V>.Load(a, row + 4 * w);
+            }
+
+            s0.Store(b, to);
+            s1.Store(b, to + w);
+            s2.Store(b, to + 2 * w);
+            s3.Store(b, to + 3 * w);
+            s4.Store(b, to + 4 * w);
+            i = Five;
+        }
+
+        for (; i < n; i++)
+        {
+            Lane<V> s = Lane<V>.Load(b, to + i * w);
+            int cell = matrix + i * w;
+            for (int t = 0; t < m * w; t += w, cell += n * w)
+            {
+                s -= Lane<V>.Load(b, from + t) * Lane<V>.Load(a, cell);
+            }
+
+            s.Store(b, to + i * w);
         }
     }
 }

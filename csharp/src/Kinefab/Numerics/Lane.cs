@@ -49,7 +49,6 @@ internal readonly struct Lane<V>
 {
     private readonly V _value;
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Lane(V value) => _value = value;
 
     /// <summary>Number of lanes.</summary>
@@ -112,10 +111,22 @@ internal readonly struct ScalarLane : ILane<ScalarLane>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ScalarLane Load(double[] array, int index) => new(array[index]);
+    public ScalarLane Load(double[] array, int index) =>
+#if NET
+        new(Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index));
+#else
+        new(array[index]);
+#endif
+
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => array[index] = _value;
+    public void Store(double[] array, int index) =>
+#if NET
+        Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index) = _value;
+#else
+        array[index] = _value;
+#endif
+
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ScalarLane Splat(double value) => new(value);

@@ -159,16 +159,6 @@ internal readonly struct LaneQuaternion<V>
         return Lane<V>.Splat(8) * arcsine * quarter;
     }
 
-    /// <summary>First a turn about the own x axis, given by sine and cosine of half its angle.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public LaneQuaternion<V> TurnedAboutX(Lane<V> s, Lane<V> c) => new(
-        new LaneVector<V>(c * Vector.X + s * W, c * Vector.Y + s * Vector.Z, c * Vector.Z - s * Vector.Y), c * W - s * Vector.X);
-
-    /// <summary>First a turn about the own y axis, given by sine and cosine of half its angle.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public LaneQuaternion<V> TurnedAboutY(Lane<V> s, Lane<V> c) => new(
-        new LaneVector<V>(c * Vector.X - s * Vector.Z, c * Vector.Y + s * W, c * Vector.Z + s * Vector.X), c * W - s * Vector.Y);
-
     /// <summary>One Newton step towards length 1, from a length next to it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public LaneQuaternion<V> NearlyNormalized()

@@ -19,10 +19,10 @@ internal readonly struct Lane4 : ILane<Lane4>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane4 Load(double[] array, int index) => new(Vector256.Create(array, index));
+    public Lane4 Load(double[] array, int index) => new(Vector256.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => _value.CopyTo(array, index);
+    public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane4 Splat(double value) => new(Vector256.Create(value));
@@ -71,10 +71,10 @@ internal readonly struct Lane8 : ILane<Lane8>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane8 Load(double[] array, int index) => new(Vector512.Create(array, index));
+    public Lane8 Load(double[] array, int index) => new(Vector512.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => _value.CopyTo(array, index);
+    public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Splat(double value) => new(Vector512.Create(value));

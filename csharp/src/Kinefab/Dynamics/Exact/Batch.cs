@@ -10,8 +10,8 @@ namespace Kinefab.Dynamics.Exact;
 internal sealed class Batch<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Anchor and frame axes of a joint in body 0, then in body 1; then both levers in the world at the built pose.</summary>
-    public const int Anchor0 = 0, Axes0 = 3, Anchor1 = 12, Axes1 = 15, Lever0 = 24, Lever1 = 27, JointCount = 30;
+    /// <summary>Numbers of a joint: see <see cref="Frame"/> and <see cref="Placed"/>.</summary>
+    public const int JointCount = 48;
 
     /// <summary>A row's part on one body: linear and angular J, and angular J times the inverse inertia.</summary>
     public const int Linear = 0, Angular = 3, Response = 6, SideCount = 9;
@@ -61,7 +61,7 @@ internal sealed class Batch<V>
     /// <summary>Records of <see cref="BodySlot"/>.</summary>
     public double[] Bodies { get; }
 
-    /// <summary>Records of <see cref="Anchor0"/> and the following.</summary>
+    /// <summary>Records of <see cref="JointCount"/>.</summary>
     public double[] Joints { get; }
 
     /// <summary>J: for each node, row and side a record of <see cref="SideCount"/>.</summary>
@@ -117,6 +117,12 @@ internal sealed class Batch<V>
 
     /// <summary>Rows with a law, or null without any.</summary>
     public Laws<V>? Laws { get; }
+
+    /// <summary>Anchor and three frame axes of a joint in its body 0 or 1, in the joint's record.</summary>
+    public static int Frame(int side) => 12 * side;
+
+    /// <summary>Lever (anchor from the centre of mass) and frame axes in the world's axes, where they were last evaluated.</summary>
+    public static int Placed(int side) => 24 + 12 * side;
 
     /// <summary>Index of a number of a body in <see cref="Bodies"/>.</summary>
     public static int Body(int body, int slot) => (body * BodySlot.Count + slot) * Width;

@@ -47,5 +47,8 @@ internal static class BodySlot
     /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
     public const int Stiffness = 49;
 
-    public const int Count = 50;
+    /// <summary>Angular momentum in the body's axes while they turn, in the order of its <see cref="Spin"/>.</summary>
+    public const int Local = 50;
+
+    public const int Count = 53;
 }

@@ -87,54 +87,121 @@ internal static class Flight<V>
     }
 
     // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
-    // leaves all formulas as they are.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // leaves all formulas as they are. Each turn is a method of its own, small enough that the compiler inlines its arithmetic.
     private static void Turn(double[] a, int o, double h, Spin spin)
     {
-        int w = Lane<V>.Width;
-        int i = spin.First * w, j = spin.Second * w, k = spin.Sphere * w;
-        int at = o + BodySlot.Q * w;
-        var q = new LaneQuaternion<V>(Load(a, at, i, j, k), Lane<V>.Load(a, at + 3 * w));
-        LaneVector<V> momentum = Load(a, o + BodySlot.L * w, i, j, k);
-        LaneVector<V> inverse = Load(a, o + BodySlot.InverseInertia * w, i, j, k);
-        LaneQuaternion<V> turned = LaneQuaternion<V>.Exponential(Lane<V>.Splat(h / 2) * inverse.Z * momentum) * q;
-        if (spin.IsFirstOther)
+        TurnSphere(a, o, h / 2, spin.Sphere);
+        if (spin.IsSecondOther)
         {
-            LaneVector<V> local = q.InverseRotate(momentum);
-            Lane<V> first = inverse.X - inverse.Z;
-            if (spin.IsSecondOther)
-            {
-                Lane<V> quarter = Lane<V>.Splat(h / 4);
-                Axial(quarter * first * local.X, out Lane<V> s, out Lane<V> c);
-                turned = turned.TurnedAboutX(s, c);
-                local = AgainstX(local, s, c);
-                Axial(Lane<V>.Splat(h / 2) * (inverse.Y - inverse.Z) * local.Y, out s, out c);
-                turned = turned.TurnedAboutY(s, c);
-                Lane<V> x = AgainstY(local, s, c);
-                Axial(quarter * first * x, out s, out c);
-                turned = turned.TurnedAboutX(s, c);
-            }
-            else
-            {
-                Axial(Lane<V>.Splat(h / 2) * first * local.X, out Lane<V> s, out Lane<V> c);
-                turned = turned.TurnedAboutX(s, c);
-            }
+            TurnIntoBody(a, o, spin);
+            TurnFirst(a, o, h / 4, spin);
+            TurnSecond(a, o, h / 2, spin);
+            TurnFirst(a, o, h / 4, spin);
+        }
+        else if (spin.IsFirstOther)
+        {
+            TurnIntoBody(a, o, spin);
+            TurnFirst(a, o, h / 2, spin);
         }
 
-        turned = turned.NearlyNormalized();
-        at = o + BodySlot.EndQ * w;
-        turned.Vector.X.Store(a, at + i);
-        turned.Vector.Y.Store(a, at + j);
-        turned.Vector.Z.Store(a, at + k);
-        turned.W.Store(a, at + 3 * w);
-        LaneQuaternion<V>.Load(a, at).StoreMatrix(a, o + BodySlot.R * w);
+        Finish(a, o);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TurnSphere(double[] a, int o, double half, int axis)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> inverse = Lane<V>.Splat(half) * Lane<V>.Load(a, o + (BodySlot.InverseInertia + axis) * w);
+        LaneVector<V> u = inverse * LaneVector<V>.Load(a, o + BodySlot.L * w);
+        Lane<V> square = LaneVector<V>.Dot(u, u);
+        Lane<V> c = LaneQuaternion<V>.CosineSeries(square);
+        LaneVector<V> s = LaneQuaternion<V>.SineSeries(square) * u;
+        LaneVector<V> v = LaneVector<V>.Load(a, o + BodySlot.Q * w);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodySlot.Q + 3) * w);
+        (c * v + scalar * s + LaneVector<V>.Cross(s, v)).Store(a, o + BodySlot.EndQ * w);
+        (c * scalar - LaneVector<V>.Dot(s, v)).Store(a, o + (BodySlot.EndQ + 3) * w);
+    }
+
+    // L in the body's axes at the start, in the order first, second, sphere.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TurnIntoBody(double[] a, int o, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w).InverseRotate(LaneVector<V>.Load(a, o + BodySlot.L * w));
+        local.Store(a, o + BodySlot.Local * w);
+        Permuted(a, o + BodySlot.Local * w, spin).Store(a, o + BodySlot.Local * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TurnFirst(double[] a, int o, double half, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneVector<V>.Load(a, o + BodySlot.Local * w);
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.First, spin) * local.X;
+        Axial(angle, out Lane<V> s, out Lane<V> c);
+        LaneVector<V> v = Permuted(a, o + BodySlot.EndQ * w, spin);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodySlot.EndQ + 3) * w);
+        StorePermuted(new LaneVector<V>(c * v.X + s * scalar, c * v.Y + s * v.Z, c * v.Z - s * v.Y), a, o + BodySlot.EndQ * w, spin);
+        (c * scalar - s * v.X).Store(a, o + (BodySlot.EndQ + 3) * w);
+
+        // L is fixed in the world: in the body it turns the other way, by the whole angle.
+        Lane<V> sine = (s + s) * c;
+        Lane<V> cosine = c * c - s * s;
+        (cosine * local.Y + sine * local.Z).Store(a, o + (BodySlot.Local + 1) * w);
+        (cosine * local.Z - sine * local.Y).Store(a, o + (BodySlot.Local + 2) * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TurnSecond(double[] a, int o, double half, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneVector<V>.Load(a, o + BodySlot.Local * w);
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.Second, spin) * local.Y;
+        Axial(angle, out Lane<V> s, out Lane<V> c);
+        LaneVector<V> v = Permuted(a, o + BodySlot.EndQ * w, spin);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodySlot.EndQ + 3) * w);
+        StorePermuted(new LaneVector<V>(c * v.X - s * v.Z, c * v.Y + s * scalar, c * v.Z + s * v.X), a, o + BodySlot.EndQ * w, spin);
+        (c * scalar - s * v.Y).Store(a, o + (BodySlot.EndQ + 3) * w);
+        Lane<V> sine = (s + s) * c;
+        Lane<V> cosine = c * c - s * s;
+        (cosine * local.X - sine * local.Z).Store(a, o + BodySlot.Local * w);
+        (cosine * local.Z + sine * local.X).Store(a, o + (BodySlot.Local + 2) * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Finish(double[] a, int o)
+    {
+        int w = Lane<V>.Width;
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w).NearlyNormalized();
+        q.Store(a, o + BodySlot.EndQ * w);
+        q.StoreMatrix(a, o + BodySlot.R * w);
+    }
+
+    // 1 / I of an axis less that of the sphere's.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Lane<V> Excess(double[] a, int o, int axis, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        return Lane<V>.Load(a, o + (BodySlot.InverseInertia + axis) * w) - Lane<V>.Load(a, o + (BodySlot.InverseInertia + spin.Sphere) * w);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Load(double[] a, int at, int i, int j, int k) =>
-        new(Lane<V>.Load(a, at + i), Lane<V>.Load(a, at + j), Lane<V>.Load(a, at + k));
+    private static LaneVector<V> Permuted(double[] a, int at, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        return new LaneVector<V>(Lane<V>.Load(a, at + spin.First * w), Lane<V>.Load(a, at + spin.Second * w), Lane<V>.Load(a, at + spin.Sphere * w));
+    }
 
-    // Sine and cosine of half the angle of a turn.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void StorePermuted(LaneVector<V> v, double[] a, int at, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        v.X.Store(a, at + spin.First * w);
+        v.Y.Store(a, at + spin.Second * w);
+        v.Z.Store(a, at + spin.Sphere * w);
+    }
+
+    // Sine and cosine of half the angle of a turn, from that half.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static void Axial(Lane<V> half, out Lane<V> sine, out Lane<V> cosine)
     {
@@ -142,16 +209,4 @@ internal static class Flight<V>
         sine = half * LaneQuaternion<V>.SineSeries(square);
         cosine = LaneQuaternion<V>.CosineSeries(square);
     }
-
-    // A vector fixed in the world, seen from a body that turned about its x axis (y axis: its x component alone).
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> AgainstX(LaneVector<V> v, Lane<V> s, Lane<V> c)
-    {
-        Lane<V> sine = (s + s) * c;
-        Lane<V> cosine = c * c - s * s;
-        return new LaneVector<V>(v.X, cosine * v.Y + sine * v.Z, cosine * v.Z - sine * v.Y);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Lane<V> AgainstY(LaneVector<V> v, Lane<V> s, Lane<V> c) => (c * c - s * s) * v.X - (s + s) * c * v.Z;
 }

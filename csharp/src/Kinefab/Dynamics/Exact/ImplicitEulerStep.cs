@@ -182,7 +182,7 @@ internal sealed class ImplicitEulerStep
                 if (node.Bodies[side] < shape.MovingBodies)
                 {
                     Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.First);
-                    int lever = Batch<ScalarLane>.Joint(n, side == 0 ? Batch<ScalarLane>.Lever0 : Batch<ScalarLane>.Lever1);
+                    int lever = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
                     AddStiffness(9 * node.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
                 }
             }

@@ -92,7 +92,7 @@ internal sealed class IslandGroup<V> : IslandGroup
                 batch.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
-            RattleStep<V>.Build(batch);
+            RattleStep<V>.Rebuild(batch);
             RattleStep<V>.Project(batch, dt, tolerance);
             RattleStep<V>.Accept(batch);
             Stiffness<V>.Measure(batch, batch.Half, dt / 2);
@@ -132,7 +132,7 @@ internal sealed class IslandGroup<V> : IslandGroup
         if (isMoved)
         {
             Flight<V>.Stay(batch);
-            RattleStep<V>.Build(batch);
+            RattleStep<V>.Rebuild(batch);
         }
     }
 
@@ -153,7 +153,7 @@ internal sealed class IslandGroup<V> : IslandGroup
         }
 
         Flight<ScalarLane>.Stay(_spare);
-        RattleStep<ScalarLane>.Build(_spare);
+        RattleStep<ScalarLane>.Rebuild(_spare);
         int stops = _ladder.Stops;
         _ladder.Step(dt, tolerance, ref Cut(index, lane), hasFailed);
         _mechanism.Overflows += _ladder.Stops - stops;
@@ -218,7 +218,7 @@ internal sealed class PreparedIslands : IslandGroup
             }
 
             // Targets and other fields of the joints may have changed since the last step: their rows are read again.
-            RattleStep<ScalarLane>.Build(batch);
+            RattleStep<ScalarLane>.Rebuild(batch);
             int stops = _ladders[i].Stops;
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
             _mechanism.Overflows += _ladders[i].Stops - stops;

@@ -61,6 +61,13 @@ internal sealed class Node
     public readonly AngularRows Angular;
     public readonly int RigidRows;
 
+    /// <summary>Angular rows in closed form, each of two axes that stay at right angles.</summary>
+    public readonly int Turns;
+
+    /// <summary>What of frame 0 and 1 the rigid rows need in the world's axes: bit 0 the lever, bits 1 to 3 the axes.</summary>
+    public readonly int PlacedMask0;
+    public readonly int PlacedMask1;
+
     /// <summary>Slots for drive rows, in Prepare's order, then for limits: cone, angles, distance.</summary>
     public readonly int Drives;
     public readonly bool HasCone;
@@ -131,6 +138,16 @@ internal sealed class Node
         }
 
         RigidRows = classes.Count;
+        Turns = Angular == AngularRows.Prepared ? 0 : turns;
+        PlacedMask0 = 1 | (LinearMask == 7 ? 0 : LinearMask << 1);
+        PlacedMask1 = 1;
+        for (int i = 0; i < Turns; i++)
+        {
+            Turn(i, out int axis0, out int axis1);
+            PlacedMask0 |= 2 << axis0;
+            PlacedMask1 |= 2 << axis1;
+        }
+
         for (int i = Laws; i > 0; i--)
         {
             classes.Add(RowClass.General);
@@ -147,6 +164,25 @@ internal sealed class Node
         CouplingSides = sides;
         RigidRows = 1;
         Classes = new[] { RowClass.General };
+    }
+
+    /// <summary>
+    /// Which axes of frame 0 and frame 1 an angular row keeps at right angles: the free axis of 1 with the other two of 0, and
+    /// for a joint without a free turn also y0 with z1.
+    /// </summary>
+    public void Turn(int row, out int axis0, out int axis1)
+    {
+        int free = Angular == AngularRows.HingeY ? 1 : Angular == AngularRows.HingeZ ? 2 : 0;
+        if (row == 2)
+        {
+            axis0 = 1;
+            axis1 = 2;
+            return;
+        }
+
+        axis0 = free + 1 + row;
+        axis0 = axis0 > 2 ? axis0 - 3 : axis0;
+        axis1 = free;
     }
 
     /// <summary>Rows that obey a law.</summary>

@@ -96,7 +96,14 @@ internal static class RattleStep<V>
         }
     }
 
-    /// <summary>Builds and factors the rows at the end pose, for all lanes.</summary>
+    /// <summary>As <see cref="Build"/>, at an end pose that no flight led to.</summary>
+    public static void Rebuild(Batch<V> batch)
+    {
+        RigidRows<V>.Place(batch);
+        Build(batch);
+    }
+
+    /// <summary>Builds and factors the rows at the end pose of the last flight, for all lanes.</summary>
     public static void Build(Batch<V> batch)
     {
         ResponseMatrix<V>.InverseInertias(batch);

@@ -40,7 +40,7 @@ internal static class Reactions<V>
             }
 
             batch.Laws?.AddLimits(n, ref linear, ref angular);
-            angular -= Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Lever0) + lane), linear);
+            angular -= Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0)) + lane), linear);
             mechanism.Reactions[node.Index] = new JointReaction { Force = linear * (1 / dt), Torque = angular * (1 / dt) };
             if (linear.Length > joint.BreakForce * dt || angular.Length > joint.BreakTorque * dt)
             {

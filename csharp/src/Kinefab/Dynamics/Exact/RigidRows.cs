@@ -14,21 +14,34 @@ namespace Kinefab.Dynamics.Exact;
 internal static class RigidRows<V>
     where V : struct, ILane<V>
 {
-    /// <summary>C of the rigid rows at the end of the flight; the largest one, and the largest change, of each lane.</summary>
+    /// <summary>Levers and axes in the world's axes at the end of the flight.</summary>
+    public static void Place(Batch<V> batch)
+    {
+        Node[] nodes = batch.Shape.Nodes;
+        for (int n = 0; n < nodes.Length; n++)
+        {
+            if (nodes[n].Joint != null)
+            {
+                Place(batch, n, nodes[n], 0);
+                Place(batch, n, nodes[n], 1);
+            }
+        }
+    }
+
+    /// <summary>Places levers and axes and finds C of all rows; the largest one, and the largest change, of each lane.</summary>
     public static void Evaluate(Batch<V> batch)
     {
-        double[] errors = batch.Error;
-        double[] last = batch.LastError;
+        Place(batch);
         int w = Lane<V>.Width;
-        Lane<V> most = Lane<V>.Splat(0);
-        Lane<V> change = Lane<V>.Splat(0);
-        Lane<V> gap = Lane<V>.Splat(0);
+        Lane<V> zero = Lane<V>.Splat(0);
+        zero.Store(batch.MaxError, 0);
+        zero.Store(batch.MaxChange, 0);
+        zero.Store(batch.MaxGap, 0);
         Node[] nodes = batch.Shape.Nodes;
         for (int n = 0; n < nodes.Length; n++)
         {
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            int end = row + node.Rows * w;
             if (node.IsPrepared)
             {
                 PreparedRows<V>.Evaluate(batch, n);
@@ -36,29 +49,18 @@ internal static class RigidRows<V>
 
             if (node.Joint != null)
             {
-                EvaluateJoint(batch, n, node, row);
+                int linear = EvaluateLinear(batch, n, node, row);
+                EvaluateAngular(batch, n, node, row + linear * w);
             }
 
-            for (int i = 0; row < end; i++, row += w)
+            for (int i = 0; i < node.Rows; i++)
             {
-                Lane<V> c = Lane<V>.Load(errors, row);
-                if (node.Classes[i] != RowClass.Angular)
-                {
-                    gap = Lane<V>.Max(gap, Lane<V>.Abs(c));
-                }
-
-                most = Lane<V>.Max(most, Lane<V>.Abs(c));
-                change = Lane<V>.Max(change, Lane<V>.Abs(c - Lane<V>.Load(last, row)));
-                c.Store(last, row);
+                Rate(batch, row + i * w, node.Classes[i] != RowClass.Angular);
             }
         }
-
-        gap.Store(batch.MaxGap, 0);
-        most.Store(batch.MaxError, 0);
-        change.Store(batch.MaxChange, 0);
     }
 
-    /// <summary>J of the rigid rows at the end of the flight, and the levers.</summary>
+    /// <summary>J of all rows where levers and axes were last placed.</summary>
     public static void Build(Batch<V> batch)
     {
         Node[] nodes = batch.Shape.Nodes;
@@ -66,7 +68,29 @@ internal static class RigidRows<V>
         {
             if (nodes[n].Joint != null)
             {
-                BuildJoint(batch, n, nodes[n]);
+                int row = batch.Row(n, 0, 0, 0);
+                int stride = 2 * Batch<V>.SideCount * Lane<V>.Width;
+                if (nodes[n].LinearMask == 7)
+                {
+                    BuildAnchor(batch, n, row);
+                    row += 3 * stride;
+                }
+                else
+                {
+                    for (int axis = 0; axis < 3; axis++)
+                    {
+                        if ((nodes[n].LinearMask & (1 << axis)) != 0)
+                        {
+                            BuildAlong(batch, n, nodes[n], axis, row);
+                            row += stride;
+                        }
+                    }
+                }
+
+                for (int i = 0; i < nodes[n].Turns; i++, row += stride)
+                {
+                    BuildTurn(batch, n, nodes[n], i, row);
+                }
             }
 
             if (nodes[n].IsPrepared)
@@ -76,132 +100,139 @@ internal static class RigidRows<V>
         }
     }
 
-    private static void EvaluateJoint(Batch<V> batch, int n, Node node, int row)
+    private static void Place(Batch<V> batch, int n, Node node, int side)
     {
-        double[] errors = batch.Error;
-        int w = Lane<V>.Width;
-        if (node.LinearMask != 0)
+        int body = node.Bodies[side];
+        if (batch.Shape.IsStatic[body])
         {
-            LaneVector<V> gap = Anchor(batch, n, node, 0, out _) - Anchor(batch, n, node, 1, out _);
-            if (node.LinearMask == 7)
-            {
-                gap.Store(errors, row);
-                row += 3 * w;
-            }
-            else
-            {
-                for (int axis = 0; axis < 3; axis++)
-                {
-                    if ((node.LinearMask & (1 << axis)) != 0)
-                    {
-                        LaneVector<V>.Dot(Axis(batch, n, node, 0, axis), gap).Store(errors, row);
-                        row += w;
-                    }
-                }
-            }
-        }
-
-        int turns = TurnRows(node.Angular);
-        for (int i = 0; i < turns; i++)
-        {
-            Turn(node.Angular, i, out int axis0, out int axis1);
-            LaneVector<V>.Dot(Axis(batch, n, node, 0, axis0), Axis(batch, n, node, 1, axis1)).Store(errors, row);
-            row += w;
-        }
-    }
-
-    private static void BuildJoint(Batch<V> batch, int n, Node node)
-    {
-        double[] rows = batch.Rows;
-        int w = Lane<V>.Width;
-        Lane<V> zero = Lane<V>.Splat(0);
-        LaneVector<V> p0 = Anchor(batch, n, node, 0, out LaneVector<V> r0);
-        LaneVector<V> p1 = Anchor(batch, n, node, 1, out LaneVector<V> r1);
-        r0.Store(batch.Joints, Batch<V>.Joint(n, Batch<V>.Lever0));
-        r1.Store(batch.Joints, Batch<V>.Joint(n, Batch<V>.Lever1));
-        int row = batch.Row(n, 0, 0, 0);
-        int side = Batch<V>.SideCount * w;
-        int angular = Batch<V>.Angular * w;
-        if (node.LinearMask == 7)
-        {
-            // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.
-            new LaneVector<V>(zero, r0.Z, zero - r0.Y).Store(rows, row + angular);
-            new LaneVector<V>(zero, zero - r1.Z, r1.Y).Store(rows, row + side + angular);
-            new LaneVector<V>(zero - r0.Z, zero, r0.X).Store(rows, row + 2 * side + angular);
-            new LaneVector<V>(r1.Z, zero, zero - r1.X).Store(rows, row + 3 * side + angular);
-            new LaneVector<V>(r0.Y, zero - r0.X, zero).Store(rows, row + 4 * side + angular);
-            new LaneVector<V>(zero - r1.Y, r1.X, zero).Store(rows, row + 5 * side + angular);
-            row += 6 * side;
-        }
-        else
-        {
-            var none = new LaneVector<V>(zero, zero, zero);
-            LaneVector<V> lever = r0 + (p1 - p0);
-            for (int i = 0; i < 3; i++)
-            {
-                if ((node.LinearMask & (1 << i)) != 0)
-                {
-                    LaneVector<V> a = Axis(batch, n, node, 0, i);
-                    a.Store(rows, row);
-                    LaneVector<V>.Cross(lever, a).Store(rows, row + angular);
-                    (none - a).Store(rows, row + side);
-                    LaneVector<V>.Cross(a, r1).Store(rows, row + side + angular);
-                    row += 2 * side;
-                }
-            }
-        }
-
-        int turns = TurnRows(node.Angular);
-        for (int i = 0; i < turns; i++)
-        {
-            Turn(node.Angular, i, out int axis0, out int axis1);
-            LaneVector<V> a = Axis(batch, n, node, 0, axis0);
-            LaneVector<V> b = Axis(batch, n, node, 1, axis1);
-            LaneVector<V>.Cross(a, b).Store(rows, row + angular);
-            LaneVector<V>.Cross(b, a).Store(rows, row + side + angular);
-            row += 2 * side;
-        }
-    }
-
-    private static int TurnRows(AngularRows angular) => angular switch
-    {
-        AngularRows.None or AngularRows.Prepared => 0,
-        AngularRows.All => 3,
-        _ => 2,
-    };
-
-    // Which axes of frame 0 and frame 1 stay at right angles: the free axis of 1 with the other two of 0, and for a joint
-    // without a free turn also y0 with z1.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void Turn(AngularRows angular, int row, out int axis0, out int axis1)
-    {
-        int free = angular == AngularRows.HingeY ? 1 : angular == AngularRows.HingeZ ? 2 : 0;
-        if (row == 2)
-        {
-            axis0 = 1;
-            axis1 = 2;
             return;
         }
 
-        axis0 = free + 1 + row;
-        axis0 = axis0 > 2 ? axis0 - 3 : axis0;
-        axis1 = free;
+        int matrix = Batch<V>.Body(body, BodySlot.R);
+        int from = Batch<V>.Joint(n, Batch<V>.Frame(side));
+        int to = Batch<V>.Joint(n, Batch<V>.Placed(side));
+        int step = 3 * Lane<V>.Width;
+        int mask = side == 0 ? node.PlacedMask0 : node.PlacedMask1;
+        for (int vector = 0; vector < 4; vector++)
+        {
+            if ((mask & (1 << vector)) != 0)
+            {
+                ToWorld(batch.Bodies, matrix, batch.Joints, from + vector * step, to + vector * step);
+            }
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void ToWorld(double[] bodies, int matrix, double[] joints, int from, int to) =>
+        LaneVector<V>.Multiply(bodies, matrix, LaneVector<V>.Load(joints, from)).Store(joints, to);
+
+    // Returns the number of rows.
+    private static int EvaluateLinear(Batch<V> batch, int n, Node node, int row)
+    {
+        if (node.LinearMask == 0)
+        {
+            return 0;
+        }
+
+        int x0 = Batch<V>.Body(node.Bodies[0], BodySlot.EndX);
+        int x1 = Batch<V>.Body(node.Bodies[1], BodySlot.EndX);
+        if (node.LinearMask == 7)
+        {
+            Gap(batch, n, x0, x1).Store(batch.Error, row);
+            return 3;
+        }
+
+        int rows = 0;
+        for (int axis = 0; axis < 3; axis++)
+        {
+            if ((node.LinearMask & (1 << axis)) != 0)
+            {
+                GapAlong(batch, n, x0, x1, axis, row + rows * Lane<V>.Width);
+                rows++;
+            }
+        }
+
+        return rows;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void GapAlong(Batch<V> batch, int n, int x0, int x1, int axis, int row) =>
+        LaneVector<V>.Dot(Axis(batch, n, 0, axis), Gap(batch, n, x0, x1)).Store(batch.Error, row);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static LaneVector<V> Gap(Batch<V> batch, int n, int x0, int x1) =>
+        (LaneVector<V>.Load(batch.Bodies, x0) + Lever(batch, n, 0)) - (LaneVector<V>.Load(batch.Bodies, x1) + Lever(batch, n, 1));
+
+    private static void EvaluateAngular(Batch<V> batch, int n, Node node, int row)
+    {
+        for (int i = 0; i < node.Turns; i++, row += Lane<V>.Width)
+        {
+            node.Turn(i, out int axis0, out int axis1);
+            LaneVector<V>.Dot(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1)).Store(batch.Error, row);
+        }
+    }
+
+    // The row's part in the largest error, change and gap.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Rate(Batch<V> batch, int row, bool isGap)
+    {
+        Lane<V> c = Lane<V>.Load(batch.Error, row);
+        Lane<V> size = Lane<V>.Abs(c);
+        Lane<V>.Max(Lane<V>.Load(batch.MaxError, 0), size).Store(batch.MaxError, 0);
+        Lane<V>.Max(Lane<V>.Load(batch.MaxChange, 0), Lane<V>.Abs(c - Lane<V>.Load(batch.LastError, row))).Store(batch.MaxChange, 0);
+        c.Store(batch.LastError, row);
+        if (isGap)
+        {
+            Lane<V>.Max(Lane<V>.Load(batch.MaxGap, 0), size).Store(batch.MaxGap, 0);
+        }
+    }
+
+    // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void BuildAnchor(Batch<V> batch, int n, int row)
+    {
+        double[] rows = batch.Rows;
+        int side = Batch<V>.SideCount * Lane<V>.Width;
+        Lane<V> zero = Lane<V>.Splat(0);
+        LaneVector<V> r0 = Lever(batch, n, 0);
+        LaneVector<V> r1 = Lever(batch, n, 1);
+        row += Batch<V>.Angular * Lane<V>.Width;
+        new LaneVector<V>(zero, r0.Z, zero - r0.Y).Store(rows, row);
+        new LaneVector<V>(zero, zero - r1.Z, r1.Y).Store(rows, row + side);
+        new LaneVector<V>(zero - r0.Z, zero, r0.X).Store(rows, row + 2 * side);
+        new LaneVector<V>(r1.Z, zero, zero - r1.X).Store(rows, row + 3 * side);
+        new LaneVector<V>(r0.Y, zero - r0.X, zero).Store(rows, row + 4 * side);
+        new LaneVector<V>(zero - r1.Y, r1.X, zero).Store(rows, row + 5 * side);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void BuildAlong(Batch<V> batch, int n, Node node, int axis, int row)
+    {
+        double[] rows = batch.Rows;
+        int side = Batch<V>.SideCount * Lane<V>.Width;
+        int angular = Batch<V>.Angular * Lane<V>.Width;
+        LaneVector<V> gap = Gap(batch, n, Batch<V>.Body(node.Bodies[0], BodySlot.EndX), Batch<V>.Body(node.Bodies[1], BodySlot.EndX));
+        LaneVector<V> a = Axis(batch, n, 0, axis);
+        a.Store(rows, row);
+        LaneVector<V>.Cross(Lever(batch, n, 0) - gap, a).Store(rows, row + angular);
+        (-a).Store(rows, row + side);
+        LaneVector<V>.Cross(a, Lever(batch, n, 1)).Store(rows, row + side + angular);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void BuildTurn(Batch<V> batch, int n, Node node, int i, int row)
+    {
+        node.Turn(i, out int axis0, out int axis1);
+        LaneVector<V> turn = LaneVector<V>.Cross(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1));
+        row += Batch<V>.Angular * Lane<V>.Width;
+        turn.Store(batch.Rows, row);
+        (-turn).Store(batch.Rows, row + Batch<V>.SideCount * Lane<V>.Width);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Anchor(Batch<V> batch, int n, Node node, int side, out LaneVector<V> lever)
-    {
-        int body = node.Bodies[side];
-        LaneVector<V> local = LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, side == 0 ? Batch<V>.Anchor0 : Batch<V>.Anchor1));
-        lever = LaneVector<V>.Multiply(batch.Bodies, Batch<V>.Body(body, BodySlot.R), local);
-        return LaneVector<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.EndX)) + lever;
-    }
+    private static LaneVector<V> Lever(Batch<V> batch, int n, int side) => LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Axis(Batch<V> batch, int n, Node node, int side, int axis)
-    {
-        int slot = (side == 0 ? Batch<V>.Axes0 : Batch<V>.Axes1) + 3 * axis;
-        LaneVector<V> local = LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, slot));
-        return LaneVector<V>.Multiply(batch.Bodies, Batch<V>.Body(node.Bodies[side], BodySlot.R), local);
-    }
+    private static LaneVector<V> Axis(Batch<V> batch, int n, int side, int axis) =>
+        LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side) + 3 * (axis + 1)));
 }

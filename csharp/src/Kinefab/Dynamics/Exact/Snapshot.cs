@@ -32,7 +32,7 @@ internal sealed class Snapshot
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
         Array.Copy(_half, batch.Half, _half.Length);
         Array.Copy(_total, batch.Total, _total.Length);
-        RattleStep<ScalarLane>.Build(batch);
+        RattleStep<ScalarLane>.Rebuild(batch);
         batch.Laws?.Restore(_laws);
     }
 }

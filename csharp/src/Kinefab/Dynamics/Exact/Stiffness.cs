@@ -47,7 +47,7 @@ internal static class Stiffness<V>
                     continue;
                 }
 
-                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, side == 0 ? Batch<V>.Lever0 : Batch<V>.Lever1));
+                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)));
                 int inverse = Batch<V>.Body(body, BodySlot.WorldInverse);
                 Lane<V> trace = Lane<V>.Load(a, inverse) + Lane<V>.Load(a, inverse + w) + Lane<V>.Load(a, inverse + 2 * w);
                 Lane<V> square = LaneVector<V>.Dot(lever, lever);

@@ -32,8 +32,14 @@ internal static class Transfer<V>
             Joint? joint = island.Nodes[n].Joint;
             if (joint != null)
             {
-                PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Anchor0) + lane, joint.Frame0);
-                PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Anchor1) + lane, joint.Frame1);
+                for (int side = 0; side < 2; side++)
+                {
+                    Pose frame = side == 0 ? joint.Frame0 : joint.Frame1;
+                    PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Frame(side)) + lane, frame);
+
+                    // On the world they are placed once and for all.
+                    PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)) + lane, frame);
+                }
             }
         }
     }

@@ -129,6 +129,7 @@ internal static class BlockCholesky<V>
         }
     }
 
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ForwardFive(double[] a, int g, double[] b, int at)
     {
         int w = Lane<V>.Width;
@@ -153,6 +154,12 @@ internal static class BlockCholesky<V>
     // Solves G^T x = b in place.
     private static void Backward(double[] a, int diagonal, double[] b, int at, int n)
     {
+        if (n == Five)
+        {
+            BackwardFive(a, diagonal, b, at);
+            return;
+        }
+
         int w = Lane<V>.Width;
         for (int t = n - 1; t >= 0; t--)
         {
@@ -164,6 +171,35 @@ internal static class BlockCholesky<V>
                 (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
             }
         }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void BackwardFive(double[] a, int g, double[] b, int at)
+    {
+        int w = Lane<V>.Width;
+        g += 4 * Five * w;
+        Lane<V> x4 = Lane<V>.Load(b, at + 4 * w) * Lane<V>.Load(a, g + 4 * w);
+        x4.Store(b, at + 4 * w);
+        Lane<V> x3 = Lane<V>.Load(b, at + 3 * w) - x4 * Lane<V>.Load(a, g + 3 * w);
+        Lane<V> x2 = Lane<V>.Load(b, at + 2 * w) - x4 * Lane<V>.Load(a, g + 2 * w);
+        Lane<V> x1 = Lane<V>.Load(b, at + w) - x4 * Lane<V>.Load(a, g + w);
+        Lane<V> x0 = Lane<V>.Load(b, at) - x4 * Lane<V>.Load(a, g);
+        g -= Five * w;
+        x3 *= Lane<V>.Load(a, g + 3 * w);
+        x3.Store(b, at + 3 * w);
+        x2 -= x3 * Lane<V>.Load(a, g + 2 * w);
+        x1 -= x3 * Lane<V>.Load(a, g + w);
+        x0 -= x3 * Lane<V>.Load(a, g);
+        g -= Five * w;
+        x2 *= Lane<V>.Load(a, g + 2 * w);
+        x2.Store(b, at + 2 * w);
+        x1 -= x2 * Lane<V>.Load(a, g + w);
+        x0 -= x2 * Lane<V>.Load(a, g);
+        g -= Five * w;
+        x1 *= Lane<V>.Load(a, g + w);
+        x1.Store(b, at + w);
+        x0 -= x1 * Lane<V>.Load(a, g);
+        (x0 * Lane<V>.Load(a, g - Five * w)).Store(b, at);
     }
 
     // to -= M from, M m x n.

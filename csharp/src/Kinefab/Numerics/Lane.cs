@@ -35,6 +35,7 @@ internal interface ILane<TSelf>
 
     TSelf Absolute();
 
+    /// <summary>The other where either is not a number, as processors have it; so too for <see cref="Minimum"/>.</summary>
     TSelf Maximum(TSelf other);
 
     TSelf Minimum(TSelf other);
@@ -150,10 +151,10 @@ internal readonly struct ScalarLane : ILane<ScalarLane>
     public ScalarLane Absolute() => new(Math.Abs(_value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ScalarLane Maximum(ScalarLane other) => new(Math.Max(_value, other._value));
+    public ScalarLane Maximum(ScalarLane other) => new(_value > other._value ? _value : other._value);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ScalarLane Minimum(ScalarLane other) => new(Math.Min(_value, other._value));
+    public ScalarLane Minimum(ScalarLane other) => new(_value < other._value ? _value : other._value);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ScalarLane Select(ScalarLane first, ScalarLane second) => _value != 0 ? first : second;

@@ -46,10 +46,10 @@ internal readonly struct Lane4 : ILane<Lane4>
     public Lane4 Absolute() => new(Vector256.Abs(_value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane4 Maximum(Lane4 other) => new(Vector256.Max(_value, other._value));
+    public Lane4 Maximum(Lane4 other) => new(Vector256.MaxNative(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane4 Minimum(Lane4 other) => new(Vector256.Min(_value, other._value));
+    public Lane4 Minimum(Lane4 other) => new(Vector256.MinNative(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane4 Select(Lane4 first, Lane4 second) =>
@@ -98,10 +98,10 @@ internal readonly struct Lane8 : ILane<Lane8>
     public Lane8 Absolute() => new(Vector512.Abs(_value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane8 Maximum(Lane8 other) => new(Vector512.Max(_value, other._value));
+    public Lane8 Maximum(Lane8 other) => new(Vector512.MaxNative(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane8 Minimum(Lane8 other) => new(Vector512.Min(_value, other._value));
+    public Lane8 Minimum(Lane8 other) => new(Vector512.MinNative(_value, other._value));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Select(Lane8 first, Lane8 second) =>

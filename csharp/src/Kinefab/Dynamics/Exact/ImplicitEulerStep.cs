@@ -85,7 +85,7 @@ internal sealed class ImplicitEulerStep
         }
 
         Scatter(_residual);
-        Impulses<ScalarLane>.Apply(batch, batch.First, 1);
+        Impulses<ScalarLane>.Apply(batch, batch.First);
         Gather(_residual);
         double most = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
@@ -136,7 +136,7 @@ internal sealed class ImplicitEulerStep
         }
 
         Scatter(_residual);
-        Impulses<ScalarLane>.Apply(batch, batch.Solution, 1);
+        Impulses<ScalarLane>.Apply(batch, batch.Solution);
         Gather(_residual);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -7,62 +8,65 @@ namespace Kinefab.Dynamics.Exact;
 internal static class Impulses<V>
     where V : struct, ILane<V>
 {
-    /// <summary>v += M^-1 J^T l, L += J^T l, times a factor, in the active lanes.</summary>
-    public static void Apply(Batch<V> batch, double[] impulses, double factor)
+    /// <summary>v += M^-1 J^T l, L += J^T l in the active lanes.</summary>
+    public static void Apply(Batch<V> batch, double[] impulses)
     {
-        double[] a = batch.Bodies;
-        double[] rows = batch.Rows;
         int w = Lane<V>.Width;
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
-        Lane<V> zero = Lane<V>.Splat(0);
-        Lane<V> times = Lane<V>.Splat(factor);
         Node[] nodes = batch.Shape.Nodes;
         for (int n = 0; n < nodes.Length; n++)
         {
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            int stride = node.Bodies.Length * Batch<V>.SideCount * w;
             for (int side = 0; side < node.Bodies.Length; side++)
             {
-                int body = node.Bodies[side];
-                if (body >= batch.Shape.MovingBodies)
+                if (node.Bodies[side] < batch.Shape.MovingBodies)
                 {
-                    continue;
+                    ApplySide(batch, n, node, side, impulses, row);
                 }
-
-                var force = new LaneVector<V>(zero, zero, zero);
-                var torque = new LaneVector<V>(zero, zero, zero);
-                int o = batch.Row(n, 0, side, 0);
-                int i = 0;
-                if (node.LinearMask == 7)
-                {
-                    var l = LaneVector<V>.Load(impulses, row);
-                    force = side == 0 ? l : force - l;
-                    torque = l.X * LaneVector<V>.Load(rows, o + Batch<V>.Angular * w)
-                        + l.Y * LaneVector<V>.Load(rows, o + stride + Batch<V>.Angular * w)
-                        + l.Z * LaneVector<V>.Load(rows, o + 2 * stride + Batch<V>.Angular * w);
-                    i = 3;
-                }
-
-                for (; i < node.Rows; i++)
-                {
-                    Lane<V> l = Lane<V>.Load(impulses, row + i * w);
-                    int oi = o + i * stride;
-                    torque += l * LaneVector<V>.Load(rows, oi + Batch<V>.Angular * w);
-                    if (node.Classes[i] == RowClass.General)
-                    {
-                        force += l * LaneVector<V>.Load(rows, oi + Batch<V>.Linear * w);
-                    }
-                }
-
-                int at = Batch<V>.Body(body, 0);
-                Lane<V> mass = times * Lane<V>.Load(a, at + BodySlot.InverseMass * w);
-                LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
-                LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
-                LaneVector<V>.Select(active, v + mass * force, v).Store(a, at + BodySlot.V * w);
-                LaneVector<V>.Select(active, momentum + times * torque, momentum).Store(a, at + BodySlot.L * w);
             }
         }
+    }
+
+    // Of an anchor the force l and the torque r x l, both reversed on side 1; r is read off the built rows r x e, which are
+    // reversed there. Of the other rows as they stand.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void ApplySide(Batch<V> batch, int n, Node node, int side, double[] impulses, int row)
+    {
+        double[] rows = batch.Rows;
+        int w = Lane<V>.Width;
+        Lane<V> zero = Lane<V>.Splat(0);
+        var force = new LaneVector<V>(zero, zero, zero);
+        LaneVector<V> torque = force;
+        int o = batch.Row(n, 0, side, Batch<V>.Angular);
+        int stride = node.Bodies.Length * Batch<V>.SideCount * w;
+        int i = 0;
+        if (node.LinearMask == 7)
+        {
+            LaneVector<V> l = LaneVector<V>.Load(impulses, row);
+            var lever = new LaneVector<V>(Lane<V>.Load(rows, o + stride + 2 * w), Lane<V>.Load(rows, o + 2 * stride), Lane<V>.Load(rows, o + w));
+            torque = LaneVector<V>.Cross(lever, l);
+            force = side == 0 ? l : force - l;
+            i = 3;
+            o += 3 * stride;
+        }
+
+        for (; i < node.Rows; i++, o += stride)
+        {
+            Lane<V> l = Lane<V>.Load(impulses, row + i * w);
+            torque += l * LaneVector<V>.Load(rows, o);
+            if (node.Classes[i] == RowClass.General)
+            {
+                force += l * LaneVector<V>.Load(rows, o + (Batch<V>.Linear - Batch<V>.Angular) * w);
+            }
+        }
+
+        double[] a = batch.Bodies;
+        int at = Batch<V>.Body(node.Bodies[side], 0);
+        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
+        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
+        LaneVector<V>.Select(active, v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force, v).Store(a, at + BodySlot.V * w);
+        LaneVector<V>.Select(active, momentum + torque, momentum).Store(a, at + BodySlot.L * w);
     }
 
     /// <summary>Solution = -J v of all rows at the built pose.</summary>

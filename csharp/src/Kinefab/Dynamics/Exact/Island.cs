@@ -70,6 +70,14 @@ internal sealed class Island
 
         Pattern = new BlockPattern(sizes, Couplings(touching));
         Links = MakeLinks(touching, Pattern);
+        IsAngular = new bool[Pattern.RowCount];
+        for (int n = 0; n < nodes.Length; n++)
+        {
+            for (int i = 0; i < nodes[n].Rows; i++)
+            {
+                IsAngular[Pattern.Rows[n] + i] = nodes[n].Classes[i] == RowClass.Angular;
+            }
+        }
     }
 
     /// <summary>Index in the mechanism (or Joint.World) of each of the island's bodies, the moving ones first.</summary>
@@ -91,6 +99,9 @@ internal sealed class Island
 
     /// <summary>Whether nothing but the bodies' own forces does work on them: no law, no kinematic body.</summary>
     public bool IsWorkless { get; }
+
+    /// <summary>Whether a row, in the vectors' order, has no linear part.</summary>
+    public bool[] IsAngular { get; }
 
     /// <summary>Rows with a law, of all nodes.</summary>
     public int Laws { get; }

@@ -52,7 +52,7 @@ internal static class RattleStep<V>
         batch.Laws?.Begin(h, false);
         Kick(batch, h / 2);
         Array.Copy(batch.Half, batch.First, batch.Half.Length);
-        Impulses<V>.Apply(batch, batch.First, 1);
+        Impulses<V>.Apply(batch, batch.First);
         if (batch.Laws != null)
         {
             Factor(batch, true);
@@ -127,7 +127,7 @@ internal static class RattleStep<V>
         Impulses<V>.NegativeSpeeds(batch);
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
         Copy(batch, batch.Solution, batch.Half);
-        Impulses<V>.Apply(batch, batch.Half, 1);
+        Impulses<V>.Apply(batch, batch.Half);
     }
 
     /// <summary>The end pose becomes the start pose, in all lanes.</summary>
@@ -199,7 +199,7 @@ internal static class RattleStep<V>
                 batch.Half[i] += batch.Solution[i];
             }
 
-            Impulses<V>.Apply(batch, batch.Solution, 1);
+            Impulses<V>.Apply(batch, batch.Solution);
             if (!laws.UpdateProjection(pass, tolerance * LimitReach))
             {
                 return;
@@ -287,7 +287,7 @@ internal static class RattleStep<V>
             Lane<V>.Select(active, first + step, first).Store(batch.First, i);
         }
 
-        Impulses<V>.Apply(batch, move, 1);
+        Impulses<V>.Apply(batch, move);
     }
 
     private static void Copy(Batch<V> batch, double[] from, double[] to)

@@ -33,10 +33,6 @@ internal static class RigidRows<V>
     {
         Place(batch);
         int w = Lane<V>.Width;
-        Lane<V> zero = Lane<V>.Splat(0);
-        zero.Store(batch.MaxError, 0);
-        zero.Store(batch.MaxChange, 0);
-        zero.Store(batch.MaxGap, 0);
         Node[] nodes = batch.Shape.Nodes;
         for (int n = 0; n < nodes.Length; n++)
         {
@@ -52,12 +48,9 @@ internal static class RigidRows<V>
                 int linear = EvaluateLinear(batch, n, node, row);
                 EvaluateAngular(batch, n, node, row + linear * w);
             }
-
-            for (int i = 0; i < node.Rows; i++)
-            {
-                Rate(batch, row + i * w, node.Classes[i] != RowClass.Angular);
-            }
         }
+
+        Rate(batch);
     }
 
     /// <summary>J of all rows where levers and axes were last placed.</summary>
@@ -172,19 +165,33 @@ internal static class RigidRows<V>
         }
     }
 
-    // The row's part in the largest error, change and gap.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Rate(Batch<V> batch, int row, bool isGap)
+    // Largest error, change and gap of each lane.
+    private static void Rate(Batch<V> batch)
     {
-        Lane<V> c = Lane<V>.Load(batch.Error, row);
-        Lane<V> size = Lane<V>.Abs(c);
-        Lane<V>.Max(Lane<V>.Load(batch.MaxError, 0), size).Store(batch.MaxError, 0);
-        Lane<V>.Max(Lane<V>.Load(batch.MaxChange, 0), Lane<V>.Abs(c - Lane<V>.Load(batch.LastError, row))).Store(batch.MaxChange, 0);
-        c.Store(batch.LastError, row);
-        if (isGap)
+        int w = Lane<V>.Width;
+        double[] errors = batch.Error;
+        double[] last = batch.LastError;
+        bool[] isAngular = batch.Shape.IsAngular;
+        Lane<V> most = Lane<V>.Splat(0);
+        Lane<V> change = Lane<V>.Splat(0);
+        Lane<V> gap = Lane<V>.Splat(0);
+
+        // The largest number skips what is not one; the sum does not.
+        Lane<V> sum = Lane<V>.Splat(0);
+        for (int i = 0; i < isAngular.Length; i++)
         {
-            Lane<V>.Max(Lane<V>.Load(batch.MaxGap, 0), size).Store(batch.MaxGap, 0);
+            Lane<V> c = Lane<V>.Load(errors, i * w);
+            change = Lane<V>.Max(change, Lane<V>.Abs(c - Lane<V>.Load(last, i * w)));
+            c.Store(last, i * w);
+            c = Lane<V>.Abs(c);
+            most = Lane<V>.Max(most, c);
+            sum += c;
+            gap = isAngular[i] ? gap : Lane<V>.Max(gap, c);
         }
+
+        (most + (sum - sum)).Store(batch.MaxError, 0);
+        change.Store(batch.MaxChange, 0);
+        gap.Store(batch.MaxGap, 0);
     }
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.

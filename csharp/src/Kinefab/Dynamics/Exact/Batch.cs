@@ -48,6 +48,8 @@ internal sealed class Batch<V>
         MaxGap = new double[w];
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
+        Fastest = new double[w];
+        Reaction = new double[6 * w];
         if (shape.Laws > 0)
         {
             Laws = new Laws<V>(this);
@@ -114,6 +116,12 @@ internal sealed class Batch<V>
 
     /// <summary>Largest error of a row that is not angular alone, m.</summary>
     public double[] MaxGap { get; }
+
+    /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
+    public double[] Fastest { get; }
+
+    /// <summary>Force and torque of one joint.</summary>
+    public double[] Reaction { get; }
 
     /// <summary>Rows with a law, or null without any.</summary>
     public Laws<V>? Laws { get; }

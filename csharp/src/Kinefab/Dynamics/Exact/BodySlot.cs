@@ -50,5 +50,14 @@ internal static class BodySlot
     /// <summary>Angular momentum in the body's axes while they turn, in the order of its <see cref="Spin"/>.</summary>
     public const int Local = 50;
 
-    public const int Count = 53;
+    /// <summary>Principal moments; 0 for an infinite one.</summary>
+    public const int Inertia = 53;
+
+    /// <summary>What damping leaves of the linear and of the angular velocity in the step.</summary>
+    public const int Kept = 56;
+
+    /// <summary>Largest angular speed, rad/s.</summary>
+    public const int MaxSpeed = 58;
+
+    public const int Count = 59;
 }

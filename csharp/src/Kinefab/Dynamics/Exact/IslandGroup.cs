@@ -80,11 +80,13 @@ internal sealed class IslandGroup<V> : IslandGroup
             Batch<V> batch = _batches[i];
             Load(batch, i, dt);
             RattleStep<V>.Fly(batch, dt, tolerance, _converged);
+            bool hasClimbed = false;
             for (int lane = 0; lane < Lane<V>.Width; lane++)
             {
                 bool hasFailed = !_converged[lane];
                 if ((_isHard[lane] || hasFailed) && IsOccupied(i, lane))
                 {
+                    hasClimbed = true;
                     Climb(batch, i, lane, dt, tolerance, hasFailed);
                 }
 
@@ -92,16 +94,25 @@ internal sealed class IslandGroup<V> : IslandGroup
                 batch.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
-            RattleStep<V>.Rebuild(batch);
+            if (hasClimbed)
+            {
+                RigidRows<V>.Place(batch);
+            }
+
+            RattleStep<V>.Build(batch);
             RattleStep<V>.Project(batch, dt, tolerance);
             RattleStep<V>.Accept(batch);
             Stiffness<V>.Measure(batch, batch.Half, dt / 2);
             RattleStep<V>.AddUp(batch);
-            for (int lane = 0; lane < Lane<V>.Width && IsOccupied(i, lane); lane++)
+            Transfer<V>.Finish(batch);
+            int first = i * Lane<V>.Width;
+            int occupied = Math.Min(Lane<V>.Width, _islands.Length - first);
+            for (int lane = 0; lane < occupied; lane++)
             {
-                Transfer<V>.Store(batch, lane, Occupant(i, lane), _mechanism);
-                isBroken |= Reactions<V>.Report(batch, lane, Occupant(i, lane), _mechanism, dt);
+                Transfer<V>.Store(batch, lane, _islands[first + lane], _mechanism);
             }
+
+            isBroken |= Reactions<V>.Report(batch, _islands, first, occupied, _mechanism, dt);
         }
 
         return isBroken;
@@ -112,20 +123,24 @@ internal sealed class IslandGroup<V> : IslandGroup
         bool isMoved = false;
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
-            bool isLaneMoved = Transfer<V>.Load(batch, lane, Occupant(index, lane), _mechanism, dt, out double fastest);
+            bool isLaneMoved = Transfer<V>.Load(batch, lane, Occupant(index, lane), _mechanism, dt);
+            if (isLaneMoved)
+            {
+                ClearHistory(batch, lane);
+                isMoved = true;
+            }
+        }
+
+        Transfer<V>.Start(batch);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
             double stiffest = 0;
             for (int body = 0; body < batch.Shape.MovingBodies; body++)
             {
                 stiffest = Math.Max(stiffest, batch.Bodies[Batch<V>.Body(body, BodySlot.Stiffness) + lane]);
             }
 
-            if (isLaneMoved)
-            {
-                ClearHistory(batch, lane);
-                isMoved = true;
-            }
-
-            _isHard[lane] = Ladder.Demand(stiffest, fastest, dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
+            _isHard[lane] = Ladder.Demand(stiffest, batch.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
             batch.Active[lane] = _isHard[lane] ? 0 : 1;
         }
 
@@ -141,7 +156,8 @@ internal sealed class IslandGroup<V> : IslandGroup
     {
         Island island = Occupant(index, lane);
         Transfer<ScalarLane>.LoadConstants(_spare, 0, island, _mechanism);
-        Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt, out _);
+        Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt);
+        Transfer<ScalarLane>.Start(_spare);
         for (int i = 0; i < _spare.Half.Length; i++)
         {
             _spare.Half[i] = batch.Half[i * Lane<V>.Width + lane];
@@ -211,19 +227,22 @@ internal sealed class PreparedIslands : IslandGroup
         for (int i = 0; i < _islands.Length; i++)
         {
             Batch<ScalarLane> batch = _batches[i];
-            if (Transfer<ScalarLane>.Load(batch, 0, _islands[i], _mechanism, dt, out _))
+            if (Transfer<ScalarLane>.Load(batch, 0, _islands[i], _mechanism, dt))
             {
                 batch.ClearHistory();
                 Flight<ScalarLane>.Stay(batch);
             }
+
+            Transfer<ScalarLane>.Start(batch);
 
             // Targets and other fields of the joints may have changed since the last step: their rows are read again.
             RattleStep<ScalarLane>.Rebuild(batch);
             int stops = _ladders[i].Stops;
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
             _mechanism.Overflows += _ladders[i].Stops - stops;
+            Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
-            isBroken |= Reactions<ScalarLane>.Report(batch, 0, _islands[i], _mechanism, dt);
+            isBroken |= Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);
             foreach (Node node in _islands[i].Nodes)
             {
                 if (node.Coupling != null)

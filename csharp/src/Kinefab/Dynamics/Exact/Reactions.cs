@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -7,49 +8,90 @@ namespace Kinefab.Dynamics.Exact;
 internal static class Reactions<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Writes the mechanism's reactions of one lane's joints; true when one broke.</summary>
-    public static bool Report(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt)
+    /// <summary>Writes the mechanism's reactions of the joints of some islands, one a lane; true when one broke.</summary>
+    /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
+    /// <param name="islands">The islands, from the first lane's on.</param>
+    /// <param name="first">The first lane's island.</param>
+    /// <param name="count">Lanes with an island.</param>
+    /// <param name="mechanism">Where to.</param>
+    /// <param name="dt">Step, s.</param>
+    public static bool Report(Batch<V> batch, Island[] islands, int first, int count, MultibodySystem mechanism, double dt)
     {
         bool isBroken = false;
-        int w = Lane<V>.Width;
-        for (int n = 0; n < island.Nodes.Length; n++)
+        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
         {
-            Node node = island.Nodes[n];
-            Joint? joint = node.Joint;
-            if (joint == null)
+            Node node = batch.Shape.Nodes[n];
+            if (node.Joint == null)
             {
                 continue;
             }
 
-            int row = batch.Shape.Pattern.Rows[n] * w + lane;
-            Vector3d linear = Vector3d.Zero;
-            Vector3d angular = Vector3d.Zero;
-            for (int i = 0; i < node.RigidRows; i++)
+            Sum(batch, n, node, 1 / dt);
+            for (int lane = 0; lane < count; lane++)
             {
-                double impulse = batch.Total[row + i * w];
-                int o = batch.Row(n, i, 0, 0) + lane;
-                angular += Vector(batch.Rows, o + Batch<V>.Angular * w) * impulse;
-                linear += node.Classes[i] switch
+                Node own = islands[first + lane].Nodes[n];
+                Vector3d force = Vector(batch.Reaction, lane);
+                Vector3d torque = Vector(batch.Reaction, 3 * Lane<V>.Width + lane);
+                if (batch.Laws != null)
                 {
-                    RowClass.UnitX => new Vector3d(impulse, 0, 0),
-                    RowClass.UnitY => new Vector3d(0, impulse, 0),
-                    RowClass.UnitZ => new Vector3d(0, 0, impulse),
-                    RowClass.Angular => Vector3d.Zero,
-                    _ => Vector(batch.Rows, o) * impulse,
-                };
-            }
+                    AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
+                }
 
-            batch.Laws?.AddLimits(n, ref linear, ref angular);
-            angular -= Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0)) + lane), linear);
-            mechanism.Reactions[node.Index] = new JointReaction { Force = linear * (1 / dt), Torque = angular * (1 / dt) };
-            if (linear.Length > joint.BreakForce * dt || angular.Length > joint.BreakTorque * dt)
-            {
-                joint.IsBroken = true;
-                isBroken = true;
+                mechanism.Reactions[own.Index] = new JointReaction { Force = force, Torque = torque };
+                Joint joint = own.Joint!;
+                if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
+                {
+                    joint.IsBroken = true;
+                    isBroken = true;
+                }
             }
         }
 
         return isBroken;
+    }
+
+    // Force and torque about the anchor of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Sum(Batch<V> batch, int n, Node node, double rate)
+    {
+        double[] rows = batch.Rows;
+        int w = Lane<V>.Width;
+        Lane<V> zero = Lane<V>.Splat(0);
+        Lane<V> times = Lane<V>.Splat(rate);
+        var force = new LaneVector<V>(zero, zero, zero);
+        LaneVector<V> torque = force;
+        int row = batch.Shape.Pattern.Rows[n] * w;
+        int i = 0;
+        if (node.LinearMask == 7)
+        {
+            force = LaneVector<V>.Load(batch.Total, row);
+            i = 3;
+        }
+
+        for (; i < node.RigidRows; i++)
+        {
+            Lane<V> impulse = Lane<V>.Load(batch.Total, row + i * w);
+            int o = batch.Row(n, i, 0, 0);
+            torque += impulse * LaneVector<V>.Load(rows, o + Batch<V>.Angular * w);
+            if (node.Classes[i] == RowClass.General)
+            {
+                LaneVector<V> share = impulse * LaneVector<V>.Load(rows, o);
+                force += share;
+                torque -= LaneVector<V>.Cross(LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), share);
+            }
+        }
+
+        (times * force).Store(batch.Reaction, 0);
+        (times * torque).Store(batch.Reaction, 3 * w);
+    }
+
+    private static void AddLimits(Batch<V> batch, Laws<V> laws, int n, double rate, ref Vector3d force, ref Vector3d torque)
+    {
+        Vector3d linear = Vector3d.Zero;
+        Vector3d angular = Vector3d.Zero;
+        laws.AddLimits(n, ref linear, ref angular);
+        force += linear * rate;
+        torque += (angular - Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
     }
 
     private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);

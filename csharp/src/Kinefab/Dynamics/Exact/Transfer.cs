@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -11,6 +12,9 @@ internal static class Transfer<V>
     // A kinematic body that is this close to where it was driven has not been moved otherwise, m and half radians.
     private const double Near = 1e-9;
 
+    // Keeps 0 / 0 out of the limit of a speed.
+    private const double LeastSquare = 1e-300;
+
     /// <summary>Constants of bodies and joints.</summary>
     public static void LoadConstants(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
@@ -21,6 +25,7 @@ internal static class Transfer<V>
             Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
             batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
+            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
@@ -44,16 +49,14 @@ internal static class Transfer<V>
         }
     }
 
-    /// <summary>State, forces and damping for a step of dt; true when a pose is not the one that the last step left.</summary>
+    /// <summary>State, forces and damping for a step of dt, before <see cref="Start"/>; true when a pose is not the one that the last step left.</summary>
     /// <param name="batch">Where to.</param>
     /// <param name="lane">Which lane of it.</param>
     /// <param name="island">Whose bodies.</param>
     /// <param name="mechanism">Where from.</param>
     /// <param name="dt">Step, s.</param>
-    /// <param name="fastest">Largest angular speed of the moving bodies, rad/s.</param>
-    public static bool Load(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt, out double fastest)
+    public static bool Load(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt)
     {
-        fastest = 0;
         bool isMoved = false;
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;
@@ -83,19 +86,11 @@ internal static class Transfer<V>
                 continue;
             }
 
-            Vector3d v = bodies.LinearVelocities[body] * Math.Max(0, 1 - bodies.LinearDampings[body] * dt);
-            Vector3d w = bodies.AngularVelocities[body] * Math.Max(0, 1 - bodies.AngularDampings[body] * dt);
-            double speed = w.Length;
-            if (speed > bodies.MaxAngularSpeeds[body])
-            {
-                w *= bodies.MaxAngularSpeeds[body] / speed;
-                speed = bodies.MaxAngularSpeeds[body];
-            }
-
-            fastest = Math.Max(fastest, speed);
-
-            Put(a, o + BodySlot.V * Lane<V>.Width, v);
-            Put(a, o + BodySlot.L * Lane<V>.Width, Momentum(pose.Rotation, w, bodies.InverseInertias[body]));
+            Put(a, o + BodySlot.V * Lane<V>.Width, bodies.LinearVelocities[body]);
+            Put(a, o + BodySlot.W * Lane<V>.Width, bodies.AngularVelocities[body]);
+            a[o + BodySlot.Kept * Lane<V>.Width] = Math.Max(0, 1 - bodies.LinearDampings[body] * dt);
+            a[o + (BodySlot.Kept + 1) * Lane<V>.Width] = Math.Max(0, 1 - bodies.AngularDampings[body] * dt);
+            a[o + BodySlot.MaxSpeed * Lane<V>.Width] = bodies.MaxAngularSpeeds[body];
             Vector3d gravity = bodies.UseGravity[body] ? mechanism.Gravity : Vector3d.Zero;
             Put(a, o + BodySlot.Acceleration * Lane<V>.Width, gravity + bodies.Forces[body] * bodies.InverseMasses[body]);
             Put(a, o + BodySlot.Torque * Lane<V>.Width, OnTurningAxes(pose.Rotation, bodies.Torques[body], bodies.InverseInertias[body]));
@@ -104,7 +99,33 @@ internal static class Transfer<V>
         return isMoved;
     }
 
-    /// <summary>Poses and velocities back to the world's bodies; forces are used up.</summary>
+    /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Load"/>.</summary>
+    public static void Start(Batch<V> batch)
+    {
+        Lane<V>.Splat(0).Store(batch.Fastest, 0);
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            Dampen(batch, o);
+            TakeMomentum(batch.Bodies, o);
+        }
+
+        Lane<V>.Sqrt(Lane<V>.Load(batch.Fastest, 0)).Store(batch.Fastest, 0);
+    }
+
+    /// <summary>Angular velocities in all lanes, by the matrix of the end pose.</summary>
+    public static void Finish(Batch<V> batch)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<V>.Body(body, 0);
+            ResponseMatrix<V>.Turn(a, o + BodySlot.WorldInverse * w, LaneVector<V>.Load(a, o + BodySlot.L * w)).Store(a, o + BodySlot.W * w);
+        }
+    }
+
+    /// <summary>Poses and velocities back to the world's bodies, after <see cref="Finish"/>.</summary>
     public static void Store(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
@@ -113,11 +134,9 @@ internal static class Transfer<V>
         {
             int body = island.Bodies[b];
             int o = Batch<V>.Body(b, 0) + lane;
-            Quaterniond q = Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
-            bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * Lane<V>.Width), q);
+            bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * Lane<V>.Width), Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width));
             bodies.LinearVelocities[body] = Vector(a, o + BodySlot.V * Lane<V>.Width);
-            Vector3d momentum = Vector(a, o + BodySlot.L * Lane<V>.Width);
-            bodies.AngularVelocities[body] = q * Vector3d.Scale(bodies.InverseInertias[body], q.InverseRotate(momentum));
+            bodies.AngularVelocities[body] = Vector(a, o + BodySlot.W * Lane<V>.Width);
         }
     }
 
@@ -141,10 +160,29 @@ internal static class Transfer<V>
         }
     }
 
-    private static Vector3d Momentum(Quaterniond q, Vector3d w, Vector3d inverse)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Dampen(Batch<V> batch, int o)
     {
-        Vector3d inBody = q.InverseRotate(w);
-        return q * new Vector3d(Over(inBody.X, inverse.X), Over(inBody.Y, inverse.Y), Over(inBody.Z, inverse.Z));
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        (Lane<V>.Load(a, o + BodySlot.Kept * w) * LaneVector<V>.Load(a, o + BodySlot.V * w)).Store(a, o + BodySlot.V * w);
+        LaneVector<V> rate = Lane<V>.Load(a, o + (BodySlot.Kept + 1) * w) * LaneVector<V>.Load(a, o + BodySlot.W * w);
+        Lane<V> square = LaneVector<V>.Dot(rate, rate);
+        Lane<V> most = Lane<V>.Load(a, o + BodySlot.MaxSpeed * w);
+        Lane<V> speed = Lane<V>.Sqrt(square + Lane<V>.Splat(LeastSquare));
+        Lane<V> share = Lane<V>.Min(most / speed, Lane<V>.Splat(1));
+        (share * rate).Store(a, o + BodySlot.W * w);
+        Lane<V>.Max(Lane<V>.Load(batch.Fastest, 0), share * share * square).Store(batch.Fastest, 0);
+    }
+
+    // L = R I R^T w; an infinite moment does not turn, and its momentum is left out.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TakeMomentum(double[] a, int o)
+    {
+        int w = Lane<V>.Width;
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodySlot.W * w));
+        q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodySlot.Inertia * w), inBody)).Store(a, o + BodySlot.L * w);
     }
 
     // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
@@ -159,8 +197,7 @@ internal static class Transfer<V>
         return q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0);
     }
 
-    // An infinite moment does not turn: its momentum is left out.
-    private static double Over(double w, double inverse) => inverse > 0 ? w / inverse : 0;
+    private static double OrNone(double inverse) => inverse > 0 ? 1 / inverse : 0;
 
     private static double Distance(Quaterniond a, Quaterniond b) => (a * b.Conjugate()).Vector.Length;
 

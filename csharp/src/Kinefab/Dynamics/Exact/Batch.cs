@@ -33,7 +33,6 @@ internal sealed class Batch<V>
         int rows = shape.Pattern.RowCount;
         Rows = new double[length * w];
         Matrix = new double[shape.Pattern.Length * w];
-        Diagonal = new double[rows * w];
         Error = new double[rows * w];
         LastError = new double[rows * w];
         Solution = new double[rows * w];
@@ -74,9 +73,6 @@ internal sealed class Batch<V>
 
     /// <summary>A = J M^-1 J^T, then its factor.</summary>
     public double[] Matrix { get; }
-
-    /// <summary>Diagonal of A without regularisation.</summary>
-    public double[] Diagonal { get; }
 
     /// <summary>C at the end of the flight, and one iteration before.</summary>
     public double[] Error { get; }

@@ -75,6 +75,9 @@ internal sealed class Node
     public readonly bool HasDistance;
     public readonly RowClass[] Classes;
 
+    /// <summary>Whether some rows' linear parts are known from the pose alone.</summary>
+    public readonly bool HasGeneralRows;
+
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
@@ -154,6 +157,7 @@ internal sealed class Node
         }
 
         Classes = classes.ToArray();
+        HasGeneralRows = classes.Contains(RowClass.General);
     }
 
     public Node(Coupling coupling, int index, int[] bodies, int[] sides)
@@ -164,6 +168,7 @@ internal sealed class Node
         CouplingSides = sides;
         RigidRows = 1;
         Classes = new[] { RowClass.General };
+        HasGeneralRows = true;
     }
 
     /// <summary>

@@ -46,7 +46,7 @@ internal static class ResponseMatrix<V>
         LaneVector<V>.Dot(sy, z).Store(a, o + 5 * w);
     }
 
-    /// <summary>Fills the responses of all rows, the matrix and its diagonal from J and the bodies' inverse inertias.</summary>
+    /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
     public static void Assemble(Batch<V> batch, double angularShare)
     {
         Array.Clear(batch.Matrix, 0, batch.Matrix.Length);
@@ -100,86 +100,107 @@ internal static class ResponseMatrix<V>
 
     private static void AddDiagonal(Batch<V> batch, int n, Node node, int side)
     {
-        double[] rows = batch.Rows;
-        double[] matrix = batch.Matrix;
-        int w = Lane<V>.Width;
-        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, Batch<V>.Body(node.Bodies[side], BodySlot.InverseMass));
-        int stride = node.Bodies.Length * Batch<V>.SideCount * w;
         int first = batch.Row(n, 0, side, 0);
-        int block = batch.Shape.Pattern.Diagonal(n) * w;
+        int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
         for (int i = 0; i < node.Rows; i++)
         {
-            int oi = first + i * stride;
-            LaneVector<V> response = LaneVector<V>.Load(rows, oi + Batch<V>.Response * w);
-            int cell = block + i * node.Rows * w;
-            for (int j = 0; j <= i; j++, cell += w)
-            {
-                int oj = first + j * stride;
-                Lane<V> s = Lane<V>.Load(matrix, cell)
-                    + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, oj + Batch<V>.Angular * w));
-                AddLinear(ref s, rows, inverseMass, node.Classes[i], oi, side, node.Classes[j], oj, side);
-                s.Store(matrix, cell);
-            }
+            AddTurns(batch, first, i, node, first, i + 1, node, cell + i * node.Rows * Lane<V>.Width);
         }
+
+        AddMasses(batch, node.Bodies[side], node, side, first, node, side, first, cell, true);
     }
 
     private static void AddLink(Batch<V> batch, in Island.Link link)
     {
+        Node later = batch.Shape.Nodes[link.Later];
+        Node earlier = batch.Shape.Nodes[link.Earlier];
+        int firstI = batch.Row(link.Later, 0, link.LaterSide, 0);
+        int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide, 0);
+        int cell = link.Block * Lane<V>.Width;
+        for (int i = 0; i < later.Rows; i++)
+        {
+            AddTurns(batch, firstI, i, later, firstJ, earlier.Rows, earlier, cell + i * earlier.Rows * Lane<V>.Width);
+        }
+
+        AddMasses(batch, link.Body, later, link.LaterSide, firstI, earlier, link.EarlierSide, firstJ, cell, false);
+    }
+
+    // Adds the products of a row's response with the angular parts of the first count rows of a node to neighbouring cells.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AddTurns(Batch<V> batch, int firstI, int i, Node nodeI, int firstJ, int count, Node nodeJ, int cell)
+    {
         double[] rows = batch.Rows;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, Batch<V>.Body(link.Body, BodySlot.InverseMass));
-        Node later = batch.Shape.Nodes[link.Later];
-        Node earlier = batch.Shape.Nodes[link.Earlier];
-        int strideI = later.Bodies.Length * Batch<V>.SideCount * w;
-        int strideJ = earlier.Bodies.Length * Batch<V>.SideCount * w;
-        int firstI = batch.Row(link.Later, 0, link.LaterSide, 0);
-        int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide, 0);
-        int cell = link.Block * w;
-        for (int i = 0; i < later.Rows; i++)
+        LaneVector<V> response = LaneVector<V>.Load(rows, firstI + (i * nodeI.Bodies.Length * Batch<V>.SideCount + Batch<V>.Response) * w);
+        int stride = nodeJ.Bodies.Length * Batch<V>.SideCount * w;
+        int o = firstJ + Batch<V>.Angular * w;
+        for (int end = cell + count * w; cell < end; cell += w, o += stride)
         {
-            int oi = firstI + i * strideI;
-            LaneVector<V> response = LaneVector<V>.Load(rows, oi + Batch<V>.Response * w);
-            for (int j = 0; j < earlier.Rows; j++, cell += w)
-            {
-                int oj = firstJ + j * strideJ;
-                Lane<V> s = Lane<V>.Load(matrix, cell)
-                    + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, oj + Batch<V>.Angular * w));
-                AddLinear(ref s, rows, inverseMass, later.Classes[i], oi, link.LaterSide, earlier.Classes[j], oj, link.EarlierSide);
-                s.Store(matrix, cell);
-            }
+            (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, o))).Store(matrix, cell);
         }
     }
 
-    // Adds the linear parts' product over the mass.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void AddLinear(
-        ref Lane<V> sum, double[] rows, Lane<V> inverseMass, RowClass classI, int oi, int sideI, RowClass classJ, int oj, int sideJ)
+    // Adds the products of the linear parts over the mass; the lower triangle alone of a node with itself.
+    private static void AddMasses(
+        Batch<V> batch, int body, Node nodeI, int sideI, int firstI, Node nodeJ, int sideJ, int firstJ, int cell, bool isTriangle)
     {
-        if (classI == RowClass.Angular || classJ == RowClass.Angular)
+        double[] matrix = batch.Matrix;
+        int w = Lane<V>.Width;
+        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.InverseMass));
+        if (nodeI.LinearMask == 7 && nodeJ.LinearMask == 7)
+        {
+            Lane<V> share = sideI == sideJ ? inverseMass : Lane<V>.Splat(0) - inverseMass;
+            for (int i = 0; i < 3; i++)
+            {
+                int at = cell + i * (nodeJ.Rows + 1) * w;
+                (Lane<V>.Load(matrix, at) + share).Store(matrix, at);
+            }
+        }
+
+        if (!nodeI.HasGeneralRows && !nodeJ.HasGeneralRows)
         {
             return;
         }
 
-        int w = Lane<V>.Width;
-        if (classI != RowClass.General && classJ != RowClass.General)
+        int strideI = nodeI.Bodies.Length * Batch<V>.SideCount * w;
+        int strideJ = nodeJ.Bodies.Length * Batch<V>.SideCount * w;
+        for (int i = 0; i < nodeI.Rows; i++)
         {
-            if (classI == classJ)
+            int end = isTriangle ? i + 1 : nodeJ.Rows;
+            for (int j = 0; j < end; j++)
             {
-                sum = sideI == sideJ ? sum + inverseMass : sum - inverseMass;
+                int at = cell + (i * nodeJ.Rows + j) * w;
+                RowClass classI = nodeI.Classes[i];
+                RowClass classJ = nodeJ.Classes[j];
+                if (classI == RowClass.General && classJ == RowClass.General)
+                {
+                    AddProduct(batch, inverseMass, firstI + i * strideI, firstJ + j * strideJ, at);
+                }
+                else if (classI == RowClass.General && classJ != RowClass.Angular)
+                {
+                    AddComponent(batch, inverseMass, firstI + i * strideI + (int)classJ * w, sideJ, at);
+                }
+                else if (classJ == RowClass.General && classI != RowClass.Angular)
+                {
+                    AddComponent(batch, inverseMass, firstJ + j * strideJ + (int)classI * w, sideI, at);
+                }
             }
         }
-        else if (classI == RowClass.General && classJ == RowClass.General)
-        {
-            sum += inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(rows, oi), LaneVector<V>.Load(rows, oj));
-        }
-        else
-        {
-            int unitSide = classI == RowClass.General ? sideJ : sideI;
-            int component = classI == RowClass.General ? oi + (int)classJ * w : oj + (int)classI * w;
-            Lane<V> product = inverseMass * Lane<V>.Load(rows, component);
-            sum = unitSide == 0 ? sum + product : sum - product;
-        }
+    }
+
+    private static void AddProduct(Batch<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
+    {
+        Lane<V> product = inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(batch.Rows, oi), LaneVector<V>.Load(batch.Rows, oj));
+        (Lane<V>.Load(batch.Matrix, cell) + product).Store(batch.Matrix, cell);
+    }
+
+    // Of a general row with one along an axis of the world, which is reversed on side 1.
+    private static void AddComponent(Batch<V> batch, Lane<V> inverseMass, int component, int side, int cell)
+    {
+        Lane<V> product = inverseMass * Lane<V>.Load(batch.Rows, component);
+        Lane<V> sum = Lane<V>.Load(batch.Matrix, cell);
+        (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
     }
 
     private static void Regularise(Batch<V> batch, int n, Node node, double angularShare)
@@ -187,17 +208,11 @@ internal static class ResponseMatrix<V>
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
         int block = batch.Shape.Pattern.Diagonal(n);
-        int row = batch.Shape.Pattern.Rows[n];
-        for (int i = 0; i < node.Rows; i++)
+        for (int i = 0; i < node.RigidRows; i++)
         {
             int cell = (block + i * (node.Rows + 1)) * w;
-            Lane<V> s = Lane<V>.Load(matrix, cell);
-            s.Store(batch.Diagonal, (row + i) * w);
-            if (i < node.RigidRows)
-            {
-                double share = node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
-                (s * Lane<V>.Splat(1 + share)).Store(matrix, cell);
-            }
+            double share = node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
+            (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(1 + share)).Store(matrix, cell);
         }
     }
 }

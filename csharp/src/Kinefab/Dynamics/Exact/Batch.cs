@@ -5,7 +5,7 @@ namespace Kinefab.Dynamics.Exact;
 
 /// <summary>
 /// The numbers of up to Width islands of one shape, side by side: number i of a record stands at i * Width + lane. All
-/// arrays are made here; a step only writes into them.
+/// arrays are made beforehand; a step only writes into them.
 /// </summary>
 internal sealed class Batch<V>
     where V : struct, ILane<V>
@@ -13,42 +13,27 @@ internal sealed class Batch<V>
     /// <summary>Numbers of a joint: see <see cref="Frame"/> and <see cref="Placed"/>.</summary>
     public const int JointCount = 48;
 
-    /// <summary>A row's part on one body: linear and angular J, and angular J times the inverse inertia.</summary>
-    public const int Linear = 0, Angular = 3, Response = 6, SideCount = 9;
-
-    public Batch(Island shape)
+    /// <param name="shape">What all its islands look like.</param>
+    /// <param name="workspace">Arrays that hold nothing from step to step, shared by the batches of a shape.</param>
+    public Batch(Island shape, Workspace<V> workspace)
     {
         Shape = shape;
+        Work = workspace;
         int w = Width;
         Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
         Joints = new double[shape.Nodes.Length * JointCount * w];
         RowOffsets = new int[shape.Nodes.Length];
-        int length = 0;
+        int sides = 0;
         for (int n = 0; n < shape.Nodes.Length; n++)
         {
-            RowOffsets[n] = length;
-            length += shape.Nodes[n].Rows * shape.Nodes[n].Bodies.Length * SideCount;
+            RowOffsets[n] = sides;
+            sides += shape.Nodes[n].Rows * shape.Nodes[n].Bodies.Length;
         }
 
-        int rows = shape.Pattern.RowCount;
-        Rows = new double[length * w];
+        Linear = new double[3 * sides * w];
+        Angular = new double[3 * sides * w];
         Matrix = new double[shape.Pattern.Length * w];
-        Error = new double[rows * w];
-        LastError = new double[rows * w];
-        Solution = new double[rows * w];
-        LastSolution = new double[rows * w];
-        Move = new double[rows * w];
-        Half = new double[rows * w];
-        First = new double[rows * w];
-        Total = new double[rows * w];
-        Active = new double[w];
-        MaxError = new double[w];
-        MaxChange = new double[w];
-        MaxGap = new double[w];
-        LastMaxError = new double[w];
-        FirstMaxError = new double[w];
-        Fastest = new double[w];
-        Reaction = new double[6 * w];
+        Half = new double[shape.Pattern.RowCount * w];
         if (shape.Laws > 0)
         {
             Laws = new Laws<V>(this);
@@ -65,59 +50,22 @@ internal sealed class Batch<V>
     /// <summary>Records of <see cref="JointCount"/>.</summary>
     public double[] Joints { get; }
 
-    /// <summary>J: for each node, row and side a record of <see cref="SideCount"/>.</summary>
-    public double[] Rows { get; }
+    /// <summary>Linear and angular J: for each node, row and side a vector. Linear is read for <see cref="RowClass.General"/> alone.</summary>
+    public double[] Linear { get; }
 
-    /// <summary>Where each node's rows begin in <see cref="Rows"/>.</summary>
+    public double[] Angular { get; }
+
+    /// <summary>Vectors before each node's in these.</summary>
     public int[] RowOffsets { get; }
 
     /// <summary>A = J M^-1 J^T, then its factor.</summary>
     public double[] Matrix { get; }
 
-    /// <summary>C at the end of the flight, and one iteration before.</summary>
-    public double[] Error { get; }
-
-    public double[] LastError { get; }
-
-    /// <summary>Right-hand side, then impulses.</summary>
-    public double[] Solution { get; }
-
-    /// <summary>Solution one iteration before, and what was made of it.</summary>
-    public double[] LastSolution { get; }
-
-    public double[] Move { get; }
-
     /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>
     public double[] Half { get; }
 
-    /// <summary>Impulses of the flight.</summary>
-    public double[] First { get; }
-
-    /// <summary>Impulses of the whole step.</summary>
-    public double[] Total { get; }
-
-    /// <summary>1 in lanes that still iterate, else 0.</summary>
-    public double[] Active { get; }
-
-    /// <summary>Largest error, and largest change of an error, of each lane.</summary>
-    public double[] MaxError { get; }
-
-    public double[] MaxChange { get; }
-
-    /// <summary>Largest error one iteration before.</summary>
-    public double[] LastMaxError { get; }
-
-    /// <summary>Largest error of the first flight.</summary>
-    public double[] FirstMaxError { get; }
-
-    /// <summary>Largest error of a row that is not angular alone, m.</summary>
-    public double[] MaxGap { get; }
-
-    /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
-    public double[] Fastest { get; }
-
-    /// <summary>Force and torque of one joint.</summary>
-    public double[] Reaction { get; }
+    /// <summary>What holds nothing from step to step.</summary>
+    public Workspace<V> Work { get; }
 
     /// <summary>Rows with a law, or null without any.</summary>
     public Laws<V>? Laws { get; }
@@ -134,15 +82,13 @@ internal sealed class Batch<V>
     /// <summary>Index of a number of a joint in <see cref="Joints"/>.</summary>
     public static int Joint(int node, int slot) => (node * JointCount + slot) * Width;
 
-    /// <summary>Index of a number of a row's side in <see cref="Rows"/>.</summary>
-    public int Row(int node, int row, int side, int slot) =>
-        (RowOffsets[node] + (row * Shape.Nodes[node].Bodies.Length + side) * SideCount + slot) * Width;
+    /// <summary>Index of the vector of a row's side in <see cref="Linear"/> and <see cref="Angular"/>.</summary>
+    public int Row(int node, int row, int side) => 3 * (RowOffsets[node] + row * Shape.Nodes[node].Bodies.Length + side) * Width;
 
     /// <summary>Forgets what earlier steps left behind.</summary>
     public void ClearHistory()
     {
         Array.Clear(Half, 0, Half.Length);
-        Array.Clear(First, 0, First.Length);
         Laws?.ClearHistory();
     }
 }

@@ -38,11 +38,11 @@ internal sealed class ImplicitEulerStep
     {
         Batch<ScalarLane> batch = _batch;
         Laws<ScalarLane>? laws = batch.Laws;
-        batch.Active[0] = 1;
+        batch.Work.Active[0] = 1;
         laws?.Begin(h, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Gather(_aim);
-        Array.Clear(batch.First, 0, batch.First.Length);
+        Array.Clear(batch.Work.First, 0, batch.Work.First.Length);
         laws?.StartFromZero();
         Flight<ScalarLane>.MoveKinematic(batch, h);
         int lawPasses = 0;
@@ -60,7 +60,7 @@ internal sealed class ImplicitEulerStep
                 return true;
             }
 
-            if (!(batch.MaxError[0] < double.MaxValue && unbalanced < double.MaxValue))
+            if (!(batch.Work.MaxError[0] < double.MaxValue && unbalanced < double.MaxValue))
             {
                 return false;
             }
@@ -70,7 +70,7 @@ internal sealed class ImplicitEulerStep
         }
 
         // With the anchors together, forces and angles that are a little off are better than no step.
-        return batch.MaxGap[0] < 10 * tolerance;
+        return batch.Work.MaxGap[0] < 10 * tolerance;
     }
 
     // r = (v - aim) - M^-1 J^T l for the linear part, L - aim - J^T l for the angular one; the largest as a speed.
@@ -85,7 +85,7 @@ internal sealed class ImplicitEulerStep
         }
 
         Scatter(_residual);
-        Impulses<ScalarLane>.Apply(batch, batch.First);
+        Impulses<ScalarLane>.Apply(batch, batch.Work.First);
         Gather(_residual);
         double most = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
@@ -118,16 +118,16 @@ internal sealed class ImplicitEulerStep
         BlockCholesky<ScalarLane>.Factor(batch.Shape.Pattern, batch.Matrix);
         Scatter(_residual);
         Impulses<ScalarLane>.NegativeSpeeds(batch, false);
-        for (int i = 0; i < batch.Solution.Length; i++)
+        for (int i = 0; i < batch.Work.Solution.Length; i++)
         {
-            batch.Solution[i] = -batch.Error[i] / h - batch.Solution[i];
+            batch.Work.Solution[i] = -batch.Work.Error[i] / h - batch.Work.Solution[i];
         }
 
-        batch.Laws?.ClearClamped(batch.Solution);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
-        for (int i = 0; i < batch.Solution.Length; i++)
+        batch.Laws?.ClearClamped(batch.Work.Solution);
+        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+        for (int i = 0; i < batch.Work.Solution.Length; i++)
         {
-            batch.First[i] += batch.Solution[i];
+            batch.Work.First[i] += batch.Work.Solution[i];
         }
 
         for (int i = 0; i < _residual.Length; i++)
@@ -136,7 +136,7 @@ internal sealed class ImplicitEulerStep
         }
 
         Scatter(_residual);
-        Impulses<ScalarLane>.Apply(batch, batch.Solution);
+        Impulses<ScalarLane>.Apply(batch, batch.Work.Solution);
         Gather(_residual);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -181,7 +181,7 @@ internal sealed class ImplicitEulerStep
             {
                 if (node.Bodies[side] < shape.MovingBodies)
                 {
-                    Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.First);
+                    Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.Work.First);
                     int lever = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
                     AddStiffness(9 * node.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
                 }

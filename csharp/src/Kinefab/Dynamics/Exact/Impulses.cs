@@ -32,13 +32,13 @@ internal static class Impulses<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ApplySide(Batch<V> batch, int n, Node node, int side, double[] impulses, int row)
     {
-        double[] rows = batch.Rows;
+        double[] rows = batch.Angular;
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
         var force = new LaneVector<V>(zero, zero, zero);
         LaneVector<V> torque = force;
-        int o = batch.Row(n, 0, side, Batch<V>.Angular);
-        int stride = node.Bodies.Length * Batch<V>.SideCount * w;
+        int o = batch.Row(n, 0, side);
+        int stride = 3 * node.Bodies.Length * w;
         int i = 0;
         if (node.LinearMask == 7)
         {
@@ -56,13 +56,13 @@ internal static class Impulses<V>
             torque += l * LaneVector<V>.Load(rows, o);
             if (node.Classes[i] == RowClass.General)
             {
-                force += l * LaneVector<V>.Load(rows, o + (Batch<V>.Linear - Batch<V>.Angular) * w);
+                force += l * LaneVector<V>.Load(batch.Linear, o);
             }
         }
 
         double[] a = batch.Bodies;
         int at = Batch<V>.Body(node.Bodies[side], 0);
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
         LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
         LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
         LaneVector<V>.Select(active, v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force, v).Store(a, at + BodySlot.V * w);
@@ -75,7 +75,6 @@ internal static class Impulses<V>
     public static void NegativeSpeeds(Batch<V> batch, bool areFixedMoving = true)
     {
         double[] a = batch.Bodies;
-        double[] rows = batch.Rows;
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
         Node[] nodes = batch.Shape.Nodes;
@@ -83,10 +82,10 @@ internal static class Impulses<V>
         {
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            int stride = node.Bodies.Length * Batch<V>.SideCount * w;
+            int stride = 3 * node.Bodies.Length * w;
             for (int i = 0; i < node.Rows; i++)
             {
-                zero.Store(batch.Solution, row + i * w);
+                zero.Store(batch.Work.Solution, row + i * w);
             }
 
             for (int side = 0; side < node.Bodies.Length; side++)
@@ -102,17 +101,17 @@ internal static class Impulses<V>
                 int at = Batch<V>.Body(body, 0);
                 LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
                 LaneVector<V> turn = LaneVector<V>.Load(a, at + (isMoving ? BodySlot.L : BodySlot.W) * w);
-                int slot = (isMoving ? Batch<V>.Response : Batch<V>.Angular) * w;
-                int o = batch.Row(n, 0, side, 0);
+                double[] rows = isMoving ? batch.Work.Response : batch.Angular;
+                int o = batch.Row(n, 0, side);
                 for (int i = 0; i < node.Rows; i++, o += stride)
                 {
-                    Lane<V> speed = LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + slot), turn);
+                    Lane<V> speed = LaneVector<V>.Dot(LaneVector<V>.Load(rows, o), turn);
                     switch (node.Classes[i])
                     {
                         case RowClass.Angular:
                             break;
                         case RowClass.General:
-                            speed += LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + Batch<V>.Linear * w), v);
+                            speed += LaneVector<V>.Dot(LaneVector<V>.Load(batch.Linear, o), v);
                             break;
                         default:
                             Lane<V> component = node.Classes[i] == RowClass.UnitX ? v.X : node.Classes[i] == RowClass.UnitY ? v.Y : v.Z;
@@ -120,8 +119,8 @@ internal static class Impulses<V>
                             break;
                     }
 
-                    Lane<V> sum = Lane<V>.Load(batch.Solution, row + i * w);
-                    (sum - speed).Store(batch.Solution, row + i * w);
+                    Lane<V> sum = Lane<V>.Load(batch.Work.Solution, row + i * w);
+                    (sum - speed).Store(batch.Work.Solution, row + i * w);
                 }
             }
         }
@@ -152,8 +151,8 @@ internal static class Impulses<V>
         {
             if (node.Classes[i] == RowClass.General)
             {
-                int o = batch.Row(n, i, side, Batch<V>.Linear);
-                force += new Vector3d(batch.Rows[o], batch.Rows[o + 1], batch.Rows[o + 2]) * impulses[row + i];
+                int o = batch.Row(n, i, side);
+                force += new Vector3d(batch.Linear[o], batch.Linear[o + 1], batch.Linear[o + 2]) * impulses[row + i];
             }
         }
 

@@ -52,9 +52,10 @@ internal sealed class IslandGroup<V> : IslandGroup
         _islands = islands.ToArray();
         int width = Lane<V>.Width;
         _batches = new Batch<V>[(_islands.Length + width - 1) / width];
+        var workspace = new Workspace<V>(_islands[0]);
         for (int i = 0; i < _batches.Length; i++)
         {
-            var batch = new Batch<V>(_islands[i * width]);
+            var batch = new Batch<V>(_islands[i * width], workspace);
             for (int lane = 0; lane < width; lane++)
             {
                 Transfer<V>.LoadConstants(batch, lane, Occupant(i, lane), mechanism);
@@ -64,7 +65,7 @@ internal sealed class IslandGroup<V> : IslandGroup
         }
 
         _cuts = new StepCut[_islands.Length];
-        _spare = new Batch<ScalarLane>(_islands[0]);
+        _spare = new Batch<ScalarLane>(_islands[0], new Workspace<ScalarLane>(_islands[0]));
         _ladder = new Ladder(_spare);
     }
 
@@ -91,7 +92,7 @@ internal sealed class IslandGroup<V> : IslandGroup
                 }
 
                 _isHard[lane] |= hasFailed;
-                batch.Active[lane] = _isHard[lane] ? 0 : 1;
+                batch.Work.Active[lane] = _isHard[lane] ? 0 : 1;
             }
 
             if (hasClimbed)
@@ -140,8 +141,8 @@ internal sealed class IslandGroup<V> : IslandGroup
                 stiffest = Math.Max(stiffest, batch.Bodies[Batch<V>.Body(body, BodySlot.Stiffness) + lane]);
             }
 
-            _isHard[lane] = Ladder.Demand(stiffest, batch.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
-            batch.Active[lane] = _isHard[lane] ? 0 : 1;
+            _isHard[lane] = Ladder.Demand(stiffest, batch.Work.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
+            batch.Work.Active[lane] = _isHard[lane] ? 0 : 1;
         }
 
         if (isMoved)
@@ -211,7 +212,7 @@ internal sealed class PreparedIslands : IslandGroup
         _cuts = new StepCut[_islands.Length];
         for (int i = 0; i < _islands.Length; i++)
         {
-            _batches[i] = new Batch<ScalarLane>(_islands[i]);
+            _batches[i] = new Batch<ScalarLane>(_islands[i], new Workspace<ScalarLane>(_islands[i]));
             _ladders[i] = new Ladder(_batches[i]);
             Transfer<ScalarLane>.LoadConstants(_batches[i], 0, _islands[i], mechanism);
         }

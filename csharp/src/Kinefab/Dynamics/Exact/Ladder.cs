@@ -73,7 +73,7 @@ internal sealed class Ladder
             halvings++;
         }
 
-        Array.Clear(_batch.Total, 0, _batch.Total.Length);
+        Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
         _part = dt;
         _failures = 0;
         _start.Save(_batch);
@@ -152,7 +152,7 @@ internal sealed class Ladder
 
     private bool TryRattle(double h, double tolerance)
     {
-        _batch.Active[0] = 1;
+        _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.Fly(_batch, h, tolerance, _converged);
         if (!_converged[0])
         {
@@ -160,7 +160,7 @@ internal sealed class Ladder
         }
 
         RattleStep<ScalarLane>.Build(_batch);
-        _batch.Active[0] = 1;
+        _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.Project(_batch, h, tolerance);
         Finish();
         Stiffness<ScalarLane>.Measure(_batch, _batch.Half, h / 2);
@@ -175,8 +175,8 @@ internal sealed class Ladder
         }
 
         RattleStep<ScalarLane>.Build(_batch);
-        Stiffness<ScalarLane>.Measure(_batch, _batch.First, h);
-        _batch.Active[0] = 1;
+        Stiffness<ScalarLane>.Measure(_batch, _batch.Work.First, h);
+        _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.Project(_batch, 0, tolerance);
         Finish();
 
@@ -188,9 +188,9 @@ internal sealed class Ladder
     private void Finish()
     {
         RattleStep<ScalarLane>.Accept(_batch);
-        for (int i = 0; i < _batch.Total.Length; i++)
+        for (int i = 0; i < _batch.Work.Total.Length; i++)
         {
-            _batch.Total[i] += _batch.First[i] + _batch.Half[i];
+            _batch.Work.Total[i] += _batch.Work.First[i] + _batch.Half[i];
         }
     }
 

@@ -53,11 +53,11 @@ internal sealed partial class Laws<V>
             ref Law law = ref _laws[i];
             if (law.Segment == Segment.Sloped)
             {
-                _batch.Solution[law.Index] += Target(law);
+                _batch.Work.Solution[law.Index] += Target(law);
             }
             else
             {
-                _batch.Solution[law.Index] = 0;
+                _batch.Work.Solution[law.Index] = 0;
             }
         }
     }

@@ -140,7 +140,7 @@ internal sealed partial class Laws<V>
         {
             ref Law law = ref _laws[i];
             law.First = law.Segment == Segment.Sloped ? 0 : law.First;
-            _batch.First[law.Index] = law.First;
+            _batch.Work.First[law.Index] = law.First;
         }
     }
 
@@ -179,8 +179,8 @@ internal sealed partial class Laws<V>
             ref Law law = ref _laws[i];
             if (law.IsWritten && law.Row.Has(RowFlags.Limit))
             {
-                linear += law.Row.Linear0 * _batch.Total[law.Index];
-                angular += law.Row.Angular0 * _batch.Total[law.Index];
+                linear += law.Row.Linear0 * _batch.Work.Total[law.Index];
+                angular += law.Row.Angular0 * _batch.Work.Total[law.Index];
             }
         }
     }
@@ -224,12 +224,12 @@ internal sealed partial class Laws<V>
     /// <summary>Residuals of the laws at the end of the flight as errors, m or rad; the largest joins MaxError.</summary>
     public void Evaluate(double h)
     {
-        double most = _batch.MaxError[0];
+        double most = _batch.Work.MaxError[0];
         for (int i = 0; i < _laws.Length; i++)
         {
             ref Law law = ref _laws[i];
             double error = 0;
-            law.First = _batch.First[law.Index];
+            law.First = _batch.Work.First[law.Index];
             if (law.Segment == Segment.Sloped)
             {
                 error = law.Kind switch
@@ -240,11 +240,11 @@ internal sealed partial class Laws<V>
                 };
             }
 
-            _batch.Error[law.Index] = error;
+            _batch.Work.Error[law.Index] = error;
             most = Math.Max(most, Math.Abs(error));
         }
 
-        _batch.MaxError[0] = most;
+        _batch.Work.MaxError[0] = most;
     }
 
     /// <summary>Moves rows that have left their segment; true when one had to.</summary>
@@ -337,7 +337,7 @@ internal sealed partial class Laws<V>
     {
         Impulses<V>.ApplyRow(_batch, law.Node, law.Row, impulse - law.First);
         law.First = impulse;
-        _batch.First[law.Index] = impulse;
+        _batch.Work.First[law.Index] = impulse;
     }
 
     private double StartSpeed(in Law law) => Impulses<V>.Speed(_batch, law.Node, law.Row);

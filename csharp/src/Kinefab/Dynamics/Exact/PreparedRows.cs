@@ -18,7 +18,7 @@ internal static class PreparedRows<V>
         int row = batch.Shape.Pattern.Rows[n];
         if (node.Coupling != null)
         {
-            batch.Error[row] = Couple(batch, node, out _, out _);
+            batch.Work.Error[row] = Couple(batch, node, out _, out _);
             return;
         }
 
@@ -39,7 +39,7 @@ internal static class PreparedRows<V>
             }
             else if (IsLoneAngle(node, rows[i]))
             {
-                batch.Error[row + node.RigidRows - 1] = rows[i].GeometricError;
+                batch.Work.Error[row + node.RigidRows - 1] = rows[i].GeometricError;
             }
         }
     }
@@ -75,8 +75,8 @@ internal static class PreparedRows<V>
     /// <summary>Writes a row's J times a factor.</summary>
     public static void Write(Batch<V> batch, int n, int row, in ConstraintRow from, double factor)
     {
-        Put(batch.Rows, batch.Row(n, row, 0, 0), from.Linear0, from.Angular0, factor);
-        Put(batch.Rows, batch.Row(n, row, 1, 0), from.Linear1, from.Angular1, -factor);
+        Put(batch, batch.Row(n, row, 0), from.Linear0, from.Angular0, factor);
+        Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -factor);
     }
 
     /// <summary>A coupling's coordinates are unwrapped against those of the last finished step.</summary>
@@ -106,8 +106,9 @@ internal static class PreparedRows<V>
     private static void BuildCoupling(Batch<V> batch, int n, Node node)
     {
         Couple(batch, node, out ConstraintRow a, out ConstraintRow b);
-        int first = batch.Row(n, 0, 0, 0);
-        Array.Clear(batch.Rows, first, node.Bodies.Length * Batch<V>.SideCount);
+        int first = batch.Row(n, 0, 0);
+        Array.Clear(batch.Linear, first, 3 * node.Bodies.Length);
+        Array.Clear(batch.Angular, first, 3 * node.Bodies.Length);
         double ratio = node.Coupling!.Ratio;
         Add(batch, n, node.CouplingSides[0], a.Linear0, a.Angular0, -ratio);
         Add(batch, n, node.CouplingSides[1], a.Linear1, a.Angular1, ratio);
@@ -117,20 +118,20 @@ internal static class PreparedRows<V>
 
     private static void Add(Batch<V> batch, int n, int side, Vector3d linear, Vector3d angular, double factor)
     {
-        int o = batch.Row(n, 0, side, 0);
+        int o = batch.Row(n, 0, side);
         for (int i = 0; i < 3; i++)
         {
-            batch.Rows[o + Batch<V>.Linear + i] += linear[i] * factor;
-            batch.Rows[o + Batch<V>.Angular + i] += angular[i] * factor;
+            batch.Linear[o + i] += linear[i] * factor;
+            batch.Angular[o + i] += angular[i] * factor;
         }
     }
 
-    private static void Put(double[] rows, int o, Vector3d linear, Vector3d angular, double factor)
+    private static void Put(Batch<V> batch, int o, Vector3d linear, Vector3d angular, double factor)
     {
         for (int i = 0; i < 3; i++)
         {
-            rows[o + Batch<V>.Linear + i] = linear[i] * factor;
-            rows[o + Batch<V>.Angular + i] = angular[i] * factor;
+            batch.Linear[o + i] = linear[i] * factor;
+            batch.Angular[o + i] = angular[i] * factor;
         }
     }
 

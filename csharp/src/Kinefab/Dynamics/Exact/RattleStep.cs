@@ -46,13 +46,13 @@ internal static class RattleStep<V>
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
         {
-            converged[lane] = batch.Active[lane] == 0;
+            converged[lane] = batch.Work.Active[lane] == 0;
         }
 
         batch.Laws?.Begin(h, false);
         Kick(batch, h / 2);
-        Array.Copy(batch.Half, batch.First, batch.Half.Length);
-        Impulses<V>.Apply(batch, batch.First);
+        Array.Copy(batch.Half, batch.Work.First, batch.Half.Length);
+        Impulses<V>.Apply(batch, batch.Work.First);
         if (batch.Laws != null)
         {
             Factor(batch, true);
@@ -70,18 +70,18 @@ internal static class RattleStep<V>
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
-                if (batch.Active[lane] != 0 && IsClosed(batch, lane, tolerance, iteration > restart))
+                if (batch.Work.Active[lane] != 0 && IsClosed(batch, lane, tolerance, iteration > restart))
                 {
-                    batch.Active[lane] = 0;
+                    batch.Work.Active[lane] = 0;
                     converged[lane] = true;
                 }
 
-                isDone &= batch.Active[lane] == 0;
+                isDone &= batch.Work.Active[lane] == 0;
             }
 
             if (isDone && batch.Laws != null && batch.Laws.Update(lawPasses++, tolerance))
             {
-                batch.Active[0] = 1;
+                batch.Work.Active[0] = 1;
                 converged[0] = false;
                 restart = iteration;
                 Factor(batch, true);
@@ -125,8 +125,8 @@ internal static class RattleStep<V>
         }
 
         Impulses<V>.NegativeSpeeds(batch);
-        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
-        Copy(batch, batch.Solution, batch.Half);
+        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+        Copy(batch, batch.Work.Solution, batch.Half);
         Impulses<V>.Apply(batch, batch.Half);
     }
 
@@ -147,11 +147,11 @@ internal static class RattleStep<V>
     public static void AddUp(Batch<V> batch)
     {
         int w = Lane<V>.Width;
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
-        for (int i = 0; i < batch.Total.Length; i += w)
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        for (int i = 0; i < batch.Work.Total.Length; i += w)
         {
-            Lane<V> sum = Lane<V>.Load(batch.First, i) + Lane<V>.Load(batch.Half, i);
-            Lane<V>.Select(active, sum, Lane<V>.Load(batch.Total, i)).Store(batch.Total, i);
+            Lane<V> sum = Lane<V>.Load(batch.Work.First, i) + Lane<V>.Load(batch.Half, i);
+            Lane<V>.Select(active, sum, Lane<V>.Load(batch.Work.Total, i)).Store(batch.Work.Total, i);
         }
     }
 
@@ -160,7 +160,7 @@ internal static class RattleStep<V>
     {
         int w = Lane<V>.Width;
         double[] a = batch.Bodies;
-        Lane<V> time = Lane<V>.Select(Lane<V>.Load(batch.Active, 0), Lane<V>.Splat(t), Lane<V>.Splat(0));
+        Lane<V> time = Lane<V>.Select(Lane<V>.Load(batch.Work.Active, 0), Lane<V>.Splat(t), Lane<V>.Splat(0));
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = Batch<V>.Body(body, 0);
@@ -193,13 +193,13 @@ internal static class RattleStep<V>
             Factor(batch, false);
             Impulses<V>.NegativeSpeeds(batch);
             laws.AddTargets();
-            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Solution);
+            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
             for (int i = 0; i < length; i++)
             {
-                batch.Half[i] += batch.Solution[i];
+                batch.Half[i] += batch.Work.Solution[i];
             }
 
-            Impulses<V>.Apply(batch, batch.Solution);
+            Impulses<V>.Apply(batch, batch.Work.Solution);
             if (!laws.UpdateProjection(pass, tolerance * LimitReach))
             {
                 return;
@@ -214,12 +214,12 @@ internal static class RattleStep<V>
     /// </summary>
     public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated)
     {
-        double error = batch.MaxError[lane];
-        bool isStill = error >= StillShare * batch.LastMaxError[lane];
-        batch.LastMaxError[lane] = error;
+        double error = batch.Work.MaxError[lane];
+        bool isStill = error >= StillShare * batch.Work.LastMaxError[lane];
+        batch.Work.LastMaxError[lane] = error;
         return error < tolerance
-            || (isRepeated && batch.MaxChange[lane] < tolerance && error < MostAngle)
-            || (isRepeated && isStill && batch.MaxGap[lane] < tolerance && error < MostAngle);
+            || (isRepeated && batch.Work.MaxChange[lane] < tolerance && error < MostAngle)
+            || (isRepeated && isStill && batch.Work.MaxGap[lane] < tolerance && error < MostAngle);
     }
 
     // Lanes whose error grows beyond what they started with are given up; true when none is left.
@@ -228,18 +228,18 @@ internal static class RattleStep<V>
         bool isAny = false;
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
-            double error = batch.MaxError[lane];
+            double error = batch.Work.MaxError[lane];
             if (isFirst)
             {
-                batch.FirstMaxError[lane] = error;
+                batch.Work.FirstMaxError[lane] = error;
             }
 
-            if (!(error <= MostGrowth * batch.FirstMaxError[lane]))
+            if (!(error <= MostGrowth * batch.Work.FirstMaxError[lane]))
             {
-                batch.Active[lane] = 0;
+                batch.Work.Active[lane] = 0;
             }
 
-            isAny |= batch.Active[lane] != 0;
+            isAny |= batch.Work.Active[lane] != 0;
         }
 
         return !isAny;
@@ -251,14 +251,14 @@ internal static class RattleStep<V>
     private static void Correct(Batch<V> batch, double h, bool isFirst)
     {
         int w = Lane<V>.Width;
-        double[] d = batch.Solution;
-        double[] last = batch.LastSolution;
-        double[] move = batch.Move;
+        double[] d = batch.Work.Solution;
+        double[] last = batch.Work.LastSolution;
+        double[] move = batch.Work.Move;
         Lane<V> rate = Lane<V>.Splat(-1 / h);
         int length = batch.Shape.Pattern.RowCount * w;
         for (int i = 0; i < length; i += w)
         {
-            (rate * Lane<V>.Load(batch.Error, i)).Store(d, i);
+            (rate * Lane<V>.Load(batch.Work.Error, i)).Store(d, i);
         }
 
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
@@ -276,15 +276,15 @@ internal static class RattleStep<V>
 
         Lane<V> most = Lane<V>.Splat(MostMixing);
         Lane<V> share = Lane<V>.Min(most, Lane<V>.Max(Lane<V>.Splat(-MostMixing), product / square));
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
         for (int i = 0; i < length; i += w)
         {
             Lane<V> now = Lane<V>.Load(d, i);
             Lane<V> step = isFirst ? now : now - share * (Lane<V>.Load(move, i) + (now - Lane<V>.Load(last, i)));
             now.Store(last, i);
             step.Store(move, i);
-            Lane<V> first = Lane<V>.Load(batch.First, i);
-            Lane<V>.Select(active, first + step, first).Store(batch.First, i);
+            Lane<V> first = Lane<V>.Load(batch.Work.First, i);
+            Lane<V>.Select(active, first + step, first).Store(batch.Work.First, i);
         }
 
         Impulses<V>.Apply(batch, move);
@@ -293,7 +293,7 @@ internal static class RattleStep<V>
     private static void Copy(Batch<V> batch, double[] from, double[] to)
     {
         int w = Lane<V>.Width;
-        Lane<V> active = Lane<V>.Load(batch.Active, 0);
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
         int length = batch.Shape.Pattern.RowCount * w;
         for (int i = 0; i < length; i += w)
         {

@@ -30,8 +30,8 @@ internal static class Reactions<V>
             for (int lane = 0; lane < count; lane++)
             {
                 Node own = islands[first + lane].Nodes[n];
-                Vector3d force = Vector(batch.Reaction, lane);
-                Vector3d torque = Vector(batch.Reaction, 3 * Lane<V>.Width + lane);
+                Vector3d force = Vector(batch.Work.Reaction, lane);
+                Vector3d torque = Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
                 if (batch.Laws != null)
                 {
                     AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
@@ -54,7 +54,6 @@ internal static class Reactions<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void Sum(Batch<V> batch, int n, Node node, double rate)
     {
-        double[] rows = batch.Rows;
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
         Lane<V> times = Lane<V>.Splat(rate);
@@ -64,25 +63,25 @@ internal static class Reactions<V>
         int i = 0;
         if (node.LinearMask == 7)
         {
-            force = LaneVector<V>.Load(batch.Total, row);
+            force = LaneVector<V>.Load(batch.Work.Total, row);
             i = 3;
         }
 
         for (; i < node.RigidRows; i++)
         {
-            Lane<V> impulse = Lane<V>.Load(batch.Total, row + i * w);
-            int o = batch.Row(n, i, 0, 0);
-            torque += impulse * LaneVector<V>.Load(rows, o + Batch<V>.Angular * w);
+            Lane<V> impulse = Lane<V>.Load(batch.Work.Total, row + i * w);
+            int o = batch.Row(n, i, 0);
+            torque += impulse * LaneVector<V>.Load(batch.Angular, o);
             if (node.Classes[i] == RowClass.General)
             {
-                LaneVector<V> share = impulse * LaneVector<V>.Load(rows, o);
+                LaneVector<V> share = impulse * LaneVector<V>.Load(batch.Linear, o);
                 force += share;
                 torque -= LaneVector<V>.Cross(LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), share);
             }
         }
 
-        (times * force).Store(batch.Reaction, 0);
-        (times * torque).Store(batch.Reaction, 3 * w);
+        (times * force).Store(batch.Work.Reaction, 0);
+        (times * torque).Store(batch.Work.Reaction, 3 * w);
     }
 
     private static void AddLimits(Batch<V> batch, Laws<V> laws, int n, double rate, ref Vector3d force, ref Vector3d torque)

@@ -87,20 +87,19 @@ internal static class ResponseMatrix<V>
 
     private static void Responses(Batch<V> batch, int n, Node node, int side)
     {
-        double[] rows = batch.Rows;
         int w = Lane<V>.Width;
         int inverse = Batch<V>.Body(node.Bodies[side], BodySlot.WorldInverse);
-        int stride = node.Bodies.Length * Batch<V>.SideCount * w;
-        int o = batch.Row(n, 0, side, 0);
+        int stride = 3 * node.Bodies.Length * w;
+        int o = batch.Row(n, 0, side);
         for (int i = 0; i < node.Rows; i++, o += stride)
         {
-            Turn(batch.Bodies, inverse, LaneVector<V>.Load(rows, o + Batch<V>.Angular * w)).Store(rows, o + Batch<V>.Response * w);
+            Turn(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
         }
     }
 
     private static void AddDiagonal(Batch<V> batch, int n, Node node, int side)
     {
-        int first = batch.Row(n, 0, side, 0);
+        int first = batch.Row(n, 0, side);
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
         for (int i = 0; i < node.Rows; i++)
         {
@@ -114,8 +113,8 @@ internal static class ResponseMatrix<V>
     {
         Node later = batch.Shape.Nodes[link.Later];
         Node earlier = batch.Shape.Nodes[link.Earlier];
-        int firstI = batch.Row(link.Later, 0, link.LaterSide, 0);
-        int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide, 0);
+        int firstI = batch.Row(link.Later, 0, link.LaterSide);
+        int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide);
         int cell = link.Block * Lane<V>.Width;
         for (int i = 0; i < later.Rows; i++)
         {
@@ -129,15 +128,14 @@ internal static class ResponseMatrix<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void AddTurns(Batch<V> batch, int firstI, int i, Node nodeI, int firstJ, int count, Node nodeJ, int cell)
     {
-        double[] rows = batch.Rows;
+        double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        LaneVector<V> response = LaneVector<V>.Load(rows, firstI + (i * nodeI.Bodies.Length * Batch<V>.SideCount + Batch<V>.Response) * w);
-        int stride = nodeJ.Bodies.Length * Batch<V>.SideCount * w;
-        int o = firstJ + Batch<V>.Angular * w;
-        for (int end = cell + count * w; cell < end; cell += w, o += stride)
+        LaneVector<V> response = LaneVector<V>.Load(batch.Work.Response, firstI + 3 * i * nodeI.Bodies.Length * w);
+        int stride = 3 * nodeJ.Bodies.Length * w;
+        for (int end = cell + count * w; cell < end; cell += w, firstJ += stride)
         {
-            (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, o))).Store(matrix, cell);
+            (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, firstJ))).Store(matrix, cell);
         }
     }
 
@@ -163,8 +161,8 @@ internal static class ResponseMatrix<V>
             return;
         }
 
-        int strideI = nodeI.Bodies.Length * Batch<V>.SideCount * w;
-        int strideJ = nodeJ.Bodies.Length * Batch<V>.SideCount * w;
+        int strideI = 3 * nodeI.Bodies.Length * w;
+        int strideJ = 3 * nodeJ.Bodies.Length * w;
         for (int i = 0; i < nodeI.Rows; i++)
         {
             int end = isTriangle ? i + 1 : nodeJ.Rows;
@@ -191,14 +189,14 @@ internal static class ResponseMatrix<V>
 
     private static void AddProduct(Batch<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
     {
-        Lane<V> product = inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(batch.Rows, oi), LaneVector<V>.Load(batch.Rows, oj));
+        Lane<V> product = inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(batch.Linear, oi), LaneVector<V>.Load(batch.Linear, oj));
         (Lane<V>.Load(batch.Matrix, cell) + product).Store(batch.Matrix, cell);
     }
 
     // Of a general row with one along an axis of the world, which is reversed on side 1.
     private static void AddComponent(Batch<V> batch, Lane<V> inverseMass, int component, int side, int cell)
     {
-        Lane<V> product = inverseMass * Lane<V>.Load(batch.Rows, component);
+        Lane<V> product = inverseMass * Lane<V>.Load(batch.Linear, component);
         Lane<V> sum = Lane<V>.Load(batch.Matrix, cell);
         (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
     }

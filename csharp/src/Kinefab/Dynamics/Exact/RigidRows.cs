@@ -61,8 +61,8 @@ internal static class RigidRows<V>
         {
             if (nodes[n].Joint != null)
             {
-                int row = batch.Row(n, 0, 0, 0);
-                int stride = 2 * Batch<V>.SideCount * Lane<V>.Width;
+                int row = batch.Row(n, 0, 0);
+                int stride = 6 * Lane<V>.Width;
                 if (nodes[n].LinearMask == 7)
                 {
                     BuildAnchor(batch, n, row);
@@ -131,7 +131,7 @@ internal static class RigidRows<V>
         int x1 = Batch<V>.Body(node.Bodies[1], BodySlot.EndX);
         if (node.LinearMask == 7)
         {
-            Gap(batch, n, x0, x1).Store(batch.Error, row);
+            Gap(batch, n, x0, x1).Store(batch.Work.Error, row);
             return 3;
         }
 
@@ -150,7 +150,7 @@ internal static class RigidRows<V>
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void GapAlong(Batch<V> batch, int n, int x0, int x1, int axis, int row) =>
-        LaneVector<V>.Dot(Axis(batch, n, 0, axis), Gap(batch, n, x0, x1)).Store(batch.Error, row);
+        LaneVector<V>.Dot(Axis(batch, n, 0, axis), Gap(batch, n, x0, x1)).Store(batch.Work.Error, row);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static LaneVector<V> Gap(Batch<V> batch, int n, int x0, int x1) =>
@@ -161,7 +161,7 @@ internal static class RigidRows<V>
         for (int i = 0; i < node.Turns; i++, row += Lane<V>.Width)
         {
             node.Turn(i, out int axis0, out int axis1);
-            LaneVector<V>.Dot(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1)).Store(batch.Error, row);
+            LaneVector<V>.Dot(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1)).Store(batch.Work.Error, row);
         }
     }
 
@@ -169,8 +169,8 @@ internal static class RigidRows<V>
     private static void Rate(Batch<V> batch)
     {
         int w = Lane<V>.Width;
-        double[] errors = batch.Error;
-        double[] last = batch.LastError;
+        double[] errors = batch.Work.Error;
+        double[] last = batch.Work.LastError;
         bool[] isAngular = batch.Shape.IsAngular;
         Lane<V> most = Lane<V>.Splat(0);
         Lane<V> change = Lane<V>.Splat(0);
@@ -189,21 +189,20 @@ internal static class RigidRows<V>
             gap = isAngular[i] ? gap : Lane<V>.Max(gap, c);
         }
 
-        (most + (sum - sum)).Store(batch.MaxError, 0);
-        change.Store(batch.MaxChange, 0);
-        gap.Store(batch.MaxGap, 0);
+        (most + (sum - sum)).Store(batch.Work.MaxError, 0);
+        change.Store(batch.Work.MaxChange, 0);
+        gap.Store(batch.Work.MaxGap, 0);
     }
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void BuildAnchor(Batch<V> batch, int n, int row)
     {
-        double[] rows = batch.Rows;
-        int side = Batch<V>.SideCount * Lane<V>.Width;
+        double[] rows = batch.Angular;
+        int side = 3 * Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
         LaneVector<V> r0 = Lever(batch, n, 0);
         LaneVector<V> r1 = Lever(batch, n, 1);
-        row += Batch<V>.Angular * Lane<V>.Width;
         new LaneVector<V>(zero, r0.Z, zero - r0.Y).Store(rows, row);
         new LaneVector<V>(zero, zero - r1.Z, r1.Y).Store(rows, row + side);
         new LaneVector<V>(zero - r0.Z, zero, r0.X).Store(rows, row + 2 * side);
@@ -215,15 +214,13 @@ internal static class RigidRows<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void BuildAlong(Batch<V> batch, int n, Node node, int axis, int row)
     {
-        double[] rows = batch.Rows;
-        int side = Batch<V>.SideCount * Lane<V>.Width;
-        int angular = Batch<V>.Angular * Lane<V>.Width;
+        int side = 3 * Lane<V>.Width;
         LaneVector<V> gap = Gap(batch, n, Batch<V>.Body(node.Bodies[0], BodySlot.EndX), Batch<V>.Body(node.Bodies[1], BodySlot.EndX));
         LaneVector<V> a = Axis(batch, n, 0, axis);
-        a.Store(rows, row);
-        LaneVector<V>.Cross(Lever(batch, n, 0) - gap, a).Store(rows, row + angular);
-        (-a).Store(rows, row + side);
-        LaneVector<V>.Cross(a, Lever(batch, n, 1)).Store(rows, row + side + angular);
+        a.Store(batch.Linear, row);
+        LaneVector<V>.Cross(Lever(batch, n, 0) - gap, a).Store(batch.Angular, row);
+        (-a).Store(batch.Linear, row + side);
+        LaneVector<V>.Cross(a, Lever(batch, n, 1)).Store(batch.Angular, row + side);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -231,9 +228,8 @@ internal static class RigidRows<V>
     {
         node.Turn(i, out int axis0, out int axis1);
         LaneVector<V> turn = LaneVector<V>.Cross(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1));
-        row += Batch<V>.Angular * Lane<V>.Width;
-        turn.Store(batch.Rows, row);
-        (-turn).Store(batch.Rows, row + Batch<V>.SideCount * Lane<V>.Width);
+        turn.Store(batch.Angular, row);
+        (-turn).Store(batch.Angular, row + 3 * Lane<V>.Width);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

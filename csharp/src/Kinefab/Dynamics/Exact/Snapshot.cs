@@ -23,7 +23,7 @@ internal sealed class Snapshot
     {
         Array.Copy(batch.Bodies, _bodies, _bodies.Length);
         Array.Copy(batch.Half, _half, _half.Length);
-        Array.Copy(batch.Total, _total, _total.Length);
+        Array.Copy(batch.Work.Total, _total, _total.Length);
         batch.Laws?.Save(_laws);
     }
 
@@ -31,7 +31,7 @@ internal sealed class Snapshot
     {
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
         Array.Copy(_half, batch.Half, _half.Length);
-        Array.Copy(_total, batch.Total, _total.Length);
+        Array.Copy(_total, batch.Work.Total, _total.Length);
         RattleStep<ScalarLane>.Rebuild(batch);
         batch.Laws?.Restore(_laws);
     }

@@ -102,7 +102,7 @@ internal static class Transfer<V>
     /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Load"/>.</summary>
     public static void Start(Batch<V> batch)
     {
-        Lane<V>.Splat(0).Store(batch.Fastest, 0);
+        Lane<V>.Splat(0).Store(batch.Work.Fastest, 0);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = Batch<V>.Body(body, 0);
@@ -110,7 +110,7 @@ internal static class Transfer<V>
             TakeMomentum(batch.Bodies, o);
         }
 
-        Lane<V>.Sqrt(Lane<V>.Load(batch.Fastest, 0)).Store(batch.Fastest, 0);
+        Lane<V>.Sqrt(Lane<V>.Load(batch.Work.Fastest, 0)).Store(batch.Work.Fastest, 0);
     }
 
     /// <summary>Angular velocities in all lanes, by the matrix of the end pose.</summary>
@@ -156,7 +156,7 @@ internal static class Transfer<V>
         for (int i = 0; i < from.Half.Length; i++)
         {
             batch.Half[i * Lane<V>.Width + lane] = from.Half[i];
-            batch.Total[i * Lane<V>.Width + lane] = from.Total[i];
+            batch.Work.Total[i * Lane<V>.Width + lane] = from.Work.Total[i];
         }
     }
 
@@ -172,7 +172,7 @@ internal static class Transfer<V>
         Lane<V> speed = Lane<V>.Sqrt(square + Lane<V>.Splat(LeastSquare));
         Lane<V> share = Lane<V>.Min(most / speed, Lane<V>.Splat(1));
         (share * rate).Store(a, o + BodySlot.W * w);
-        Lane<V>.Max(Lane<V>.Load(batch.Fastest, 0), share * share * square).Store(batch.Fastest, 0);
+        Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), share * share * square).Store(batch.Work.Fastest, 0);
     }
 
     // L = R I R^T w; an infinite moment does not turn, and its momentum is left out.

@@ -100,6 +100,9 @@ internal sealed class Island
     /// <summary>Whether nothing but the bodies' own forces does work on them: no law, no kinematic body.</summary>
     public bool IsWorkless { get; }
 
+    /// <summary>Whether there are more joints and couplings than a tree has.</summary>
+    public bool HasLoops => Nodes.Length > MovingBodies;
+
     /// <summary>Whether a row, in the vectors' order, has no linear part.</summary>
     public bool[] IsAngular { get; }
 

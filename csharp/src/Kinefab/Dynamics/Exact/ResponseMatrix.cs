@@ -7,7 +7,8 @@ namespace Kinefab.Dynamics.Exact;
 /// <summary>
 /// A = J M^-1 J^T of the built rows, regularised: a share of each diagonal is added to it, 1e-6 for rows with a linear
 /// part and 1e-3 for angular ones, so that redundant rows share their load evenly (least norm) instead of making A
-/// singular. What they are solved for is the true residual, so consistent loops still close to the tolerance.
+/// singular. What they are solved for is the true residual, so consistent loops still close to the tolerance. Without loops
+/// no row is redundant, and the share would only hide the slow modes of long chains.
 /// </summary>
 internal static class ResponseMatrix<V>
     where V : struct, ILane<V>
@@ -15,6 +16,9 @@ internal static class ResponseMatrix<V>
     /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps.</summary>
     public const double LinearShare = 1e-6;
     public const double AngularShare = 1e-3;
+
+    // Against frozen axes alone.
+    private const double TreeShare = 1e-12;
 
     /// <summary>World inverse inertias from R and the principal moments.</summary>
     public static void InverseInertias(Batch<V> batch)
@@ -209,7 +213,7 @@ internal static class ResponseMatrix<V>
         for (int i = 0; i < node.RigidRows; i++)
         {
             int cell = (block + i * (node.Rows + 1)) * w;
-            double share = node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
+            double share = !batch.Shape.HasLoops ? TreeShare : node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
             (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(1 + share)).Store(matrix, cell);
         }
     }

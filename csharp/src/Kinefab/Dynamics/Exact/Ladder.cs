@@ -25,7 +25,7 @@ internal sealed class Ladder
     private const double MostTurn = 0.5;
 
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
-    private const double MostEnergyChange = 0.01;
+    private const double MostEnergyChange = 0.002;
 
     private readonly Batch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _floor;

@@ -33,7 +33,8 @@ internal sealed class MechanismNames
         foreach (MechanismCoordinate coordinate in coordinates)
         {
             int at = coordinate.GameObject;
-            freedoms[at] = freedoms.GetValueOrDefault(at) + (coordinate.IsLocked ? 0 : 1);
+            freedoms.TryGetValue(at, out int count);
+            freedoms[at] = count + (coordinate.IsLocked ? 0 : 1);
             if (!components.TryAdd(at, coordinate.Component) && components[at] != coordinate.Component)
             {
                 several.Add(at);

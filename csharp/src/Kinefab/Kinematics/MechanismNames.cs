@@ -53,6 +53,17 @@ internal sealed class MechanismNames
                 _found.TryAdd(id, i);
             }
         }
+
+        // What an object's id and a word say by themselves is found at once, too.
+        foreach (IGrouping<string, int> called in Enumerable.Range(0, coordinates.Length)
+            .Where(i => !coordinates[i].IsLocked)
+            .GroupBy(i => $"{objects[coordinates[i].GameObject].Id}.{Words[(int)coordinates[i].Coordinate]}"))
+        {
+            if (called.Count() == 1)
+            {
+                _found.TryAdd(called.Key, called.First());
+            }
+        }
     }
 
     /// <summary>By id, else by a name that no other object has; -1: none.</summary>

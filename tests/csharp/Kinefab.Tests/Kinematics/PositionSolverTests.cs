@@ -75,7 +75,7 @@ public class PositionSolverTests
     }
 
     [TestCase("M09", "shaft", "sliderD")]
-    [TestCase("M14", "up1", "platform")]
+    [TestCase("M14", "lo1.x", "platform")]
     [TestCase("M27", "sun", "planet")]
     [TestCase("M04", "crank", "coupler")]
     public void DriveAndDragByName_OfExportedScenes_AllocateNothing(string id, string joint, string part)

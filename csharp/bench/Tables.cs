@@ -44,6 +44,7 @@ internal static class Tables
         try
         {
             SolverBenchmark.Run();
+            ChainBenchmark.Run();
         }
         finally
         {

@@ -55,6 +55,27 @@ internal static class SolverScenes
         return builder.Build();
     }
 
+    /// <summary>The same bars hanging straight down, the lowest given a push: nothing whips, every step is a plain one.</summary>
+    public static MultibodySystem HangingChain(int links)
+    {
+        var builder = new MechanismBuilder();
+        int last = Joint.World;
+        for (int i = 0; i < links; i++)
+        {
+            int bar = builder.Bar(new Vector3d(0, -0.2 * i, 0), new Vector3d(0, -0.2 * (i + 1), 0), 1);
+            builder.Hinge(last, bar, new Vector3d(0, -0.2 * i, 0), Z);
+            last = bar;
+        }
+
+        builder.Change(last, d =>
+        {
+            d.LinearVelocity = new Vector3d(0.1, 0, 0);
+            d.AngularVelocity = new Vector3d(0, 0, 1);
+            return d;
+        });
+        return builder.Build();
+    }
+
     /// <summary>Seven links of 0.1 kg with a payload of 10 kg at the end, released horizontal.</summary>
     public static MultibodySystem Heavy8()
     {

@@ -1,0 +1,85 @@
+using System;
+using System.Diagnostics;
+using System.Globalization;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Exact;
+using Kinefab.Tests.Dynamics.Exact;
+
+namespace Kinefab.Bench;
+
+/// <summary>How a chain's cost grows with its length, and what the exact solver's safe floor costs.</summary>
+internal static class ChainBenchmark
+{
+    // Short enough that the tension of the longest chain asks for no shorter steps.
+    private const double Dt = 1.0 / 960;
+    private const int Steps = 200;
+    private const int Runs = 5;
+
+    public static void Run()
+    {
+        Console.WriteLine();
+        Console.WriteLine("| hanging chain, exact, 1/960 s | us/step | ns/joint-step |");
+        Console.WriteLine("|---|---|---|");
+        double[] sizes = { 64, 256, 1024 };
+        var times = new double[sizes.Length];
+        for (int i = 0; i < sizes.Length; i++)
+        {
+            times[i] = Chain((int)sizes[i]);
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture, "| {0} bars | {1:F1} | {2:F0} |", sizes[i], times[i], times[i] * 1000 / sizes[i]));
+        }
+
+        double exponent = Math.Log(times[^1] / times[0]) / Math.Log(sizes[^1] / sizes[0]);
+        Console.WriteLine();
+        Console.WriteLine(string.Format(
+            CultureInfo.InvariantCulture,
+            "Growth from 64 to 1024 bars: exponent {0:F2}. One cold step of implicit Euler, the safe floor, on chain64 at 1/60 s: {1:F0} us.",
+            exponent, Floor()));
+    }
+
+    private static double Chain(int links)
+    {
+        double best = double.PositiveInfinity;
+        for (int run = 0; run < Runs; run++)
+        {
+            MultibodySystem chain = SolverScenes.HangingChain(links);
+            var solver = new ExactSolver(chain);
+            double sum = 0;
+            for (int i = 0; i < Steps; i++)
+            {
+                long before = Stopwatch.GetTimestamp();
+                solver.Step(Dt);
+                sum += Stopwatch.GetElapsedTime(before).TotalMicroseconds;
+            }
+
+            best = Math.Min(best, sum / Steps);
+        }
+
+        return best;
+    }
+
+    private static double Floor()
+    {
+        double best = double.PositiveInfinity;
+        for (int run = 0; run < 200; run++)
+        {
+            MultibodySystem chain = SolverScenes.Chain(64);
+            Island island = Island.Find(chain)[0];
+            var batch = new Batch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
+            Transfer<Numerics.ScalarLane>.LoadConstants(batch, 0, island, chain);
+            Transfer<Numerics.ScalarLane>.Load(batch, 0, island, chain, 1.0 / 60);
+            Transfer<Numerics.ScalarLane>.Start(batch);
+            Flight<Numerics.ScalarLane>.Stay(batch);
+            RattleStep<Numerics.ScalarLane>.Rebuild(batch);
+            var floor = new ImplicitEulerStep(batch);
+            long before = Stopwatch.GetTimestamp();
+            if (!floor.Fly(1.0 / 60, 1e-9))
+            {
+                throw new InvalidOperationException("The floor did not hold.");
+            }
+
+            best = Math.Min(best, Stopwatch.GetElapsedTime(before).TotalMicroseconds);
+        }
+
+        return best;
+    }
+}

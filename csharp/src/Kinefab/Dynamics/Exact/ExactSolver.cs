@@ -11,11 +11,12 @@ namespace Kinefab.Dynamics.Exact;
 /// </summary>
 internal sealed class ExactSolver : ISolver
 {
-    // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps less, since what a gap
-    // of one step leaves in the speeds grows with 1/h; never less than rounding lets it reach.
+    // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps by the square of the step
+    // less, so that what a gap leaves in the speeds, gap / h, does not outweigh the method's own error, which falls with
+    // h^2; never less than rounding lets it reach.
     private const double MostGap = 1e-9;
-    private const double LeastGap = 1e-11;
-    private const double GapSpeed = 6e-8;
+    private const double LeastGap = 2e-13;
+    private const double GapAcceleration = 3.6e-6;
 
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
@@ -44,7 +45,7 @@ internal sealed class ExactSolver : ISolver
             Regroup();
         }
 
-        double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapSpeed * dt));
+        double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         foreach (IslandGroup group in _groups)
         {
             group.Step(dt, tolerance);

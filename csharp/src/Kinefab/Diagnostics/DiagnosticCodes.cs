@@ -255,6 +255,9 @@ public static class DiagnosticCodes
     /// <summary>First-order mobility at the exported pose is {stated} in the file and {counted} counted from the joints.</summary>
     public const string MobilityFirstOrderDiffers = "MOBILITY_FIRST_ORDER_DIFFERS";
 
+    /// <summary>The loop through {joints} does not move as its joints stand: its axes are off by a small angle, which locks it. The solvers let the locked angles give, as Unity does.</summary>
+    public const string LoopInconsistent = "LOOP_INCONSISTENT";
+
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 

@@ -10,7 +10,7 @@ namespace Kinefab.Dynamics;
 internal static class ExactSolverCheck
 {
     // One joint that sees other masses than the next has no energy to keep: J M^-1 J^T would not be symmetric across joints.
-    public static Report Of(ValidScene scene)
+    public static List<Diagnostic> Of(ValidScene scene)
     {
         var found = new List<Diagnostic>();
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
@@ -25,7 +25,7 @@ internal static class ExactSolverCheck
             }
         }
 
-        return new Report(found);
+        return found;
     }
 
     private static Diagnostic Ignored(Joint joint, string pointer)

@@ -95,14 +95,16 @@ public sealed class World
         }
 
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
+        List<int[]> loops = LoopProbe.Find(builder.MultibodySystem);
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new UnitySolver(builder.MultibodySystem),
-            SolverKind.Exact => new ExactSolver(builder.MultibodySystem),
+            SolverKind.Exact => new ExactSolver(builder.MultibodySystem, loops),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
-        Report findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : Report.Empty;
-        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, findings);
+        List<Diagnostic> findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : new List<Diagnostic>();
+        findings.AddRange(InexactLoopCheck.Of(loops, builder.Joints));
+        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, new Report(findings));
     }
 
     /// <summary>Moves the world forward.</summary>

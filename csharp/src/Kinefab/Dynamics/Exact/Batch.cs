@@ -20,6 +20,11 @@ internal sealed class Batch<V>
         Shape = shape;
         Work = workspace;
         int w = Width;
+        AngularShare = shape.IsInexact ? ResponseMatrix<V>.InexactShare : ResponseMatrix<V>.AngularShare;
+        if (shape.IsInexact)
+        {
+            Compliance = new double[shape.Pattern.RowCount * w];
+        }
         Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
         Joints = new double[shape.Nodes.Length * JointCount * w];
         RowOffsets = new int[shape.Nodes.Length];
@@ -84,6 +89,15 @@ internal sealed class Batch<V>
 
     /// <summary>Index of the vector of a row's side in <see cref="Linear"/> and <see cref="Angular"/>.</summary>
     public int Row(int node, int row, int side) => 3 * (RowOffsets[node] + row * Shape.Nodes[node].Bodies.Length + side) * Width;
+
+    /// <summary>Share added to the diagonal of angular rows in RATTLE steps.</summary>
+    public double AngularShare { get; }
+
+    /// <summary>Share times response of the rows of an inexact island.</summary>
+    public double[] Compliance { get; } = Array.Empty<double>();
+
+    /// <summary>Step for which its angles are springs, see <see cref="SoftAngles{V}"/>; 0 where they are rigid.</summary>
+    public double SoftStep { get; set; }
 
     /// <summary>Forgets what earlier steps left behind.</summary>
     public void ClearHistory()

@@ -21,17 +21,32 @@ internal sealed class ExactSolver : ISolver
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
+    private readonly HashSet<int> _inexactJoints = new();
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
     public ExactSolver(MultibodySystem mechanism, int maxWidth = int.MaxValue)
+        : this(mechanism, LoopProbe.Find(mechanism), maxWidth)
+    {
+    }
+
+    /// <summary>A solver for the mechanism as it stands.</summary>
+    /// <param name="mechanism">Bodies and joints.</param>
+    /// <param name="inexactLoops">What <see cref="LoopProbe"/> found in it.</param>
+    /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
+    public ExactSolver(MultibodySystem mechanism, List<int[]> inexactLoops, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
         _maxWidth = maxWidth;
         foreach (Joint joint in mechanism.Joints)
         {
             joint.EveryLimit = true;
+        }
+
+        foreach (int[] joints in inexactLoops)
+        {
+            _inexactJoints.UnionWith(joints);
         }
 
         Regroup();
@@ -68,6 +83,11 @@ internal sealed class ExactSolver : ISolver
     {
         _groups.Clear();
         List<Island> rest = Island.Find(_mechanism);
+        foreach (Island island in rest)
+        {
+            island.IsInexact = Array.Exists(island.Nodes, node => node.Joint != null && _inexactJoints.Contains(node.Index));
+        }
+
         List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);
         rest.RemoveAll(prepared.Contains);
         if (prepared.Count > 0)

@@ -39,6 +39,7 @@ internal sealed class ImplicitEulerStep
         Batch<ScalarLane> batch = _batch;
         Laws<ScalarLane>? laws = batch.Laws;
         batch.Work.Active[0] = 1;
+        batch.SoftStep = 0;
         laws?.Begin(h, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Gather(_aim);

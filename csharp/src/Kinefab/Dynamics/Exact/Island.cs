@@ -103,6 +103,9 @@ internal sealed class Island
     /// <summary>Whether there are more joints and couplings than a tree has.</summary>
     public bool HasLoops => Nodes.Length > MovingBodies;
 
+    /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
+    public bool IsInexact { get; set; }
+
     /// <summary>Whether a row, in the vectors' order, has no linear part.</summary>
     public bool[] IsAngular { get; }
 
@@ -211,7 +214,8 @@ internal sealed class Island
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
     public bool HasShapeOf(Island other)
     {
-        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Nodes.Length != other.Nodes.Length)
+        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Nodes.Length != other.Nodes.Length
+            || IsInexact != other.IsInexact)
         {
             return false;
         }

@@ -77,7 +77,7 @@ internal sealed class Ladder
         _part = dt;
         _failures = 0;
         _start.Save(_batch);
-        bool isAudited = _batch.Laws == null && _batch.Shape.IsWorkless;
+        bool isAudited = _batch.Laws == null && _batch.Shape.IsWorkless && !_batch.Shape.IsInexact;
         double energy = isAudited ? Energy.Of(_batch) : 0;
         while (!TryParts(dt, halvings, tolerance) || (isAudited && halvings < MaxHalvings && !IsKept(energy)))
         {

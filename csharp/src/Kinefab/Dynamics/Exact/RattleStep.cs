@@ -49,11 +49,12 @@ internal static class RattleStep<V>
             converged[lane] = batch.Work.Active[lane] == 0;
         }
 
+        batch.SoftStep = batch.Shape.IsInexact ? h : 0;
         batch.Laws?.Begin(h, false);
         Kick(batch, h / 2);
         Array.Copy(batch.Half, batch.Work.First, batch.Half.Length);
         Impulses<V>.Apply(batch, batch.Work.First);
-        if (batch.Laws != null)
+        if (batch.Laws != null || batch.Shape.IsInexact)
         {
             Factor(batch, true);
         }
@@ -124,6 +125,11 @@ internal static class RattleStep<V>
             return;
         }
 
+        if (batch.Shape.IsInexact)
+        {
+            Factor(batch, false);
+        }
+
         Impulses<V>.NegativeSpeeds(batch);
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
         Copy(batch, batch.Work.Solution, batch.Half);
@@ -171,10 +177,13 @@ internal static class RattleStep<V>
         }
     }
 
-    private static void Factor(Batch<V> batch, bool isFlight)
+    /// <summary>Assembles and factors the matrix of the built rows.</summary>
+    /// <param name="batch">The rows and bodies.</param>
+    /// <param name="isFlight">See <see cref="Laws{V}.Condition"/>.</param>
+    public static void Factor(Batch<V> batch, bool isFlight)
     {
         batch.Laws?.WriteRows(false);
-        ResponseMatrix<V>.Assemble(batch, ResponseMatrix<V>.AngularShare);
+        ResponseMatrix<V>.Assemble(batch, batch.Shape.IsInexact && !isFlight ? ResponseMatrix<V>.NoPartShare : batch.AngularShare);
         batch.Laws?.Condition(isFlight);
         BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
     }
@@ -210,7 +219,8 @@ internal static class RattleStep<V>
     /// <summary>
     /// Closed, or as closed as an over-constrained loop that was not made exactly can be: nothing moves any more, or the
     /// anchors meet and the angles, near enough, get no better. Going on would load such a loop without end, and stir up
-    /// the turns of slender bodies, on which the chord contracts least.
+    /// the turns of slender bodies, on which the chord contracts least. In an island known to be inexact whose angles
+    /// are not springs (implicit Euler) the anchors suffice.
     /// </summary>
     public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated)
     {
@@ -218,6 +228,7 @@ internal static class RattleStep<V>
         bool isStill = error >= StillShare * batch.Work.LastMaxError[lane];
         batch.Work.LastMaxError[lane] = error;
         return error < tolerance
+            || (batch.Shape.IsInexact && batch.SoftStep == 0 && batch.Work.MaxGap[lane] < tolerance)
             || (isRepeated && batch.Work.MaxChange[lane] < tolerance && error < MostAngle)
             || (isRepeated && isStill && batch.Work.MaxGap[lane] < tolerance && error < MostAngle);
     }

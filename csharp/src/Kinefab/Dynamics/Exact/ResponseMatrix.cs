@@ -20,6 +20,12 @@ internal static class ResponseMatrix<V>
     // Against frozen axes alone.
     private const double TreeShare = 1e-12;
 
+    /// <summary>The same in loops whose axes are off: softer than a misalignment, harder than a freedom.</summary>
+    public const double InexactShare = 0.1;
+
+    /// <summary>The same in their projection, in which their angles take no part.</summary>
+    public const double NoPartShare = 1e9;
+
     /// <summary>World inverse inertias from R and the principal moments.</summary>
     public static void InverseInertias(Batch<V> batch)
     {
@@ -214,6 +220,11 @@ internal static class ResponseMatrix<V>
         {
             int cell = (block + i * (node.Rows + 1)) * w;
             double share = !batch.Shape.HasLoops ? TreeShare : node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
+            if (batch.Shape.IsInexact)
+            {
+                (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(share)).Store(batch.Compliance, (batch.Shape.Pattern.Rows[n] + i) * w);
+            }
+
             (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(1 + share)).Store(matrix, cell);
         }
     }

@@ -50,6 +50,11 @@ internal static class RigidRows<V>
             }
         }
 
+        if (batch.SoftStep > 0)
+        {
+            SoftAngles<V>.Evaluate(batch);
+        }
+
         Rate(batch);
     }
 

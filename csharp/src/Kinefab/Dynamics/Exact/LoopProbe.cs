@@ -1,0 +1,266 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Exact;
+
+/// <summary>
+/// Finds loops whose axes are a little off: locked by an angle that is small, but too large to be rounding, which an exact
+/// solution holds to the letter where Unity's soft joints let the mechanism move. Such a loop has a velocity that all
+/// anchors allow and that turns the axes apart only slowly; that stays so when it is followed for a finite way. Of a loop
+/// near a singular pose the same is true there, but not further on; of one that moves, or is singular, the axes' speed is 0;
+/// of a stiff frame it is of the order of the motion.
+/// Masses play no part: each body has unit moments, and a mass that weighs the levers' mean length as one radian.
+/// </summary>
+internal sealed class LoopProbe
+{
+    // Deterministic mixtures of all allowed velocities that are tried.
+    private const int Mixtures = 2;
+
+    // Corrections towards the allowed velocities, and of a pose.
+    private const int Projections = 40;
+    private const int Closings = 12;
+
+    // How far a velocity is followed, radians of the fastest body.
+    private const double Way = 0.15;
+
+    // Speed of the axes against the fastest body's: below the least, files' rounding and a loop that closes as far as motion
+    // shows; above the most, a frame.
+    private const double LeastSpeed = 1e-4;
+    private const double MostSpeed = 0.04;
+
+    // Error at the end of the way against that of a constant speed.
+    private const double MostGrowth = 3;
+
+    // Gap of the anchors there, against the levers' length.
+    private const double MostGap = 1e-6;
+
+    private readonly Batch<ScalarLane> _batch;
+    private readonly double _length;
+
+    private LoopProbe(Island island, MultibodySystem mechanism)
+    {
+        _batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
+        Transfer<ScalarLane>.LoadConstants(_batch, 0, island, mechanism);
+        Transfer<ScalarLane>.Load(_batch, 0, island, mechanism, 1);
+        _length = Length(island);
+        double[] a = _batch.Bodies;
+        for (int body = 0; body < island.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            a[o + BodySlot.InverseMass] = _length * _length;
+            for (int i = 0; i < 3; i++)
+            {
+                a[o + BodySlot.InverseInertia + i] = a[o + BodySlot.InverseInertia + i] > 0 ? 1 : 0;
+            }
+        }
+
+        for (int body = island.MovingBodies; body < island.Bodies.Length; body++)
+        {
+            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.W), 3);
+        }
+
+        _batch.Work.Active[0] = 1;
+    }
+
+    /// <summary>The joints of each island with such a loop, as indices into the mechanism's.</summary>
+    public static List<int[]> Find(MultibodySystem mechanism)
+    {
+        var found = new List<int[]>();
+        foreach (Island island in Island.Find(mechanism))
+        {
+            island.IsInexact = true;
+            if (HasLoop(island) && new LoopProbe(island, mechanism).IsInexact())
+            {
+                var joints = new List<int>();
+                foreach (Node node in island.Nodes)
+                {
+                    if (node.Joint != null)
+                    {
+                        joints.Add(node.Index);
+                    }
+                }
+
+                found.Add(joints.ToArray());
+            }
+        }
+
+        return found;
+    }
+
+    // More joints than bodies to hang up, all that does not move being one.
+    private static bool HasLoop(Island island)
+    {
+        int joints = 0;
+        bool isGrounded = false;
+        bool hasAngles = false;
+        foreach (Node node in island.Nodes)
+        {
+            joints += node.Joint != null && node.RigidRows > 0 ? 1 : 0;
+            hasAngles |= node.Angular != AngularRows.None;
+            foreach (int body in node.Bodies)
+            {
+                isGrounded |= body >= island.MovingBodies;
+            }
+        }
+
+        return hasAngles && joints >= island.MovingBodies + (isGrounded ? 1 : 0);
+    }
+
+    private static double Length(Island island)
+    {
+        double sum = 0;
+        int count = 0;
+        foreach (Node node in island.Nodes)
+        {
+            for (int side = 0; side < 2 && node.Joint != null; side++)
+            {
+                if (node.Bodies[side] < island.MovingBodies)
+                {
+                    sum += (side == 0 ? node.Joint.Frame0 : node.Joint.Frame1).Position.Length;
+                    count++;
+                }
+            }
+        }
+
+        return sum > 0 ? sum / count : 1;
+    }
+
+    private bool IsInexact()
+    {
+        for (int mixture = 1; mixture <= Mixtures; mixture++)
+        {
+            Flight<ScalarLane>.Stay(_batch);
+            Rebuild();
+            Start(mixture);
+            if (IsSlow(Allowed(), out double speed) && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out _))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private static bool IsSlow(double speed, out double same)
+    {
+        same = speed;
+        return speed >= LeastSpeed && speed <= MostSpeed;
+    }
+
+    // Numbers of no pattern, the same on every machine.
+    private void Start(int mixture)
+    {
+        uint state = (uint)mixture * 2654435761;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            for (int i = 0; i < 6; i++)
+            {
+                state = 1664525 * state + 1013904223;
+                double number = state / (double)uint.MaxValue - 0.5;
+                _batch.Bodies[o + BodySlot.V + i] = i < 3 ? number * _length : number;
+            }
+        }
+    }
+
+    // Takes from the velocities what the rows do not allow, scales them and returns the axes' speed in what is left.
+    private double Allowed()
+    {
+        for (int i = 0; i < Projections; i++)
+        {
+            Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+            if (MostAngular(_batch.Work.Solution) < LeastSpeed * Fastest())
+            {
+                return 0;
+            }
+
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+
+        double most = Fastest();
+        if (!(most > 0))
+        {
+            return double.NaN;
+        }
+
+        Scale(1 / most);
+        Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+        return MostAngular(_batch.Work.Solution);
+    }
+
+    private bool Follow(double way)
+    {
+        Scale(way);
+        for (int i = 0; ; i++)
+        {
+            Flight<ScalarLane>.Run(_batch, 1);
+            RigidRows<ScalarLane>.Evaluate(_batch);
+            Rebuild();
+            if (i == Closings)
+            {
+                return _batch.Work.MaxGap[0] <= MostGap * _length && Fastest() >= way / 2;
+            }
+
+            for (int row = 0; row < _batch.Work.Solution.Length; row++)
+            {
+                _batch.Work.Solution[row] = -_batch.Work.Error[row];
+            }
+
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+    }
+
+    private double AngularError() => MostAngular(_batch.Work.Error);
+
+    private void Rebuild()
+    {
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        if (_batch.Laws != null)
+        {
+            RattleStep<ScalarLane>.Factor(_batch, true);
+        }
+    }
+
+    private double MostAngular(double[] rows)
+    {
+        double most = 0;
+        for (int i = 0; i < rows.Length; i++)
+        {
+            most = _batch.Shape.IsAngular[i] ? Math.Max(most, Math.Abs(rows[i])) : most;
+        }
+
+        return most;
+    }
+
+    private double Fastest()
+    {
+        double most = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            for (int i = 0; i < 6; i++)
+            {
+                most = Math.Max(most, Math.Abs(_batch.Bodies[o + i]) / (i < 3 ? _length : 1));
+            }
+        }
+
+        return most;
+    }
+
+    private void Scale(double factor)
+    {
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            for (int i = 0; i < 6; i++)
+            {
+                _batch.Bodies[o + i] *= factor;
+            }
+        }
+    }
+}

@@ -86,6 +86,18 @@ internal static class Flight<V>
         }
     }
 
+    /// <summary>
+    /// Half the rate of the sphere's turn, rad/s: of a body that can exist no more than the angular speed, since the largest
+    /// moment is at most the sum of the others; of one that cannot, it says how wide the single turns are.
+    /// </summary>
+    public static Lane<V> SphereRate(double[] bodies, int o, Spin spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> momentum = LaneVector<V>.Load(bodies, o + BodySlot.L * w);
+        Lane<V> inverse = Lane<V>.Load(bodies, o + (BodySlot.InverseInertia + spin.Sphere) * w);
+        return Lane<V>.Splat(0.5) * inverse * Lane<V>.Sqrt(LaneVector<V>.Dot(momentum, momentum));
+    }
+
     // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
     // leaves all formulas as they are. Each turn is a method of its own, small enough that the compiler inlines its arithmetic.
     private static void Turn(double[] a, int o, double h, Spin spin)

@@ -18,11 +18,17 @@ internal sealed class Ladder
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
+    // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
+    private const int MaxStops = 8;
+
     // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given halves.
     private const double MostStiffness = 1;
 
     // Largest turn of a body in a substep, radians.
     private const double MostTurn = 0.5;
+
+    // Largest error of a quaternion's square.
+    private const double MostStretch = 1e-3;
 
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
@@ -32,8 +38,10 @@ internal sealed class Ladder
     private readonly Snapshot _start;
     private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
+    private readonly double[] _rate = new double[1];
     private double _part;
     private int _failures;
+    private int _stops;
 
     public Ladder(Batch<ScalarLane> batch)
     {
@@ -46,7 +54,7 @@ internal sealed class Ladder
         }
     }
 
-    /// <summary>Steps that not even implicit Euler could take: the island stood still for a substep.</summary>
+    /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
     public int Stops { get; private set; }
 
     /// <summary>Substeps by implicit Euler.</summary>
@@ -76,6 +84,7 @@ internal sealed class Ladder
         Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
         _part = dt;
         _failures = 0;
+        _stops = 0;
         _start.Save(_batch);
         bool isAudited = _batch.Laws == null && _batch.Shape.IsWorkless && !_batch.Shape.IsInexact;
         double energy = isAudited ? Energy.Of(_batch) : 0;
@@ -123,6 +132,12 @@ internal sealed class Ladder
 
     private void Force(double h, int depth, double tolerance)
     {
+        if (_stops == MaxStops)
+        {
+            Stop();
+            return;
+        }
+
         Snapshot start = _parts[depth - MaxHalvings];
         SetPart(h);
         start.Save(_batch);
@@ -147,6 +162,7 @@ internal sealed class Ladder
         }
 
         start.Restore(_batch);
+        _stops++;
         Stop();
     }
 
@@ -227,10 +243,12 @@ internal sealed class Ladder
         double most = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            most = Math.Max(most, Impulses<ScalarLane>.AngularVelocity(_batch, body).LengthSquared);
+            most = Math.Max(most, Impulses<ScalarLane>.AngularVelocity(_batch, body).Length);
+            Flight<ScalarLane>.SphereRate(_batch.Bodies, Batch<ScalarLane>.Body(body, 0), _batch.Shape.Spins[body]).Store(_rate, 0);
+            most = Math.Max(most, _rate[0]);
         }
 
-        return Math.Sqrt(most);
+        return most;
     }
 
     private bool IsFinite()
@@ -244,6 +262,18 @@ internal sealed class Ladder
                 {
                     return false;
                 }
+            }
+
+            // A turn too wide for the series leaves a quaternion that is none.
+            double norm = 0;
+            for (int i = BodySlot.Q; i < BodySlot.EndX; i++)
+            {
+                norm += _batch.Bodies[o + i] * _batch.Bodies[o + i];
+            }
+
+            if (!(Math.Abs(norm - 1) < MostStretch))
+            {
+                return false;
             }
         }
 

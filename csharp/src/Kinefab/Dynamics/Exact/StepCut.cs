@@ -3,7 +3,7 @@ namespace Kinefab.Dynamics.Exact;
 /// <summary>How often an island's steps are halved, kept from step to step.</summary>
 internal struct StepCut
 {
-    // Steps in which a quarter as many parts would have been ample, after which half as many will do.
+    // Steps in which by its demand an eighth as many parts would have done, after which it is cut into half as many.
     private const int CalmSteps = 15;
     private const int Margin = 8;
 

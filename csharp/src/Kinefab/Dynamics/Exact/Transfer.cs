@@ -108,6 +108,8 @@ internal static class Transfer<V>
             int o = Batch<V>.Body(body, 0);
             Dampen(batch, o);
             TakeMomentum(batch.Bodies, o);
+            Lane<V> turn = Flight<V>.SphereRate(batch.Bodies, o, batch.Shape.Spins[body]);
+            Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), turn * turn).Store(batch.Work.Fastest, 0);
         }
 
         Lane<V>.Sqrt(Lane<V>.Load(batch.Work.Fastest, 0)).Store(batch.Work.Fastest, 0);

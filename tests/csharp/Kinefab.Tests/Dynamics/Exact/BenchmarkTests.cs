@@ -11,18 +11,19 @@ namespace Kinefab.Tests.Dynamics.Exact;
 /// <summary>Published multibody benchmarks within 1e-6 of their eight digits at a stated step, and of second order.</summary>
 internal sealed class BenchmarkTests
 {
-    // Step, and time up to which all reference values are met. B2 lies flat, its constraints dependent, once each half turn;
-    // B7 is chaotic: its references end at 3 s.
+    // Step, and time up to which all reference values are met. B2 lies flat, its constraints dependent, once each half turn:
+    // what a tolerance leaves is amplified there, so that errors below 1e-6 depend on where the steps fall (5e-7 to 7e-7 from
+    // 1.6e-4 s down). B7 is chaotic: its references end at 3 s.
     private static readonly Convergence[] Benchmarks =
     {
         new("B1", "pendulum", BenchmarkMechanisms.Pendulum, 1e-4, 10),
-        new("B2", "two four-bar windows, through singular poses", () => BenchmarkMechanisms.Windows(2), 1.6e-4, 10),
+        new("B2", "two four-bar windows, through singular poses", () => BenchmarkMechanisms.Windows(2), 1.25e-4, 10),
         new("B3", "Andrews' squeezer", BenchmarkMechanisms.Squeezer, 8e-7, 0.05),
         new("B4", "Bricard loop, one row redundant", BenchmarkMechanisms.Bricard, 5e-4, 10),
         new("B5", "flyball governor, stiff", BenchmarkMechanisms.Governor, 6.25e-5, 10),
         new("B7", "double pendulum", BenchmarkMechanisms.DoublePendulum, 1e-4, 3),
         new("B9", "free body about its middle axis", BenchmarkMechanisms.Flip, 2e-3, 10),
-        new("B10", "four-bar", BenchmarkMechanisms.FourBar, 2e-4, 2),
+        new("B10", "four-bar", BenchmarkMechanisms.FourBar, 2.5e-4, 2),
         new("B11", "lever and slider-crank", BenchmarkMechanisms.Lever, 2e-4, 0.5),
     };
 
@@ -57,7 +58,7 @@ internal sealed class BenchmarkTests
         }
 
         string text = File.ReadAllText(path);
-        Assert.That(Benchmarks.Select(b => $"| {b.Id}: {b.About} | {Convergence.Text(b.Dt)} |"), Is.All.Matches<string>(row => text.Contains(row, StringComparison.Ordinal)));
+        Assert.That(Benchmarks.Select(b => $"| {b.Id}: {b.About} | {Convergence.Text(b.Dt)} |"), Is.All.Matches<string>(row => text.Contains(row!, StringComparison.Ordinal)));
     }
 
     private static string Table()

@@ -13,55 +13,78 @@ internal sealed class SceneTests
     private const double Dt = 1.0 / 60;
     private const int Steps = 600;
 
-    // Each with the share of its energy that it may gain: a whip's substeps change their length, which costs RATTLE part of
-    // its symplectic behaviour; a driven mechanism's energy is its motor's.
+    // Whether nothing but gravity does work; a driven mechanism's energy is its motor's.
     private static readonly TestCaseData[] Scenes =
     {
-        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(4)), 0.005).SetArgDisplayNames("fourbar"),
-        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.DoublePendulums(4)), 0.005).SetArgDisplayNames("dpend"),
-        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.Chain(64)), 0.03).SetArgDisplayNames("chain64"),
-        new TestCaseData((Func<MultibodySystem>)SolverScenes.SliderCrank, double.PositiveInfinity).SetArgDisplayNames("slidercrank"),
-        new TestCaseData((Func<MultibodySystem>)SolverScenes.Heavy8, 0.03).SetArgDisplayNames("heavy8"),
-        new TestCaseData((Func<MultibodySystem>)SolverScenes.Parallelogram, double.PositiveInfinity).SetArgDisplayNames("para"),
-        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(1, 1e-6)), 0.005).SetArgDisplayNames("tilt 1e-6"),
-        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(1, 1e-4)), 0.01).SetArgDisplayNames("tilt 1e-4"),
+        Case(() => SolverScenes.FourBars(100), true, "fourbar100"),
+        Case(() => SolverScenes.DoublePendulums(1000), true, "dpend1000"),
+        Case(() => SolverScenes.Chain(64), true, "chain64"),
+        Case(SolverScenes.SliderCrank, false, "slidercrank"),
+        Case(SolverScenes.Heavy8, true, "heavy8"),
+        Case(SolverScenes.Parallelogram, false, "para"),
+        Case(() => SolverScenes.FourBars(1, 1e-6), true, "tilt 1e-6"),
+        Case(() => SolverScenes.FourBars(1, 1e-4), true, "tilt 1e-4"),
+        Case(() => SolverScenes.FourBars(1, 1e-3), true, "tilt 1e-3"),
+        Case(() => SolverScenes.FourBars(1, 1e-2), true, "tilt 1e-2"),
     };
 
     [TestCaseSource(nameof(Scenes))]
-    public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<MultibodySystem> make, double mostGain)
+    public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<MultibodySystem> make, bool isPassive)
     {
         MultibodySystem mechanism = make();
         var solver = new ExactSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
-        double available = Available(mechanism);
         double drift = 0;
-        double gain = 0;
+        double most = start;
         for (int i = 0; i < Steps; i++)
         {
             solver.Step(Dt);
             drift = Math.Max(drift, MechanismMeasures.Drift(mechanism));
-            gain = Math.Max(gain, (MechanismMeasures.Energy(mechanism) - start) / available);
+            most = Math.Max(most, MechanismMeasures.Energy(mechanism));
         }
 
         Assert.That(drift, Is.LessThanOrEqualTo(1e-8));
-        // A loop that is off by 1e-4 rad can bind for a substep; elsewhere the solver always finds a step.
-        Assert.That(mechanism.Overflows, Is.LessThanOrEqualTo(Steps / 100));
-        Assert.That(gain, Is.LessThanOrEqualTo(mostGain));
+        Assert.That(mechanism.Overflows, Is.Zero);
+        if (isPassive)
+        {
+            Assert.That((most - start) / Available(make()), Is.LessThanOrEqualTo(0.005));
+        }
     }
 
     [Test]
-    public void Step_FourBars_KeepsEnergyToAThousandth()
+    public void Step_FourBars_KeepEnergyToAThousandth()
     {
-        MultibodySystem mechanism = SolverScenes.FourBars(8);
-        Assert.That(EnergyError(mechanism), Is.EqualTo(0).Within(0.001));
+        Assert.That(EnergyError(() => SolverScenes.FourBars(100)), Is.EqualTo(0).Within(0.001));
     }
 
     [Test]
-    public void Step_DoublePendulums_LoseLittleEnergy()
+    public void Step_DoublePendulums_KeepEnergyThoughTheyWhip()
     {
-        // Released from the horizontal they whip; the steps that the whips cut short cost up to 3 percent in 10 s.
-        MultibodySystem mechanism = SolverScenes.DoublePendulums(8);
-        Assert.That(EnergyError(mechanism), Is.InRange(-0.03, 0.0));
+        Assert.That(EnergyError(() => SolverScenes.DoublePendulums(1000)), Is.EqualTo(0).Within(0.0015));
+    }
+
+    [TestCase(1e-3)]
+    [TestCase(1e-2)]
+    public void Step_TiltedLoop_MovesAsTheTrueOneDoes(double tilt)
+    {
+        MultibodySystem tilted = SolverScenes.FourBars(1, tilt);
+        MultibodySystem exact = SolverScenes.FourBars(1);
+        var solver = new ExactSolver(tilted);
+        var reference = new ExactSolver(exact);
+        double difference = 0;
+        double moved = 0;
+        Vector3d start = exact.Bodies.Poses[1].Position;
+        for (int i = 0; i < 60; i++)
+        {
+            solver.Step(Dt);
+            reference.Step(Dt);
+            difference = Math.Max(difference, (tilted.Bodies.Poses[1].Position - exact.Bodies.Poses[1].Position).Length);
+            moved = Math.Max(moved, (exact.Bodies.Poses[1].Position - start).Length);
+        }
+
+        Assert.That(moved, Is.GreaterThan(0.3));
+        Assert.That(difference, Is.LessThanOrEqualTo(0.02 * moved));
+        Assert.That(EnergyError(() => SolverScenes.FourBars(1, tilt)), Is.EqualTo(0).Within(0.001));
     }
 
     [Test]
@@ -118,23 +141,38 @@ internal sealed class SceneTests
         Assert.That(second, Is.EqualTo(first));
     }
 
-    [Test]
-    public void Step_JointsInAnotherOrder_SameMotion()
+    // The tolerance of a step is 1e-9; chaos doubles what it leaves in a fraction of a second, so that long chains part.
+    private static readonly TestCaseData[] Orders =
     {
-        MultibodySystem one = SolverScenes.FourBars(1);
-        MultibodySystem other = SolverScenes.FourBars(1);
-        Array.Reverse(other.Joints);
-        var solverOne = new ExactSolver(one);
-        var solverOther = new ExactSolver(other);
-        for (int i = 0; i < 120; i++)
-        {
-            solverOne.Step(Dt);
-            solverOther.Step(Dt);
-        }
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.FourBars(1)), 2.0).SetArgDisplayNames("fourbar"),
+        new TestCaseData((Func<MultibodySystem>)(() => SolverScenes.Chain(4)), 1.0).SetArgDisplayNames("chain4"),
+        new TestCaseData((Func<MultibodySystem>)SolverScenes.SliderCrank, 2.0).SetArgDisplayNames("slidercrank, a motor"),
+        new TestCaseData((Func<MultibodySystem>)(() => BenchmarkMechanisms.Lever().MultibodySystem), 2.0).SetArgDisplayNames("lever"),
+        new TestCaseData((Func<MultibodySystem>)(() => BenchmarkMechanisms.Bricard().MultibodySystem), 1.0).SetArgDisplayNames("Bricard"),
+        new TestCaseData((Func<MultibodySystem>)(() => BenchmarkMechanisms.Governor().MultibodySystem), 1.0).SetArgDisplayNames("governor, two springs"),
+    };
 
-        for (int b = 0; b < one.Bodies.Count; b++)
+    [TestCaseSource(nameof(Orders))]
+    public void Step_JointsInAnotherOrder_SameMotion(Func<MultibodySystem> make, double seconds)
+    {
+        MultibodySystem one = make();
+        for (int seed = 0; seed < 3; seed++)
         {
-            Assert.That((one.Bodies.Poses[b].Position - other.Bodies.Poses[b].Position).Length, Is.LessThanOrEqualTo(1e-9));
+            MultibodySystem first = make();
+            MultibodySystem other = make();
+            new Random(seed).Shuffle(other.Joints);
+            var solverOne = new ExactSolver(first);
+            var solverOther = new ExactSolver(other);
+            for (int i = 0; i < (int)(seconds / Dt); i++)
+            {
+                solverOne.Step(Dt);
+                solverOther.Step(Dt);
+            }
+
+            for (int b = 0; b < one.Bodies.Count; b++)
+            {
+                Assert.That((first.Bodies.Poses[b].Position - other.Bodies.Poses[b].Position).Length, Is.LessThanOrEqualTo(1e-9));
+            }
         }
     }
 
@@ -159,21 +197,22 @@ internal sealed class SceneTests
         }
     }
 
-    private static double EnergyError(MultibodySystem mechanism)
+    // Change over 10 s as a share of the available energy.
+    private static double EnergyError(Func<MultibodySystem> make)
     {
+        MultibodySystem mechanism = make();
         var solver = new ExactSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
-        double available = Available(mechanism);
         for (int i = 0; i < Steps; i++)
         {
             solver.Step(Dt);
         }
 
-        return (MechanismMeasures.Energy(mechanism) - start) / available;
+        return (MechanismMeasures.Energy(mechanism) - start) / Available(make());
     }
 
     // Weight times the height that the centres of mass could fall if each hung straight down from the first pivot; a
-    // crank-rocker's from its start to its lowest.
+    // crank-rocker's, which is not to hang, no more than half a metre.
     private static double Available(MultibodySystem mechanism)
     {
         double sum = 0;
@@ -185,6 +224,9 @@ internal sealed class SceneTests
 
         return sum;
     }
+
+    private static TestCaseData Case(Func<MultibodySystem> make, bool isPassive, string name) =>
+        new TestCaseData(make, isPassive).SetArgDisplayNames(name);
 
     private static ulong BitsAfter(MultibodySystem mechanism, int width)
     {

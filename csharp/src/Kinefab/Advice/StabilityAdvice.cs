@@ -63,7 +63,7 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceLoopsUncounted, ("count", Json.Invariant.Text(e.World.Joints.Count))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
-        return ExactSolverCheck.Of(e.Scene).Concat(new Report(found));
+        return new Report(e.World.Findings.Diagnostics.Concat(ExactSolverCheck.Of(e.Scene)).Concat(found).ToArray());
     }
 
     private static Diagnostic Remark(string code, params (string Name, string Value)[] values)

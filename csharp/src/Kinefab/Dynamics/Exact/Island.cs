@@ -100,8 +100,8 @@ internal sealed class Island
     /// <summary>Whether nothing but the bodies' own forces does work on them: no law, no kinematic body.</summary>
     public bool IsWorkless { get; }
 
-    /// <summary>Whether there are more joints and couplings than a tree has.</summary>
-    public bool HasLoops => Nodes.Length > MovingBodies;
+    /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
+    public bool HasLoops => Nodes.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
 
     /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
     public bool IsInexact { get; set; }

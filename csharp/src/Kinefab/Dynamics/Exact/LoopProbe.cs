@@ -72,7 +72,7 @@ internal sealed class LoopProbe
         foreach (Island island in Island.Find(mechanism))
         {
             island.IsInexact = true;
-            if (HasLoop(island) && new LoopProbe(island, mechanism).IsInexact())
+            if (island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None) && new LoopProbe(island, mechanism).IsInexact())
             {
                 var joints = new List<int>();
                 foreach (Node node in island.Nodes)
@@ -88,25 +88,6 @@ internal sealed class LoopProbe
         }
 
         return found;
-    }
-
-    // More joints than bodies to hang up, all that does not move being one.
-    private static bool HasLoop(Island island)
-    {
-        int joints = 0;
-        bool isGrounded = false;
-        bool hasAngles = false;
-        foreach (Node node in island.Nodes)
-        {
-            joints += node.Joint != null && node.RigidRows > 0 ? 1 : 0;
-            hasAngles |= node.Angular != AngularRows.None;
-            foreach (int body in node.Bodies)
-            {
-                isGrounded |= body >= island.MovingBodies;
-            }
-        }
-
-        return hasAngles && joints >= island.MovingBodies + (isGrounded ? 1 : 0);
     }
 
     private static double Length(Island island)

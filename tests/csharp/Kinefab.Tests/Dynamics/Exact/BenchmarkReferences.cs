@@ -59,7 +59,8 @@ internal static class BenchmarkReferences
         return most;
     }
 
-    private static string Root()
+    /// <summary>The repository's folder.</summary>
+    public static string Root()
     {
         string? directory = AppContext.BaseDirectory;
         while (directory != null && !Directory.Exists(Path.Combine(directory, "tests", "reference")))

@@ -51,7 +51,7 @@ internal sealed class BenchmarkTests
     [Test]
     public void Document_ConvergenceTable_NamesEveryBenchmark()
     {
-        string path = Path.Combine(BenchmarkMechanisms.Root(), "tests", "reference", "CONVERGENCE.md");
+        string path = Path.Combine(BenchmarkReferences.Root(), "tests", "reference", "CONVERGENCE.md");
         if (Environment.GetEnvironmentVariable("KINEFAB_WRITE_TABLES") == "1")
         {
             File.WriteAllText(path, Table());
@@ -108,6 +108,6 @@ internal sealed class BenchmarkTests
         public override string ToString() => Id;
 
         private static double Run(BenchmarkMechanism benchmark, double dt, double end) =>
-            BenchmarkMechanisms.Deviation(benchmark, new ExactSolver(benchmark.MultibodySystem), dt, end);
+            BenchmarkReferences.Deviation(benchmark, new ExactSolver(benchmark.MultibodySystem), dt, end);
     }
 }

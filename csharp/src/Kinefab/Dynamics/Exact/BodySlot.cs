@@ -22,7 +22,7 @@ internal static class BodySlot
     public const int EndX = 13;
     public const int EndQ = 16;
 
-    /// <summary>Mean angular velocity of the flight: of kinematic bodies, and of all where laws need it.</summary>
+    /// <summary>Angular velocity: the world's before and after a step; in it the flight's mean, of kinematic bodies and where laws need it.</summary>
     public const int W = 20;
 
     /// <summary>Rotation matrix at the end of the flight, row-major.</summary>

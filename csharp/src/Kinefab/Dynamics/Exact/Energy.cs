@@ -1,49 +1,65 @@
+using System;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
 
 /// <summary>Energy of an island on the only lane, J.</summary>
-internal static class Energy
+internal readonly struct Energy
 {
-    /// <summary>Kinetic energy, less the work that the step's constant forces have done since x = 0.</summary>
-    public static double Of(Batch<ScalarLane> batch)
+    // Rounding of the forces' work, against its terms.
+    private const double Rounding = 1e-12;
+
+    private readonly double _kinetic;
+    private readonly double _work;
+    private readonly double _terms;
+
+    // Of the speeds that the forces give in a step.
+    private readonly double _forced;
+
+    /// <param name="batch">Built at the end pose.</param>
+    /// <param name="dt">Step, s.</param>
+    public Energy(Batch<ScalarLane> batch, double dt)
     {
+        _kinetic = 0;
+        _work = 0;
+        _terms = 0;
+        _forced = 0;
         double[] a = batch.Bodies;
-        double sum = Kinetic(batch);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = Batch<ScalarLane>.Body(body, 0);
-            double work = 0;
+            double mass = 1 / a[o + BodySlot.InverseMass];
+            Vector3d w = Impulses<ScalarLane>.AngularVelocity(batch, body);
             for (int i = 0; i < 3; i++)
             {
-                work += a[o + BodySlot.Acceleration + i] * a[o + BodySlot.EndX + i];
+                double v = a[o + BodySlot.V + i];
+                double acceleration = a[o + BodySlot.Acceleration + i];
+                double work = mass * acceleration * a[o + BodySlot.EndX + i];
+                _kinetic += (mass * v * v + a[o + BodySlot.L + i] * w[i]) / 2;
+                _work += work;
+                _terms += Math.Abs(work);
+                _forced += mass * acceleration * acceleration * dt * dt / 2;
             }
-
-            sum -= work / a[o + BodySlot.InverseMass];
         }
-
-        return sum;
     }
 
-    /// <summary>Kinetic energy.</summary>
-    public static double Kinetic(Batch<ScalarLane> batch)
+    /// <summary>Whether nothing does work on an island but its bodies' own constant forces.</summary>
+    public static bool IsKnown(Batch<ScalarLane> batch)
     {
-        double[] a = batch.Bodies;
-        double sum = 0;
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        bool isKnown = batch.Laws == null && batch.Shape.IsWorkless && !batch.Shape.IsInexact;
+        for (int body = 0; body < batch.Shape.MovingBodies && isKnown; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
-            Vector3d w = Impulses<ScalarLane>.AngularVelocity(batch, body);
-            double square = 0, turn = 0;
-            for (int i = 0; i < 3; i++)
-            {
-                square += a[o + BodySlot.V + i] * a[o + BodySlot.V + i];
-                turn += a[o + BodySlot.L + i] * w[i];
-            }
-
-            sum += square / (2 * a[o + BodySlot.InverseMass]) + turn / 2;
+            int o = Batch<ScalarLane>.Body(body, BodySlot.Torque);
+            isKnown = batch.Bodies[o] == 0 && batch.Bodies[o + 1] == 0 && batch.Bodies[o + 2] == 0;
         }
 
-        return sum;
+        return isKnown;
+    }
+
+    /// <summary>Whether kinetic energy less work changed since by no more than a share of what moves, and rounding.</summary>
+    public bool IsKept(in Energy since, double share)
+    {
+        double change = Math.Abs(_kinetic - since._kinetic - (_work - since._work));
+        return change <= share * (_kinetic + _forced) + Rounding * (_terms + since._terms);
     }
 }

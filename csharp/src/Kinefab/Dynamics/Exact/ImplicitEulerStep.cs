@@ -52,6 +52,7 @@ internal sealed class ImplicitEulerStep
             Flight<ScalarLane>.Run(batch, h);
             RigidRows<ScalarLane>.Evaluate(batch);
             laws?.Evaluate(h);
+            RigidRows<ScalarLane>.Rate(batch);
             RigidRows<ScalarLane>.Build(batch);
             laws?.WriteRows(true);
             double unbalanced = h * Residual();

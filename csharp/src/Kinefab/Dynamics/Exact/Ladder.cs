@@ -86,9 +86,10 @@ internal sealed class Ladder
         _failures = 0;
         _stops = 0;
         _start.Save(_batch);
-        bool isAudited = _batch.Laws == null && _batch.Shape.IsWorkless && !_batch.Shape.IsInexact;
-        double energy = isAudited ? Energy.Of(_batch) : 0;
-        while (!TryParts(dt, halvings, tolerance) || (isAudited && halvings < MaxHalvings && !IsKept(energy)))
+        bool isAudited = Energy.IsKnown(_batch);
+        var energy = new Energy(_batch, dt);
+        while (!TryParts(dt, halvings, tolerance)
+            || (isAudited && halvings < MaxHalvings && !new Energy(_batch, dt).IsKept(energy, MostEnergyChange)))
         {
             _start.Restore(_batch);
             _part = dt;
@@ -104,8 +105,6 @@ internal sealed class Ladder
         cut.Note(halvings, demand);
         SetPart(dt);
     }
-
-    private bool IsKept(double energy) => Math.Abs(Energy.Of(_batch) - energy) <= MostEnergyChange * Energy.Kinetic(_batch);
 
     private bool TryParts(double dt, int halvings, double tolerance)
     {

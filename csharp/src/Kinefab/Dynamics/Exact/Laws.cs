@@ -221,10 +221,9 @@ internal sealed partial class Laws<V>
         }
     }
 
-    /// <summary>Residuals of the laws at the end of the flight as errors, m or rad; the largest joins MaxError.</summary>
+    /// <summary>Residuals of the laws at the end of the flight as errors, m or rad.</summary>
     public void Evaluate(double h)
     {
-        double most = _batch.Work.MaxError[0];
         for (int i = 0; i < _laws.Length; i++)
         {
             ref Law law = ref _laws[i];
@@ -241,10 +240,7 @@ internal sealed partial class Laws<V>
             }
 
             _batch.Work.Error[law.Index] = error;
-            most = Math.Max(most, Math.Abs(error));
         }
-
-        _batch.Work.MaxError[0] = most;
     }
 
     /// <summary>Moves rows that have left their segment; true when one had to.</summary>

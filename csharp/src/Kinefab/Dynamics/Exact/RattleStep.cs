@@ -67,7 +67,7 @@ internal static class RattleStep<V>
             Flight<V>.Run(batch, h);
             RigidRows<V>.Evaluate(batch);
             batch.Laws?.Evaluate(h);
-            
+            RigidRows<V>.Rate(batch);
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
@@ -87,6 +87,8 @@ internal static class RattleStep<V>
                 restart = iteration;
                 Factor(batch, true);
                 batch.Laws.Evaluate(h);
+                RigidRows<V>.Rate(batch);
+                batch.Work.FirstMaxError[0] = batch.Work.MaxError[0];
             }
             else if (isDone || iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
             {

@@ -14,7 +14,7 @@ internal static class ResponseMatrix<V>
     where V : struct, ILane<V>
 {
     /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps.</summary>
-    public const double LinearShare = 1e-6;
+    private const double LinearShare = 1e-6;
     public const double AngularShare = 1e-3;
 
     // Against frozen axes alone.

@@ -28,7 +28,7 @@ internal static class RigidRows<V>
         }
     }
 
-    /// <summary>Places levers and axes and finds C of all rows; the largest one, and the largest change, of each lane.</summary>
+    /// <summary>Places levers and axes and finds C of all rows but those with a law.</summary>
     public static void Evaluate(Batch<V> batch)
     {
         Place(batch);
@@ -55,7 +55,6 @@ internal static class RigidRows<V>
             SoftAngles<V>.Evaluate(batch);
         }
 
-        Rate(batch);
     }
 
     /// <summary>J of all rows where levers and axes were last placed.</summary>
@@ -170,8 +169,8 @@ internal static class RigidRows<V>
         }
     }
 
-    // Largest error, change and gap of each lane.
-    private static void Rate(Batch<V> batch)
+    /// <summary>The largest error of all rows, its largest change and the largest gap, of each lane.</summary>
+    public static void Rate(Batch<V> batch)
     {
         int w = Lane<V>.Width;
         double[] errors = batch.Work.Error;

@@ -82,4 +82,100 @@ internal sealed class LadderTests
         Assert.That(mechanism.Bodies.Poses[0], Is.EqualTo(start));
         Assert.That(mechanism.Bodies.LinearVelocities[0].Length, Is.LessThan(1));
     }
+
+    [Test]
+    public void Step_HeavyChainAtRest_IsCutByItsDemandAlone()
+    {
+        var b = new MechanismBuilder();
+        int last = Joint.World;
+        for (int i = 0; i < 4; i++)
+        {
+            int bar = b.Bar(new Vector3d(0, -0.2 * i, 0), new Vector3d(0, -0.2 * (i + 1), 0), i == 3 ? 20 : 0.1);
+            b.Hinge(last, bar, new Vector3d(0, -0.2 * i, 0), Vector3d.UnitZ);
+            last = bar;
+        }
+
+        (int halvings, double demand) = HalvingsAfter(b.Build(), 1.0 / 60, 40);
+        Assert.That(demand, Is.GreaterThan(1));
+        Assert.That(1 << halvings, Is.LessThan(2 * demand));
+    }
+
+    [Test]
+    public void Step_LimitsReachedInTurn_NeedNoCut()
+    {
+        var b = new MechanismBuilder();
+        int upper = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        int lower = b.Bar(Vector3d.UnitX, Vector3d.UnitX * 2, 1);
+        foreach (RevoluteJoint hinge in new[] { b.Hinge(Joint.World, upper, Vector3d.Zero, Vector3d.UnitZ), b.Hinge(upper, lower, Vector3d.UnitX, Vector3d.UnitZ) })
+        {
+            hinge.LimitEnabled = true;
+            hinge.Limit = new AngularLimit { Lower = -0.4, Upper = 0.2 };
+        }
+
+        Assert.That(HalvingsAfter(b.Build(), 1.0 / 60, 60).Halvings, Is.LessThanOrEqualTo(1));
+    }
+
+    [Test]
+    public void Step_FloatingRing_IsHeldAsALoop()
+    {
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        Vector3d[] corners = { Vector3d.Zero, Vector3d.UnitX, new(1, 1, 0), Vector3d.UnitY };
+        for (int i = 0; i < 4; i++)
+        {
+            b.Change(b.Bar(corners[i], corners[(i + 1) % 4], 1), d =>
+            {
+                d.AngularVelocity = Vector3d.UnitZ;
+                d.LinearVelocity = Vector3d.Cross(Vector3d.UnitZ, d.Pose.Position - new Vector3d(0.5, 0.5, 0));
+                return d;
+            });
+        }
+
+        for (int i = 0; i < 4; i++)
+        {
+            b.Hinge(i, (i + 1) % 4, corners[(i + 1) % 4], Vector3d.UnitZ);
+        }
+
+        MultibodySystem ring = b.Build();
+        var solver = new ExactSolver(ring);
+        for (int i = 0; i < 60; i++)
+        {
+            solver.Step(1.0 / 60);
+            foreach (JointReaction reaction in ring.Reactions)
+            {
+                Assert.That(reaction.Force.Length, Is.LessThan(10));
+                Assert.That(reaction.Torque.Length, Is.LessThan(10));
+            }
+        }
+
+        Assert.That(MechanismMeasures.Drift(ring), Is.LessThanOrEqualTo(1e-8));
+    }
+
+    private static (int Halvings, double Demand) HalvingsAfter(MultibodySystem mechanism, double dt, int steps)
+    {
+        Island island = Island.Find(mechanism)[0];
+        var batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
+        Transfer<ScalarLane>.LoadConstants(batch, 0, island, mechanism);
+        var ladder = new Ladder(batch);
+        var cut = default(StepCut);
+        double most = 0;
+        for (int i = 0; i < steps; i++)
+        {
+            Transfer<ScalarLane>.Load(batch, 0, island, mechanism, dt);
+            Transfer<ScalarLane>.Start(batch);
+            Flight<ScalarLane>.Stay(batch);
+            RattleStep<ScalarLane>.Rebuild(batch);
+            double stiffest = 0;
+            for (int body = 0; body < island.MovingBodies; body++)
+            {
+                stiffest = System.Math.Max(stiffest, batch.Bodies[Batch<ScalarLane>.Body(body, BodySlot.Stiffness)]);
+            }
+
+            most = System.Math.Max(most, Ladder.Demand(stiffest, batch.Work.Fastest[0], dt));
+            ladder.Step(dt, 1e-9, ref cut, false);
+            Transfer<ScalarLane>.Finish(batch);
+            Transfer<ScalarLane>.Store(batch, 0, island, mechanism);
+        }
+
+        return (cut.Halvings, most);
+    }
 }

@@ -3,8 +3,10 @@
 Every row of a closing joint that the rest of the loop implies makes an iterative solver fight itself.  A
 planar four-bar's last hinge needs two of its five: the two in the plane.  Here the rows of a closing joint
 are chosen, in its own frame, so that their span over the tree's freedoms is that of all its rows: the row
-space, hence the null space and every body's freedoms, stay the same.  That is first order; a walk along
-the mechanism with only the kept rows then checks that the left-out ones stay satisfied.
+space, hence the null space and every body's freedoms, stay the same, and not only at the exported pose.
+Either no motion of the tree can ever violate a row that is left out (out of the plane of a planar loop), or
+poses along the motion decide, and what no basis of rows holds at all of them keeps more rows than a basis.
+A walk along the mechanism with only the kept rows then checks that the left-out ones stay satisfied.
 """
 
 from __future__ import annotations
@@ -16,17 +18,20 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import FREE, LOCKED, RX, UNLOCKED, Joint, JointKind, Motion, Scene
-from ..spatial import Array, Pose
+from ..spatial import Array
 from .assembly import Assembly
-from .blocks import relative_system
+from .blocks import Blocks, relative_system
 from .equations import joint_rows, joint_sides
 from .freedom import block_freedoms
 from .loops import Link, Tree, replace_link
-from .rank import rank_of
+from .openings import Block, BlockTree, Openings, locked_of, moved_by, openings
 from .rows import Rows
 from .solve import Solver
 from .system import State, System
+from .travel import poses_along
 
+HELD = 0.1
+"""Share that the kept rows must see, at every pose, of any way in which the tree lets a closing joint open."""
 CLEAR = 0.9
 """A choice of rows must be this much better conditioned to win over an earlier one."""
 WALK = 0.05
@@ -35,29 +40,21 @@ IMPLIED = 1e-8
 """Scaled residual of the left-out rows up to which the walk proves that nothing moves by them."""
 
 
-@dataclass(slots=True, eq=False)
-class _Block:
-    """Closing joints of one block and the bodies it has."""
-
-    bodies: list[int]
-    closures: list[int]
-
-
 def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Report) -> list[Link]:
     """The links with their closing joints reduced.  scene: with middle bodies, at the closed pose."""
     links = list(tree.links)
-    kept = {i: rows for block in _blocks(assembly, tree) for i, rows in _choose(block, tree, scene).items()}
+    kept = _kept(assembly, tree, scene)
     reduced = {}
     for i, rows in kept.items():
         joint = links[i].joint
-        locked = _locked(joint)
+        locked = locked_of(joint)
         if len(rows) < len(locked):
             reduced[i] = replace_link(links[i], freedoms=_freed(joint, rows), kind=_kind(joint, rows))
     refused = _refused(assembly, links, reduced, scene)
     mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
     for i, link in reduced.items():
         joint = links[i].joint
-        rows, freed = len(_locked(joint)), len(_locked(joint)) - len(_locked(link.joint))
+        rows, freed = len(locked_of(joint)), len(locked_of(joint)) - len(locked_of(link.joint))
         if i in refused:
             report.add("CLOSURE_KEPT_WHOLE", joint.where, joint=joint.id, freed=freed)
         else:
@@ -72,10 +69,6 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
                 mobility=mobility,
             )
     return links
-
-
-def _locked(joint: Joint) -> list[int]:
-    return [i for i, f in enumerate(joint.freedoms) if f.motion is Motion.LOCKED]
 
 
 def _freed(joint: Joint, rows: tuple[int, ...]):
@@ -93,9 +86,9 @@ def _kind(joint: Joint, rows: tuple[int, ...]) -> JointKind:
     )
 
 
-def _blocks(assembly: Assembly, tree: Tree) -> list[_Block]:
+def _blocks(assembly: Assembly, tree: Tree) -> list[Block]:
     """Closures by the block they are in; blocks at a singular pose keep their joints whole."""
-    found: dict[int, _Block] = {}
+    found: dict[int, Block] = {}
     system = assembly.system
     singular = {
         int(assembly.blocks.block[f.bodies[0]])
@@ -113,44 +106,56 @@ def _blocks(assembly: Assembly, tree: Tree) -> list[_Block]:
         later = max((link.a, link.b), key=lambda body: position.get(body, len(position)))
         block = int(age[later])
         if block not in singular:
-            found.setdefault(block, _Block([], [])).closures.append(i)
+            found.setdefault(block, Block([], [])).closures.append(i)
     for body in tree.order:
         if age[body] in found:
             found[int(age[body])].bodies.append(body)
     return list(found.values())
 
 
-def _choose(block: _Block, tree: Tree, scene: Scene) -> dict[int, tuple[int, ...]]:
-    """For each closure of a block the locked freedoms that stay."""
-    carried, origin, length = _carried(block, tree, scene)
-    columns = next(iter(carried.values())).shape[1] if carried else 0
-    basis = np.zeros((0, columns))
-    chosen = {}
-    for i in block.closures:
-        link = tree.links[i]
-        zero = np.zeros((6, columns))
-        twist = carried.get(link.b, zero) - carried.get(link.a, zero)
-        frame = scene.pose(link.joint.a) @ link.joint.frame_a
-        locked = _locked(link.joint)
-        rows = _wrenches(frame, origin, length)[locked] @ twist
-        fresh = rows - rows @ basis.T @ basis
-        rank = int(rank_of(np.linalg.svd(fresh, compute_uv=False))[0]) if _any(fresh, rows) else 0
+def _kept(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, tuple[int, ...]]:
+    """For each closure the locked freedoms that stay."""
+    kept: dict[int, tuple[int, ...]] = {}
+    doubtful: list[tuple[BlockTree, list[Openings]]] = []
+    for block in (BlockTree(block, tree, scene) for block in _blocks(assembly, tree)):
+        twists = block.twists()
+        here = openings(twists)
+        chosen = _choose(block, [here])
+        kept |= chosen
+        for (rows, twist), picked, link in zip(twists, chosen.values(), block.closing):
+            freed = [n for n, i in enumerate(locked_of(link.joint)) if i not in picked]
+            if freed and moved_by(rows[freed], twist).any():
+                doubtful.append((block, [here]))
+                break
+    _travel(assembly, tree, scene, doubtful)
+    for block, poses in doubtful:
+        kept |= _choose(block, poses)
+    return kept
+
+
+def _choose(block: BlockTree, poses: list[Openings]) -> dict[int, tuple[int, ...]]:
+    return {
+        i: _fewest(locked_of(link.joint), [pose.span[k] for pose in poses])
+        for k, (i, link) in enumerate(zip(block.block.closures, block.closing))
+    }
+
+
+def _fewest(locked: list[int], spans: list[Array]) -> tuple[int, ...]:
+    """The fewest rows that see every opening at every pose, of as many those that see it best at its worst."""
+    ranks = {span.shape[1] for span in spans}
+    by_rank = [np.array([span for span in spans if span.shape[1] == rank]) for rank in sorted(ranks - {0})]
+    for count in range(max(ranks), len(locked)):
         best, worth = tuple(locked), 0.0
-        for pick in combinations(range(len(locked)), rank):
+        for pick in combinations(range(len(locked)), count):
             names = tuple(locked[p] for p in pick)
             if not _expressible(names):
                 continue
-            size = np.linalg.svd(fresh[list(pick)], compute_uv=False)[-1] if rank else 1.0
-            if size > worth / CLEAR:
-                best, worth = names, float(size)
-        chosen[i] = best
-        if rank:
-            basis = np.concatenate([basis, np.linalg.svd(fresh, full_matrices=False)[2][:rank]])
-    return chosen
-
-
-def _any(fresh: Array, rows: Array) -> bool:
-    return bool(np.abs(fresh).max(initial=0.0) > 1e-7 * max(np.abs(rows).max(initial=0.0), 1e-300))
+            seen = [np.linalg.svd(some[:, list(pick)], compute_uv=False)[:, -1].min() for some in by_rank]
+            if min(seen, default=1.0) > worth / CLEAR:
+                best, worth = names, float(min(seen, default=1.0))
+        if worth > HELD:
+            return best
+    return tuple(locked)
 
 
 def _expressible(locked: tuple[int, ...]) -> bool:
@@ -158,40 +163,44 @@ def _expressible(locked: tuple[int, ...]) -> bool:
     return tuple(i for i in locked if i >= RX) != (RX,)
 
 
-def _wrenches(frame: Pose, origin: Array, length: float) -> Array:
-    """Rows of a joint's six freedoms about ``origin`` on scaled twists (v / length, w), shape (6, 6)."""
-    axes = frame.rotation.T
-    lever = (frame.translation - origin) / length
-    return np.block([[axes, np.cross(lever, axes)], [np.zeros((3, 3)), axes]])
+def _travel(
+    assembly: Assembly, tree: Tree, scene: Scene, doubtful: list[tuple[BlockTree, list[Openings]]]
+) -> None:
+    """Add what the blocks come to at poses along their motions."""
+    if not doubtful:
+        return
+    bodies = len(tree.parent)
+    blocks = assembly.blocks_with([(l.a, l.b) for l in tree.links], bodies)
+    links = [l for block, _ in doubtful for l in [*(l for _, l in block.held), *block.closing]]
+    system = relative_system(_system(links, scene, bodies), blocks)
+    solver = Solver(system)
+    system.fit(solver.row_part, solver.part, assembly.equations.length)
+    frames = np.broadcast_to(np.eye(3), (bodies, 3, 3)).copy()
+    parts = []
+    for block, _ in doubtful:
+        for (body, _), (a, _) in zip(block.held, block.frames):
+            frames[body] = a.rotation
+        parts.append(np.unique(solver.part[block.block.bodies]))
+    moving = {body for block, _ in doubtful for body in block.block.bodies}
+    order = [body for body in blocks.order.tolist() if body in moving]
+    for state, there in poses_along(solver, frames):
+        rotation, translation = _in_world(system, state, blocks, order)
+        for (block, poses), own in zip(doubtful, parts):
+            if there[own[own >= 0]].any():
+                found = openings(block.twists(rotation, translation), poses[0])
+                if found is not None:
+                    poses.append(found)
 
 
-def _carried(block: _Block, tree: Tree, scene: Scene) -> tuple[dict[int, Array], Array, float]:
-    """Scaled twist of each body of the block in the freedoms of its tree joints, about one origin."""
-    inside = set(block.bodies)
-    joints = [tree.links[tree.parent[b]] for b in block.bodies if tree.parent[b] >= 0]
-    frames = [scene.pose(l.joint.a) @ l.joint.frame_a for l in joints]
-    points = np.array([f.translation for f in frames] or [np.zeros(3)])
-    origin = points.mean(axis=0)
-    length = float(np.linalg.norm(points - origin, axis=1).max()) or 1.0
-    free = [[i for i, f in enumerate(l.joint.freedoms) if f.motion is not Motion.LOCKED] for l in joints]
-    columns = sum(len(f) for f in free)
-    carried: dict[int, Array] = {}
-    at = 0
-    for body, link, frame, freedoms in zip(
-        [b for b in block.bodies if tree.parent[b] >= 0], joints, frames, free
-    ):
-        other = link.a if link.b == body else link.b
-        twist = carried[other].copy() if other in inside and other in carried else np.zeros((6, columns))
-        axes = frame.rotation.T
-        lever = (frame.translation - origin) / length
-        for k, i in enumerate(freedoms):
-            axis = axes[i % 3]
-            twist[:, at + k] += np.concatenate(
-                [axis, np.zeros(3)] if i < RX else [np.cross(lever, axis), axis]
-            )
-        carried[body] = twist
-        at += len(freedoms)
-    return carried, origin, length
+def _in_world(system: System, state: State, blocks: Blocks, order: list[int]) -> tuple[Array, Array]:
+    """Displacements of all bodies from a state in which every block moves against its root."""
+    rotation, translation = (values.copy() for values in system.displacement(state))
+    for body in order:
+        if blocks.block[body] >= 0:
+            root = blocks.root[blocks.block[body]]
+            translation[body] = rotation[root] @ translation[body] + translation[root]
+            rotation[body] = rotation[root] @ rotation[body]
+    return rotation, translation
 
 
 def _refused(assembly: Assembly, links: list[Link], reduced: dict[int, Link], scene: Scene) -> set[int]:

@@ -94,7 +94,7 @@ def constraints_of(found, moved):
 
 @pytest.mark.parametrize("closures", [Closures.MINIMAL, Closures.EXACT])
 @pytest.mark.parametrize("up", ["Y", "Z"])
-@pytest.mark.parametrize("id", ["M01", "M07", "M09", "M10", "M21"])
+@pytest.mark.parametrize("id", ["M01", "M07", "M09", "M10", "M12", "M21"])
 def test_driven_components_keep_every_constraint(id, up, closures):
     """The crank's component is turned once round: tree and closing joints together keep all constraints."""
     source = scene(id) if up == "Y" else scene_written(id, up)

@@ -136,6 +136,7 @@ CASES = {
     "MECHANISM_SINGULAR": lambda: scene("M05"),
     "NOTHING_GROUNDED": lambda: ungrounded(scene("P03")),
     "CLOSURE_ROWS_FREED": lambda: scene("M01"),
+    "CLOSURE_ROWS_REPEATED": lambda: scene("M12"),
     "CLOSURE_KEPT_WHOLE": lambda: scene("M24"),
     "DOF_RECORD_DIFFERS": lambda: replace(parts(mate()), dof_records=[RECORD]),
     "DOF_DIRECTION_DIFFERS": lambda: listed([X, Z], [Z]),

@@ -40,34 +40,39 @@ IMPLIED = 1e-8
 """Scaled residual of the left-out rows up to which the walk proves that nothing moves by them."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Choice:
+    """rows: the locked freedoms of a closing joint that stay.  repeated: how many of them, at each pose other ones,
+    the others imply."""
+
+    rows: tuple[int, ...]
+    repeated: int
+
+
 def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Report) -> list[Link]:
     """The links with their closing joints reduced.  scene: with middle bodies, at the closed pose."""
     links = list(tree.links)
-    kept = _kept(assembly, tree, scene)
+    chosen = _chosen(assembly, tree, scene)
     reduced = {}
-    for i, rows in kept.items():
+    for i, choice in chosen.items():
         joint = links[i].joint
-        locked = locked_of(joint)
-        if len(rows) < len(locked):
-            reduced[i] = replace_link(links[i], freedoms=_freed(joint, rows), kind=_kind(joint, rows))
+        if len(choice.rows) < len(locked_of(joint)):
+            changes = {"freedoms": _freed(joint, choice.rows), "kind": _kind(joint, choice.rows)}
+            reduced[i] = replace_link(links[i], **changes)
     refused = _refused(assembly, links, reduced, scene)
     mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
-    for i, link in reduced.items():
+    for i, choice in chosen.items():
         joint = links[i].joint
-        rows, freed = len(locked_of(joint)), len(locked_of(joint)) - len(locked_of(link.joint))
+        kept, freed = len(choice.rows), len(locked_of(joint)) - len(choice.rows)
         if i in refused:
             report.add("CLOSURE_KEPT_WHOLE", joint.where, joint=joint.id, freed=freed)
-        else:
-            links[i] = link
-            report.add(
-                "CLOSURE_ROWS_FREED",
-                joint.where,
-                joint=joint.id,
-                rows=rows,
-                kept=rows - freed,
-                freed=freed,
-                mobility=mobility,
-            )
+            continue
+        if i in reduced:
+            links[i] = reduced[i]
+            said = {"rows": kept + freed, "kept": kept, "freed": freed, "mobility": mobility}
+            report.add("CLOSURE_ROWS_FREED", joint.where, joint=joint.id, **said)
+        if choice.repeated:
+            report.add("CLOSURE_ROWS_REPEATED", joint.where, joint=joint.id, kept=kept, repeated=choice.repeated)
     return links
 
 
@@ -113,34 +118,34 @@ def _blocks(assembly: Assembly, tree: Tree) -> list[Block]:
     return list(found.values())
 
 
-def _kept(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, tuple[int, ...]]:
-    """For each closure the locked freedoms that stay."""
-    kept: dict[int, tuple[int, ...]] = {}
+def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
+    """The choice for each closure of a block that is not singular."""
+    found: dict[int, _Choice] = {}
     doubtful: list[tuple[BlockTree, list[Openings]]] = []
     for block in (BlockTree(block, tree, scene) for block in _blocks(assembly, tree)):
         twists = block.twists()
         here = openings(twists)
         chosen = _choose(block, [here])
-        kept |= chosen
-        for (rows, twist), picked, link in zip(twists, chosen.values(), block.closing):
-            freed = [n for n, i in enumerate(locked_of(link.joint)) if i not in picked]
+        found |= chosen
+        for (rows, twist), choice, link in zip(twists, chosen.values(), block.closing):
+            freed = [n for n, i in enumerate(locked_of(link.joint)) if i not in choice.rows]
             if freed and moved_by(rows[freed], twist).any():
                 doubtful.append((block, [here]))
                 break
     _travel(assembly, tree, scene, doubtful)
     for block, poses in doubtful:
-        kept |= _choose(block, poses)
-    return kept
+        found |= _choose(block, poses)
+    return found
 
 
-def _choose(block: BlockTree, poses: list[Openings]) -> dict[int, tuple[int, ...]]:
+def _choose(block: BlockTree, poses: list[Openings]) -> dict[int, _Choice]:
     return {
         i: _fewest(locked_of(link.joint), [pose.span[k] for pose in poses])
         for k, (i, link) in enumerate(zip(block.block.closures, block.closing))
     }
 
 
-def _fewest(locked: list[int], spans: list[Array]) -> tuple[int, ...]:
+def _fewest(locked: list[int], spans: list[Array]) -> _Choice:
     """The fewest rows that see every opening at every pose, of as many those that see it best at its worst."""
     ranks = {span.shape[1] for span in spans}
     by_rank = [np.array([span for span in spans if span.shape[1] == rank]) for rank in sorted(ranks - {0})]
@@ -154,8 +159,8 @@ def _fewest(locked: list[int], spans: list[Array]) -> tuple[int, ...]:
             if min(seen, default=1.0) > worth / CLEAR:
                 best, worth = names, float(min(seen, default=1.0))
         if worth > HELD:
-            return best
-    return tuple(locked)
+            return _Choice(best, count - max(ranks))
+    return _Choice(tuple(locked), len(locked) - max(ranks))
 
 
 def _expressible(locked: tuple[int, ...]) -> bool:

@@ -13,7 +13,8 @@ from kinefab.analysis.equations import joint_rows, joint_sides
 from kinefab.analysis.freedom import block_freedoms
 from kinefab.analysis.rows import Rows
 from kinefab.analysis.solve import Solver
-from kinefab.model import Motion
+from kinefab.model import Motion, Scene
+from kinefab.spatial import Pose
 
 STEP = 0.1
 STEPS = 35
@@ -100,3 +101,24 @@ def test_the_exported_rows_hold_along_the_motion(id):
                 assert smallest(kept, own, rank)[1] > HELD * here, (id, seed, n)
                 seen += 1
     assert seen >= 10
+
+
+def test_mechanisms_that_are_alike_keep_the_same_rows():
+    """Bricard loops side by side: each closes as it does alone."""
+    one = scene("M13")
+    nodes, constraints = [one.nodes[0]], []
+    for copy in range(3):
+        by = Pose(np.eye(3), np.array([3.0, 1.0, -2.0]) * copy)
+        for node in one.nodes[1:]:
+            nodes.append(replace(node, id=f"{node.id}{copy}", name=f"{node.name}{copy}", pose=by @ node.pose))
+        for constraint in one.constraints:
+            sides = tuple(
+                replace(f, node=f.node + copy * (len(one.nodes) - 1))
+                if f.node
+                else replace(f, point=by.point(f.point), direction=by.direction(f.direction))
+                for f in constraint.features
+            )
+            constraints.append(replace(constraint, id=f"{constraint.id}{copy}", features=sides))
+    found = analyse(Scene(nodes=nodes, constraints=constraints))
+    alone = [j.freedoms for j in analyse(one).joints if j.closure]
+    assert [j.freedoms for j in found.joints if j.closure] == 3 * alone and len(alone) == 1

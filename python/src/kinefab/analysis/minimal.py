@@ -121,7 +121,7 @@ def _blocks(assembly: Assembly, tree: Tree) -> list[Block]:
 def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
     """The choice for each closure of a block that is not singular."""
     found: dict[int, _Choice] = {}
-    doubtful: list[tuple[BlockTree, list[Openings]]] = []
+    doubtful: dict[tuple, tuple[list[BlockTree], list[Openings]]] = {}
     for block in (BlockTree(block, tree, scene) for block in _blocks(assembly, tree)):
         twists = block.twists()
         here = openings(twists)
@@ -130,11 +130,12 @@ def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
         for (rows, twist), choice, link in zip(twists, chosen.values(), block.closing):
             freed = [n for n, i in enumerate(locked_of(link.joint)) if i not in choice.rows]
             if freed and moved_by(rows[freed], twist).any():
-                doubtful.append((block, [here]))
+                doubtful.setdefault(block.likeness(), ([], [here]))[0].append(block)
                 break
-    _travel(assembly, tree, scene, doubtful)
-    for block, poses in doubtful:
-        found |= _choose(block, poses)
+    _travel(assembly, tree, scene, [(alike[0], poses) for alike, poses in doubtful.values()])
+    for alike, poses in doubtful.values():
+        for block in alike:
+            found |= _choose(block, poses)
     return found
 
 

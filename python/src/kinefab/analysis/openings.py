@@ -20,6 +20,8 @@ NONE = 1e-5
 """Share of a twist, or of a row's effect, up to which it is a rounding of the export."""
 REPEATED = 1e-9
 """Relative singular value up to which a row repeats others at a pose that the analysis itself has closed."""
+ALIKE = 6
+"""Decimals of directions, and of places as fractions of the length, in which blocks that are alike agree."""
 NEARLY_SINGULAR = 0.02
 """Where the last independent row has this share of its effect at the exported pose, all rows together give way."""
 
@@ -67,6 +69,19 @@ class BlockTree:
     def _frames(link: Link, scene: Scene) -> tuple[Pose, Pose]:
         joint = link.joint
         return scene.pose(joint.a) @ joint.frame_a, scene.pose(joint.b) @ joint.frame_b
+
+    def likeness(self) -> tuple:
+        """Equal for blocks that are alike but for where they stand, as mass-produced mechanisms are."""
+        links = [*(link for _, link in self.held), *self.closing]
+        number = {body: n for n, body in enumerate(sorted({b for link in links for b in (link.a, link.b)}))}
+        motions = [tuple(f.motion for f in link.joint.freedoms) for link in links]
+        joints = tuple((number[l.a], number[l.b], l.joint.kind, l.joint.lead, m) for l, m in zip(links, motions))
+        frames = [frame for ends in (*self.frames, *self.ends) for frame in ends]
+        seen = frames[0].rotation.T
+        turns = np.array([seen @ frame.rotation for frame in frames])
+        places = np.array([seen @ (frame.translation - self.origin) / self.length for frame in frames])
+        # adding nothing to what is rounded makes a zero of a negative one
+        return joints, (np.round(turns, ALIKE) + 0.0).tobytes(), (np.round(places, ALIKE) + 0.0).tobytes()
 
     def twists(self, rotation: Array | None = None, translation: Array | None = None) -> list[tuple[Array, Array]]:
         """For each closure its locked rows, shape (locked, 6), and the twists of its b against its a, shape

@@ -119,13 +119,15 @@ internal sealed class LadderTests
     public void Step_FloatingRing_IsHeldAsALoop()
     {
         var b = new MechanismBuilder { Gravity = Vector3d.Zero };
-        Vector3d[] corners = { Vector3d.Zero, Vector3d.UnitX, new(1, 1, 0), Vector3d.UnitY };
+        // Nothing round, so that no rounding cancels.
+        Vector3d[] corners = { new(0.03, 0.01, 0.2), new(1.1, 0.17, 0.2), new(1.31, 1.13, 0.2), new(0.07, 0.89, 0.2) };
+        var spin = new Vector3d(0.31, 0.17, 1.1);
         for (int i = 0; i < 4; i++)
         {
             b.Change(b.Bar(corners[i], corners[(i + 1) % 4], 1), d =>
             {
-                d.AngularVelocity = Vector3d.UnitZ;
-                d.LinearVelocity = Vector3d.Cross(Vector3d.UnitZ, d.Pose.Position - new Vector3d(0.5, 0.5, 0));
+                d.AngularVelocity = spin;
+                d.LinearVelocity = Vector3d.Cross(spin, d.Pose.Position - corners[0]);
                 return d;
             });
         }

@@ -32,7 +32,8 @@ OVERLAP = 3
 
 
 def ranges_of_curve(block: Measured) -> tuple[Array, Array] | None:
-    """Lower and upper ends of the block's coordinates, metres and radians; infinite where there is none.
+    """Lower and upper ends of the block's coordinates, metres and radians from each joint's zero (not from the
+    exported pose); infinite where there is none.
 
     None where the curve could not be followed to an end: what was seen of it may not be all of it.
     """
@@ -45,10 +46,12 @@ class _Curve:
     def __init__(self, block: Measured):
         self.block = block
         self.turns = block.turns
+        self.zero = block.read(block.start, block.turns)[0]
+        """Coordinates at the exported pose: they count from the source's zero, which may lie anywhere."""
 
     def ranges(self) -> tuple[Array, Array] | None:
         count = len(self.block.rotary)
-        low, high = np.zeros(count), np.zeros(count)
+        low, high = self.zero.copy(), self.zero.copy()
         endless = np.zeros(count, dtype=bool)
         for sign in (1.0, -1.0):
             came_round = self._follow(sign, low, high, endless)
@@ -105,14 +108,14 @@ class _Curve:
                 return False
             overlap += travelled > 3.0 * STEP and self._back(state) or overlap > 0
             if overlap > OVERLAP:
-                endless |= self.block.rotary & (np.round(q / math.tau) != 0.0)
+                endless |= self.block.rotary & (np.round((q - self.zero) / math.tau) != 0.0)
                 return True
         return None
 
     def _gone(self, q: Array) -> bool:
         """Whether a coordinate has gone so far that it will not come back."""
         reach = np.where(self.block.rotary, TURNS * math.tau, FAR * self.block.length)
-        return bool((np.abs(q) >= reach).any())
+        return bool((np.abs(q - self.zero) >= reach).any())
 
     def _back(self, state: State) -> bool:
         """Whether every body is where it began, within a step."""

@@ -26,7 +26,8 @@ searched: about half a minute."""
 
 @dataclass(frozen=True, slots=True)
 class JointRange:
-    """What a joint's coordinate can reach, metres or radians from the exported pose.
+    """What a joint's coordinate can reach, metres or radians, counted as the joint's own limits are: from where
+    its frames meet, which need not be the exported pose.
 
     Infinite where the joint turns all the way round or slides without end.
     """

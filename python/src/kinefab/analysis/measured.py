@@ -53,13 +53,17 @@ class Measured:
         self.probe = relative_system(probe.system(assembly.system.bodies), assembly.blocks).relabel(label)
         self.probe.center, self.probe.length = self.system.center, self.system.length
         self.start = self.system.start()
-        self.turns = self.probe.start().angle
         self.rotary = np.array([f >= RX for _, f in coordinates], dtype=bool)
         limits = [link.joint.freedoms[freedom] for link, freedom in coordinates]
         self.lower, self.upper = (
             np.array([getattr(f, end) if f.motion is Motion.LIMITED else away for f in limits])
             for end, away in (("lower", -np.inf), ("upper", np.inf))
         )
+        # A pose tells an angle up to whole turns only; the source's limits say which is meant.
+        turns = self.probe.start().angle
+        value = self.read(self.start, turns)[0]
+        meant = [f.nearest_turn(v) if turn else v for f, v, turn in zip(limits, value.tolist(), self.rotary)]
+        self.turns = turns + (np.array(meant) - value)[self.probe.row]
 
     def read(self, state: State, turns: Array) -> tuple[Array, Array]:
         """Coordinates, metres and radians, and their rates: rows on the bodies' scaled twists, (k, 6 n)."""

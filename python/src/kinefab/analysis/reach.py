@@ -78,7 +78,7 @@ class Reach:
 
     def _gone(self, q: float, i: int) -> bool:
         """Whether a coordinate has gone so far that no end is to be expected: a whole turn, or FAR lengths."""
-        return abs(q) >= (math.tau if self.block.rotary[i] else FAR * self.block.length)
+        return abs(q - self.start.q[i]) >= (math.tau if self.block.rotary[i] else FAR * self.block.length)
 
     def _highest(self, i: int, sign: float, start: _Pose) -> _Pose:
         """The highest top (for sign -1: the deepest bottom) found from a pose."""

@@ -53,6 +53,17 @@ class Freedom:
     damping: float = 0.0
     restitution: float = 0.0
 
+    def nearest_turn(self, value: float) -> float:
+        """The angle, radians, that ``value`` stands for where it is known up to whole turns: the one in the range."""
+        turn = 2.0 * math.pi
+        if self.motion is not Motion.LIMITED:
+            return value
+        if math.isinf(self.lower):
+            return value - turn * max(0, math.ceil((value - self.upper) / turn - 1e-9))
+        if math.isinf(self.upper):
+            return value + turn * max(0, math.ceil((self.lower - value) / turn - 1e-9))
+        return value + turn * round((0.5 * (self.lower + self.upper) - value) / turn)
+
 
 LOCKED = Freedom()
 FREE = Freedom(Motion.FREE)

@@ -14,7 +14,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import RX, Drive, Freedom, Joint, Motion
 from ..spatial import Array, quaternion_from_matrix, rotation_exp
-from .coordinates import CanonicalJoint, Coordinates, nearest_turn
+from .coordinates import CanonicalJoint, Coordinates
 from .limits import FREEDOM_NAMES, report_outside
 from .placement import BASIS_SIGNS, Placement
 
@@ -72,7 +72,7 @@ def configurable_fields(
     """
     zeros = coordinates.values.copy()
     for i in shape.rotations:
-        zeros[RX + i] = nearest_turn(zeros[RX + i], shape.freedoms[RX + i])
+        zeros[RX + i] = shape.freedoms[RX + i].nearest_turn(zeros[RX + i])
     writing = _Writing(joint, shape, zeros, Senses.of(placement), report, {})
     for i, freedom in enumerate(shape.freedoms):
         if freedom.motion is Motion.LIMITED:

@@ -135,16 +135,3 @@ def _rotation_vector(r: Array) -> Array:
     q = quaternion_from_matrix(r)
     size = float(np.linalg.norm(q[:3]))
     return q[:3] * (2.0 * math.atan2(size, q[3]) / size) if size > 0.0 else np.zeros(3)
-
-
-def nearest_turn(value: float, freedom: Freedom) -> float:
-    """The angle that ``value`` stands for, which is known up to whole turns: the one within the range."""
-    turn = 2.0 * math.pi
-    if freedom.motion is not Motion.LIMITED:
-        return value
-    if math.isinf(freedom.lower):
-        return value - turn * max(0, math.ceil((value - freedom.upper) / turn - 1e-9))
-    if math.isinf(freedom.upper):
-        return value + turn * max(0, math.ceil((freedom.lower - value) / turn - 1e-9))
-    middle = 0.5 * (freedom.lower + freedom.upper)
-    return value + turn * round((middle - value) / turn)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import RX, Joint, Motion
-from .coordinates import CanonicalJoint, Coordinates, nearest_turn
+from .coordinates import CanonicalJoint, Coordinates
 from .limits import report_outside
 from .placement import Placement
 
@@ -40,7 +40,7 @@ def hinge_fields(
 ) -> dict[str, object]:
     """Axis, limits, motor and spring; degrees.  frame: the component's anchors and axes so far."""
     freedom = shape.freedoms[RX]
-    zero = nearest_turn(coordinates.values[RX], freedom)
+    zero = freedom.nearest_turn(coordinates.values[RX])
     frame.pop("secondaryAxis")  # a hinge has none
     fields: dict[str, object] = {}
     if not placement.on_a:

@@ -23,7 +23,7 @@ from ..rigid import RigidGroups
 from ..spatial import Pose
 from . import frames
 from .configurable import configurable_fields
-from .coordinates import CanonicalJoint, Coordinates, canonical, nearest_turn, read_coordinates
+from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from .hinge import fits_hinge, hinge_fields
 from .limits import FREEDOM_NAMES
 from .placement import BASIS_SIGNS, Placement, place
@@ -166,7 +166,7 @@ def _readings(
             name, sign = "xyz"[axis], along
         else:
             name, sign = "angular" + "XYZ"[axis], -along
-        zero = nearest_turn(coordinates.values[i], shape.freedoms[i]) if i >= RX else coordinates.values[i]
+        zero = shape.freedoms[i].nearest_turn(coordinates.values[i]) if i >= RX else coordinates.values[i]
         readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
     return readings
 

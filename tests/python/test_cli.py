@@ -14,6 +14,8 @@ import pytest
 import kinefab
 from kinefab.diagnostics import schema_directory
 from scenes import BOX, lid_scene, read
+from source_bundles import bundle as bundle_of
+from source_bundles import part
 
 LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
 HEAVY = ("trimesh", "scipy", "pxr", "numpy", "jsonschema")
@@ -311,3 +313,60 @@ def test_control_characters_of_an_id_do_not_reach_the_terminal(tmp_path):
     kinefab.export(scene, tmp_path / "a.kinefab")
     done = run("inspect", tmp_path / "a.kinefab")
     assert done.returncode == 0 and "a\\x1b[31m\\nb" in done.stdout and "\x1b" not in done.stdout
+
+
+@pytest.mark.parametrize("command", [[], ["export"], ["analyse"], ["inspect"], ["draw"]])
+def test_h_is_help(command):
+    """-h and --help say the same, of the program and of each command."""
+    short, long = (run(*command, word, NO_COLOR="1") for word in ("-h", "--help"))
+    assert short.returncode == long.returncode == 0
+    assert short.stdout == long.stdout and "Usage:" in short.stdout
+
+
+def limited_run(blocks: int, *arguments):
+    """As ``run``, with files cut off at so many KiB, as a full disk does."""
+    command = f"ulimit -f {blocks}; exec \"$@\""
+    return subprocess.run(
+        ["bash", "-c", command, "bash", sys.executable, "-m", "kinefab", *map(str, arguments)],
+        capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
+@pytest.mark.parametrize("old", [None, "the old picture"])
+def test_a_picture_is_written_whole_or_not_at_all(lid, tmp_path, old):
+    """A full disk leaves the old picture, or none, and a finding with its code."""
+    picture = tmp_path / "lid.svg"
+    if old is not None:
+        picture.write_text(old)
+    before = sorted(tmp_path.iterdir())
+    done = limited_run(1, "draw", lid, "-o", picture)
+    assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
+    assert sorted(tmp_path.iterdir()) == before and (old is None or picture.read_text() == old)
+    assert run("draw", lid, "-o", picture).returncode == 0 and picture.read_text().rstrip().endswith("</svg>")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
+def test_a_report_is_written_whole_or_not_at_all(tmp_path):
+    """A full disk leaves the report of the last run, not the first half of this one."""
+    bundle, report = tmp_path / "a.bundle.json", tmp_path / "r.json"
+    orphans = [part(f"p{i}", parent="none") for i in range(50)]
+    bundle.write_text(json.dumps(bundle_of(*orphans)))
+    assert run("export", bundle, "-o", tmp_path / "a.kinefab", "--report", report).returncode == 1
+    old = report.read_bytes()
+    assert len(old) > 2048
+    done = limited_run(1, "export", bundle, "-o", tmp_path / "a.kinefab", "--report", report)
+    assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr
+    assert report.read_bytes() == old and sorted(p.name for p in tmp_path.iterdir()) == ["a.bundle.json", "r.json"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs links and pipes")
+def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
+    """A link stays a link, and what is no regular file is not replaced by one."""
+    (tmp_path / "there").mkdir()
+    link = tmp_path / "lid.svg"
+    link.symlink_to(tmp_path / "there" / "picture.svg")
+    assert run("draw", lid, "-o", link).returncode == 0
+    assert link.is_symlink() and (tmp_path / "there" / "picture.svg").is_file()
+    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", "/dev/stdout")
+    assert json.loads(done.stdout)["written"] is False

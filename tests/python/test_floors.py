@@ -10,7 +10,7 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src" / "kinefab"
 
 FLOORS = [
-    {"spatial", "diagnostics", "options"},
+    {"spatial", "diagnostics", "options", "replacing"},
     {"model"},
     {"geometry", "rigid"},
     {"sources", "analysis", "unity", "builder"},

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -175,16 +176,43 @@ def test_two_exports_to_one_target_leave_a_whole_pair(tmp_path, monkeypatch):
     """A second export that comes between the first one's buffer and scene neither takes nor loses a buffer."""
     target = tmp_path / "box.kinefab"
     second = threading.Thread(target=lambda: kinefab.export(box_scene(0.7), target))
-    replace = os.replace
+    rename = os.replace
 
     def interrupted(source, destination):
         if os.fspath(destination) == os.fspath(target) and second.ident is None:
             second.start()
             second.join(1.0)  # time enough to do harm; with a lock it waits
-        replace(source, destination)
+        rename(source, destination)
 
     monkeypatch.setattr(writer.os, "replace", interrupted)
     kinefab.export(box_scene(0.4), target)
     second.join()
     assert size_in(target) == 0.7
     assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_document_that_no_json_can_hold_leaves_nothing(tmp_path):
+    """The text is made before the buffer takes its place: what refuses it leaves the old pair alone."""
+    target = tmp_path / "box.kinefab"
+    document = kinefab.export(box_scene(0.1), target).document
+    names = sorted(tmp_path.iterdir())
+    broken = replace(document, meshes=box_scene(0.7).meshes, tail=document.tail | {"extras": {"x": float("nan")}})
+    with pytest.raises(ValueError):
+        writer.write_scene(broken, target)
+    assert sorted(tmp_path.iterdir()) == names and size_in(target) == 0.1
+
+
+def test_a_disk_that_is_full_at_the_scene_leaves_no_buffer(tmp_path, monkeypatch):
+    """The buffer takes its place only once the scene is on the disk too."""
+    target, fsync, seen = tmp_path / "box.kinefab", os.fsync, []
+
+    def full(descriptor):
+        seen.append(descriptor)
+        if len(seen) == 2:
+            raise OSError(28, "No space left on device")
+        fsync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(KinefabError):
+        kinefab.export(box_scene(0.7), target)
+    assert len(seen) == 2 and list(tmp_path.iterdir()) == []

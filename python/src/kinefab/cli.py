@@ -16,13 +16,20 @@ from typing import TYPE_CHECKING, Callable, Iterator, Optional
 import typer
 
 from . import __version__
-from .diagnostics import KinefabError, Report, Severity, printable, report_document
+from .diagnostics import KinefabError, Report, Severity, diagnostic, printable, report_document
 from .options import DEFAULT_DENSITY, Closures, ColliderShape, ExportOptions
+from .replacing import write_whole
 
 if TYPE_CHECKING:
     from .pipeline import ExportResult
 
-app = typer.Typer(name="kinefab", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(
+    name="kinefab",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 _verbosity = 0
 
 
@@ -65,8 +72,10 @@ def export(
 ) -> None:
     """Export a CAD assembly as a Unity scene."""
     _demand_ending(output, ".kinefab")
-    if not density > 0.0 or density == float("inf"):
-        raise typer.BadParameter("the density must be a number above zero", param_hint="--density")
+    try:
+        options = ExportOptions(colliders, density, strict, closures, solve, limits)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--density") from None
     if os.path.isdir(output):
         raise typer.BadParameter(f"{output} is a folder", param_hint="--output")
     for path, hint, others in ((output, "--output", (source,)), (report, "--report", (source, output))):
@@ -78,14 +87,15 @@ def export(
     reasons = 0
     try:
         with _progress_bar() as progress:
-            result = run(source, output, ExportOptions(colliders, density, strict, closures, solve, limits), progress)
+            result = run(source, output, options, progress)
         found = result.report
     except KinefabError as error:
         found, reasons = error.report or Report(list(error.diagnostics)), len(error.diagnostics)
     _log(found)
     failed = result is None
     if report is not None:
-        _write_report(report, report_document(found, str(output), not failed))
+        text = json.dumps(report_document(found, str(output), not failed), indent=2, ensure_ascii=False) + "\n"
+        _write(report, text.encode("utf-8", "backslashreplace"))  # a path's bytes may be no UTF-8; the escapes are JSON's
     if failed:
         reason = _count(reasons, "loss or error", "losses or errors") if strict else _count(reasons, "error", "errors")
         typer.echo(f"{output} was not written: {reason}.", err=True)
@@ -152,11 +162,7 @@ def draw(
     except KinefabError as error:
         _log(Report(list(error.diagnostics)))
         raise typer.Exit(1)
-    try:
-        output.write_text(svg, "utf-8")
-    except OSError as error:
-        typer.echo(f"{output} cannot be written: {error.strerror}", err=True)
-        raise typer.Exit(1)
+    _write(output, svg.encode("utf-8"))
 
 
 def _demand_ending(output: Path, ending: str) -> None:
@@ -183,13 +189,13 @@ def _log(report: Report) -> None:
             console.print(Text(printable(str(found)), style=style[found.severity]))
 
 
-def _write_report(path: Path, content: dict[str, object]) -> None:
+def _write(path: Path, content: bytes) -> None:
+    """The file, whole; where that fails the old one stands, and the program ends."""
     try:
-        # A path may hold bytes that are no UTF-8; their escapes are JSON's too.
-        text = json.dumps(content, indent=2, ensure_ascii=False) + "\n"
-        path.write_text(text, encoding="utf-8", errors="backslashreplace")
+        write_whole(path, content)
     except OSError as error:
-        typer.echo(f"{path} cannot be written: {error.strerror}", err=True)
+        detail = error.strerror or str(error)
+        _log(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]))
         raise typer.Exit(1) from None
 
 

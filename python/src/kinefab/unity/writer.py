@@ -1,8 +1,8 @@
 """Writes ``NAME.kinefab`` and its buffer so that whoever reads, and whenever the writer is killed, there is
 either the old pair or the new one.
 
-The buffer's name holds its hash, so a new buffer never stands in an old one's place.  Buffer first, then the
-scene that names it (each: temporary file, fsync, rename), then old buffers go.
+The buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
+their places (fsync), then the buffer is renamed, then the scene that names it, then old buffers go.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from typing import Any, BinaryIO, Callable, Iterator
 import numpy as np
 
 from ..model import Mesh
+from ..replacing import beside, replacing
 from . import frames
 from .document import Document
 from .numbers import rounded
@@ -54,41 +55,42 @@ def write_scene(document: Document, target: Path, progress: Progress = lambda fr
 
     Raises OSError as the file system does; then the old files stand as they were.
     """
-    target = Path(target)
-    content = dict(document.head)
-    buffer_path = None
+    target, content = Path(target), dict(document.head)
+    temporary, buffer_path = beside(target, "bin"), None
     with _one_at_a_time(target.parent):
-        if document.meshes:
-            buffer_path, entry, meshes = _write_buffer(document.meshes, target, progress)
-            content |= {"buffers": [entry], "meshes": meshes}
-        content |= document.tail
-        with _replacing(target) as file:
-            file.write(canonical_json(content).encode("utf-8"))
+        try:
+            if document.meshes:
+                buffer_path, entry, meshes = _write_buffer(document.meshes, target, temporary, progress)
+                content |= {"buffers": [entry], "meshes": meshes}
+            with replacing(target, "scene") as file:
+                file.write(canonical_json(content | document.tail).encode("utf-8"))
+                if buffer_path is not None:  # last, so that what fails before leaves no buffer behind
+                    file.flush()
+                    os.fsync(file.fileno())
+                    os.replace(temporary, buffer_path)
+                    _sync_directory(target.parent)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
         _sync_directory(target.parent)
         _remove_old_buffers(target, buffer_path)
     return buffer_path
 
 
 def _write_buffer(
-    meshes: list[Mesh], target: Path, progress: Progress
+    meshes: list[Mesh], target: Path, temporary: Path, progress: Progress
 ) -> tuple[Path, dict[str, Any], list[Any]]:
+    """Write the meshes to ``temporary``; the path that is meant for it, its entry in the scene and the meshes'."""
     entries = []
-    temporary = _temporary(target, "bin")
-    try:
-        with open(temporary, "wb") as file:
-            buffer = _Buffer(file)
-            for i, mesh in enumerate(meshes):
-                entries.append(_mesh_entry(mesh, buffer))
-                progress((i + 1) / len(meshes))
-            file.flush()
-            os.fsync(file.fileno())
-        digest = buffer.hash.hexdigest()
-        path = target.with_name(f"{target.name}.{digest[:HASH_DIGITS]}.bin")
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-    _sync_directory(target.parent)
+    with open(temporary, "wb") as file:
+        buffer = _Buffer(file)
+        for i, mesh in enumerate(meshes):
+            entries.append(_mesh_entry(mesh, buffer))
+            progress((i + 1) / len(meshes))
+        file.flush()
+        os.fsync(file.fileno())
+    digest = buffer.hash.hexdigest()
+    path = target.with_name(f"{target.name}.{digest[:HASH_DIGITS]}.bin")
     return path, {"uri": path.name, "byteLength": buffer.length, "sha256": digest}, entries
 
 
@@ -165,26 +167,6 @@ def _one_at_a_time(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(descriptor)
-
-
-@contextmanager
-def _replacing(target: Path) -> Iterator[BinaryIO]:
-    """A file that takes ``target``'s place when the block ends well, and goes when it does not."""
-    temporary = _temporary(target, "scene")
-    try:
-        with open(temporary, "wb") as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, target)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-
-
-def _temporary(target: Path, role: str) -> Path:
-    """Beside the target, as a rename is atomic within one file system only."""
-    return target.with_name(f".{target.name}.{role}.tmp")
 
 
 def _sync_directory(folder: Path) -> None:

@@ -1,0 +1,37 @@
+"""What may be chosen about an export is checked where it is chosen."""
+
+from __future__ import annotations
+
+import pytest
+
+from kinefab import ColliderShape, ExportOptions
+from kinefab.options import Closures
+
+
+@pytest.mark.parametrize(
+    "wrong, error, says",
+    [
+        ({"density": -1}, ValueError, "above zero"),
+        ({"density": 0.0}, ValueError, "above zero"),
+        ({"density": float("nan")}, ValueError, "above zero"),
+        ({"density": float("inf")}, ValueError, "above zero"),
+        ({"density": "7850"}, TypeError, "pass a number"),
+        ({"density": True}, TypeError, "pass a number"),
+        ({"colliders": "nonsense"}, ValueError, "pass one of: none, box, hull, mesh"),
+        ({"colliders": None}, ValueError, "pass one of: none, box, hull, mesh"),
+        ({"closures": "some"}, ValueError, "pass one of: exact, minimal"),
+        ({"strict": "no"}, TypeError, "pass True or False"),
+        ({"limits": 1}, TypeError, "pass True or False"),
+    ],
+)
+def test_wrong_option_says_what_to_pass(wrong, error, says):
+    """No options are made of what the export would take for something else."""
+    with pytest.raises(error, match=says) as raised:
+        ExportOptions(**wrong)
+    assert next(iter(wrong)) in str(raised.value)
+
+
+def test_words_stand_for_their_members():
+    """A script may say "box", as the command line does."""
+    options = ExportOptions(colliders="box", closures="exact", density=700)
+    assert options.colliders is ColliderShape.BOX and options.closures is Closures.EXACT

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import math
+
+import numpy as np
 import pytest
 
 import kinefab
+from kinefab.spatial import rotation_about
 
 
 class CountedNodes(list):
@@ -78,3 +83,116 @@ def test_wrong_parent_says_what_to_pass(parent, error):
     with pytest.raises(error, match="^parent is"):
         scene.add_part("Lid", parent=parent)
     assert len(scene.nodes) == 1
+
+
+TURN = rotation_about(np.array([0.6, 0.0, 0.8]), 0.7)
+NAN, INF = math.nan, math.inf
+
+
+class Shape:
+    """A tetrahedron, as a mesh of a library of one's own."""
+
+    def __init__(self, vertices=((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3)), faces=((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))):
+        self.vertices, self.faces = vertices, faces
+
+
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        ({"rotation": TURN @ np.diag([-1, 1, 1])}, "the rotation of Lid is a reflection"),
+        ({"rotation": 2 * np.eye(3)}, "is no rotation, R'R is off the identity by 3"),
+        ({"rotation": np.zeros((3, 3))}, "is no rotation"),
+        ({"rotation": np.full((3, 3), NAN)}, "is no rotation"),
+        ({"rotation": [0, 0, 0, 1]}, "has the shape (4,); pass a rotation matrix, 3 x 3"),
+        ({"rotation": np.eye(4)}, "has the shape (4, 4)"),
+        ({"rotation": [[1, 0, 0], [0, 1], [0, 0, 1]]}, "is no matrix of numbers"),
+        ({"translation": (0, NAN, 0)}, "the translation of Lid is (0, nan, 0); pass three numbers"),
+        ({"translation": (INF, 0, 0)}, "pass three numbers"),
+        ({"translation": (1, 2)}, "pass three numbers"),
+        ({"translation": 5}, "pass three numbers"),
+        ({"mesh": Shape(vertices=((0, 0, 0), (1, NAN, 0), (0, 2, 0), (0, 0, 3)))}, "has a vertex that is not finite"),
+        ({"mesh": Shape(vertices=((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, INF)))}, "has a vertex that is not finite"),
+        ({"mesh": Shape(faces=((0, 1, 4),))}, "names vertex 4; it has 4"),
+        ({"mesh": Shape(faces=((0, 1, 2, 3),))}, "pass triangles"),
+        ({"density": INF}, "above zero"),
+        ({"mesh": Shape(), "color": (0.1, NAN, 0.2)}, "from 0 to 1"),
+        ({"mesh": Shape(), "color": (255, 0, 0)}, "from 0 to 1"),
+        ({"mesh": Shape(), "color": (1, 0)}, "from 0 to 1"),
+    ],
+)
+def test_wrong_part_says_what_to_pass(change, says):
+    """What Unity cannot place, or no file can hold, is refused where it is given, and nothing is added."""
+    scene = kinefab.Scene()
+    with pytest.raises(ValueError) as raised:
+        scene.add_part("Lid", **change)
+    assert says in str(raised.value)
+    assert not (scene.nodes or scene.meshes or scene.materials)
+
+
+def test_a_rotation_of_four_digits_is_taken_as_the_nearest():
+    """Digits typed off a page make a proper rotation; an exact one stays to the last bit."""
+    scene = kinefab.Scene()
+    for turn in (TURN.round(4), TURN):
+        scene.add_part("Lid", rotation=turn)
+    typed, exact = (node.pose.rotation for node in scene.nodes)
+    assert np.abs(typed.T @ typed - np.eye(3)).max() < 1e-15 and np.abs(typed - TURN).max() < 1e-4
+    assert np.array_equal(exact, TURN)
+
+
+@pytest.mark.parametrize(
+    "change, error",
+    [
+        ({"point": (0, NAN, 0)}, ValueError),
+        ({"axis": (0, NAN, 1)}, ValueError),
+        ({"axis": (INF, 0, 1)}, ValueError),
+        ({"limits": (None, 5)}, TypeError),
+        ({"limits": ("a", "b")}, TypeError),
+        ({"limits": (-10, 80, 90)}, TypeError),
+        ({"limits": (NAN, 80)}, ValueError),
+    ],
+)
+def test_a_joint_takes_numbers_only(change, error):
+    """NaN, infinity and None are refused where they are given; a range may be open on one side."""
+    scene = kinefab.Scene()
+    box, lid = scene.add_part("Box"), scene.add_part("Lid")
+    with pytest.raises(error, match="pass"):
+        scene.add_hinge(box, lid, **{**HINGE, **change})
+    assert scene.joints == []
+    assert scene.add_hinge(box, lid, **HINGE, limits=(-10, INF)).freedoms[3].upper == INF
+
+
+@pytest.mark.parametrize("drive", [kinefab.Drive(target=NAN), kinefab.Drive(stiffness=INF), kinefab.Drive(max_force=NAN)])
+def test_a_drive_takes_numbers_only(drive):
+    """Only its largest force may be infinite."""
+    scene = kinefab.Scene()
+    box, lid = scene.add_part("Box"), scene.add_part("Lid")
+    with pytest.raises(ValueError, match="^rx is"):
+        scene.add_joint(kinefab.JointKind.REVOLUTE, box, lid, point=(0, 0, 0), rx=kinefab.Freedom(kinefab.Motion.FREE, drive=drive))
+
+
+def test_an_index_of_another_scene_is_refused():
+    """It may be in range and still mean another part; a copy of a scene has the parts it was made with."""
+    one, other = kinefab.Scene(), kinefab.Scene()
+    box, lid, foreign = one.add_part("Box"), one.add_part("Lid"), other.add_part("Bolt")
+    with pytest.raises(ValueError, match="^a is 0 of another scene"):
+        one.add_hinge(foreign, lid, **HINGE)
+    with pytest.raises(ValueError, match="^parent is 0 of another scene"):
+        one.add_part("Pin", parent=foreign)
+    for same in (one, copy.deepcopy(one), one.with_poses([node.pose for node in one.nodes])):
+        assert same.add_hinge(box, lid, **HINGE).a == 0
+    joint = one.add_hinge(0, np.int64(1), **HINGE)
+    assert (type(joint.a), type(joint.b)) == (int, int)
+
+
+def test_a_scene_without_parts_is_a_warning(tmp_path):
+    """An export of nothing is more likely a mistake than meant."""
+    result = kinefab.export(kinefab.Scene(), tmp_path / "none.kinefab")
+    assert [d.code for d in result.report.diagnostics] == ["SCENE_WITHOUT_PARTS"]
+
+
+@pytest.mark.parametrize("name", ["x.txt", "x", "x.kinefab.bin"])
+def test_a_target_of_another_ending_is_refused(tmp_path, name):
+    """As on the command line: Unity would not find it."""
+    with pytest.raises(ValueError, match="must end in .kinefab"):
+        kinefab.export(kinefab.Scene(), tmp_path / name)
+    assert not list(tmp_path.iterdir())

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from kinefab.diagnostics import Report, Severity
-from kinefab.geometry.files import FORMATS, transformed
+from kinefab.geometry.files import FORMATS, read_mesh_file, transformed
 from kinefab.geometry.loading import MeshFiles, load_geometry
 from kinefab.geometry.mass import solid_properties
 from kinefab.geometry.pieces import Piece
@@ -308,3 +308,21 @@ def test_normals_of_a_stretched_mesh_stay_across_it():
     found = transformed(slope, np.diag([1.0, 4.0, 1.0, 1.0]))
     assert np.allclose(found.normals, np.array([4, 1, 0]) / 17**0.5)
     assert np.allclose(found.normals @ (found.vertices[1] - found.vertices[0]), 0)
+
+
+@pytest.mark.parametrize("text", ["v 0 0 0\nv 1 0 0\nf 1 2 3\n", "f 1 2 3\n", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n"])
+def test_an_obj_cut_short_says_so(tmp_path, text):
+    """The message tells of the file, not of the parser's insides."""
+    path, report = tmp_path / "cut.obj", Report()
+    path.write_text(text)
+    assert read_mesh_file(path, report, "here") is None
+    (found,) = report.diagnostics
+    assert found.code == "GEOMETRY_UNREADABLE" and "cut short" in found.message and "NoneType" not in found.message
+
+
+def test_usd_is_not_promised(tmp_path):
+    """No reader takes USD, so the advice is another format."""
+    report = Report()
+    assert read_mesh_file(tmp_path / "a.usd", report, "here") is None
+    (found,) = report.diagnostics
+    assert found.code == "GEOMETRY_FORMAT_UNKNOWN" and "Export glTF or OBJ" in str(found)

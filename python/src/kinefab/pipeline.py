@@ -45,12 +45,17 @@ def export(
 
     source: a file that a reader of ``kinefab.sources`` knows, or a Scene made in code.
     Raises KinefabError, with every error found, when the data is wrong (or lossy, if strict) or the target
-    cannot be written; then the target is as it was.
+    cannot be written; then the target is as it was.  Raises ValueError for a target of another ending: Unity
+    imports by it.
     """
+    if Path(target).suffix != ".kinefab":
+        raise ValueError(f"the target is {os.fspath(target)!r}; its name must end in .kinefab")
     report = Report()
     try:
         files = MeshFiles(report)
         scene = _read(source, files, report, progress)
+        if not scene.nodes:
+            report.add("SCENE_WITHOUT_PARTS")
         scene = load_geometry(scene, files, report, progress)
         scene = weigh(scene, options.density, report)
         report.raise_for_errors()

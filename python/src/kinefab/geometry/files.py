@@ -16,7 +16,7 @@ STEP_FORMATS = (".step", ".stp")
 _ADVICE = {
     ".iges": "Export STEP or OBJ instead.",
     ".igs": "Export STEP or OBJ instead.",
-    ".usd": "Give the USD file as the source, not as a mesh.",
+    ".usd": "Export glTF or OBJ instead; USD is not read.",
     ".fbx": "Export OBJ or glTF instead; FBX is a closed format.",
 }
 

@@ -178,7 +178,9 @@ def _parse(text: bytes) -> Piece:
         faces = np.asarray(loaded["faces"], dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(loaded["vertices"], dtype=np.float64)
     except (IndexError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ObjError(str(error) or type(error).__name__) from error
+        # A ValueError names the text that is no number; the others say what trimesh stumbled over in its own code.
+        torn = "its vertices and faces do not fit together; it may be cut short"
+        raise ObjError(str(error) if isinstance(error, ValueError) else torn) from error
     normals, uv = loaded.get("vertex_normals"), getattr(loaded.get("visual"), "uv", None)
     fits = lambda values: values is not None and len(values) == len(vertices)  # noqa: E731
     return Piece(vertices, faces, normals if fits(normals) else None, np.asarray(uv) if fits(uv) else None)

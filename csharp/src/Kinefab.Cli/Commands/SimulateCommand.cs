@@ -1,9 +1,11 @@
 using System;
 using System.CommandLine;
-using System.IO;
+using System.Globalization;
 using Kinefab.Cli.Motion;
 using Kinefab.Cli.Simulation;
+using Kinefab.Diagnostics;
 using Kinefab.Dynamics;
+using Kinefab.Kinematics;
 
 namespace Kinefab.Cli.Commands;
 
@@ -15,14 +17,14 @@ internal static class SimulateCommand
     internal static Command Create()
     {
         Argument<string> file = SceneArguments.File();
-        Option<double?> seconds = TypedOptions.Positive("--seconds", "How long to simulate.");
+        Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate; at most {TypedOptions.MostSteps} steps.");
         seconds.Required = true;
         Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
         {
-            Description = "JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres. JOINT is the id or name of its GameObject.",
+            Description = "JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres. JOINT is the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
         var command = new Command("simulate", "Run a scene and say what its joints did.") { file, seconds, step, solver, output, drives };
         command.SetAction(parsed => Run(
@@ -41,23 +43,27 @@ internal static class SimulateCommand
         ReportWriter.WriteLines(file, loaded.Report, Console.Error);
         if (loaded.Scene is null)
             return loaded.ExitCode;
+        double dt = step ?? loaded.Scene.Document.Physics.FixedTimestep;
+        double count = Math.Max(1, Math.Round(seconds / dt));
+        if (count > TypedOptions.MostSteps)
+            return Refuse(string.Create(CultureInfo.InvariantCulture, $"--seconds {seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
         World world = World.Create(loaded.Scene, kind);
         ReportWriter.WriteLines(file, world.Findings, Console.Error);
+        Mechanism? mechanism = drives.Length == 0 ? null : Mechanism.Create(loaded.Scene);
         foreach (string text in drives)
         {
-            if (DriveSetting.Apply(world, loaded.Scene, text) is string fault)
-            {
-                Console.Error.WriteLine($"--drive {text}: {fault}");
-                return WrongUsage;
-            }
+            if (DriveSetting.Apply(world, mechanism!, text) is string fault)
+                return Refuse($"--drive {text}: {fault}");
         }
 
-        double dt = step ?? loaded.Scene.Document.Physics.FixedTimestep;
-        long steps = Math.Max(1, (long)Math.Round(seconds / dt));
+        Report target = output is null ? Report.Empty : TargetFile.Check(output);
+        if (target.HasErrors)
+            return Fail(file, target);
+        var steps = (int)count;
         var summary = new RunSummary(world, loaded.Scene);
         Recording? recording = output is null ? null : new Recording(world, loaded.Scene, kind, dt);
         var progress = new Progress(steps);
-        for (long i = 1; i <= steps; i++)
+        for (int i = 1; i <= steps; i++)
         {
             world.Step(dt);
             summary.Note();
@@ -65,23 +71,21 @@ internal static class SimulateCommand
             progress.Report(i);
         }
 
+        progress.End();
         summary.Write(Console.Out, kind, steps, dt);
-        return Save(recording, output) && world.Overflows == 0 ? 0 : 1;
+        Report saved = recording is null ? Report.Empty : TrajectoryFile.Save(recording.Trajectory, output!);
+        return saved.HasErrors ? Fail(file, saved) : world.Overflows == 0 ? 0 : 1;
     }
 
-    private static bool Save(Recording? recording, string? output)
+    private static int Refuse(string usage)
     {
-        if (recording is null || output is null)
-            return true;
-        try
-        {
-            TrajectoryFile.Save(recording.Trajectory, output);
-            return true;
-        }
-        catch (Exception e) when (e is IOException or UnauthorizedAccessException or NotSupportedException)
-        {
-            Console.Error.WriteLine($"error TARGET_UNWRITABLE: {output} cannot be written: {e.Message}");
-            return false;
-        }
+        Console.Error.WriteLine(usage);
+        return WrongUsage;
+    }
+
+    private static int Fail(string file, Report report)
+    {
+        ReportWriter.WriteLines(file, report, Console.Error);
+        return 1;
     }
 }

@@ -4,6 +4,8 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using Kinefab.Cli.Motion;
+using Kinefab.Cli.Simulation;
+using Kinefab.Diagnostics;
 using Kinefab.Kinematics;
 
 namespace Kinefab.Cli.Commands;
@@ -13,13 +15,17 @@ internal static class SweepCommand
 {
     private const int WrongUsage = 2;
 
+    // The solver walks all of the way, in steps of a fraction of a radian or of the mechanism's length.
+    private const double FarthestDegrees = 360_000;
+    private const double FarthestMetres = 1000;
+
     internal static Command Create()
     {
         Argument<string> file = SceneArguments.File();
-        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: id or name of the object with the joint.", Required = true };
+        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: id or name of the object with the joint, with [COMPONENT] behind it where one object carries several.", Required = true };
         Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
-        Option<double?> to = TypedOptions.Finite("--to", "Last value; default: the high end of the range.");
-        Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: 1_000_000, standard: 72);
+        Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {FarthestDegrees} deg or {FarthestMetres} m either way.");
+        Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: TypedOptions.MostSteps, standard: 72);
         Option<string?> output = TypedOptions.Trajectory();
         var animation = new Option<bool>("--into-animation") { Description = "Write the sweep into the scene as an animation clip." };
         var command = new Command("sweep", "Take a joint through its range; say how far it goes and where it stops.") { file, joint, from, to, steps, output, animation };
@@ -47,26 +53,37 @@ internal static class SweepCommand
             return WrongUsage;
         }
 
-        var sweep = new Sweep(new PositionSolver(mechanism));
-        (RangeLimit low, RangeLimit high) = sweep.Range(mechanism.NewState(), coordinate);
-        (double first, double last) = WholeRange(low, high);
-        SweepResult result = sweep.Run(mechanism.NewState(), coordinate, from ?? first, to ?? last, steps);
-        Write(mechanism, result, low, high, Console.Out);
-        try
+        bool isAngle = mechanism.Coordinates[coordinate].IsAngle;
+        double farthest = isAngle ? FarthestDegrees : FarthestMetres;
+        if (Math.Max(Math.Abs(from ?? 0), Math.Abs(to ?? 0)) > farthest)
         {
-            if (output is not null)
-                TrajectoryFile.Save(SweepTrajectory.Of(mechanism, result), output);
-            if (intoAnimation)
-                SweepAnimation.Write(file, mechanism, result, "sweep " + joint);
+            Console.Error.WriteLine($"--from and --to must lie between -{Number(farthest)} and {Number(farthest)} {(isAngle ? "deg" : "m")} for {joint}.");
+            return WrongUsage;
         }
-        catch (Exception e) when (e is IOException or UnauthorizedAccessException or NotSupportedException)
+
+        Report target = Targets(output, intoAnimation ? file : null);
+        if (target.HasErrors)
         {
-            Console.Error.WriteLine($"error TARGET_UNWRITABLE: {output ?? file} cannot be written: {e.Message}");
+            ReportWriter.WriteLines(file, target, Console.Error);
             return 1;
         }
 
-        return result.Stop is null && result.Jumps.Count == 0 ? 0 : 1;
+        var sweep = new Sweep(new PositionSolver(mechanism));
+        (RangeLimit low, RangeLimit high) = sweep.Range(mechanism.NewState(), coordinate);
+        (double first, double last) = WholeRange(low, high);
+        var progress = new Progress(steps);
+        SweepResult result = sweep.Run(mechanism.NewState(), coordinate, from ?? first, to ?? last, steps, progress);
+        progress.End();
+        Write(mechanism, result, low, high, Console.Out);
+        Report written = output is null ? Report.Empty : TrajectoryFile.Save(SweepTrajectory.Of(mechanism, result), output);
+        if (intoAnimation)
+            written = written.Concat(SweepAnimation.Write(file, mechanism, result, "sweep " + joint));
+        ReportWriter.WriteLines(file, written, Console.Error);
+        return !written.HasErrors && result.Stop is null && result.Jumps.Count == 0 ? 0 : 1;
     }
+
+    private static Report Targets(params string?[] paths) =>
+        paths.Where(p => p is not null).Aggregate(Report.Empty, (report, path) => report.Concat(TargetFile.Check(path!)));
 
     // A whole turn where nothing ends it; at dead centres a little less than all, since nothing drives through them.
     private static (double First, double Last) WholeRange(RangeLimit low, RangeLimit high)
@@ -80,7 +97,7 @@ internal static class SweepCommand
     private static void Write(Mechanism mechanism, SweepResult result, RangeLimit low, RangeLimit high, TextWriter target)
     {
         string unit = mechanism.Coordinates[result.Coordinate].IsAngle ? "deg" : "m";
-        target.WriteLine($"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {result.States.Count - 1} steps");
+        target.WriteLine($"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {Counted.Of(result.States.Count - 1, "step", "steps")}");
         target.WriteLine($"range      {End(mechanism, low)} to {End(mechanism, high)} {unit}");
         for (int i = 0; i < result.Branches.Count; i++)
             target.WriteLine($"branch     {(i > 0 ? "not taken" : result.Branches.Count == 1 ? "taken, the only one found" : $"taken, the straightest of {result.Branches.Count}")}: {Rates(mechanism, result.Branches[i])}");

@@ -5,6 +5,7 @@ using System.Linq;
 using System.Text.Encodings.Web;
 using System.Text.Json;
 using System.Text.Json.Nodes;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
@@ -17,8 +18,8 @@ internal static class SweepAnimation
     // A degree or a millimetre a frame would have no common speed; a sweep plays in this time whatever it covers.
     private const double Seconds = 4;
 
-    /// <summary>Adds the clip, or replaces the one of the same name.</summary>
-    internal static void Write(string path, Mechanism mechanism, SweepResult sweep, string name)
+    /// <summary>Adds the clip, or replaces the one of the same name; the report says what kept it from being written.</summary>
+    internal static Report Write(string path, Mechanism mechanism, SweepResult sweep, string name) => TargetFile.Write(path, target =>
     {
         var scene = (JsonObject)JsonNode.Parse(File.ReadAllText(path))!;
         if (scene["animations"] is not JsonArray animations)
@@ -30,10 +31,9 @@ internal static class SweepAnimation
         }
 
         animations.Add(Clip(mechanism, sweep, name));
-        string temporary = path + ".part";
-        File.WriteAllText(temporary, scene.ToJsonString(new JsonSerializerOptions { WriteIndented = true, NewLine = "\n", Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }) + "\n");
-        File.Move(temporary, path, overwrite: true);
-    }
+        using var text = new StreamWriter(target, leaveOpen: true);
+        text.Write(scene.ToJsonString(new JsonSerializerOptions { WriteIndented = true, NewLine = "\n", Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }) + "\n");
+    });
 
     private static JsonObject Clip(Mechanism mechanism, SweepResult sweep, string name)
     {

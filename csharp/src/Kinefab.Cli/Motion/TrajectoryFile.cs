@@ -6,6 +6,7 @@ using System.Linq;
 using System.Text;
 using System.Text.Encodings.Web;
 using System.Text.Json;
+using Kinefab.Diagnostics;
 using Kinefab.Numerics;
 
 namespace Kinefab.Cli.Motion;
@@ -15,23 +16,18 @@ internal static class TrajectoryFile
 {
     private static readonly string[] PoseParts = ["px", "py", "pz", "qx", "qy", "qz", "qw"];
 
-    /// <summary>Writes the whole file or none of it; .csv by its name, else JSON.</summary>
-    internal static void Save(Trajectory trajectory, string path)
+    /// <summary>.csv by its name, else JSON; the report says what kept it from being written.</summary>
+    internal static Report Save(Trajectory trajectory, string path) => TargetFile.Write(path, target =>
     {
-        string temporary = path + ".part";
-        using (var file = new StreamWriter(temporary, append: false, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false)) { NewLine = "\n" })
-        {
-            if (Path.GetExtension(path).Equals(".csv", StringComparison.OrdinalIgnoreCase))
-                WriteCsv(trajectory, file);
-            else
-                WriteJson(trajectory, file.BaseStream);
-        }
+        if (Path.GetExtension(path).Equals(".csv", StringComparison.OrdinalIgnoreCase))
+            WriteCsv(trajectory, target);
+        else
+            WriteJson(trajectory, target);
+    });
 
-        File.Move(temporary, path, overwrite: true);
-    }
-
-    private static void WriteCsv(Trajectory trajectory, StreamWriter target)
+    private static void WriteCsv(Trajectory trajectory, Stream file)
     {
+        using var target = new StreamWriter(file, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false), leaveOpen: true) { NewLine = "\n" };
         IEnumerable<string> columns = trajectory.Coordinates.Select(c => c.Name)
             .Concat(trajectory.Bodies.SelectMany(b => PoseParts.Select(p => b.Id + "." + p)))
             .Prepend(trajectory.Driver is null ? "time" : "driver " + trajectory.Driver.Name);

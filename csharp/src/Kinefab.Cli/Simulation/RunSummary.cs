@@ -33,16 +33,20 @@ internal sealed class RunSummary
             joint.Note(world.Time);
     }
 
-    internal void Write(TextWriter target, SolverKind kind, long steps, double dt)
+    internal void Write(TextWriter target, SolverKind kind, int steps, double dt)
     {
         double end = world.KineticEnergy + world.PotentialEnergy;
-        target.WriteLine(Text($"{steps} {(steps == 1 ? "step" : "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
+        target.WriteLine(Text($"{Counted.Of(steps, "step", "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
         target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
         if (world.Overflows > 0)
-            target.WriteLine(Text($"the solver could not follow: motion left the range of numbers {world.Overflows} times"));
+            target.WriteLine(Text($"the solver could not follow: motion left the range of numbers {Counted.Of(world.Overflows, "time", "times")}"));
         foreach (JointRecord joint in joints)
-            joint.Write(target, scene.Document.GameObjects[joint.Joint.GameObject].Name);
+            joint.Write(target, NameOf(joint.Joint), scene.Document.GameObjects[joint.Joint.GameObject].Name);
     }
+
+    // As a mechanism tells them apart: ID[COMPONENT] where one object carries several.
+    private string NameOf(WorldJoint joint) =>
+        world.Joints.Count(j => j.GameObject == joint.GameObject) == 1 ? joint.Id : Text($"{joint.Id}[{joint.Component}]");
 
     private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
 
@@ -60,7 +64,7 @@ internal sealed class RunSummary
         internal JointRecord(WorldJoint joint)
         {
             Joint = joint;
-            coordinates = DriveSetting.FreeCoordinates(joint);
+            coordinates = FreeCoordinates(joint);
             least = coordinates.Select(joint.Coordinate).ToArray();
             greatest = (double[])least.Clone();
         }
@@ -86,20 +90,36 @@ internal sealed class RunSummary
             }
         }
 
-        internal void Write(TextWriter target, string name)
+        internal void Write(TextWriter target, string joint, string gameObject)
         {
             IEnumerable<string> ranges = coordinates.Select((c, i) => Text(
-                $", {Word(c)} {least[i]:0.#####}..{greatest[i]:0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
+                $", {c.ToJson()} {least[i]:0.#####}..{greatest[i]:0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
             string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
             string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
             target.WriteLine(Text(
-                $"{Joint.Id} ({name}): drift {distance:0.0e+0} m, {angle * 180 / Math.PI:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
+                $"{joint} ({gameObject}): drift {distance:0.0e+0} m, {angle * 180 / Math.PI:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
 
-        private static string Word(Coordinate coordinate)
+        // The coordinates that a joint leaves free or limited.
+        private static Coordinate[] FreeCoordinates(WorldJoint joint) => joint switch
         {
-            string word = coordinate.ToString();
-            return char.ToLowerInvariant(word[0]) + word[1..];
+            WorldHingeJoint => [Coordinate.Angle],
+            WorldConfigurableJoint configurable => Free(configurable.Settings),
+            _ => [],
+        };
+
+        private static Coordinate[] Free(ConfigurableJoint joint)
+        {
+            (Coordinate Coordinate, ConfigurableJointMotion Motion)[] all =
+            [
+                (Coordinate.X, joint.XMotion),
+                (Coordinate.Y, joint.YMotion),
+                (Coordinate.Z, joint.ZMotion),
+                (Coordinate.AngularX, joint.AngularXMotion),
+                (Coordinate.AngularY, joint.AngularYMotion),
+                (Coordinate.AngularZ, joint.AngularZMotion),
+            ];
+            return all.Where(a => a.Motion != ConfigurableJointMotion.Locked).Select(a => a.Coordinate).ToArray();
         }
     }
 }

@@ -19,7 +19,10 @@ public static class DiagnosticCodes
     public const string SceneEmpty = "SCENE_EMPTY";
 
     /// <summary>{path} cannot be read: {detail}.</summary>
-    public const string SceneUnreadable = "SCENE_UNREADABLE";
+    public const string SourceUnreadable = "SOURCE_UNREADABLE";
+
+    /// <summary>{path} is a folder.</summary>
+    public const string SourceIsFolder = "SOURCE_IS_FOLDER";
 
     /// <summary>There is no scene file {path}.</summary>
     public const string SceneNotFound = "SCENE_NOT_FOUND";

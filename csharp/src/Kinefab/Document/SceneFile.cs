@@ -32,7 +32,11 @@ public static class SceneFile
         }
         catch (Exception fault) when (BoundedFile.IsExpected(fault))
         {
-            findings.Add("", DiagnosticCodes.SceneUnreadable, ("path", path), ("detail", fault.Message.TrimEnd('.')));
+            // Reading a folder fails as reading without the right to does; only the file system tells which it was.
+            if (Directory.Exists(path))
+                findings.Add("", DiagnosticCodes.SourceIsFolder, ("path", path));
+            else
+                findings.Add("", DiagnosticCodes.SourceUnreadable, ("path", path), ("detail", fault.Message.TrimEnd('.')));
         }
 
         if (bytes is null)

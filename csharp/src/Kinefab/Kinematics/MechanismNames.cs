@@ -96,10 +96,26 @@ internal sealed class MechanismNames
         problem = found.Count switch
         {
             1 => "",
-            0 => $"no joint moves by this name; there are {List(Enumerable.Range(0, _coordinates.Length))}.",
+            0 => Absent(name, dot),
             _ => $"say which: {List(found)}.",
         };
         return found.Count == 1;
+    }
+
+    // Says most where the joint is there and only its coordinate is not.
+    private string Absent(string name, int dot)
+    {
+        List<int> joint = dot > 0 ? Called(name[..dot]) : new List<int>();
+        if (joint.Count > 0)
+        {
+            string word = name[(dot + 1)..];
+            string fault = Words.Contains(word, StringComparer.OrdinalIgnoreCase) ? $"the joint does not move along {word}" : $"{word} is no coordinate";
+            return $"{fault}; the joint has {string.Join(", ", joint.Select(i => Words[(int)_coordinates[i].Coordinate]).Distinct())}.";
+        }
+
+        return _coordinates.Length == 0
+            ? "no joint of the scene moves."
+            : $"no joint moves by this name; there {(_coordinates.Length == 1 ? "is" : "are")} {List(Enumerable.Range(0, _coordinates.Length))}.";
     }
 
     // An id may hold dots itself, so the whole is tried for an object before its last part is taken for a coordinate.

@@ -35,7 +35,8 @@ public sealed class Sweep
     /// <param name="from">Degrees or metres; driven to first.</param>
     /// <param name="to">Degrees or metres.</param>
     /// <param name="steps">At least 1; one state more is kept.</param>
-    public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps)
+    /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
+    public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null)
     {
         if (state is null)
             throw new ArgumentNullException(nameof(state));
@@ -73,6 +74,7 @@ public sealed class Sweep
 
             values.Add(state.Coordinate(coordinate));
             states.Add(last = state.Clone());
+            progress?.Report(i);
         }
 
         return new SweepResult(coordinate, values, states, jumps, branches, stop, metres, degrees);

@@ -21,11 +21,11 @@ public class SceneFileTests
 
     [Test]
     public void Load_AFolder_IsADiagnostic() =>
-        Assert.That(Codes(SceneFile.Load(Path.GetTempPath())), Is.EqualTo([DiagnosticCodes.SceneUnreadable]));
+        Assert.That(Codes(SceneFile.Load(Path.GetTempPath())), Is.EqualTo([DiagnosticCodes.SourceIsFolder]));
 
     [Test]
     public void Load_PathWithZeroCharacter_IsADiagnostic() =>
-        Assert.That(Codes(SceneFile.Load("a\0b")), Is.EqualTo([DiagnosticCodes.SceneUnreadable]));
+        Assert.That(Codes(SceneFile.Load("a\0b")), Is.EqualTo([DiagnosticCodes.SourceUnreadable]));
 
     [Test]
     public void Load_FileAboveTheLimit_IsRefusedUnread()

@@ -1,0 +1,59 @@
+using System;
+using System.IO;
+using Kinefab.Diagnostics;
+using Kinefab.Json;
+
+namespace Kinefab.Cli.Motion;
+
+/// <summary>Writes a file whole or not at all; a failed attempt leaves nothing behind.</summary>
+internal static class TargetFile
+{
+    /// <summary>What would keep the file from being written: known before the work for it is done.</summary>
+    internal static Report Check(string path) => Attempt(path, _ => { }, isKept: false);
+
+    /// <summary>Writes what the content gives; the report has an error when it could not be written.</summary>
+    internal static Report Write(string path, Action<Stream> content) => Attempt(path, content, isKept: true);
+
+    private static Report Attempt(string path, Action<Stream> content, bool isKept)
+    {
+        if (Directory.Exists(path))
+            return Unwritable(path, "it is a folder");
+        string temporary = path + ".part";
+        try
+        {
+            var file = new FileStream(temporary, FileMode.Create, FileAccess.Write);
+            try
+            {
+                using (file)
+                    content(file);
+                if (isKept)
+                    File.Move(temporary, path, overwrite: true);
+            }
+            finally
+            {
+                File.Delete(temporary);
+            }
+
+            return Report.Empty;
+        }
+        catch (DirectoryNotFoundException)
+        {
+            return Unwritable(path, "its folder does not exist");
+        }
+        catch (UnauthorizedAccessException)
+        {
+            return Unwritable(path, "access is denied");
+        }
+        catch (Exception e) when (e is IOException or NotSupportedException or ArgumentException)
+        {
+            return Unwritable(path, e.Message.Replace(temporary, path, StringComparison.Ordinal).TrimEnd('.'));
+        }
+    }
+
+    private static Report Unwritable(string path, string detail)
+    {
+        var findings = new Findings(1);
+        findings.Add("", "TARGET_UNWRITABLE", ("path", path), ("detail", detail));
+        return FindingPlaces.Resolve(findings, default, hasText: false);
+    }
+}

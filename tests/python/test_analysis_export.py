@@ -184,7 +184,7 @@ def test_analyse_prints_a_table_that_ends_with_the_mobility():
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
     assert lines[0].split() == ["part", "group", "freedoms", "joint", "to", "why"]
-    assert lines[-1].startswith("mobility 1;")
+    assert lines[-1].startswith("mobility 1;") and lines[-1].endswith("; 1 mechanism, 1 loop")
     slider = next(line for line in lines if line.startswith("Lever/SliderD:1"))
     assert "prismatic" in slider and "Lever/Base:1" in slider and "Mate:1, Mate:2" in slider
 

@@ -173,9 +173,13 @@ def table(analysis: Analysis) -> str:
     first = f", {analysis.first_order} at first order" if analysis.first_order != analysis.mobility else ""
     lines.append(
         f"mobility {analysis.mobility}{first}; {analysis.rows} equations, {analysis.redundant} redundant; "
-        f"{len(analysis.islands)} mechanisms, {loops} loops"
+        f"{_counted(len(analysis.islands), 'mechanism')}, {_counted(loops, 'loop')}"
     )
     return "\n".join(lines)
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def _rows(analysis: Analysis) -> list[tuple[str, ...]]:

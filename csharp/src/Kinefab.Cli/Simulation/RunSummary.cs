@@ -15,6 +15,7 @@ internal sealed class RunSummary
     private readonly World world;
     private readonly ValidScene scene;
     private readonly JointRecord[] joints;
+    private readonly HashSet<int> several;
     private readonly double startEnergy;
 
     internal RunSummary(World world, ValidScene scene)
@@ -22,6 +23,7 @@ internal sealed class RunSummary
         this.world = world;
         this.scene = scene;
         joints = world.Joints.Select(j => new JointRecord(j)).ToArray();
+        several = world.Joints.GroupBy(j => j.GameObject).Where(g => g.Count() > 1).Select(g => g.Key).ToHashSet();
         startEnergy = world.KineticEnergy + world.PotentialEnergy;
         world.JointBroken += (_, e) => joints[IndexOf(e.Joint)].BrokenAt = world.Time;
     }
@@ -46,7 +48,7 @@ internal sealed class RunSummary
 
     // As a mechanism tells them apart: ID[COMPONENT] where one object carries several.
     private string NameOf(WorldJoint joint) =>
-        world.Joints.Count(j => j.GameObject == joint.GameObject) == 1 ? joint.Id : Text($"{joint.Id}[{joint.Component}]");
+        several.Contains(joint.GameObject) ? Text($"{joint.Id}[{joint.Component}]") : joint.Id;
 
     private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
 

@@ -52,6 +52,14 @@ public class CommandLineTests
         }
     }
 
+    [Test]
+    public void Validate_Folder_SaysThatItIsOne()
+    {
+        string folder = Path.GetTempPath();
+        (int exit, _, string findings) = Run("validate", folder);
+        Assert.That((exit, findings.TrimEnd()), Is.EqualTo((1, $"{folder}: error SOURCE_IS_FOLDER: {folder} is a folder. Give the file in it.")));
+    }
+
     [TestCase(0)]
     [TestCase(1, "--strict")]
     public void Validate_UnknownField_FailsOnlyWhenStrict(int expected, params string[] options) =>

@@ -129,6 +129,43 @@ public sealed class SimulateCommandTests
         Assert.That(data, Does.Match(@"Lever/Crank:1 \(Crank:1\): drift [0-9.]+e-1[0-9] m"));
     }
 
+    // Its rocker carries the hinge to the base and the one that closes the loop.
+    [Test]
+    public void Simulate_TwoJointsOnOneObject_AreDrivenAndToldApartByTheirComponents()
+    {
+        string flat = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "mechanisms", "M05.kinefab");
+
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", flat, "--seconds", "0.1", "--drive", "rocker[1]=5", "--drive", "rocker[2].angle=-1/s");
+        (int refused, _, string unclear) = CommandLineTests.Run("simulate", flat, "--seconds", "0.1", "--drive", "rocker=5");
+
+        Assert.That((exit, findings), Is.EqualTo((0, "")));
+        Assert.That(data, Does.Contain("\nrocker[1] (rocker): ").And.Contain("\nrocker[2] (rocker): ").And.Contain("\ncrank (crank): "));
+        Assert.That((refused, unclear.TrimEnd()), Is.EqualTo((2, "--drive rocker=5: say which: rocker[1].angle, rocker[2].angle.")));
+    }
+
+    [TestCase("--seconds", "1e9")]
+    [TestCase("--seconds", "1", "--step", "1e-9")]
+    [TestCase("--seconds", "1e300", "--step", "1e-300")]
+    public void Simulate_MoreStepsThanAreRun_Exits2WithTheLimit(params string[] options)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run(["simulate", Scene, .. options]);
+
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.Contain("at most 1000000 are run"));
+    }
+
+    [Test]
+    public void Simulate_JointOfASceneWithoutJoints_SaysThatNothingMoves()
+    {
+        string still = Path.Combine(Conformance.ConformanceCases.Folder, "valid", "scene", "minimal.kinefab");
+
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", still, "--seconds", "1", "--drive", "a=1");
+        (int swept, _, string sweepFindings) = CommandLineTests.Run("sweep", still, "--joint", "a");
+
+        Assert.That((exit, findings.TrimEnd()), Is.EqualTo((2, "--drive a=1: no joint of the scene moves.")));
+        Assert.That((swept, sweepFindings.TrimEnd()), Is.EqualTo((2, "--joint a: no joint of the scene moves.")));
+    }
+
     [TestCase("--seconds", "0")]
     [TestCase("--seconds", "-1")]
     [TestCase("--seconds", "1", "--step", "0")]
@@ -167,15 +204,18 @@ public sealed class SimulateCommandTests
     public void Help_Solver_IsNamedInTheWordsItTakes() =>
         Assert.That(CommandLineTests.Run("simulate", "--help").Data, Does.Contain("unity|exact").And.Not.Contains("Unity|").And.Not.Contains("default: Unity"));
 
-    [Test]
-    public void Simulate_UnwritableTarget_Exits1WithoutATrace()
+    [TestCase("missing/run.json", "its folder does not exist")]
+    [TestCase("folder.csv", "it is a folder")]
+    public void Simulate_UnwritableTarget_Exits1BeforeTheRunAndLeavesNothing(string name, string reason)
     {
-        string target = Path.Combine(_folder, "missing", "run.json");
+        Directory.CreateDirectory(Path.Combine(_folder, "folder.csv"));
+        string target = Path.Combine(_folder, name);
 
-        (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "-o", target);
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "-o", target);
 
-        Assert.That(exit, Is.EqualTo(1));
-        Assert.That(findings, Does.Contain("TARGET_UNWRITABLE").And.Not.Contains("   at "));
+        Assert.That((exit, data), Is.EqualTo((1, "")), "refused before the run, so there is no summary");
+        Assert.That(findings.TrimEnd(), Is.EqualTo($"{Scene}: error TARGET_UNWRITABLE: {target} cannot be written: {reason}. Check the folder, the free space and the rights."));
+        Assert.That(Directory.GetFileSystemEntries(_folder), Is.EqualTo(new[] { Path.Combine(_folder, "folder.csv") }));
     }
 
     private static Pose First(JsonElement bodies, string id) => PoseOf(Poses(bodies, id)[0]);

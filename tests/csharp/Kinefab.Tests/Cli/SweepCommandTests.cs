@@ -73,6 +73,31 @@ public sealed class SweepCommandTests
         Assert.That(findings, Does.StartWith(fault));
     }
 
+    [TestCase("--to", "1e8", "between -360000 and 360000 deg for crank")]
+    [TestCase("--from", "-360001", "between -360000 and 360000 deg for crank")]
+    [TestCase("--steps", "1000001", "--steps must be a whole number between 1 and 1000000")]
+    public void Sweep_FartherThanIsSwept_Exits2WithTheLimit(string option, string value, string limit)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("sweep", Scene("M07"), "--joint", "crank", option, value);
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.Contain(limit));
+    }
+
+    [Test]
+    public void Sweep_UnwritableTarget_Exits1BeforeTheSweepAndLeavesNothing()
+    {
+        string target = Path.Combine(_folder, "motion.csv");
+        Directory.CreateDirectory(target);
+        (int exit, string data, string findings) = CommandLineTests.Run("sweep", Scene("M07"), "--joint", "crank", "-o", target);
+        Assert.That((exit, data), Is.EqualTo((1, "")));
+        Assert.That(findings, Does.Contain($"error TARGET_UNWRITABLE: {target} cannot be written: it is a folder. Check the folder"));
+        Assert.That(Directory.GetFileSystemEntries(_folder), Is.EqualTo(new[] { target }));
+    }
+
+    [Test]
+    public void Sweep_OneStep_IsOneStep() =>
+        Assert.That(CommandLineTests.Run("sweep", Scene("M07"), "--joint", "crank", "--from", "0", "--to", "5", "--steps", "1").Data, Does.Contain("in 1 step").And.Not.Contain("1 steps"));
+
     [Test]
     public void Sweep_IntoAnimation_AddsAClipThatValidates()
     {

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using System.Text.Json.Nodes;
 using Kinefab.Advice;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -17,21 +18,25 @@ public sealed class ReproductionTests
     private const double Degrees = 180 / Math.PI;
 
     private string _chain = "";
+    private string _borne = "";
 
     [OneTimeSetUp]
-    public void WriteChain()
+    public void WriteChains()
     {
-        _chain = Path.Combine(Directory.CreateTempSubdirectory("kinefab").FullName, "chain.kinefab");
+        string folder = Directory.CreateTempSubdirectory("kinefab").FullName;
+        _chain = Path.Combine(folder, "chain.kinefab");
         File.WriteAllText(_chain, StabilityAdviceTests.Chain(8, 0.1, 10).Text());
+        _borne = Path.Combine(folder, "borne.kinefab");
+        File.WriteAllText(_borne, Borne());
     }
 
     [OneTimeTearDown]
     public void RemoveChain() => Directory.Delete(Path.GetDirectoryName(_chain)!, recursive: true);
 
     [Test]
-    public void Drift_BeforeAndAfterEveryChange_IsWhatARunByHandShows([Values] bool isLever)
+    public void Drift_BeforeAndAfterEveryChange_IsWhatARunByHandShows([Values("lever", "chain", "borne")] string scene)
     {
-        string file = isLever ? AdviceScene.Lever : _chain;
+        string file = scene == "lever" ? AdviceScene.Lever : scene == "chain" ? _chain : _borne;
         AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(file));
         AdviceFinding drift = StabilityAdviceTests.Single(advice, DiagnosticCodes.AdviceJointDrifts);
 
@@ -39,6 +44,14 @@ public sealed class ReproductionTests
         Assert.That(drift.Tried, Has.Count.GreaterThan(5));
         foreach (TriedChange tried in drift.Tried)
             Assert.That(Drifts(AdviceEdits.Apply(file, tried.Edits), advice), Does.Contain((tried.After.Distance, tried.After.Angle)), tried.Change);
+    }
+
+    [Test]
+    public void Edits_OfAnIsland_NameItsJointsOnAKinematicBody()
+    {
+        AdviceFinding drift = StabilityAdviceTests.Single(StabilityAdvice.Of(ValidScene.Load(_borne)), DiagnosticCodes.AdviceJointDrifts);
+        TriedChange preprocessing = drift.Tried.First(t => t.Change.Contains("Enable Preprocessing off", StringComparison.Ordinal));
+        Assert.That(preprocessing.Edits.Select(e => e.Pointer), Does.Contain("/gameObjects/0/components/1/enablePreprocessing"));
     }
 
     [Test]
@@ -72,6 +85,19 @@ public sealed class ReproductionTests
         Assert.That(weak.Tried, Has.Count.GreaterThan(1));
         foreach (TriedChange tried in weak.Tried)
             Assert.That(Sinking(AdviceEdits.Apply(file, tried.Edits), advice), Is.EqualTo(tried.After.Angle), tried.Change);
+    }
+
+    // The chain, borne by a kinematic bar at its start that carries the joint between them.
+    private static string Borne()
+    {
+        var scene = new AdviceScene().Loose(1).Loose(0.1);
+        for (int i = 0; i < 7; i++)
+            scene.Hinged(i == 6 ? 10 : 0.1);
+        JsonNode root = JsonNode.Parse(scene.Text())!;
+        JsonArray components = root["gameObjects"]![0]!["components"]!.AsArray();
+        components[0]!["isKinematic"] = true;
+        components.Add(JsonNode.Parse("""{"type": "HingeJoint", "anchor": [0.1, 0, 0], "axis": [0, 0, 1], "connectedBody": 1}"""));
+        return root.ToJsonString();
     }
 
     private static double Sinking(ValidScene scene, AdviceReport advice)

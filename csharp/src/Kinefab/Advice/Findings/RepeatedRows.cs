@@ -17,9 +17,9 @@ internal static class RepeatedRows
         if (e.Mobility is not { Redundant: > 0 } counted)
             yield break;
         Change?[] cures = { e.Remedies.ClosuresMinimal, e.Remedies.PreprocessingOff };
-        foreach (Island island in Suspects.Islands(e, i => counted.Joints.Any(j => i.Holds(j.GameObject))))
+        foreach (Island island in Suspects.Islands(e, i => counted.Joints.Any(j => i.Holds(j.GameObject, j.Component))))
         {
-            RedundantRows[] joints = counted.Joints.Where(j => island.Holds(j.GameObject)).OrderByDescending(j => j.Redundant).ToArray();
+            RedundantRows[] joints = counted.Joints.Where(j => island.Holds(j.GameObject, j.Component)).OrderByDescending(j => j.Redundant).ToArray();
             yield return Suspects.Judge(
                 e, island, DiagnosticCodes.AdviceLoopOverConstrained, EditText.Component(joints[0].GameObject, joints[0].Component),
                 e.Scene.Document.GameObjects[joints[0].GameObject].Id, cures,

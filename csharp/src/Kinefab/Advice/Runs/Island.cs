@@ -11,15 +11,17 @@ namespace Kinefab.Advice.Runs;
 internal sealed class Island
 {
     private readonly HashSet<int> _gameObjects;
+    private readonly HashSet<(int GameObject, int Component)> _components;
 
-    private Island(int index, IEnumerable<int> gameObjects, int[] bodies, int[] joints, double length, bool isFloating)
+    private Island(World world, int index, int[] bodies, int[] joints, bool isFloating)
     {
         Index = index;
         IsFloating = isFloating;
-        _gameObjects = new HashSet<int>(gameObjects);
+        _components = new HashSet<(int, int)>(joints.Select(j => (world.Joints[j].GameObject, world.Joints[j].Component)));
+        _gameObjects = new HashSet<int>(bodies.Select(b => world.Bodies[b].GameObject).Concat(_components.Select(c => c.GameObject)));
         Bodies = bodies;
         Joints = joints;
-        Length = length;
+        Length = LinkLength(world, bodies, joints);
     }
 
     public int Index { get; }
@@ -36,8 +38,11 @@ internal sealed class Island
     /// <summary>Whether nothing ties it to the world or to a kinematic body, so that it falls.</summary>
     public bool IsFloating { get; }
 
-    /// <summary>Whether the Rigidbody of a GameObject belongs to it.</summary>
+    /// <summary>Whether a GameObject bears a body or a joint of it; a kinematic one may bear joints of several islands.</summary>
     public bool Holds(int gameObject) => _gameObjects.Contains(gameObject);
+
+    /// <summary>Whether a joint belongs to it.</summary>
+    public bool Holds(int gameObject, int component) => _components.Contains((gameObject, component));
 
     /// <summary>The islands of a world, by their first body.</summary>
     public static List<Island> Of(World world, IReadOnlyList<Coupling> couplings)
@@ -56,8 +61,7 @@ internal sealed class Island
         return Enumerable.Range(0, world.Bodies.Count).Where(b => !world.Bodies[b].IsKinematic).GroupBy(sets.Find)
             .Where(bodies => jointsOf.Contains(bodies.Key))
             .Select((bodies, index) => new Island(
-                index, bodies.Select(b => world.Bodies[b].GameObject), bodies.ToArray(), jointsOf[bodies.Key].ToArray(), LinkLength(world, bodies, jointsOf[bodies.Key]),
-                jointsOf[bodies.Key].All(j => Moving(world.Joints[j]).Count() == 2)))
+                world, index, bodies.ToArray(), jointsOf[bodies.Key].ToArray(), jointsOf[bodies.Key].All(j => Moving(world.Joints[j]).Count() == 2)))
             .ToList();
 
         void Join(WorldJoint a, WorldJoint b)

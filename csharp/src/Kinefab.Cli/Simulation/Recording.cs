@@ -2,6 +2,7 @@ using System.Linq;
 using Kinefab.Cli.Motion;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.Numerics;
 using Kinefab.Validation;
 
 namespace Kinefab.Cli.Simulation;
@@ -11,12 +12,16 @@ internal sealed class Recording
 {
     private readonly World world;
     private readonly MechanismState state;
+    private readonly int[] gameObjects;
+    private readonly Pose[] poses;
 
     internal Recording(World world, ValidScene scene, SolverKind solver, double step)
     {
         this.world = world;
         Mechanism mechanism = Mechanism.Create(scene);
         state = mechanism.NewState();
+        gameObjects = world.Bodies.Select(b => b.GameObject).ToArray();
+        poses = new Pose[gameObjects.Length];
         Trajectory = new Trajectory(solver.ToString().ToLowerInvariant()) { Step = step };
         Trajectory.Bodies.AddRange(world.Bodies.Select(b => new TrajectoryBody(b.GameObject, b.Id)));
         Trajectory.Coordinates.AddRange(Enumerable.Range(0, mechanism.Coordinates.Count).Select(i => TrajectoryCoordinate.Of(mechanism, i)));
@@ -29,12 +34,13 @@ internal sealed class Recording
     internal void Note()
     {
         Trajectory.At.Add(world.Time);
-        for (int i = 0; i < world.Bodies.Count; i++)
+        for (int i = 0; i < poses.Length; i++)
         {
-            Trajectory.Bodies[i].Poses.Add(world.Bodies[i].Pose);
-            state.SetPose(world.Bodies[i].GameObject, world.Bodies[i].Pose);
+            poses[i] = world.Bodies[i].Pose;
+            Trajectory.Bodies[i].Poses.Add(poses[i]);
         }
 
+        state.SetPoses(gameObjects, poses);
         for (int i = 0; i < Trajectory.Coordinates.Count; i++)
             Trajectory.Coordinates[i].Values.Add(state.Coordinate(i));
     }

@@ -27,6 +27,7 @@ internal sealed class CoordinateDrive
     private readonly Mechanism _mechanism;
     private readonly NewtonSolver _newton;
     private readonly MechanismState _good;
+    private readonly MechanismState _before;
     private readonly int[] _coordinates;
     private readonly double[] _from;
     private readonly double[] _to;
@@ -43,6 +44,7 @@ internal sealed class CoordinateDrive
         _mechanism = mechanism;
         _newton = newton;
         _good = mechanism.NewState();
+        _before = mechanism.NewState();
         var straight = new StraightMotion(mechanism, newton);
         _leap = new BranchLeap(mechanism, newton, straight);
         _crossing = new CrossingPose(mechanism, newton, straight);
@@ -179,7 +181,7 @@ internal sealed class CoordinateDrive
         double next = 1;
         for (int n = 0; n < MaxContactIterations && s > 1; n++)
         {
-            MechanismState before = state.Clone();
+            _before.CopyFrom(state);
             _newton.ClearDriven();
             for (int i = 0; i < _count; i++)
             {
@@ -193,7 +195,7 @@ internal sealed class CoordinateDrive
             }
             else
             {
-                state.CopyFrom(before);
+                state.CopyFrom(_before);
                 next = (s + next) / 2;
             }
         }

@@ -52,22 +52,31 @@ public sealed class MechanismState
     /// <param name="world">Metres and a unit quaternion.</param>
     public void SetPose(int gameObject, in Pose world)
     {
-        int body = Mechanism.BodyOf(gameObject);
-        if (body < 0)
-            throw new ArgumentException("No Rigidbody moves this GameObject.", nameof(gameObject));
-        if (!world.Position.IsFinite || !(Math.Abs(world.Rotation.LengthSquared - 1) < 1e-4))
-            throw new ArgumentException("The pose is not finite, or its rotation no unit quaternion.", nameof(world));
+        int body = Movable(gameObject, world);
         Poses[body] = Mechanism.PoseOfBody(gameObject, world);
         for (int i = 0; i < Values.Length; i++)
         {
-            MechanismCoordinate coordinate = Mechanism.Coordinates[i];
-            Joints.Joint rows = coordinate.JointRows;
+            Joints.Joint rows = Mechanism.Coordinates[i].JointRows;
             if (rows.Body0 == body || rows.Body1 == body)
-            {
-                Values[i] = coordinate.Evaluate(Mechanism.PoseOf(rows.Body0, Poses), Mechanism.PoseOf(rows.Body1, Poses), Values[i], out _);
-            }
+                Read(i);
         }
 
+        ForgetTrail();
+    }
+
+    /// <summary>As <see cref="SetPose"/> for several bodies, all coordinates being read once when they all stand there.</summary>
+    /// <param name="gameObjects">Indices of GameObjects that Rigidbodies move.</param>
+    /// <param name="worlds">A pose for each: metres and a unit quaternion.</param>
+    public void SetPoses(ReadOnlySpan<int> gameObjects, ReadOnlySpan<Pose> worlds)
+    {
+        if (gameObjects.Length != worlds.Length)
+            throw new ArgumentException("Each GameObject needs a pose.", nameof(worlds));
+        for (int i = 0; i < worlds.Length; i++)
+            Movable(gameObjects[i], worlds[i]);
+        for (int i = 0; i < worlds.Length; i++)
+            Poses[Mechanism.BodyOf(gameObjects[i])] = Mechanism.PoseOfBody(gameObjects[i], worlds[i]);
+        for (int i = 0; i < Values.Length; i++)
+            Read(i);
         ForgetTrail();
     }
 
@@ -97,5 +106,22 @@ public sealed class MechanismState
         var copy = new MechanismState(Mechanism);
         copy.CopyFrom(this);
         return copy;
+    }
+
+    private int Movable(int gameObject, in Pose world)
+    {
+        int body = Mechanism.BodyOf(gameObject);
+        if (body < 0)
+            throw new ArgumentException("No Rigidbody moves this GameObject.", nameof(gameObject));
+        if (!world.Position.IsFinite || !(Math.Abs(world.Rotation.LengthSquared - 1) < 1e-4))
+            throw new ArgumentException("The pose is not finite, or its rotation no unit quaternion.", nameof(world));
+        return body;
+    }
+
+    private void Read(int i)
+    {
+        MechanismCoordinate coordinate = Mechanism.Coordinates[i];
+        Joints.Joint rows = coordinate.JointRows;
+        Values[i] = coordinate.Evaluate(Mechanism.PoseOf(rows.Body0, Poses), Mechanism.PoseOf(rows.Body1, Poses), Values[i], out _);
     }
 }

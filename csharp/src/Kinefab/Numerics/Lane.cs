@@ -35,7 +35,10 @@ internal interface ILane<TSelf>
 
     TSelf Absolute();
 
-    /// <summary>The other where either is not a number, as processors have it; so too for <see cref="Minimum"/>.</summary>
+    /// <summary>
+    /// The larger. Where either is not a number: the other for a plain double and on x86, but not a number in wide lanes on
+    /// ARM, whose native instructions hand it on; no caller may depend on it. So too for <see cref="Minimum"/>.
+    /// </summary>
     TSelf Maximum(TSelf other);
 
     TSelf Minimum(TSelf other);

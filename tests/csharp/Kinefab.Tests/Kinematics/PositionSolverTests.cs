@@ -233,6 +233,8 @@ public class PositionSolverTests
         var exported = new ExportedMechanism("M01");
         exported.Solver.Drive(exported.State, "crank", 400);
         MechanismState copy = exported.Mechanism.NewState();
+        MechanismState together = exported.Mechanism.NewState();
+        int[] bodies = [.. exported.Mechanism.Bodies];
         for (int turn = 1; turn <= 10; turn++)
         {
             MechanismState at = exported.Mechanism.NewState();
@@ -241,7 +243,13 @@ public class PositionSolverTests
             {
                 copy.SetPose(body, at.Pose(body));
             }
+
+            together.SetPoses(bodies, Array.ConvertAll(bodies, b => at.Pose(b)));
+            for (int i = 0; i < exported.Mechanism.Coordinates.Count; i++)
+                Assert.That(together.Coordinate(i), Is.EqualTo(copy.Coordinate(i)));
         }
+
+        Assert.That(() => together.SetPoses(bodies, new Pose[1]), Throws.ArgumentException);
 
         Assert.That(copy.Coordinate("crank"), Is.EqualTo(400).Within(1e-9), "over a whole turn");
         Assert.That(copy.Pose("rocker").Position, Is.EqualTo(exported.State.Pose("rocker").Position));

@@ -36,20 +36,53 @@ public sealed class FloorTests
     }
 
     [Test]
-    public void Usings_EveryFile_PointDown()
+    public void Names_EveryFile_PointDown()
     {
+        Dictionary<string, HashSet<string>> types = Below.Keys.ToDictionary(layer => layer, layer => new HashSet<string>(Files(layer).SelectMany(f => Declared(File.ReadAllText(f)))));
         var faults = new List<string>();
-        foreach (string file in Below.Keys.Select(f => Path.Combine(Library(), f)).Where(Directory.Exists).SelectMany(f => Directory.GetFiles(f, "*.cs", SearchOption.AllDirectories)))
+        foreach (string own in Below.Keys)
         {
-            string own = Path.GetRelativePath(Library(), file).Split(Path.DirectorySeparatorChar)[0];
-            foreach (Match match in Regex.Matches(File.ReadAllText(file), @"(?m)^using (?:static |\w+ = )?Kinefab\.(\w+)"))
-            {
-                string used = match.Groups[1].Value;
-                if (used != own && !Below[own].Contains(used))
-                    faults.Add($"{own}/{Path.GetFileName(file)} uses {used}");
-            }
+            foreach (string file in Files(own))
+                faults.AddRange(Used(File.ReadAllText(file), types).Where(used => used != own && !Below[own].Contains(used)).Select(used => $"{own}/{Path.GetFileName(file)} uses {used}"));
         }
 
+        Assert.That(types.Values, Is.All.Not.Empty);
         Assert.That(faults, Is.Empty);
+    }
+
+    [TestCase("using Kinefab.Joints;", "Joints")]
+    [TestCase("using static Kinefab.Joints.UnityFrames;", "Joints")]
+    [TestCase("using Joint = Kinefab.Joints.Joint;", "Joints")]
+    [TestCase("var text = Json.Invariant.Text(1);", "Json")]
+    [TestCase("foreach (Dynamics.WorldJoint joint in all)", "Dynamics")]
+    [TestCase("Kinefab.Joints.Joint joint = null;", "Joints")]
+    [TestCase("return global::Kinefab.Joints.Joint.World;", "Joints")]
+    [TestCase("new List<Joints.Joint>()", "Joints")]
+    [TestCase("if (Joints.Count > Joints.Length)", "")]
+    [TestCase("world.Joints.Joint()", "")]
+    [TestCase("// as Joints.Joint has it", "")]
+    [TestCase("/* Joints.Joint\n Joints.Joint */", "")]
+    [TestCase("    /// <see cref=\"Joints.Joint\"/>", "")]
+    public void Used_InCodeOrUsing_IsSeenAndInCommentsOrMembersNot(string code, string layer)
+    {
+        var types = new Dictionary<string, HashSet<string>> { ["Json"] = ["Invariant"], ["Dynamics"] = ["WorldJoint"], ["Joints"] = ["Joint", "UnityFrames"] };
+        Assert.That(string.Join(" ", Used(code, types)), Is.EqualTo(layer));
+    }
+
+    private static string[] Files(string layer) => Directory.Exists(Path.Combine(Library(), layer))
+        ? Directory.GetFiles(Path.Combine(Library(), layer), "*.cs", SearchOption.AllDirectories)
+        : [];
+
+    private static IEnumerable<string> Declared(string code) =>
+        Regex.Matches(code, @"\b(?:class|struct|interface|enum|record) ([A-Z]\w*)").Select(m => m.Groups[1].Value);
+
+    // A property may bear a layer's name: what follows the dot must be a type that the layer declares.
+    private static IEnumerable<string> Used(string text, Dictionary<string, HashSet<string>> types)
+    {
+        string code = Regex.Replace(text, @"(?m)//.*$|/\*[\s\S]*?\*/", "");
+        IEnumerable<string> usings = Regex.Matches(code, @"(?m)^using (?:static |\w+ = )?Kinefab\.(\w+)").Select(m => m.Groups[1].Value);
+        IEnumerable<string> names = Regex.Matches(code, $@"(?<![\w.])(?:Kinefab\.)?({string.Join("|", types.Keys)})\.([A-Z]\w*)")
+            .Where(m => types[m.Groups[1].Value].Contains(m.Groups[2].Value)).Select(m => m.Groups[1].Value);
+        return usings.Concat(names).Distinct();
     }
 }

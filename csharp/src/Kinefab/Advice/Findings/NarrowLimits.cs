@@ -25,7 +25,7 @@ internal static class NarrowLimits
 
     // Furthest beyond first, degrees.
     private static (int Joint, JointFreedom Freedom, double Beyond)[] Narrow(Examination e, Island island) => island.Joints
-        .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f, Beyond: e.Unity.Joints[j].Overshoot.Angle ?? 0)))
+        .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f, Beyond: e.Unity.Joints[j].Overshoot(f.Coordinate))))
         .OrderByDescending(n => n.Beyond)
         .ToArray();
 
@@ -51,7 +51,7 @@ internal static class NarrowLimits
             ("measure", before.ToString()),
             ("others", narrow.Length == 1 ? "" : $" ({narrow.Length - 1} more of its mechanism {(narrow.Length == 2 ? "is" : "are")} as narrow)"));
 
-        AdviceMeasure Measure(SceneRun run) => new(null, narrow.Max(n => run.Joints[n.Joint].Overshoot.Angle ?? 0));
+        AdviceMeasure Measure(SceneRun run) => new(null, narrow.Max(n => run.Joints[n.Joint].Overshoot(n.Freedom.Coordinate)));
     }
 
     // So little room may as well be none: only a ConfigurableJoint can lock the axis it limits.

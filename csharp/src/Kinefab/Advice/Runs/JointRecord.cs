@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Validation;
 
@@ -12,11 +13,13 @@ internal sealed class JointRecord
 
     private readonly WorldJoint _joint;
     private readonly ShakeMeter _shake = new();
+    private readonly double[] _overshoots;
 
     public JointRecord(WorldJoint joint, IReadOnlyList<JointFreedom> freedoms, int samples)
     {
         _joint = joint;
         Freedoms = freedoms;
+        _overshoots = new double[freedoms.Count];
         Coordinates = new double[freedoms.Count][];
         for (int i = 0; i < Coordinates.Length; i++)
             Coordinates[i] = new double[samples];
@@ -34,22 +37,31 @@ internal sealed class JointRecord
     /// <summary>By how much the relative motion goes to and fro from one step to the next, on average over the second half.</summary>
     public AdviceMeasure Shake => _shake.Mean;
 
-    /// <summary>Furthest way beyond a limit.</summary>
-    public AdviceMeasure Overshoot { get; private set; }
+    /// <summary>Furthest way beyond the limits of a coordinate, degrees or metres; 0 where it is locked.</summary>
+    public double Overshoot(Coordinate coordinate)
+    {
+        for (int i = 0; i < _overshoots.Length; i++)
+        {
+            if (Freedoms[i].Coordinate == coordinate)
+                return _overshoots[i];
+        }
+
+        return 0;
+    }
 
     /// <summary>Takes note of a step.</summary>
-    public void Note(WorldJoint joint, bool isLate)
+    public void Note(bool isLate)
     {
-        JointDrift drift = joint.Drift;
+        JointDrift drift = _joint.Drift;
         Drift = AdviceMeasure.Max(Drift, new AdviceMeasure(drift.Distance, drift.Angle * Degrees));
-        _shake.Note(joint.Relative, isLate);
-        foreach (JointFreedom freedom in Freedoms)
+        _shake.Note(_joint.Relative, isLate);
+        for (int i = 0; i < _overshoots.Length; i++)
         {
+            JointFreedom freedom = Freedoms[i];
             if (!freedom.IsLimited)
                 continue;
-            double value = joint.Coordinate(freedom.Coordinate);
-            double beyond = Math.Max(0, Math.Max(freedom.Lower - value, value - freedom.Upper));
-            Overshoot = AdviceMeasure.Max(Overshoot, Of(freedom, beyond));
+            double value = _joint.Coordinate(freedom.Coordinate);
+            _overshoots[i] = Math.Max(_overshoots[i], Math.Max(freedom.Lower - value, value - freedom.Upper));
         }
     }
 

@@ -51,7 +51,7 @@ internal sealed class SceneRun
             for (int s = 0; s < substeps; s++)
             {
                 world.Step(dt);
-                run.Note(world.Joints, k >= plan.Samples / 2);
+                run.Note(k >= plan.Samples / 2);
             }
 
             run.Sample(world.Bodies, k);
@@ -61,10 +61,10 @@ internal sealed class SceneRun
         return run;
     }
 
-    private void Note(IReadOnlyList<WorldJoint> joints, bool isLate)
+    private void Note(bool isLate)
     {
-        for (int j = 0; j < Joints.Length; j++)
-            Joints[j].Note(joints[j], isLate);
+        foreach (JointRecord joint in Joints)
+            joint.Note(isLate);
     }
 
     private void Sample(IReadOnlyList<WorldBody> bodies, int k)

@@ -22,7 +22,7 @@ public sealed class AdviceReport
     /// <summary>Steps simulated in each run.</summary>
     public int Steps { get; }
 
-    /// <summary>Changes that were run.</summary>
+    /// <summary>Runs beside the scene's own: of changes, and of poses held to see which drives are weak.</summary>
     public int Trials { get; }
 
     /// <summary>Worst first.</summary>

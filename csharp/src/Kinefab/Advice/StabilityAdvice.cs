@@ -18,13 +18,15 @@ public static class StabilityAdvice
     /// <summary>The advice for a scene.</summary>
     /// <param name="scene">A scene that was read from a text: changes are made in it as in the file.</param>
     /// <param name="options">Null: the default ones.</param>
-    /// <exception cref="ArgumentException">The scene was not read from a text.</exception>
+    /// <exception cref="ArgumentException">The scene was not read from a text, or the seconds are no positive finite number.</exception>
     public static AdviceReport Of(ValidScene scene, AdviceOptions? options = null)
     {
         if (scene is null)
             throw new ArgumentNullException(nameof(scene));
         if (scene.Document.Text.IsEmpty)
             throw new ArgumentException("Advice needs a scene that was read from a text.", nameof(scene));
+        if (options?.Seconds is double seconds && !(seconds > 0 && seconds <= double.MaxValue))
+            throw new ArgumentException("The seconds must be a positive finite number.", nameof(options));
         var examination = new Examination(scene, options ?? new AdviceOptions());
         AdviceFinding[] findings = examination.Unity.IsSound
             ? Findings(examination)
@@ -38,10 +40,11 @@ public static class StabilityAdvice
     }
 
     private static IEnumerable<AdviceFinding> Findings(Examination e) =>
-        JointDrifts.Find(e)
+        // Weak drives are only found by runs: before the cures of others have used the budget up.
+        WeakDrives.Find(e)
+            .Concat(JointDrifts.Find(e))
             .Concat(MotionDiffers.Find(e))
             .Concat(JointShakes.Find(e))
-            .Concat(WeakDrives.Find(e))
             .Concat(RingingDrives.Find(e))
             .Concat(UnlikeMasses.Find(e))
             .Concat(ThinInertias.Find(e))
@@ -61,6 +64,8 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceRunShortened, ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
         if (e.Mobility is null)
             found.Add(Remark(DiagnosticCodes.AdviceLoopsUncounted, ("count", Json.Invariant.Text(e.World.Joints.Count))));
+        if (e.Remedies.RowsUntried > 0)
+            found.Add(Remark(DiagnosticCodes.AdviceRowsUntried, ("count", Json.Invariant.Text(e.Remedies.RowsUntried))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
         return new Report(e.World.Findings.Diagnostics.Concat(ExactSolverCheck.Of(e.Scene)).Concat(found).ToArray());

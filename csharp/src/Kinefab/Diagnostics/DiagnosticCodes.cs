@@ -273,7 +273,7 @@ public static class DiagnosticCodes
     /// <summary>The {joint} shakes by {measure} from step to step in Unity's solver; the true motion does not.</summary>
     public const string AdviceJointShakes = "ADVICE_JOINT_SHAKES";
 
-    /// <summary>The {drive} of the {joint} cannot hold the exported pose with {force}: it sinks by {measure} within {seconds} s.</summary>
+    /// <summary>The {drive} of the {joint} cannot hold the exported pose with {force}: it sinks by {measure} within {seconds} s{others}.</summary>
     public const string AdviceDriveWeak = "ADVICE_DRIVE_WEAK";
 
     /// <summary>The {drive} of the {joint} goes on swinging by {measure} to both sides, {period} s or {steps} steps a swing.</summary>
@@ -299,6 +299,9 @@ public static class DiagnosticCodes
 
     /// <summary>The scene has {count} joints; its loops were not looked at.</summary>
     public const string AdviceLoopsUncounted = "ADVICE_LOOPS_UNCOUNTED";
+
+    /// <summary>{count} rows of joints in loops were neither locked nor freed on trial: the scene is large.</summary>
+    public const string AdviceRowsUntried = "ADVICE_ROWS_UNTRIED";
 
     /// <summary>Only {count} changes were tried: the scene is large or the limit is low.</summary>
     public const string AdviceTrialsSpent = "ADVICE_TRIALS_SPENT";

@@ -61,6 +61,40 @@ public sealed class DriveAdviceTests
     }
 
     [Test]
+    public void Drives_OfManyArms_AreListedWorstFirstAndTheRestCounted()
+    {
+        // Two weak drives an arm, twelve arms. In the fall of an arm its elbow would bear m g L / 8 = 0.245 N m.
+        const string drive = """{"angularXDrive": {"positionSpring": 1000, "positionDamper": 20, "maximumForce": 0.1}}""";
+        var scene = new AdviceScene();
+        for (int i = 0; i < 12; i++)
+            scene.Configured(1, drive).Apart().Configured(1, drive);
+
+        AdviceReport advice = StabilityAdvice.Of(scene.Read(), new AdviceOptions { Seconds = 0.5 });
+
+        AdviceFinding[] weak = advice.Findings.Where(f => f.Diagnostic.Code == DiagnosticCodes.AdviceDriveWeak).ToArray();
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(weak, Has.Length.EqualTo(10));
+            Assert.That(weak[0].Diagnostic.Message, Does.Contain("within 0.5 s; so does 1 more of its mechanism."));
+            Assert.That(weak[0].Best!.Edits, Has.Count.EqualTo(2), "of its own arm alone");
+            Assert.That(advice.Report.Diagnostics.Select(d => d.Code), Does.Contain(DiagnosticCodes.FindingsOmitted));
+        }
+    }
+
+    [TestCase(1, 0, 0)]
+    [TestCase(2, 1, 0)]
+    [TestCase(4, 1, 2)]
+    public void Trials_OfALimitedNumber_BoundTheDrivesToo(int trials, int findings, int doublings)
+    {
+        // 0.03 N m takes six doublings, and two runs to find out.
+        AdviceReport advice = StabilityAdvice.Of(Driven(0.03), new AdviceOptions { MaxTrials = trials });
+
+        AdviceFinding[] weak = advice.Findings.Where(f => f.Diagnostic.Code == DiagnosticCodes.AdviceDriveWeak).ToArray();
+        Assert.That((advice.Trials, weak.Length, weak.Sum(f => f.Tried.Count)), Is.EqualTo((trials, findings, doublings)));
+        Assert.That(advice.Report.Diagnostics.Select(d => d.Code), Does.Contain(DiagnosticCodes.AdviceTrialsSpent));
+    }
+
+    [Test]
     public void Drive_WithoutGravity_HoldsAnything()
     {
         var floating = new AdviceScene().Configured(1, """{"angularXDrive": {"positionSpring": 100, "positionDamper": 4, "maximumForce": 0.01}}""");

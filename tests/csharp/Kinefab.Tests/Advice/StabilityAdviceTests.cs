@@ -2,6 +2,7 @@ using System;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text.Json.Nodes;
 using System.Text.RegularExpressions;
 using Kinefab.Advice;
 using Kinefab.Diagnostics;
@@ -252,12 +253,40 @@ public sealed class StabilityAdviceTests
         Assert.That(() => StabilityAdvice.Of(made), Throws.ArgumentException);
     }
 
+    [TestCase(double.NaN)]
+    [TestCase(double.PositiveInfinity)]
+    [TestCase(0)]
+    [TestCase(-1)]
+    public void Seconds_ThatAreNoTime_AreRefused(double seconds) =>
+        Assert.That(
+            () => StabilityAdvice.Of(new AdviceScene().Hinged(1).Read(), new AdviceOptions { Seconds = seconds }),
+            Throws.ArgumentException.With.Property(nameof(ArgumentException.ParamName)).EqualTo("options"));
+
     [Test]
     public void Trials_OfALimitedNumber_AreRemarked()
     {
         AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(AdviceScene.Lever), new AdviceOptions { MaxTrials = 2 });
         Assert.That(advice.Trials, Is.EqualTo(2));
         Assert.That(advice.Report.Diagnostics[^1].Code, Is.EqualTo(DiagnosticCodes.AdviceTrialsSpent));
+    }
+
+    [TestCase(2, false)]
+    [TestCase(40, true)]
+    public void Rows_OfMoreLoopsThanAreTakenApart_AreRemarked(int bars, bool isCapped)
+    {
+        // Each bar hangs on two hinges of one axis, which hold five rows twice: joints times rows are 2 n times 5 n.
+        var scene = new AdviceScene();
+        for (int i = 0; i < bars; i++)
+            scene.Hinged(1).Apart();
+        JsonNode root = JsonNode.Parse(scene.Text())!;
+        foreach (JsonNode? bar in root["gameObjects"]!.AsArray())
+            bar!["components"]!.AsArray().Add(bar["components"]![1]!.DeepClone());
+
+        AdviceReport advice = StabilityAdvice.Of(AdviceScene.Parse(root.ToJsonString()), new AdviceOptions { Seconds = 0.2 });
+
+        string[] remarks = advice.Report.Diagnostics.Where(d => d.Code == DiagnosticCodes.AdviceRowsUntried).Select(d => d.Message.Split(' ')[0]).ToArray();
+        Assert.That(remarks, Is.EqualTo(isCapped ? ["200"] : Array.Empty<string>()));
+        Assert.That(advice.Findings.SelectMany(f => f.Tried).Any(t => t.Change.Contains(" Free", StringComparison.Ordinal)), Is.EqualTo(!isCapped));
     }
 
     [Test]

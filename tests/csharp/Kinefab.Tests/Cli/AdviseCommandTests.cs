@@ -85,6 +85,9 @@ public sealed class AdviseCommandTests
     }
 
     [TestCase("--seconds", "0", "--seconds must be a positive number, not '0'.")]
+    [TestCase("--seconds", "NaN", "--seconds must be a positive number, not 'NaN'.")]
+    [TestCase("--seconds", "Infinity", "--seconds must be a positive number, not 'Infinity'.")]
+    [TestCase("--seconds", "-1", "--seconds must be a positive number, not '-1'.")]
     [TestCase("--trials", "0", "--trials must be a whole number between 1 and 10000, not '0'.")]
     public void Advise_WrongValue_Exits2WithARule(string option, string value, string rule)
     {

@@ -15,8 +15,8 @@ namespace Kinefab.Advice.Changes;
 /// </summary>
 internal static class ClosureRows
 {
-    // A loop is taken apart row by row: scenes of many loops are not looked through.
-    private const int MostJoints = 24;
+    // Every row freed is a reading of the file and a count of all its joints: joints times rows.
+    private const long MostCounts = 10_000;
     private const long MostDrives = 20_000;
 
     // How far a coordinate is driven to see what moves with it, degrees and lengths of the mechanism; and what counts as moving.
@@ -28,10 +28,15 @@ internal static class ClosureRows
     private static readonly string[] HingeFields = { "spring", "motor", "limits", "useSpring", "useMotor", "useLimits", "extendedLimits", "useAcceleration" };
 
     /// <summary>Locks the free rows of loop-closing joints along which nothing ever moves.</summary>
-    public static Change? Whole(ValidScene scene, Mechanism mechanism, MobilityReport counted)
+    /// <param name="scene">The scene.</param>
+    /// <param name="mechanism">Its mechanism.</param>
+    /// <param name="counted">Its freedoms.</param>
+    /// <param name="untried">Rows that were not looked at, since there are too many.</param>
+    public static Change? Whole(ValidScene scene, Mechanism mechanism, MobilityReport counted, out int untried)
     {
         List<int> free = FreeRows(mechanism);
-        if (free.Count == 0 || (long)mechanism.Coordinates.Count * free.Count > MostDrives)
+        untried = (long)mechanism.Coordinates.Count * free.Count > MostDrives ? free.Count : 0;
+        if (free.Count == 0 || untried > 0)
             return null;
         bool[] moves = Moving(mechanism, free);
         var parts = new List<ChangePart>();
@@ -49,9 +54,15 @@ internal static class ClosureRows
     }
 
     /// <summary>Frees redundant rows of the joints that have them.</summary>
-    public static Change? Minimal(ValidScene scene, MobilityReport counted)
+    /// <param name="scene">The scene.</param>
+    /// <param name="joints">How many joints it has.</param>
+    /// <param name="counted">Its freedoms.</param>
+    /// <param name="untried">Rows that were not looked at, since there are too many.</param>
+    public static Change? Minimal(ValidScene scene, int joints, MobilityReport counted, out int untried)
     {
-        if (counted.Joints.Count > MostJoints)
+        int rows = counted.Joints.Sum(j => j.Rows);
+        untried = (long)joints * rows > MostCounts ? rows : 0;
+        if (untried > 0)
             return null;
         var parts = new List<ChangePart>();
         foreach (RedundantRows joint in counted.Joints)

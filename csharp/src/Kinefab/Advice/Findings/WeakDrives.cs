@@ -5,15 +5,17 @@ using Kinefab.Advice.Changes;
 using Kinefab.Advice.Runs;
 using Kinefab.Advice.Trials;
 using Kinefab.Diagnostics;
+using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
+using Island = Kinefab.Advice.Runs.Island;
 
 namespace Kinefab.Advice.Findings;
 
 /// <summary>
-/// Drives whose largest force cannot hold the mechanism up: each is told to hold the exported pose and the exact solver shows
-/// how far it sinks, beside how far it would sink by its spring alone. Forces are doubled until they hold.
+/// Drives whose largest force cannot hold the mechanism up, the worst of each island: all are told to hold the exported pose
+/// and the exact solver shows how far they sink, beside how far by their springs alone. Forces are doubled until they hold.
 /// </summary>
 internal static class WeakDrives
 {
@@ -24,83 +26,51 @@ internal static class WeakDrives
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
         DriveSite[] sites = DriveSite.Of(e.Scene, e.World).Where(s => s.Force < 0.1 * Unlimited).ToArray();
-        if (sites.Length == 0 || e.World.Gravity == Vector3d.Zero)
+        if (sites.Length == 0 || e.World.Gravity == Vector3d.Zero
+            || Hold(e, "drives", Array.Empty<ChangePart>()) is not SceneRun asIs
+            || Hold(e, "drives unlimited", sites.Select(s => s.WithForce(Unlimited))) is not SceneRun strong)
             return Array.Empty<AdviceFinding>();
         ILookup<int, DriveSite> sitesOf = sites.ToLookup(s => s.Joint.Index);
-        (DriveSite Site, Island Island)[] placed = e.Islands.SelectMany(i => i.Joints.SelectMany(j => sitesOf[j]).Select(s => (s, i))).ToArray();
-        SceneRun? asIs = Hold(e, Array.Empty<ChangePart>());
-        SceneRun? strong = Hold(e, sites.Select(s => s.WithForce(Unlimited)));
-        if (asIs is null || strong is null)
-            return Array.Empty<AdviceFinding>();
-        placed = placed.Where(p => !Holds(asIs, p.Site, p.Island)).ToArray();
-        var findings = new List<AdviceFinding>();
-        var forces = placed.ToDictionary(p => p.Site, p => p.Site.Force);
-        var tried = placed.ToDictionary(p => p.Site, _ => new List<TriedChange>());
-        SceneRun? last = asIs;
-        for (int n = 0; n < MostDoublings && last is not null && placed.Any(p => !Holds(last, p.Site, p.Island)); n++)
+        Dictionary<Island, HeldPose> held = e.Islands.Where(i => i.Joints.Any(sitesOf.Contains))
+            .ToDictionary(i => i, i => new HeldPose(i, i.Joints.SelectMany(j => sitesOf[j]).ToArray(), strong));
+        HeldPose[] weak = e.WorstFirst(held.Keys, i => held[i].Worst(asIs).Score, least: 1).Select(i => held[i]).ToArray();
+        SceneRun last = asIs;
+        for (int n = 1; n <= MostDoublings && weak.Any(h => h.Weak(last) > 0); n++)
         {
-            foreach ((DriveSite site, Island island) in placed.Where(p => !Holds(last, p.Site, p.Island)))
-                forces[site] *= 2;
-            last = Hold(e, placed.Select(p => p.Site.WithForce(forces[p.Site])));
-            foreach ((DriveSite site, Island island) in placed.Where(_ => last is not null))
+            foreach (HeldPose pose in weak)
+                pose.Raise(last);
+            if (Hold(e, $"drives doubled {n}", weak.SelectMany(h => h.Parts)) is not SceneRun run)
+                break;
+            last = run;
+            foreach (HeldPose pose in weak)
+                pose.Note(last);
+        }
+
+        return weak.Select(h => Finding(e, h, asIs)).ToArray();
+    }
+
+    private static AdviceFinding Finding(Examination e, HeldPose held, SceneRun asIs)
+    {
+        (DriveSite site, AdviceMeasure before, double score) = held.Worst(asIs);
+        int others = held.Weak(asIs) - 1;
+        return FindingText.Make(
+            DiagnosticCodes.AdviceDriveWeak, Severity.Warning, site.Pointer, site.Joint.Id, before, score, held.Tried, held.Tried.FirstOrDefault(t => t.Score < 1),
+            ("drive", site.Label), ("joint", site.Place), ("measure", before.ToString()),
+            ("force", $"{EditText.Number(site.Force)} {(site.IsAngular ? "N m" : "N")}"), ("seconds", AdviceMeasure.Text(e.Plan.Seconds)),
+            ("others", others == 0 ? "" : $"; so {(others == 1 ? "does" : "do")} {others} more of its mechanism"));
+    }
+
+    private static SceneRun? Hold(Examination e, string what, IEnumerable<ChangePart> parts) => e.Workbench.RunExact(what, parts, (scene, world) =>
+    {
+        foreach (DriveSite site in DriveSite.Of(scene, world))
+        {
+            foreach (Coordinate coordinate in site.Coordinates)
             {
-                ChangePart[] parts = placed.Where(p => p.Island == island).Select(p => p.Site.WithForce(forces[p.Site])).ToArray();
-                AdviceMeasure after = Sinking(last!, site);
-                tried[site].Add(new TriedChange(Change.Words(parts), parts.SelectMany(p => p.Edits).ToArray(), after, Score(last!, site, island), 1));
+                if (site.Spring > 0)
+                    site.Joint.DriveTo(coordinate, 0);
+                else
+                    site.Joint.DriveAt(coordinate, 0);
             }
         }
-
-        foreach ((DriveSite site, Island island) in placed)
-        {
-            AdviceMeasure before = Sinking(asIs, site);
-            TriedChange? best = tried[site].Find(t => t.Score < 1);
-            findings.Add(FindingText.Make(
-                DiagnosticCodes.AdviceDriveWeak, Severity.Warning, site.Pointer, site.Joint.Id, before, Score(asIs, site, island), tried[site], best,
-                ("drive", site.Label), ("joint", site.Place), ("measure", before.ToString()),
-                ("force", $"{EditText.Number(site.Force)} {(site.IsAngular ? "N m" : "N")}"), ("seconds", AdviceMeasure.Text(e.Plan.Seconds))));
-        }
-
-        return findings;
-
-        bool Holds(SceneRun run, DriveSite site, Island island) => Score(run, site, island) < 1;
-
-        // What a spring gives way by is its own affair.
-        double Score(SceneRun run, DriveSite site, Island island) =>
-            Threshold.Hold(island).Score(Sinking(run, site)) - Threshold.Hold(island).Score(Sinking(strong, site));
-    }
-
-    private static SceneRun? Hold(Examination e, IEnumerable<ChangePart> parts)
-    {
-        if (EditedScene.Apply(e.Scene, parts.SelectMany(p => p.Edits)) is not ValidScene scene)
-            return null;
-        SceneRun run = SceneRun.Of(scene, SolverKind.Exact, e.Plan, 1, world =>
-        {
-            foreach (DriveSite site in DriveSite.Of(scene, world))
-            {
-                foreach (Document.Coordinate coordinate in site.Coordinates)
-                {
-                    if (site.Spring > 0)
-                        site.Joint.DriveTo(coordinate, 0);
-                    else
-                        site.Joint.DriveAt(coordinate, 0);
-                }
-            }
-        });
-        return run.IsSound ? run : null;
-    }
-
-    // The furthest way from the exported pose.
-    private static AdviceMeasure Sinking(SceneRun run, DriveSite site)
-    {
-        JointRecord record = run.Joints[site.Joint.Index];
-        AdviceMeasure worst = default;
-        for (int i = 0; i < record.Freedoms.Count; i++)
-        {
-            JointFreedom freedom = record.Freedoms[i];
-            if (site.Coordinates.Contains(freedom.Coordinate))
-                worst = AdviceMeasure.Max(worst, JointRecord.Of(freedom, record.Coordinates[i].Max(Math.Abs)));
-        }
-
-        return worst;
-    }
+    });
 }

@@ -15,8 +15,9 @@ internal sealed class Remedies
     {
         if (mechanism is not null && e.Mobility is MobilityReport counted)
         {
-            ClosuresWhole = ClosureRows.Whole(e.Scene, mechanism, counted);
-            ClosuresMinimal = ClosureRows.Minimal(e.Scene, counted);
+            ClosuresWhole = ClosureRows.Whole(e.Scene, mechanism, counted, out int notLocked);
+            ClosuresMinimal = ClosureRows.Minimal(e.Scene, e.World.Joints.Count, counted, out int notFreed);
+            RowsUntried = notLocked + notFreed;
         }
 
         PreprocessingOff = JointSettings.PreprocessingOff(e.Scene, e.World);
@@ -43,6 +44,9 @@ internal sealed class Remedies
     public Change? ClosuresWhole { get; }
 
     public Change? ClosuresMinimal { get; }
+
+    /// <summary>Rows of loops that were neither locked nor freed, since there are too many.</summary>
+    public int RowsUntried { get; }
 
     public Change? PreprocessingOff { get; }
 

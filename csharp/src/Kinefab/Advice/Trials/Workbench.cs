@@ -32,7 +32,7 @@ internal sealed class Workbench
 
     public RunPlan Plan { get; }
 
-    /// <summary>How many changes were run.</summary>
+    /// <summary>How many runs were made to try changes and to see what drives hold.</summary>
     public int Count { get; private set; }
 
     /// <summary>Whether something was left untried for the sake of time.</summary>
@@ -55,7 +55,27 @@ internal sealed class Workbench
     /// <summary>Steps of a changed scene from one look to the next.</summary>
     public int Substeps(ValidScene scene) => Math.Max(1, (int)Math.Round(Plan.Step / scene.Document.Physics.FixedTimestep));
 
+    /// <summary>The exact run of the scene with parts changed, a step of it counted as one of Unity's; null as for <see cref="Try"/>.</summary>
+    /// <param name="what">What is run, for the progress.</param>
+    /// <param name="parts">Changes; may be none.</param>
+    /// <param name="prepare">Done to the changed scene's world before its first step.</param>
+    public SceneRun? RunExact(string what, IEnumerable<ChangePart> parts, Action<ValidScene, World> prepare)
+    {
+        if (Begin(what, parts) is not ValidScene changed)
+            return null;
+        SceneRun run = SceneRun.Of(changed, SolverKind.Exact, Plan, 1, world => prepare(changed, world));
+        return run.IsSound ? run : null;
+    }
+
     private Trial? Run(Change change)
+    {
+        if (Begin(change.Kind, change.Parts) is not ValidScene changed)
+            return null;
+        SceneRun run = SceneRun.Of(changed, SolverKind.Unity, Plan, Substeps(changed));
+        return run.IsSound ? new Trial(run, WorkPerSecond(changed) / _workOfBase) : null;
+    }
+
+    private ValidScene? Begin(string what, IEnumerable<ChangePart> parts)
     {
         if (Count >= _options.MaxTrials || _work > MostWork)
         {
@@ -63,13 +83,12 @@ internal sealed class Workbench
             return null;
         }
 
-        if (EditedScene.Apply(_scene, change.Parts.SelectMany(p => p.Edits)) is not ValidScene changed)
+        if (EditedScene.Apply(_scene, parts.SelectMany(p => p.Edits)) is not ValidScene changed)
             return null;
-        _options.Progress?.Invoke(change.Kind);
+        _options.Progress?.Invoke(what);
         Count++;
         _work += Math.Max(1, Joints) * Plan.Seconds * WorkPerSecond(changed);
-        SceneRun run = SceneRun.Of(changed, SolverKind.Unity, Plan, Substeps(changed));
-        return run.IsSound ? new Trial(changed, run, WorkPerSecond(changed) / _workOfBase) : null;
+        return changed;
     }
 
     private static double WorkPerSecond(ValidScene scene)
@@ -89,15 +108,11 @@ internal sealed class Workbench
 /// <summary>A change that was run.</summary>
 internal sealed class Trial
 {
-    public Trial(ValidScene scene, SceneRun run, double work)
+    public Trial(SceneRun run, double work)
     {
-        Scene = scene;
         Run = run;
         Work = work;
     }
-
-    /// <summary>With the change made.</summary>
-    public ValidScene Scene { get; }
 
     public SceneRun Run { get; }
 

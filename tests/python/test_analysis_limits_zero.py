@@ -132,3 +132,36 @@ def test_the_levers_slide_is_limited_where_it_stops(tmp_path, hand, value):
     assert joint["xMotion"] == "Limited" and joint["linearLimit"]["limit"] == pytest.approx(0.025, abs=1e-8)
     # The mirror makes x = 9 cm, where the unturned slider is amid its travel, -9 cm.
     assert joint["connectedAnchor"][0] - joint.get("anchor", (0,))[0] == pytest.approx(-0.09, abs=1e-8)
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("value", [0.2, 400.0, -55.5])
+def test_a_slide_of_a_mechanism_of_two_freedoms_ends_wherever_its_zero_is(tmp_path, hand, value):
+    """Two slides along x, 0.3 m apart, joined by two rods: the one that is not limited goes as far as both rods stretched
+    from the other's ends; its zero may lie many lengths away."""
+    long, short, apart, at_a, at_b = 0.6, 0.5, 0.3, 0.2, 0.9
+    d = math.hypot(at_b - at_a, apart)
+    along = (d * d + long**2 - short**2) / (2.0 * d)
+    u = np.array([at_b - at_a, apart, 0.0]) / d
+    elbow = np.array([at_a, 0.0, 0.0]) + along * u + math.sqrt(long**2 - along**2) * np.array([-u[1], u[0], 0.0])
+
+    def joint(name: str, kind: str, a: str, b: str, o, z, dof: list[dict]) -> dict:
+        return {"id": name, "type": kind, "a": a, "b": b, "frameA": frame(o, z), "dof": dof}
+
+    x, z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    joints = [
+        joint("one", "slider", "base", "A", (0.0, 0.0, 0.0), x, [limited("tz", 0.25, -0.1, 0.8)]),
+        joint("two", "slider", "base", "B", (0.0, 0.0, 0.0), x, [{"name": "tz", "value": value}]),
+        joint("left", "revolute", "A", "Long", (at_a, 0.0, 0.0), z, []),
+        joint("middle", "revolute", "Long", "Short", elbow.tolist(), z, []),
+        joint("right", "revolute", "B", "Short", (at_b, apart, 0.0), z, []),
+    ]
+    parts = [part("base", grounded=True), *(part(name) for name in ("A", "B", "Long", "Short"))]
+    scene, _ = read(handed(bundle(*parts, joints=joints), hand), tmp_path)
+    found = analyse(scene, SWEEP)
+    assert found.mobility == 2
+    ranges = {r.joint: r for r in found.ranges}
+    assert (ranges["one"].lower, ranges["one"].upper) == pytest.approx((-0.1, 0.8), abs=1e-8)
+    stretched = math.sqrt((long + short) ** 2 - apart**2)
+    low, high = at_a - 0.35 - stretched - at_b, at_a + 0.55 + stretched - at_b
+    assert (ranges["two"].lower - value, ranges["two"].upper - value) == pytest.approx((low, high), abs=1e-7)

@@ -7,8 +7,8 @@ namespace Kinefab.Bench;
 internal static class Results
 {
     private const string Head =
-        "# Benchmark results\n\nWritten by `dotnet run -c Release --project csharp/bench -- all --write`; not by hand. The machine was shared:\n"
-        + "times are to be compared within a table.\n";
+        "# Benchmark results\n\nWritten by `dotnet run -c Release --project csharp/bench -- all --write`; not by hand. Times\n"
+        + "are to be compared within a table only.\n";
 
     /// <summary>Puts a table in the place of the section's last one.</summary>
     internal static void Write(string section, string table)

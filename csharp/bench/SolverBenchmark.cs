@@ -53,7 +53,7 @@ internal static class SolverBenchmark
             most = Math.Abs(end) > Math.Abs(most) ? end : most;
         }
 
-        // Every step's best time of some runs: on a shared machine a whole run is never undisturbed.
+        // Every step's best time of some runs: a whole run is never undisturbed.
         var best = new double[Steps];
         Array.Fill(best, double.PositiveInfinity);
         for (int run = 0; run < Runs; run++)

@@ -7,8 +7,8 @@ namespace Kinefab.Dynamics.Exact;
 /// <summary>Islands that are stepped one after the other or, being of one shape, side by side.</summary>
 internal abstract class IslandGroup
 {
-    /// <summary>One step of all islands; true when a joint broke.</summary>
-    public abstract bool Step(double dt, double tolerance);
+    /// <summary>One step of all islands.</summary>
+    public abstract void Step(double dt, double tolerance);
 
     /// <summary>Whether a joint's fields ask for other rows than the islands were made for.</summary>
     public abstract bool IsStale();
@@ -73,9 +73,8 @@ internal sealed class IslandGroup<V> : IslandGroup
     public override bool IsStale() => IsStale(_islands);
 
     /// <inheritdoc/>
-    public override bool Step(double dt, double tolerance)
+    public override void Step(double dt, double tolerance)
     {
-        bool isBroken = false;
         for (int i = 0; i < _batches.Length; i++)
         {
             Batch<V> batch = _batches[i];
@@ -113,10 +112,8 @@ internal sealed class IslandGroup<V> : IslandGroup
                 Transfer<V>.Store(batch, lane, _islands[first + lane], _mechanism);
             }
 
-            isBroken |= Reactions<V>.Report(batch, _islands, first, occupied, _mechanism, dt);
+            Reactions<V>.Report(batch, _islands, first, occupied, _mechanism, dt);
         }
-
-        return isBroken;
     }
 
     private void Load(Batch<V> batch, int index, double dt)
@@ -222,9 +219,8 @@ internal sealed class PreparedIslands : IslandGroup
     public override bool IsStale() => IsStale(_islands);
 
     /// <inheritdoc/>
-    public override bool Step(double dt, double tolerance)
+    public override void Step(double dt, double tolerance)
     {
-        bool isBroken = false;
         for (int i = 0; i < _islands.Length; i++)
         {
             Batch<ScalarLane> batch = _batches[i];
@@ -243,7 +239,7 @@ internal sealed class PreparedIslands : IslandGroup
             _mechanism.Overflows += _ladders[i].Stops - stops;
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
-            isBroken |= Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);
+            Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);
             foreach (Node node in _islands[i].Nodes)
             {
                 if (node.Coupling != null)
@@ -252,7 +248,5 @@ internal sealed class PreparedIslands : IslandGroup
                 }
             }
         }
-
-        return isBroken;
     }
 }

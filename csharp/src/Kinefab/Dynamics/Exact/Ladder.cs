@@ -57,9 +57,6 @@ internal sealed class Ladder
     /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
     public int Stops { get; private set; }
 
-    /// <summary>Substeps by implicit Euler.</summary>
-    public int Falls { get; private set; }
-
     /// <summary>Up to 1 a plain RATTLE step of dt will do; above, it takes as many shorter ones.</summary>
     /// <param name="stiffness">Largest <see cref="BodySlot.Stiffness"/>.</param>
     /// <param name="speed">Largest angular speed, rad/s.</param>
@@ -156,7 +153,6 @@ internal sealed class Ladder
 
         if (TryFloor(h, tolerance))
         {
-            Falls++;
             return;
         }
 

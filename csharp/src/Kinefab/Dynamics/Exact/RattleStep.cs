@@ -40,8 +40,7 @@ internal static class RattleStep<V>
     /// <param name="h">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="converged">Set for each lane.</param>
-    /// <returns>Iterations.</returns>
-    public static int Fly(Batch<V> batch, double h, double tolerance, bool[] converged)
+    public static void Fly(Batch<V> batch, double h, double tolerance, bool[] converged)
     {
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
@@ -92,7 +91,7 @@ internal static class RattleStep<V>
             }
             else if (isDone || iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
             {
-                return iteration;
+                return;
             }
 
             Correct(batch, h, iteration == restart);

@@ -8,16 +8,15 @@ namespace Kinefab.Dynamics.Exact;
 internal static class Reactions<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Writes the mechanism's reactions of the joints of some islands, one a lane; true when one broke.</summary>
+    /// <summary>Writes the mechanism's reactions of the joints of some islands, one a lane; marks those that broke.</summary>
     /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
     /// <param name="islands">The islands, from the first lane's on.</param>
     /// <param name="first">The first lane's island.</param>
     /// <param name="count">Lanes with an island.</param>
     /// <param name="mechanism">Where to.</param>
     /// <param name="dt">Step, s.</param>
-    public static bool Report(Batch<V> batch, Island[] islands, int first, int count, MultibodySystem mechanism, double dt)
+    public static void Report(Batch<V> batch, Island[] islands, int first, int count, MultibodySystem mechanism, double dt)
     {
-        bool isBroken = false;
         for (int n = 0; n < batch.Shape.Nodes.Length; n++)
         {
             Node node = batch.Shape.Nodes[n];
@@ -42,12 +41,9 @@ internal static class Reactions<V>
                 if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
                 {
                     joint.IsBroken = true;
-                    isBroken = true;
                 }
             }
         }
-
-        return isBroken;
     }
 
     // Force and torque about the anchor of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.

@@ -18,7 +18,7 @@ from source_bundles import bundle as bundle_of
 from source_bundles import part
 
 LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
-HEAVY = ("trimesh", "scipy", "pxr", "numpy", "jsonschema")
+HEAVY = ("trimesh", "scipy", "numpy", "jsonschema")
 
 
 def run(*arguments, cwd=None, **environment):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,7 @@ FLOORS = [
 
 NEIGHBOURS = {("geometry", "rigid"), ("diagnostics", "options")}
 
-HOMES = {"trimesh": {"geometry", "builder"}, "pxr": {"sources"}, "scipy": {"analysis", "geometry"}, "typer": {"cli"}, "rich": {"cli"}}
+HOMES = {"trimesh": {"geometry", "builder"}, "scipy": {"analysis", "geometry"}, "typer": {"cli"}, "rich": {"cli"}}
 """Where a library may be imported."""
 
 
@@ -70,3 +71,12 @@ def test_imports_only_point_down(path: Path):
             assert name not in HOMES or own in HOMES[name], f"{name} belongs into {HOMES[name]}"
         elif name != own and name != "__version__" and (own, name) not in NEIGHBOURS:
             assert floor(name) < floor(own), f"{own} imports {name}"
+
+
+def test_what_is_installed_is_used():
+    """Nobody installs a library for nothing: each required dependency is imported somewhere."""
+    text = (PACKAGE.parents[1] / "pyproject.toml").read_text(encoding="utf-8")
+    listed = re.search(r"^dependencies = \[(.*?)^\]", text, re.DOTALL | re.MULTILINE).group(1)
+    required = {name.replace("-", "_") for name in re.findall(r'"([A-Za-z0-9_-]+)', listed)}
+    assert required
+    assert required <= {name for path in MODULES for kind, name in imports(path) if kind == "library"}

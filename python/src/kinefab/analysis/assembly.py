@@ -75,8 +75,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     body, stated = stated_bodies(scene)
     order = canonical(scene, body)
     body = order.body
-    equations = equations_of(order.scene, report, order.frame.rotation)
-    equations.places = {s.id: i for i, s in enumerate([*scene.constraints, *scene.joints, *scene.couplings])}
+    equations = equations_of(order.scene, report, order.frame.rotation, scene)
     closing = closed(equations, body, report)
     system, duplicates = without_duplicates(closing.system, equations, report)
     counted = system.rows

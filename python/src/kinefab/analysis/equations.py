@@ -60,10 +60,12 @@ class Equations:
         return sorted(ids, key=self.places.__getitem__)
 
 
-def equations_of(scene: Scene, report: Report, axes: Array | None = None) -> Equations:
+def equations_of(
+    scene: Scene, report: Report, axes: Array | None = None, source: Scene | None = None
+) -> Equations:
     """All equations in the scene's order, body = node + 1.  What cannot be turned into equations is reported.
 
-    axes: see ``System.axes``.
+    axes: see ``System.axes``.  source: the same statements in the source's order, where that is another one.
     """
     axes = np.eye(3) if axes is None else axes
     usable = [c for c in scene.constraints if _usable(c, scene, report)]
@@ -105,7 +107,8 @@ def equations_of(scene: Scene, report: Report, axes: Array | None = None) -> Equ
         statements.append(coupling)
         _coupling_rows(rows, coupling, by_id, scene)
     system = rows.system(len(scene.nodes) + 1)
-    places = {s.id: i for i, s in enumerate(statements)}
+    stated = scene if source is None else source
+    places = {s.id: i for i, s in enumerate([*stated.constraints, *stated.joints, *stated.couplings])}
     return Equations(
         system, statements, context.ranges, characteristic_length(system, scene), directions, places
     )

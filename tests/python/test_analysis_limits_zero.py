@@ -79,6 +79,30 @@ def test_a_rocker_is_limited_from_the_exported_pose_whatever_it_displays(tmp_pat
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("value", [100.0, 190.0, -550.0])
+def test_ranges_are_told_around_what_the_cad_displays(tmp_path, hand, value):
+    """A rocker that shows 190 degrees swings about 190, not about -170: in the table, the JSON and the findings."""
+    scene, _ = read(handed(four_bar(shown(20.0), shown(value)), hand), tmp_path)
+    found = analyse(scene, SWEEP)
+    low, high = (180.0 - inner_angle(reach) - rocker_angle(AT) for reach in (ROD + CRANK, ROD - CRANK))
+    low, high = (value + (end + 180.0) % 360.0 - 180.0 for end in (low, high))
+    listed = next(r for r in document(found)["ranges"] if r["joint"] == "rocker")
+    assert np.degrees((listed["lower"], listed["upper"])) == pytest.approx((low, high), abs=1e-7)
+    assert f"range of rocker: {low:.6g} to {high:.6g} deg" in table(found)
+    (said,) = (d.message for d in found.report.diagnostics if d.code == "LIMITS_FOUND" and "rocker" in d.message)
+    assert f"from {low:.6f} to {high:.6f} degrees" in said
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_a_pose_outside_its_limits_is_told_in_what_the_cad_displays(tmp_path, hand):
+    """Limits of 350 to 440 degrees and 340 displayed are told so, whichever turn the frames read."""
+    scene, _ = read(handed(four_bar(limited("rz", 340.0, 350.0, 440.0), shown(35.0)), hand), tmp_path)
+    _, result = exported(scene, tmp_path)
+    (said,) = (d.message for d in result.report.diagnostics if d.code == "JOINT_OUTSIDE_LIMITS")
+    assert "340" in said and "350" in said and "440" in said
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
 @pytest.mark.parametrize(("value", "turns"), [(20.0, 0.0), (20.0, 360.0), (20.0, -720.0)])
 def test_a_crank_limited_by_the_cad_ends_the_rocker_where_it_ends_itself(tmp_path, hand, value, turns):
     """-10 to 80 degrees with 20 displayed are 30 back and 60 on; so they are counted whole turns further."""

@@ -29,13 +29,15 @@ class JointRange:
     """What a joint's coordinate can reach, metres or radians, counted as the joint's own limits are: from where
     its frames meet, which need not be the exported pose.
 
-    Infinite where the joint turns all the way round or slides without end.
+    Infinite where the joint turns all the way round or slides without end.  displayed: both ends as the source
+    shows them, which may be whole turns further.
     """
 
     joint: str
     freedom: int
     lower: float
     upper: float
+    displayed: tuple[float, ...]
 
     @property
     def endless(self) -> bool:
@@ -63,7 +65,8 @@ def found_ranges(
             if isinstance(ends, str):
                 report.add("LIMITS_NOT_SWEPT", link.joint.where, joint=link.joint.id, detail=ends)
             else:
-                ranges.append(JointRange(link.joint.id, _single(link), *ends))
+                freedom = link.joint.freedoms[_single(link)]
+                ranges.append(JointRange(link.joint.id, _single(link), *ends, freedom.displayed(*ends)))
             done += 1
             progress(done / total)
     return ranges
@@ -146,8 +149,8 @@ def with_found_ranges(
             link.joint.where,
             joint=link.joint.id,
             unit=unit,
-            lower=f"{found.lower * factor:.6f}",
-            upper=f"{found.upper * factor:.6f}",
+            lower=f"{found.displayed[0] * factor:.6f}",
+            upper=f"{found.displayed[1] * factor:.6f}",
         )
         freedoms = list(link.joint.freedoms)
         old = freedoms[freedom]

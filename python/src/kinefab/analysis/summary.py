@@ -93,10 +93,11 @@ def document(analysis: Analysis) -> dict[str, Any]:
             {
                 "joint": r.joint,
                 "freedom": FREEDOM_NAMES[r.freedom],
-                "lower": r.lower if math.isfinite(r.lower) else None,
-                "upper": r.upper if math.isfinite(r.upper) else None,
+                "lower": lower if math.isfinite(lower) else None,
+                "upper": upper if math.isfinite(upper) else None,
             }
             for r in analysis.ranges
+            for lower, upper in [r.displayed]
         ],
         "findings": [
             {
@@ -167,7 +168,7 @@ def table(analysis: Analysis) -> str:
         lines.append(f"idle: {idle.count} of {parts} moves nothing else")
     for found in analysis.ranges:
         unit, factor = ("deg", math.degrees(1.0)) if found.freedom >= RX else ("m", 1.0)
-        ends = f"{found.lower * factor:.6g} to {found.upper * factor:.6g} {unit}"
+        ends = " to ".join(f"{end * factor:.6g}" for end in found.displayed) + f" {unit}"
         lines.append(f"range of {found.joint}: {'no end' if found.endless else ends}")
     loops = sum(i.loops for i in analysis.islands)
     first = f", {analysis.first_order} at first order" if analysis.first_order != analysis.mobility else ""

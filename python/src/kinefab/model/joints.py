@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Mapping
 
@@ -43,6 +43,7 @@ class Freedom:
 
     lower, upper: range of the coordinate when LIMITED, metres or radians; either may be infinite.
     stiffness, damping: of the limit, 0 and 0 for a hard one.  restitution: 0..1, of a hard limit.
+    turns: whole turns by which the source displays more than the coordinate, its limits too; for messages only.
     """
 
     motion: Motion = Motion.LOCKED
@@ -52,6 +53,11 @@ class Freedom:
     stiffness: float = 0.0
     damping: float = 0.0
     restitution: float = 0.0
+    turns: int = field(default=0, compare=False)
+
+    def displayed(self, *values: float) -> tuple[float, ...]:
+        """Values of the coordinate, radians or metres, as the source shows them."""
+        return tuple(value + 2.0 * math.pi * self.turns for value in values)
 
     def nearest_turn(self, value: float) -> float:
         """The angle, radians, that ``value`` stands for where it is known up to whole turns: the one in the range."""

@@ -190,6 +190,6 @@ def _freedoms(draft: JointDraft, turns: Array) -> tuple[Freedom, ...]:
     freedoms = list(freedoms_of(draft.kind))
     for freedom, said in draft.dof.items():
         lower, upper = said.lower - turns[freedom], said.upper - turns[freedom]
-        if lower > -math.inf or upper < math.inf:
-            freedoms[freedom] = Freedom(Motion.LIMITED, lower, upper)
+        motion = Motion.LIMITED if lower > -math.inf or upper < math.inf else Motion.FREE
+        freedoms[freedom] = Freedom(motion, lower, upper, turns=round(turns[freedom] / (2.0 * math.pi)))
     return tuple(freedoms)

@@ -19,7 +19,7 @@ def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, re
     if beyond <= 1e-6:
         return
     angle = freedom >= RX
-    shown = [math.degrees(x) if angle else x for x in (value, limits.lower, limits.upper)]
+    shown = [math.degrees(x) if angle else x for x in limits.displayed(value, limits.lower, limits.upper)]
     report.add(
         "JOINT_OUTSIDE_LIMITS",
         joint.where,

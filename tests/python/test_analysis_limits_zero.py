@@ -13,7 +13,8 @@ from source_bundles import FIXTURES, bundle, frame, part, read
 from test_sources_left_handed import by_the_other_hand, limited
 
 from kinefab.analysis import AnalysisOptions, analyse
-from kinefab.analysis.summary import document, table
+from kinefab.analysis.summary import document
+from kinefab.analysis.table import table
 from kinefab.model import RX, Freedom, Motion
 
 SWEEP = AnalysisOptions(limits=True)

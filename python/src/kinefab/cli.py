@@ -114,7 +114,8 @@ def analyse(
     """Show what an assembly's constraints leave free, and which joint connects what."""
     from .analysis import AnalysisOptions
     from .analysis import analyse as run
-    from .analysis.summary import document, table
+    from .analysis.summary import document
+    from .analysis.table import table
     from .sources import read
 
     found = Report()

@@ -119,16 +119,20 @@ class Report:
         self.diagnostics.append(found)
         return found
 
-    def kept(self, feature: str, where: str = "") -> None:
-        self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
+    def kept(self, feature: str, where: str = "", code: str = "", **values: object) -> None:
+        """code: of a remark, where the one who looks at the scene may wonder."""
+        if code:
+            self._told(feature, Outcome.KEPT, code, where, values)
+        else:
+            self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
 
     def approximated(self, feature: str, code: str, where: str = "", **values: object) -> None:
-        self._lost(feature, Outcome.APPROXIMATED, code, where, values)
+        self._told(feature, Outcome.APPROXIMATED, code, where, values)
 
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
-        self._lost(feature, Outcome.DROPPED, code, where, values)
+        self._told(feature, Outcome.DROPPED, code, where, values)
 
-    def _lost(self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]) -> None:
+    def _told(self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]) -> None:
         found = self.add(code, where, feature=feature, **values)
         self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Callable
 
 from .analysis import AnalysisOptions, analyse
+from .analysis.reasons import holding
 from .analysis.summary import scene_entry
 from .diagnostics import KinefabError, Outcome, Report, Severity
 from .geometry.hulls import collision_hulls
@@ -70,7 +71,7 @@ def export(
         groups = rigid_groups(scene, found.fixed)
         progress("analyse", 1.0)
         colliders = _colliders(scene, groups, options.colliders, report)
-        document = build_document(scene, groups, colliders, report, scene_entry(found))
+        document = build_document(scene, groups, colliders, report, scene_entry(found), holding(found))
         _refuse_losses(report, options.strict)
         buffer = _write(document, Path(target), report, progress)
     except KinefabError as error:

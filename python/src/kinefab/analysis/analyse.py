@@ -68,7 +68,7 @@ def analyse(
         groups=groups,
         fixed=fixed,
         islands=_islands(assembly, tree),
-        idle=idle_freedoms(assembly),
+        idle=sorted(idle_freedoms(assembly), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
         couplings=couplings,
         nodes=found.nodes,

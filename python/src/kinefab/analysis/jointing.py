@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,7 +23,7 @@ from ..model import (
 )
 from ..spatial import Array, Pose
 from .assembly import Assembly
-from .finite import Candidate
+from .finite import Candidate, misfits
 from .freedom import block_freedoms
 from .middle import middle_body
 from .motion import finite_freedoms
@@ -153,7 +154,7 @@ class _Jointing:
     def _link_explicit(self, joint: Joint) -> None:
         a, b = (int(self.assembly.body[0 if n is None else n + 1]) for n in (joint.a, joint.b))
         self.names.add(joint.id)
-        self.links.append(Link(a, b, joint))
+        self.links.append(Link(a, b, joint if joint.because else replace(joint, because=(joint.id,))))
 
     def _doubled(self, joint: Joint) -> list[str]:
         equations = self.assembly.equations
@@ -241,15 +242,27 @@ class _Jointing:
         names = ", ".join(self._names(relation)[:12])
         if relation.tried:
             relation.joint = relation.tried[-1]
+            relation.missed = self._missed(relation)
             self.report.approximated(
                 f"constraint {names}",
                 "RELATION_APPROXIMATED",
                 names=names,
                 kind=relation.joint.kind.value,
-                misfit=f"{relation.misfit:.2g}",
+                metres=f"{relation.missed[0]:.2g}",
+                degrees=f"{math.degrees(relation.missed[1]):.2g}",
             )
         else:
             self.report.dropped(f"constraint {names}", "RELATION_DROPPED", names=names)
+
+    def _missed(self, relation: Relation) -> tuple[float, float]:
+        """By how much the relation's joint violates its rows as it moves: metres, radians (or cosines)."""
+        system, pair = self.assembly.system, (np.array([relation.first]), np.array([relation.second]))
+        worst = []
+        for lengths in (True, False):
+            some = system.select(relation.rows[system.is_length[relation.rows] == lengths])
+            one = np.zeros(len(some.kind), dtype=np.int64)
+            worst.append(float(misfits(some, *pair, one, [relation.joint], np.array([relation.length]))[0]))
+        return worst[0] * relation.length, worst[1]
 
     def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:
         """A body without geometry; a tenth of the lighter neighbour's mass keeps the solver's mass ratios low."""
@@ -306,6 +319,7 @@ class _Jointing:
             candidate.six,
             lead=candidate.lead,
             because=tuple(names),
+            misfit=relation.missed,
             where=self.where.get(names[0], ""),
         )
         self.links.append(Link(a, b, joint))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ..model import RX, JointKind, Motion
 from .jointing import Link, Links
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(eq=False)
 class Tree:
     """A spanning tree of the joints.
 
@@ -28,6 +29,33 @@ class Tree:
     def loops_of(self, bodies: np.ndarray) -> int:
         inside = set(bodies.tolist())
         return sum(self.links[i].a in inside or self.links[i].b in inside for i in self.closures)
+
+    def loop(self, closure: int) -> tuple[int | None, ...]:
+        """The nodes that a closing joint closes a loop with, from its a to its b: see ``Joint.loop``."""
+        joint = self.links[closure].joint
+        a, b = self.links[closure].a, self.links[closure].b
+        upwards, downwards = [joint.a], [joint.b]
+        while a != b:  # the one further out along the tree cannot hold the other
+            if self._place[a] > self._place[b]:
+                a, node = self._inwards(a)
+                upwards.append(node)
+            else:
+                b, node = self._inwards(b)
+                downwards.append(node)
+        (downwards if len(downwards) > 1 else upwards).pop()  # both ways have come to the same body
+        return (*upwards, *reversed(downwards))
+
+    def _inwards(self, body: int) -> tuple[int, int | None]:
+        """The body that holds another one, and the node of it that their joint is on."""
+        link = self.links[self.parent[body]]
+        return (link.a, link.joint.a) if link.b == body else (link.b, link.joint.b)
+
+    @cached_property
+    def _place(self) -> np.ndarray:
+        """Each body's place in ``order``."""
+        place = np.empty(len(self.parent), dtype=np.int64)
+        place[self.order] = np.arange(len(self.order))
+        return place
 
 
 def spanning_tree(links: Links) -> Tree:
@@ -72,11 +100,12 @@ def spanning_tree(links: Links) -> Tree:
             order.append(body)
             _offer(heap, links, near, body, depth, slides, used, precedence)
     closures = sorted((i for i in range(len(links.links)) if i not in used), key=precedence.__getitem__)
-    marked = [
-        replace_link(link, closure=i not in used) if (i not in used) != link.joint.closure else link
-        for i, link in enumerate(links.links)
-    ]
-    return Tree(marked, parent, order, closures)
+    tree = Tree(list(links.links), parent, order, closures)
+    for i, link in enumerate(links.links):
+        if link.joint.closure or i not in used:
+            loop = () if i in used else tree.loop(i)
+            tree.links[i] = replace_link(link, closure=i not in used, loop=loop)
+    return tree
 
 
 def _offer(

@@ -17,14 +17,14 @@ from itertools import combinations
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import FREE, LOCKED, RX, UNLOCKED, Joint, JointKind, Motion, Scene
+from ..model import FREE, FREEDOM_NAMES, LOCKED, RX, Joint, Motion, Scene, kind_of
 from ..spatial import Array
 from .assembly import Assembly
 from .blocks import Blocks, relative_system
 from .equations import joint_rows, joint_sides
 from .freedom import block_freedoms
 from .loops import Link, Tree, replace_link
-from .openings import Block, BlockTree, Openings, locked_of, moved_by, openings
+from .openings import NONE, Block, BlockTree, Openings, locked_of, moved_by, openings
 from .rows import Rows
 from .solve import Solver
 from .system import State, System
@@ -39,14 +39,19 @@ WALK = 0.05
 IMPLIED = 1e-8
 """Scaled residual of the left-out rows up to which the walk proves that nothing moves by them."""
 
+ITS_OWN = "the other joints of the loop"
+AND_OTHERS = f"{ITS_OWN}, with those of the loops that meet it,"
+"""What holds the rows that are left out."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Choice:
     """rows: the locked freedoms of a closing joint that stay.  repeated: how many of them, at each pose other ones,
-    the others imply."""
+    the others imply.  alone: the joints of its own loop imply what is left out, no other closing joint is needed."""
 
     rows: tuple[int, ...]
     repeated: int
+    alone: bool = True
 
 
 def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Report) -> list[Link]:
@@ -57,8 +62,12 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
     for i, choice in chosen.items():
         joint = links[i].joint
         if len(choice.rows) < len(locked_of(joint)):
-            changes = {"freedoms": _freed(joint, choice.rows), "kind": _kind(joint, choice.rows)}
-            reduced[i] = replace_link(links[i], **changes)
+            reduced[i] = replace_link(
+                links[i],
+                freedoms=_freed(joint, choice.rows),
+                kind=kind_of(tuple(n for n in range(6) if n not in choice.rows)),
+                freed=tuple(n for n in locked_of(joint) if n not in choice.rows),
+            )
     refused = _refused(assembly, links, reduced, scene)
     mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
     for i, choice in chosen.items():
@@ -69,8 +78,11 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
             continue
         if i in reduced:
             links[i] = reduced[i]
-            said = {"rows": kept + freed, "kept": kept, "freed": freed, "mobility": mobility}
-            report.add("CLOSURE_ROWS_FREED", joint.where, joint=joint.id, **said)
+            report.add(
+                "CLOSURE_ROWS_FREED", joint.where, joint=joint.id, rows=kept + freed, kept=kept, mobility=mobility,
+                freed=", ".join(FREEDOM_NAMES[n] for n in links[i].joint.freed),
+                loop=scene.loop(joint), holders=ITS_OWN if choice.alone else AND_OTHERS,
+            )  # fmt: skip
         if choice.repeated:
             report.add("CLOSURE_ROWS_REPEATED", joint.where, joint=joint.id, kept=kept, repeated=choice.repeated)
     return links
@@ -80,14 +92,6 @@ def _freed(joint: Joint, rows: tuple[int, ...]):
     return tuple(
         LOCKED if i in rows else (f if f.motion is not Motion.LOCKED else FREE)
         for i, f in enumerate(joint.freedoms)
-    )
-
-
-def _kind(joint: Joint, rows: tuple[int, ...]) -> JointKind:
-    free = tuple(i for i in range(6) if i not in rows)
-    return next(
-        (k for k, unlocked in UNLOCKED.items() if unlocked == free and k is not JointKind.SCREW),
-        JointKind.GENERAL,
     )
 
 
@@ -140,10 +144,18 @@ def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
 
 
 def _choose(block: BlockTree, poses: list[Openings]) -> dict[int, _Choice]:
-    return {
-        i: _fewest(locked_of(link.joint), [pose.span[k] for pose in poses])
-        for k, (i, link) in enumerate(zip(block.block.closures, block.closing))
-    }
+    found = {}
+    for k, (i, link) in enumerate(zip(block.block.closures, block.closing)):
+        locked = locked_of(link.joint)
+        choice = _fewest(locked, [pose.span[k] for pose in poses])
+        own = poses[0].rows[k]
+        kept = own[[n for n, row in enumerate(locked) if row in choice.rows]]
+        found[i] = replace(choice, alone=_rank(kept) == _rank(own))
+    return found
+
+
+def _rank(rows: Array) -> int:
+    return int(np.linalg.matrix_rank(rows, tol=NONE)) if rows.size else 0
 
 
 def _fewest(locked: list[int], spans: list[Array]) -> _Choice:

@@ -46,7 +46,7 @@ class Relation:
     against the first about ``origin``, columns, orthonormal, shape (6, 6 - rank).
     joint: the one joint with exactly these motions, or None.  misfit: of the best candidate, as a fraction
     of length.  gap: see ``rank``.  finite: freedoms of finite motion (less than 6 - rank where the
-    pose is singular).
+    pose is singular).  missed: of a joint that is only the nearest one, see ``Joint.misfit``.
     """
 
     first: int
@@ -63,6 +63,7 @@ class Relation:
     joint: Candidate | None = None
     misfit: float = np.inf
     tried: list[Candidate] = field(default_factory=list)
+    missed: tuple[float, float] = (0.0, 0.0)
 
     @property
     def sure(self) -> bool:

@@ -11,6 +11,7 @@ Twists and freedoms are ordered linear first: (tx, ty, tz, rx, ry, rz).
 from .constraints import Constraint, ConstraintKind, DofRecord, Feature, FeatureKind, Sense, Side
 from .joints import (
     FREE,
+    FREEDOM_NAMES,
     LOCKED,
     RX,
     RY,
@@ -27,6 +28,7 @@ from .joints import (
     JointKind,
     Motion,
     freedoms_of,
+    kind_of,
 )
 from .parts import Body, MassProperties, Material, Mesh, MeshKey, MeshReference, Node, NodeKind
 from .scene import Physics, Scene, Source
@@ -40,6 +42,7 @@ __all__ = [
     "DofRecord",
     "Drive",
     "FREE",
+    "FREEDOM_NAMES",
     "Feature",
     "FeatureKind",
     "Freedom",
@@ -67,4 +70,5 @@ __all__ = [
     "TZ",
     "UNLOCKED",
     "freedoms_of",
+    "kind_of",
 ]

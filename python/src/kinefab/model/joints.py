@@ -11,6 +11,8 @@ from ..spatial import Pose
 
 TX, TY, TZ, RX, RY, RZ = range(6)
 """Indices of a freedom in a joint's frame: translation along and rotation about X, Y, Z."""
+FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
+"""Their names, by index."""
 
 
 class Motion(str, Enum):
@@ -121,12 +123,17 @@ UNLOCKED: Mapping[JointKind, tuple[int, ...]] = {
 """The freedoms each kind leaves; GENERAL has no fixed set."""
 
 
+def kind_of(free: tuple[int, ...]) -> JointKind:
+    """The kind with just these freedoms, GENERAL where none has a name (a screw is not told by them)."""
+    named = (k for k, unlocked in UNLOCKED.items() if unlocked == free and k is not JointKind.SCREW)
+    return next(named, JointKind.GENERAL)
+
+
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:
     """Six freedoms with ``kind``'s own unlocked (none of GENERAL); ``given`` (tx=..., rx=...) replaces single ones."""
-    names = ("tx", "ty", "tz", "rx", "ry", "rz")
     freedoms = [FREE if i in UNLOCKED.get(kind, ()) else LOCKED for i in range(6)]
     for name, freedom in given.items():
-        freedoms[names.index(name)] = freedom
+        freedoms[FREEDOM_NAMES.index(name)] = freedom
     return tuple(freedoms)
 
 
@@ -142,6 +149,9 @@ class Joint:
     freedoms: six, in the order tx ty tz rx ry rz.  lead: of a SCREW, metres a turn, right-handed.
     because: ids of the source's constraints or joints that this one comes from.
     closure: this joint closes a loop (the spanning tree does not need it).
+    loop: of a closure, the nodes (None: ground) from a to b, each joined to the next by a joint of the spanning tree.
+    freed: freedoms (TX..RZ) that the joint locks by itself and that were left free, since the loop holds them.
+    misfit: by how much the joint's motions miss what it stands for, at most, metres and radians; zero where exact.
     """
 
     id: str
@@ -157,7 +167,17 @@ class Joint:
     break_torque: float = math.inf
     because: tuple[str, ...] = ()
     closure: bool = False
+    loop: tuple[int | None, ...] = ()
+    freed: tuple[int, ...] = ()
+    misfit: tuple[float, float] = (0.0, 0.0)
     where: str = ""
+
+    @property
+    def whole_kind(self) -> JointKind:
+        """The kind with what the loop holds instead of the joint."""
+        if not self.freed:
+            return self.kind
+        return kind_of(tuple(i for i, f in enumerate(self.freedoms) if f.motion is not Motion.LOCKED and i not in self.freed))
 
 
 class CouplingKind(str, Enum):

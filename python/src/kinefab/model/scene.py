@@ -31,6 +31,10 @@ class Physics:
     solver_velocity_iterations: int = 1
 
 
+MOST_NAMES = 12
+"""Parts of a loop that a message lists."""
+
+
 @dataclass(slots=True, eq=False)
 class Scene:
     """Everything read from a source.  Nodes stand after their parents; references are list indices."""
@@ -49,6 +53,18 @@ class Scene:
     def pose(self, node: int | None) -> Pose:
         """World pose of a node; the identity for ground."""
         return Pose() if node is None else self.nodes[node].pose
+
+    def name(self, node: int | None) -> str:
+        """Id of a node, or 'ground'."""
+        return "ground" if node is None else self.nodes[node].id
+
+    def loop(self, joint: Joint) -> str:
+        """The parts of the loop that a joint closes, for a message."""
+        names = [self.name(node) for node in joint.loop]
+        if len(names) > MOST_NAMES:
+            half = MOST_NAMES // 2
+            names[half:-half] = [f"({len(names) - 2 * half} more)"]
+        return " - ".join(names)
 
     def with_poses(self, poses: Sequence[Pose]) -> "Scene":
         """The same scene with other node poses (same order as ``nodes``)."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import RX, Drive, Freedom, Joint, Motion
+from ..model import FREEDOM_NAMES, RX, Drive, Freedom, Joint, Motion
 from ..spatial import Array, quaternion_from_matrix, rotation_exp
 from .coordinates import CanonicalJoint, Coordinates
-from .limits import FREEDOM_NAMES, report_outside
+from .limits import report_outside
 from .placement import BASIS_SIGNS, Placement
 
 OPEN_TRAVEL = 100.0
@@ -26,6 +26,8 @@ MOTOR_DAMPER = 1e9
 """Damper, N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
 
 _MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
+MOTION_TITLES = ("X Motion", "Y Motion", "Z Motion", "Angular X Motion", "Angular Y Motion", "Angular Z Motion")
+"""The same as Unity's inspector names them."""
 _TITLES = {Motion.LOCKED: "Locked", Motion.LIMITED: "Limited", Motion.FREE: "Free"}
 
 

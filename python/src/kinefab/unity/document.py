@@ -6,7 +6,8 @@ Meshes stay arrays here; ``writer`` puts them into the buffer and adds ``buffers
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Mapping
+from types import MappingProxyType
+from typing import Any, Mapping, Sequence
 
 from .. import __version__
 from ..diagnostics import Report
@@ -43,12 +44,14 @@ def build_document(
     colliders: Colliders,
     report: Report,
     analysis: Mapping[str, Any] | None = None,
+    holding: Mapping[int, Sequence[str]] = MappingProxyType({}),
 ) -> Document:
     """Everything of the scene in Unity's terms.  ``report`` gets what became of each joint and coupling.
 
     analysis: what the constraints leave free, by node number (see ``mobility``).
+    holding: for each node the ids of what joins it to others of its rigid group.
     """
-    builder = _Builder(scene, groups, colliders, report)
+    builder = _Builder(scene, groups, colliders, report, holding)
     builder.add_objects()
     builder.add_rigidbodies()
     builder.add_joints()
@@ -121,6 +124,7 @@ class _Builder:
     groups: RigidGroups
     colliders: Colliders
     report: Report
+    holding: Mapping[int, Sequence[str]]
     objects: list[dict[str, Any]] = field(default_factory=list)
     object_of: list[int] = field(default_factory=list)
     materials: list[Material] = field(default_factory=list)
@@ -196,7 +200,9 @@ class _Builder:
             components = self.objects[self.object_of[carrier]]["components"]
             components.append(without_defaults("Rigidbody", fields))
         for own, connected in self.rigidbodies.fixed:
-            group = {"type": "FixedJoint", "connectedBody": self.object_of[connected]}
+            group: dict[str, Any] = {"type": "FixedJoint", "connectedBody": self.object_of[connected]}
+            if own in self.holding:
+                group["because"] = list(self.holding[own])
             self.objects[self.object_of[own]]["components"].append(group)
 
     def add_joints(self) -> None:

@@ -18,14 +18,13 @@ from dataclasses import dataclass
 from typing import Callable
 
 from ..diagnostics import Report
-from ..model import RX, Joint, Motion, Scene
+from ..model import FREEDOM_NAMES, RX, Joint, Motion, Scene
 from ..rigid import RigidGroups
 from ..spatial import Pose
 from . import frames
-from .configurable import configurable_fields
+from .configurable import MOTION_TITLES, configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from .hinge import fits_hinge, hinge_fields
-from .limits import FREEDOM_NAMES
 from .placement import BASIS_SIGNS, Placement, place
 
 GAP_LENGTH = 1e-5
@@ -90,6 +89,10 @@ def map_joint(
             report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
         return None
     if len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6)):
+        if joint.freed:
+            remark = {"joint": joint.id, "loop": scene.loop(joint)}
+            report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)
+            return None
         report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
         return None
 
@@ -113,11 +116,18 @@ def map_joint(
         component = {"type": "ConfigurableJoint"}
         component |= _frame_fields(shifted, frame_b, placement, coordinates) | limits
     component |= _common_fields(joint)
-    if lossless and len(report.outcomes) == before:
-        report.kept(feature, joint.where)
-    else:
-        component["exact"] = False
     owner, connected = (a, b) if placement.on_a else (b, a)
+    if not lossless or any(joint.misfit) or len(report.outcomes) > before:
+        component["exact"] = False
+    elif joint.freed:
+        axes = _axes_freed(joint, shape, component)
+        report.kept(
+            feature, joint.where, "CLOSURE_AXES_FREE", joint=joint.id, loop=scene.loop(joint),
+            axes=", ".join(axes), are="is" if len(axes) == 1 else "are",
+            type=component["type"], object=scene.nodes[owner].id,
+        )  # fmt: skip
+    else:
+        report.kept(feature, joint.where)
     return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
 
 
@@ -133,6 +143,13 @@ def _frame_fields(frame_a: Pose, frame_b: Pose, placement: Placement, coordinate
         "autoConfigureConnectedAnchor": False,
         "connectedAnchor": frames.point(other.translation),
     }
+
+
+def _axes_freed(joint: Joint, shape: CanonicalJoint, component: Component) -> list[str]:
+    """What the loop holds instead of the joint, by the names that Unity's inspector shows."""
+    if component["type"] == "HingeJoint":
+        return ["the turning"]
+    return [MOTION_TITLES[i] for i, freedom in enumerate(shape.name_of) if freedom in joint.freed]
 
 
 def _common_fields(joint: Joint) -> Component:

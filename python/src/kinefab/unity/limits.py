@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 
 from ..diagnostics import Report
-from ..model import RX, Freedom, Joint
-
-FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
+from ..model import FREEDOM_NAMES, RX, Freedom, Joint
 
 
 def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, report: Report) -> None:

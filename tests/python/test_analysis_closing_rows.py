@@ -1,0 +1,122 @@
+"""Which rows of a loop-closing joint were left free, and what holds them instead: told in every place, by name."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from mechanism_cases import scene
+from scenes import exported
+
+from kinefab.analysis import AnalysisOptions, Closures, analyse
+from kinefab.analysis.summary import document
+from kinefab.analysis.table import table
+from kinefab.model import Constraint, Feature, FeatureKind, Node, Scene
+from kinefab.model import ConstraintKind as C
+from kinefab.model import JointKind as K
+
+FIELDS = {"xMotion": "X Motion", "yMotion": "Y Motion", "zMotion": "Z Motion"}
+FIELDS |= {f"angular{axis}Motion": f"Angular {axis} Motion" for axis in "XYZ"}
+REDUCED = ["M01", "M07", "M09", "M10", "M11", "M12", "M13", "M21", "M23", "M30", "M32", "M33", "M38"]
+
+
+def closing(found):
+    return [j for j in found.joints if j.freed]
+
+
+def joints_of(content):
+    return [c for o in content["gameObjects"] for c in o.get("components", ()) if c["type"].endswith("Joint")]
+
+
+def by_reason(content):
+    return {tuple(c["because"]): c for c in joints_of(content)}
+
+
+def locked(component) -> int:
+    return 5 if component["type"] == "HingeJoint" else sum(component.get(f) == "Locked" for f in FIELDS)
+
+
+@pytest.mark.parametrize("id", REDUCED)
+def test_freed_rows_are_what_the_whole_joint_locks_besides(id):
+    """Against the export with whole closures: kind, locked freedoms and loop of each closing joint."""
+    found, whole = analyse(scene(id)), analyse(scene(id), AnalysisOptions(closures=Closures.EXACT))
+    exact = {j.id: j for j in whole.joints}
+    assert closing(found)
+    for joint in closing(found):
+        before = exact[joint.id]
+        changed = [i for i in range(6) if joint.freedoms[i].motion is not before.freedoms[i].motion]
+        assert list(joint.freed) == changed and joint.whole_kind is before.kind and joint.loop == before.loop
+    assert not any(j.freed for j in whole.joints)
+
+
+@pytest.mark.parametrize("id", REDUCED)
+def test_a_loop_is_a_closed_way_along_other_joints(id):
+    """From a to b each part is joined to the next by a joint of the tree, and no part comes twice."""
+    found = analyse(scene(id))
+    tree = [{j.a, j.b} for j in found.joints if not j.closure]
+    together = lambda n: found.groups.members[found.groups.group_of[n]]  # noqa: E731
+    for joint in (j for j in found.joints if j.closure):
+        assert joint.loop[0] == joint.a and joint.loop[-1] == joint.b
+        assert len(set(joint.loop)) == len(joint.loop) >= 3
+        for one, other in zip(joint.loop, joint.loop[1:]):
+            assert any({m, n} in tree for m in together(one) for n in together(other))
+    assert all(j.loop == () for j in found.joints if not j.closure)
+
+
+@pytest.mark.parametrize("id", REDUCED)
+def test_the_report_names_what_unity_shows_as_free(id, tmp_path):
+    """For each closing joint the inspector's names of just those motions that are Free and would be Locked."""
+    content, result = exported(scene(id), tmp_path)
+    whole, _ = exported(scene(id), tmp_path, closures=Closures.EXACT)
+    remarks = [e for e in content["report"] if e.get("code") == "CLOSURE_AXES_FREE"]
+    assert remarks and all(e["outcome"] == "kept" for e in remarks)
+    assert len(remarks) == len([d for d in result.report.diagnostics if d.code == "CLOSURE_AXES_FREE"])
+    parts, before = by_reason(content), by_reason(whole)
+    assert len(remarks) == len(closing(analyse(scene(id))))
+    for joint in closing(analyse(scene(id))):
+        (message,) = (e["message"] for e in remarks if e["feature"] == f"joint {joint.id}")
+        part, full = parts[joint.because], before[joint.because]
+        named = re.findall(r"(?:Angular )?[XYZ] Motion", message.split(" of the ")[0])
+        assert all(part.get(field, "Free") == "Free" for field, title in FIELDS.items() if title in named)
+        assert len(named) == len(set(named)) == locked(full) - locked(part)
+        assert " - ".join(scene(id).name(n) for n in joint.loop) in message
+
+
+def test_the_lever_says_which_motions_of_its_gudgeon_are_free(tmp_path):
+    """The bar's hinge on the slider: out of the plane nothing can move, since the crank and the slide hold the plane."""
+    source = scene("M09")
+    content, _ = exported(source, tmp_path)
+    (remark,) = (e["message"] for e in content["report"] if e.get("code") == "CLOSURE_AXES_FREE")
+    assert remark.startswith("X Motion, Angular Y Motion, Angular Z Motion of the ConfigurableJoint on ")
+    assert "the loop barC - panelB - base - sliderD holds them already" in remark
+    found = analyse(source)
+    (said,) = (d.message for d in found.report.diagnostics if d.code == "CLOSURE_ROWS_FREED")
+    assert "closes the loop barC - panelB - base - sliderD; of its 5 equations 2 are exported and tx, ry, rz left free" in said
+    assert "the other joints of the loop hold them" in said
+    (entry,) = (j for j in document(found)["joints"] if j["closesLoop"])
+    assert (entry["kind"], entry["wholeKind"], entry["heldByLoop"]) == ("point_on_line", "revolute", ["tx", "ry", "rz"])
+    assert entry["loop"] == ["barC", "panelB", "base", "sliderD"]
+    assert "revolute (closes a loop that holds tx ry rz)" in table(found)
+
+
+def coaxial() -> Scene:
+    """Three parts on one axis, each hinged to both others: the last hinge has nothing to add."""
+    nodes = [Node("base", "base", grounded=True), Node("a", "a"), Node("b", "b")]
+    axis = np.array([0.0, 0.0, 1.0])
+
+    def insert(name: str, one: int, other: int) -> Constraint:
+        circles = (Feature(n, FeatureKind.CIRCLE, np.array([0.1, 0.2, 0.3]), axis, radius=0.1) for n in (one, other))
+        return Constraint(name, C.INSERT, tuple(circles))
+
+    return Scene(nodes=nodes, constraints=[insert("i", 0, 1), insert("j", 1, 2), insert("k", 0, 2)])
+
+
+def test_a_closing_joint_that_the_loop_holds_whole_is_told_so(tmp_path):
+    """It has no component, and the report says that the loop is why."""
+    found = analyse(coaxial())
+    (joint,) = closing(found)
+    assert (joint.kind, joint.whole_kind, joint.freed) == (K.FREE, K.REVOLUTE, (0, 1, 2, 4, 5))
+    content, _ = exported(coaxial(), tmp_path)
+    assert len(joints_of(content)) == 2
+    assert [e["outcome"] for e in content["report"] if e.get("code") == "CLOSURE_NOT_NEEDED"] == ["kept"]

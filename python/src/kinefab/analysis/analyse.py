@@ -22,6 +22,7 @@ from .minimal import minimal_closures
 from .ranges import with_ranges
 from .rehanging import rehung
 from .result import Analysis, Island
+from .symmetry import symmetric_couplings
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +56,7 @@ def analyse(
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
     couplings = couplings_of(assembly, links, closed, report)
+    couplings += symmetric_couplings(assembly, tree, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)
     joints = _in_source_order(assembly, links)

@@ -12,7 +12,6 @@ from ..model import (
     TY,
     TZ,
     Constraint,
-    ConstraintKind,
     Coupling,
     Freedom,
     Joint,
@@ -76,7 +75,6 @@ class _Jointing:
     def run(self) -> Links:
         assembly = self.assembly
         system, pairs = assembly.system, assembly.pairs
-        self._report_wide()
         relations = relations_of(system, pairs, system.start())
         explicit = [self._explicit(r) for r in relations]
         open_ = [r for r, joint in zip(relations, explicit) if joint is None]
@@ -114,16 +112,6 @@ class _Jointing:
             for i, s in enumerate(self.assembly.equations.statements)
             if isinstance(s, Joint) and i not in spoken
         ]
-
-    def _report_wide(self) -> None:
-        """A symmetry of three bodies that move against each other has no joint (couplings are made elsewhere)."""
-        wide = self.assembly.system.owner[self.assembly.pairs.row_pair == -1]
-        for owner in np.unique(wide):
-            statement = self.assembly.equations.statements[owner]
-            if isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY:
-                self.report.dropped(
-                    f"constraint {statement.id}", "RELATION_DROPPED", statement.where, names=statement.id
-                )
 
     def _explicit(self, relation: Relation) -> Joint | None:
         """The source's own joint, where it alone makes the relation."""

@@ -30,30 +30,38 @@ class Tree:
         inside = set(bodies.tolist())
         return sum(self.links[i].a in inside or self.links[i].b in inside for i in self.closures)
 
+    def way(self, a: int, b: int) -> list[int] | None:
+        """Indices of the links that lead from body a to body b, or None where none do."""
+        out, back = [], []
+        while a != b:  # the one further out along the tree cannot hold the other
+            further = a if self._place[a] > self._place[b] else b
+            index = int(self.parent[further])
+            if index < 0:
+                return None
+            link = self.links[index]
+            inwards = link.a if link.b == further else link.b
+            if further == a:
+                a = inwards
+                out.append(index)
+            else:
+                b = inwards
+                back.append(index)
+        return out + back[::-1]
+
     def loop(self, closure: int) -> tuple[int | None, ...]:
         """The nodes that a closing joint closes a loop with, from its a to its b: see ``Joint.loop``."""
-        joint = self.links[closure].joint
-        a, b = self.links[closure].a, self.links[closure].b
-        upwards, downwards = [joint.a], [joint.b]
-        while a != b:  # the one further out along the tree cannot hold the other
-            if self._place[a] > self._place[b]:
-                a, node = self._inwards(a)
-                upwards.append(node)
-            else:
-                b, node = self._inwards(b)
-                downwards.append(node)
-        (downwards if len(downwards) > 1 else upwards).pop()  # both ways have come to the same body
-        return (*upwards, *reversed(downwards))
-
-    def _inwards(self, body: int) -> tuple[int, int | None]:
-        """The body that holds another one, and the node of it that their joint is on."""
-        link = self.links[self.parent[body]]
-        return (link.a, link.joint.a) if link.b == body else (link.b, link.joint.b)
+        link = self.links[closure]
+        at, nodes = link.a, [link.joint.a]
+        for index in self.way(link.a, link.b) or ():
+            passed = self.links[index]
+            at, node = (passed.b, passed.joint.b) if passed.a == at else (passed.a, passed.joint.a)
+            nodes.append(node)
+        return (*nodes[:-1], link.joint.b)
 
     @cached_property
     def _place(self) -> np.ndarray:
         """Each body's place in ``order``."""
-        place = np.empty(len(self.parent), dtype=np.int64)
+        place = np.full(len(self.parent), -1)
         place[self.order] = np.arange(len(self.order))
         return place
 

@@ -67,12 +67,7 @@ class Measured:
 
     def read(self, state: State, turns: Array) -> tuple[Array, Array]:
         """Coordinates, metres and radians, and their rates: rows on the bodies' scaled twists, (k, 6 n)."""
-        here = State(state.rotation, state.shift, turns)
-        value, block_a, block_b = self.probe.linearise(here)
-        rates = np.zeros((self.probe.rows, self.probe.bodies, 6))
-        np.add.at(rates, (self.probe.row, self.probe.body_a), block_a)
-        np.add.at(rates, (self.probe.row, self.probe.body_b), block_b)
-        return value, rates[:, 1:].reshape(self.probe.rows, -1)
+        return self.probe.dense(State(state.rotation, state.shift, turns))
 
     def passed(self, state: State, turns: Array) -> Array:
         """Note a pose as the one further turns are counted from; the angles there."""

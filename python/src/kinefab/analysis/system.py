@@ -205,6 +205,14 @@ class System:
         residual = np.bincount(self.row, s * value, minlength=self.rows)
         return residual, -block(self.body_a), block(self.body_b)
 
+    def dense(self, state: State) -> tuple[Array, Array]:
+        """Residual (rows,) and Jacobian on the scaled twists of all bodies but body 0, shape (rows, 6 (bodies - 1))."""
+        residual, block_a, block_b = self.linearise(state)
+        jacobian = np.zeros((self.rows, self.bodies, 6))
+        np.add.at(jacobian, (self.row, self.body_a), block_a)
+        np.add.at(jacobian, (self.row, self.body_b), block_b)
+        return residual, jacobian[:, 1:].reshape(self.rows, 6 * (self.bodies - 1))
+
     def displacement(self, state: State) -> tuple[Array, Array]:
         """The bodies' displacements as x -> R x + t: rotations (bodies, 3, 3), translations (bodies, 3)."""
         return state.rotation, self.center + state.shift - np.einsum(

@@ -132,6 +132,32 @@ public class ExportedMechanismTests
         }
     }
 
+    // Jaws that a palm carries, levers on the ground, jaws on parallelograms: driven by one of them, the parts stay images
+    // of each other in the plane of the constraint, which is the palm's in the first.
+    [TestCase("M42", "left", Coordinate.X, 0.04, "palm")]
+    [TestCase("M43", "left", Coordinate.Angle, 35.0, null)]
+    [TestCase("M44", "left0", Coordinate.Angle, -30.0, null)]
+    public void Symmetry_ExportedAndDriven_KeepsThePartsEachOthersImages(string id, string part, Coordinate coordinate, double to, string? plane)
+    {
+        var driven = new ExportedMechanism(id);
+        if (plane is not null)
+        {
+            driven.Drive(plane, Coordinate.Angle, 50);
+        }
+
+        Vector3d start = driven.Position("right"), at = driven.Axis("right", Vector3d.UnitX);
+        foreach (double share in new[] { 0.0, 0.5, 1, -1, 0 })
+        {
+            driven.Drive((part, coordinate, share * to));
+            Vector3d normal = plane is null ? Vector3d.UnitX : driven.Axis(plane, Vector3d.UnitY);
+            Vector3d middle = plane is null ? Vector3d.Zero : driven.Position(plane) + 0.3 * driven.Axis(plane, Vector3d.UnitX);
+            Vector3d left = driven.Position("left") - middle, right = driven.Position("right") - middle;
+            Assert.That((right - (left - 2 * Vector3d.Dot(normal, left) * normal)).Length, Is.LessThan(1e-9), $"at {share}");
+            bool moved = (driven.Position("right") - start).Length + (driven.Axis("right", Vector3d.UnitX) - at).Length > 1e-3;
+            Assert.That(moved, Is.EqualTo(share != 0), $"at {share}");
+        }
+    }
+
     // Whole turns of all that can turn, through M05's and M39's flat poses and their start in one.
     [TestCase("M01", "crank")]
     [TestCase("M02", "crank")]

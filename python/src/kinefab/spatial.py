@@ -51,8 +51,11 @@ class Pose:
 
 
 def skew(v: Array) -> Array:
-    """The matrix S with ``S @ u == cross(v, u)``, shape (3, 3)."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+    """The matrices S with ``S @ u == cross(v, u)``, shape (..., 3) to (..., 3, 3)."""
+    s = np.zeros(v.shape + (3,))
+    s[..., 0, 1], s[..., 0, 2], s[..., 1, 2] = -v[..., 2], v[..., 1], -v[..., 0]
+    s[..., 1, 0], s[..., 2, 0], s[..., 2, 1] = v[..., 2], -v[..., 1], v[..., 0]
+    return s
 
 
 def rotation_about(axis: Array, angle: float) -> Array:

@@ -13,7 +13,7 @@ from ..spatial import Array
 from .assembly import Assembly
 from .atoms import cross
 from .rank import rank_of
-from .twists import twist_space
+from .twists import twist_spaces
 
 TOO_FEW = 1e-7
 OFF_DIRECTION = math.radians(0.5)
@@ -86,18 +86,12 @@ def node_freedoms(assembly: Assembly) -> list[NodeFreedom]:
     """Of every part of the scene."""
     twists = body_twists(assembly)
     relative = assembly.relative
-    spaces = {}
+    spaces = twist_spaces(twists, relative.center, relative.length, relative.axes)
     found = []
     for i, node in enumerate(assembly.scene.nodes):
-        if node.kind is not NodeKind.PART or node.suppressed:
-            continue
-        body = int(assembly.body[i + 1])
-        if body not in spaces:
-            length = float(relative.length[body])
-            space = twist_space(twists[body], relative.center[body], length, relative.axes)
-            spaces[body] = space
-        space = spaces[body]
-        found.append(NodeFreedom(i, space.translations, space.rotations, space.center))
+        if node.kind is NodeKind.PART and not node.suppressed:
+            space = spaces[int(assembly.body[i + 1])]
+            found.append(NodeFreedom(i, space.translations, space.rotations, space.center))
     return found
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..spatial import Array
+from ..spatial import Array, skew
 from .atoms import LENGTHS, Atom, cross, evaluate
 
 TURN = 2.0 * np.pi
@@ -267,9 +267,7 @@ def joined(first: System, second: System) -> System:
 def exponential(w: Array) -> Array:
     """Rotation matrices of rotation vectors, shape (..., 3) to (..., 3, 3) (Rodrigues)."""
     angle = np.sqrt(np.einsum("...i,...i->...", w, w))
-    k = np.zeros(w.shape + (3,))
-    k[..., 0, 1], k[..., 0, 2], k[..., 1, 2] = -w[..., 2], w[..., 1], -w[..., 0]
-    k[..., 1, 0], k[..., 2, 0], k[..., 2, 1] = w[..., 2], -w[..., 1], w[..., 0]
+    k = skew(w)
     s = np.sinc(angle / np.pi)[..., None, None]
     half = np.sinc(angle / TURN)[..., None, None]
     return np.eye(3) + s * k + 0.5 * half * half * (k @ k)

@@ -8,11 +8,13 @@ P (v_i + w_i x (c - o)) = 0 (Hunt, *Kinematic Geometry of Mechanisms*, ch. 4; He
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Iterable, Sequence
 
 import numpy as np
 
 from ..spatial import ROUNDING, Array, skew
 from .atoms import cross
+from .stacks import alike
 
 SPLIT = 1e-4
 """Below this rotation part (of an orthonormal basis) a twist counts as a pure translation."""
@@ -60,23 +62,31 @@ def twist_space(
     axes: see ``System.axes``; of the many bases of a span the one nearest to them is taken.
     split: error that the twists may have.
     """
-    k = basis.shape[1]
-    if not k:
-        return TwistSpace(origin, np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), None)
-    u, s, vt = np.linalg.svd(basis[3:], full_matrices=True)
-    r = int(np.sum(s > split))
-    translations = _nearest_basis(_orthonormal(basis[:3] @ vt[r:].T, split), axes)
-    rotations = _nearest_basis(u[:, :r].T, axes)
-    velocity = rotations @ u[:, :r] @ (basis[:3] @ vt[:r].T / s[:r]).T * length
-    space = TwistSpace(origin, translations, rotations, velocity, None)
-    return TwistSpace(origin, translations, rotations, velocity, _center(space, length, split))
+    return twist_spaces([basis], origin[None], np.array([length]), axes, split)[0]
 
 
-def _orthonormal(columns: Array, split: float) -> Array:
-    if not columns.shape[1]:
-        return np.zeros((0, 3))
-    u, s, _ = np.linalg.svd(columns, full_matrices=False)
-    return u.T[: int(np.sum(s > split))]
+def twist_spaces(
+    bases: Sequence[Array], origins: Array, lengths: Array, axes: Array, split: float = SPLIT
+) -> list[TwistSpace]:
+    """``twist_space`` of many: bases of shape (6, k) each, origins (n, 3), lengths (n,)."""
+    found: list = [None] * len(bases)
+    for k, group in alike(basis.shape[1] for basis in bases):
+        basis = np.array([bases[i] for i in group]).reshape(len(group), 6, k)
+        u, s, vt = np.linalg.svd(basis[:, 3:], full_matrices=True)
+        for r, own in alike(np.sum(s > split, axis=1).tolist()):
+            sliding = basis[own, :3] @ np.swapaxes(vt[own, r:], 1, 2)
+            across, size, _ = np.linalg.svd(sliding, full_matrices=False)
+            for t, part in alike(np.sum(size > split, axis=1).tolist()):
+                i, at = group[own[part]], own[part]
+                turns, scale = np.swapaxes(u[at, :, :r], 1, 2), s[at, None, :r]
+                translations = _nearest_bases(np.swapaxes(across[part], 1, 2)[:, :t], axes)
+                rotations = _nearest_bases(turns, axes)
+                moving = np.swapaxes(basis[at, :3] @ np.swapaxes(vt[at, :r], 1, 2) / scale, 1, 2)
+                velocity = rotations @ np.swapaxes(turns, 1, 2) @ moving * lengths[i, None, None]
+                centers = _centers(origins[i], translations, rotations, velocity, lengths[i], split)
+                for own_space in zip(i, origins[i], translations, rotations, velocity, centers):
+                    found[own_space[0]] = TwistSpace(*own_space[1:])
+    return found
 
 
 def snapped(space: TwistSpace, points: Array, directions: Array, length: float) -> TwistSpace:
@@ -103,37 +113,45 @@ def snapped(space: TwistSpace, points: Array, directions: Array, length: float) 
     return replace(space, rotations=rotations, translations=turned(space.translations), center=center)
 
 
-def _nearest_basis(directions: Array, axes: Array) -> Array:
-    """The span of orthonormal ``directions``, shape (k, 3), by what the nearest of the axes leave in it."""
-    if len(directions) < 2:
+def _nearest_bases(directions: Array, axes: Array) -> Array:
+    """The spans of orthonormal ``directions``, shape (n, k, 3), by what the nearest of the axes leave in them."""
+    count, k, _ = directions.shape
+    every = np.arange(count)
+    if k < 2:
         parts = directions @ axes
-        return directions * np.sign(parts[:, np.argmax(np.abs(parts[0]).round(ROUNDING))]) if len(parts) else directions
-    inside = directions.T @ directions
+        nearest = np.argmax(np.abs(parts).round(ROUNDING), axis=2)
+        return directions * np.sign(np.take_along_axis(parts, nearest[..., None], axis=2))
+    inside = np.swapaxes(directions, 1, 2) @ directions
     found = np.zeros_like(directions)
-    for i in range(len(directions)):
-        shadows = (inside @ axes).T
-        size = np.linalg.norm(shadows, axis=1)
-        nearest = int(np.argmax(size.round(ROUNDING)))
-        found[i] = shadows[nearest] / size[nearest]
-        inside = inside - np.outer(found[i], found[i])
+    for i in range(k):
+        shadows = np.swapaxes(inside @ axes, 1, 2)
+        size = np.linalg.norm(shadows, axis=2)
+        nearest = np.argmax(size.round(ROUNDING), axis=1)
+        found[:, i] = shadows[every, nearest] / size[every, nearest, None]
+        inside = inside - found[:, i, :, None] * found[:, i, None]
     return found
 
 
-def _center(space: TwistSpace, length: float, split: float) -> Array | None:
-    if space.r == 0:
-        return None
-    if space.r == 1 and space.t == 0:
-        return space.origin + cross(space.rotations[0], space.velocity[0])
-    project = np.eye(3) - space.translations.T @ space.translations
-    matrix = np.concatenate([project @ skew(w) for w in space.rotations])
-    if space.r == 1:  # a screw's travel along its axis has no point to vanish at
-        w = space.rotations[0]
-        project = project @ (np.eye(3) - np.outer(w, w))
-        matrix = project @ skew(w)
-    target = np.concatenate([-project @ v for v in space.velocity])
-    offset = np.linalg.lstsq(matrix, target, rcond=split)[0]
-    misfit = np.linalg.norm(matrix @ offset - target)
-    return space.origin + offset if misfit < split * length else None
+def _centers(
+    origins: Array, translations: Array, rotations: Array, velocity: Array, lengths: Array, split: float
+) -> Iterable[Array | None]:
+    """The point c of the module's formula nearest to the origin, of spaces of one shape."""
+    count, r, _ = rotations.shape
+    t = translations.shape[1]
+    if r == 0:
+        return [None] * count
+    if r == 1 and t == 0:
+        return origins + cross(rotations[:, 0], velocity[:, 0])
+    project = np.eye(3) - np.swapaxes(translations, 1, 2) @ translations
+    if r == 1:  # a screw's travel along its axis has no point to vanish at
+        project = project @ (np.eye(3) - np.swapaxes(rotations, 1, 2) @ rotations)
+    matrix = (project[:, None] @ skew(rotations)).reshape(count, 3 * r, 3)
+    target = -np.swapaxes(project @ np.swapaxes(velocity, 1, 2), 1, 2).reshape(count, 3 * r, 1)
+    u, s, vt = np.linalg.svd(matrix, full_matrices=False)
+    inverse = np.divide(1.0, s, out=np.zeros_like(s), where=s > split)
+    offset = np.swapaxes(vt, 1, 2) @ (inverse[..., None] * (np.swapaxes(u, 1, 2) @ target))
+    misfit = np.linalg.norm(matrix @ offset - target, axis=(1, 2))
+    return [c if m < split * l else None for c, m, l in zip(origins + offset[..., 0], misfit, lengths)]
 
 
 def revolving_point(space: TwistSpace, near: Array) -> Array:

@@ -9,6 +9,7 @@ does not show in first order.  So points and directions of the constraints are o
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 from typing import Iterable, Iterator
 
 import numpy as np
@@ -44,15 +45,9 @@ class Geometry:
         return np.column_stack([x, y, cross(x, y)])
 
 
-def candidates(space: TwistSpace, geometry: Geometry, length: float) -> list[Candidate]:
+def candidates(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
     """What to try, in order; empty where no joint of one ConfigurableJoint has these twists."""
-    offers = _OFFERS.get(space.r, _none)(space, geometry, length)
-    result = []
-    for candidate in offers:
-        result.append(candidate)
-        if len(result) == MOST:
-            break
-    return result
+    return islice(_OFFERS.get(space.r, _none)(space, geometry, length), MOST)
 
 
 def _none(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:

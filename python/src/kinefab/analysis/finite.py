@@ -14,6 +14,7 @@ from scipy.sparse import csr_matrix
 from ..model import RX, RY, RZ, TX, Freedom, JointKind, Motion, freedoms_of
 from ..spatial import Array
 from .atoms import Atom, evaluate
+from .stacks import alike
 from .system import TURN, System, exponential
 
 SAMPLES = 24
@@ -45,46 +46,57 @@ class Candidate:
         return self.freedoms or freedoms_of(self.kind)
 
     @property
+    def unlocked(self) -> tuple[int, ...]:
+        return tuple(i for i, f in enumerate(self.six) if f.motion is not Motion.LOCKED)
+
+    @property
     def dof(self) -> int:
-        return sum(f.motion is not Motion.LOCKED for f in self.six) - (self.kind is JointKind.SCREW)
+        return len(self.unlocked) - (self.kind is JointKind.SCREW)
 
 
-def motions(candidate: Candidate, length: float, samples: int, seed: int = 7) -> tuple[Array, Array]:
-    """Random motions of b against a that the joint allows, in the joint frame.
+def motions(candidates: list[Candidate], lengths: Array, samples: int, seed: int = 7) -> tuple[Array, Array]:
+    """Random motions of b against a that each joint allows, in the joint frame.
 
-    Returns rotations (samples, 3, 3) and translations (samples, 3): the pose of b's frame in a's, with
-    the semantics of a D6 joint: translations along a's axes; with only Y (Z) locked, X stays fixed in b
-    and Z (Y) in a; with only X locked, the swing is homokinetic.
+    Returns rotations (candidates, samples, 3, 3) and translations (candidates, samples, 3): the pose of b's
+    frame in a's, with the semantics of a D6 joint: translations along a's axes; with only Y (Z) locked, X
+    stays fixed in b and Z (Y) in a; with only X locked, the swing is homokinetic.
     """
-    draw = np.random.default_rng(seed)
-    q = draw.uniform(-1.0, 1.0, (samples, 6)) * np.array([REACH * length] * 3 + [TURN_REACH] * 3)
-    q *= [f.motion is not Motion.LOCKED for f in candidate.six]
-    if candidate.kind is JointKind.SCREW:
-        q[:, TX] = candidate.lead / TURN * q[:, RX]
-    turning = [i for i in (RX, RY, RZ) if candidate.six[i].motion is not Motion.LOCKED]
-    if turning == [RX, RZ]:
-        rotation = _about(2, q[:, RZ]) @ _about(0, q[:, RX])
-    elif turning == [RX, RY]:
-        rotation = _about(1, q[:, RY]) @ _about(0, q[:, RX])
-    else:
-        rotation = exponential(q[:, 3:])
-    return rotation, q[:, :3]
+    draw = np.random.default_rng(seed).uniform(-1.0, 1.0, (samples, 6))
+    unit = np.concatenate([np.repeat(REACH * lengths[:, None], 3, axis=1), np.full((len(candidates), 3), TURN_REACH)], axis=1)
+    q = draw * unit[:, None]
+    rotation = np.empty((len(candidates), samples, 3, 3))
+    for (unlocked, screw), own in alike((c.unlocked, c.kind is JointKind.SCREW) for c in candidates):
+        q[own] *= [i in unlocked for i in range(6)]
+        if screw:
+            lead = np.array([candidates[i].lead for i in own])
+            q[own, :, TX] = lead[:, None] / TURN * q[own, :, RX]
+        turning = tuple(i for i in unlocked if i >= RX)
+        if turning == (RX, RZ):
+            rotation[own] = _about(2, q[own, :, RZ]) @ _about(0, q[own, :, RX])
+        elif turning == (RX, RY):
+            rotation[own] = _about(1, q[own, :, RY]) @ _about(0, q[own, :, RX])
+        else:
+            rotation[own] = exponential(q[own, :, 3:])
+    return rotation, q[..., :3]
 
 
 def _about(axis: int, angle: Array) -> Array:
-    w = np.zeros((len(angle), 3))
-    w[:, axis] = angle
+    w = np.zeros(angle.shape + (3,))
+    w[..., axis] = angle
     return exponential(w)
 
 
-def world_motions(candidate: Candidate, length: float, samples: int) -> tuple[Array, Array]:
-    """Displacements of the pair's second body (first at rest) about the candidate's origin, in the WORLD."""
-    rotation, shift = motions(candidate, length, samples)
-    rotation = candidate.axes @ rotation @ candidate.axes.T
-    shift = shift @ candidate.axes.T
-    if not candidate.first_is_a:
-        rotation = np.swapaxes(rotation, 1, 2)
-        shift = -np.einsum("sij,sj->si", rotation, shift)
+def world_motions(candidates: list[Candidate], lengths: Array, samples: int) -> tuple[Array, Array]:
+    """Displacements of each pair's second body (first at rest) about the candidate's origin, in the WORLD."""
+    rotation, shift = motions(candidates, lengths, samples)
+    axes = np.array([c.axes for c in candidates])[:, None]
+    back = np.swapaxes(axes, 2, 3)
+    rotation = axes @ rotation @ back
+    shift = (shift[:, :, None] @ back)[:, :, 0]
+    swapped = np.flatnonzero([not c.first_is_a for c in candidates])
+    if len(swapped):
+        rotation[swapped] = np.swapaxes(rotation[swapped], 2, 3)
+        shift[swapped] = -np.einsum("nsij,nsj->nsi", rotation[swapped], shift[swapped])
     return rotation, shift
 
 
@@ -102,9 +114,7 @@ def misfits(
     system: its atoms all join ``first[p]`` and ``second[p]`` of the pair p = ``atom_pair[atom]``, and its
     rows hold atoms of one pair each.  lengths: metres, by which each pair's lengths are measured.
     """
-    moved = [world_motions(c, l, samples) for c, l in zip(candidates, lengths)]
-    rotation = np.array([m[0] for m in moved])
-    shift = np.array([m[1] for m in moved])
+    rotation, shift = world_motions(candidates, lengths, samples)
     origin = np.array([c.origin for c in candidates])
     value = np.zeros((len(system.kind), samples))
     b_moves = system.body_b == second[atom_pair]

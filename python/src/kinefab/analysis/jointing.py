@@ -106,7 +106,7 @@ class _Jointing:
         )
 
     def _aside(self, relations: list[Relation]) -> list[Joint]:
-        spoken = {int(o) for r in relations for o in np.unique(self.assembly.system.owner[r.rows])}
+        spoken = {o for r in relations for o in r.owners}
         return [
             s
             for i, s in enumerate(self.assembly.equations.statements)
@@ -116,7 +116,7 @@ class _Jointing:
     def _explicit(self, relation: Relation) -> Joint | None:
         """The source's own joint, where it alone makes the relation."""
         statements = self.assembly.equations.statements
-        owners = np.unique(self.assembly.system.owner[relation.rows])
+        owners = relation.owners
         if len(owners) == 1 and isinstance(statements[owners[0]], Joint):
             return statements[owners[0]]
         return None
@@ -125,7 +125,7 @@ class _Jointing:
         """Of several statements about a pair, an explicit joint of the found kind stands for all of them,
         so that its limits and drives are kept; one of another kind is given up, and reported."""
         statements = self.assembly.equations.statements
-        owners = np.unique(self.assembly.system.owner[relation.rows])
+        owners = relation.owners
         explicit = [statements[o] for o in owners if isinstance(statements[o], Joint)]
         same = next((j for j in explicit if j.kind is relation.joint.kind), None)
         for joint in explicit:
@@ -151,7 +151,7 @@ class _Jointing:
         )
 
     def _names(self, relation: Relation) -> list[str]:
-        return self.assembly.equations.names(self.assembly.system.owner[relation.rows])
+        return self.assembly.equations.names(relation.owners)
 
     def _label(self, body: int) -> str:
         nodes = np.flatnonzero(self.assembly.body[1:] == body)
@@ -163,7 +163,7 @@ class _Jointing:
         if relation.joint is not None:
             return
         system = self.assembly.system
-        owners = np.unique(system.owner[relation.rows])
+        owners = relation.owners
         parts = []
         for owner in owners:
             rows = relation.rows[system.owner[relation.rows] == owner]
@@ -315,7 +315,7 @@ class _Jointing:
     def _directions(self, relation: Relation, body: int) -> list[Array]:
         """Directions that the relation's constraints name, this body's first, WORLD at the closed pose."""
         own, others = [], []
-        for owner in np.unique(self.assembly.system.owner[relation.rows]):
+        for owner in relation.owners:
             for feature in getattr(self.assembly.equations.statements[owner], "features", ()):
                 if feature.direction is not None:
                     mine = self.assembly.body[0 if feature.node is None else feature.node + 1] == body
@@ -329,7 +329,7 @@ class _Jointing:
         """The node of a body that the relation's own constraints name."""
         if body >= self.assembly.system.bodies:
             return len(self.assembly.scene.nodes) + body - self.assembly.system.bodies
-        for owner in np.unique(self.assembly.system.owner[relation.rows]):
+        for owner in relation.owners:
             for node in nodes_of(self.assembly.equations.statements[owner]):
                 if node is not None and self.assembly.body[node + 1] == body:
                     return node

@@ -11,8 +11,9 @@ from .atoms import LENGTHS, cross
 from .candidates import Geometry, candidates
 from .finite import EXACT, Candidate, misfits
 from .rank import SURE_GAP, normalised, rank_of
+from .stacks import alike
 from .system import IN_ONE_PLACE, State, System
-from .twists import TwistSpace, twist_space
+from .twists import TwistSpace, twist_spaces
 
 SLACK = 20.0
 """A candidate may miss by this many times the misfit that the exported pose already has ..."""
@@ -42,6 +43,7 @@ class Pairs:
 class Relation:
     """What the constraints of one pair leave.
 
+    owners: the statements that the rows belong to, each once, ascending.
     rows, rank: of the pair alone, first order.  basis: scaled twists (v / length, w) of the second body
     against the first about ``origin``, columns, orthonormal, shape (6, 6 - rank).
     joint: the one joint with exactly these motions, or None.  misfit: of the best candidate, as a fraction
@@ -52,6 +54,7 @@ class Relation:
     first: int
     second: int
     rows: np.ndarray
+    owners: list[int]
     rank: int
     gap: float
     origin: Array
@@ -129,11 +132,15 @@ def batched_null_spaces(rows: Array, row_pair: np.ndarray, count: int):
     starts = np.concatenate([[0], np.cumsum(sizes)])
     rank, gap, vt = np.zeros(count, dtype=np.int64), np.zeros(count), np.zeros((count, 6, 6))
     height = np.maximum(6, 2 ** np.ceil(np.log2(np.maximum(sizes, 1))).astype(int))
+    pair_of = row_pair[used]
+    place = np.arange(len(used)) - starts[pair_of]
     for h in np.unique(height):
         group = np.flatnonzero(height == h)
+        number = np.full(count, -1)
+        number[group] = np.arange(len(group))
+        mine = number[pair_of] >= 0
         block = np.zeros((len(group), h, 6))
-        for i, pair in enumerate(group):
-            block[i, : sizes[pair]] = rows[used[starts[pair] : starts[pair + 1]]]
+        block[number[pair_of[mine]], place[mine]] = rows[used[mine]]
         _, s, v = np.linalg.svd(block, full_matrices=False)
         rank[group], gap[group] = rank_of(s)
         vt[group] = v
@@ -146,54 +153,64 @@ def relations_of(system: System, pairs: Pairs, state: State) -> list[Relation]:
         return []
     rows, origin, length = relative_rows(system, pairs, state)
     rank, gap, vt, order, starts = batched_null_spaces(rows, pairs.row_pair, len(pairs))
-    atoms_of = np.argsort(pairs.atom_pair, kind="stable")
-    atom_starts = np.searchsorted(pairs.atom_pair[atoms_of], np.arange(len(pairs) + 1))
-    pointed = np.isin(system.kind, LENGTHS)
-    found = []
-    for i in range(len(pairs)):
-        basis = vt[i, rank[i] :].T
-        atoms = atoms_of[atom_starts[i] : atom_starts[i + 1]]
-        found.append(
-            Relation(
-                int(pairs.first[i]),
-                int(pairs.second[i]),
-                order[starts[i] : starts[i + 1]],
-                int(rank[i]),
-                float(gap[i]),
-                origin[i],
-                float(length[i]),
-                basis,
-                6 - int(rank[i]),
-                twist_space(basis, origin[i], float(length[i]), system.axes),
-                _geometry(system, atoms, pointed, int(pairs.first[i]), float(length[i])),
-            )
+    bases = [vt[i, r:].T for i, r in enumerate(rank)]
+    spaces = twist_spaces(bases, origin, length, system.axes)
+    geometries = _geometries(system, pairs, length)
+    owner = system.owner[order]
+    return [
+        Relation(first, second, order[at:end], sorted(set(owner[at:end].tolist())), *own)
+        for first, second, at, end, *own in zip(
+            pairs.first.tolist(),
+            pairs.second.tolist(),
+            starts.tolist(),
+            starts[1:].tolist(),
+            rank.tolist(),
+            gap.tolist(),
+            origin,
+            length.tolist(),
+            bases,
+            (6 - rank).tolist(),
+            spaces,
+            geometries,
         )
+    ]
+
+
+def _geometries(system: System, pairs: Pairs, length: Array) -> list[Geometry]:
+    """Each pair's points and directions; the system must stand at its start pose.
+
+    Where no atom of a pair has points, those of all its atoms are taken.
+    """
+    atoms_of = np.argsort(pairs.atom_pair, kind="stable")
+    starts = np.searchsorted(pairs.atom_pair[atoms_of], np.arange(len(pairs) + 1))
+    pointed = np.isin(system.kind, LENGTHS)
+    found: list = [None] * len(pairs)
+    for count, group in alike(np.diff(starts).tolist()):
+        atoms = atoms_of[starts[group, None] + np.arange(count)]
+        a_first = (system.body_a[atoms] == pairs.first[group, None])[..., None]
+        on_a = np.stack([system.a[atoms], system.k[atoms]], axis=2)
+        on_b = np.stack([system.b[atoms], np.zeros(atoms.shape + (3,))], axis=2)
+        sides = []
+        for here in (np.where(a_first[..., None], on_a, on_b), np.where(a_first[..., None], on_b, on_a)):
+            here = here.reshape(len(group), -1, 3)
+            sides.append(_distinct(here, np.linalg.norm(here, axis=2) > 0.5, np.full(len(group), 1e-6)))
+        p_a, p_b = system.p_a[atoms], system.p_b[atoms]
+        points = np.concatenate([np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)], axis=1)  # second body's first
+        placed = pointed[atoms] | ~pointed[atoms].any(axis=1, keepdims=True)
+        points = _distinct(points, np.tile(placed, 2), 1e-6 * length[group])
+        for i, *own in zip(group, points, *sides):
+            found[i] = Geometry(*own, system.axes)
     return found
 
 
-def _geometry(system: System, atoms: np.ndarray, pointed: np.ndarray, first: int, length: float) -> Geometry:
-    """The pair's points and directions; the system must stand at its start pose.  pointed: mask of atoms with points."""
-    mine = atoms[pointed[atoms]]
-    mine = mine if len(mine) else atoms
-    a_first = (system.body_a[mine] == first)[:, None]
-    p_a, p_b = system.p_a[mine], system.p_b[mine]
-    points = np.concatenate([np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)])  # the second body's first
-    points = _distinct(points, 1e-6 * length)
-    on_a = np.stack([system.a[atoms], system.k[atoms]], axis=1)
-    on_b = np.stack([system.b[atoms], np.zeros((len(atoms), 3))], axis=1)
-    a_first = (system.body_a[atoms] == first)[:, None, None]
-    sides = []
-    for here in (np.where(a_first, on_a, on_b), np.where(a_first, on_b, on_a)):
-        here = here.reshape(-1, 3)
-        sides.append(_distinct(here[np.linalg.norm(here, axis=1) > 0.5], 1e-6))
-    return Geometry(points, *sides, system.axes)
-
-
-def _distinct(vectors: Array, tolerance: float) -> Array:
-    """The vectors, up to ``MOST``, without those near an earlier one."""
-    vectors = vectors[:MOST]
-    near = np.abs(vectors[:, None] - vectors).max(axis=2) <= tolerance
-    return vectors[~np.tril(near, -1).any(axis=1)]
+def _distinct(vectors: Array, taken: np.ndarray, tolerance: Array) -> list[Array]:
+    """Of each stack of vectors, shape (n, m, 3), the first ``MOST`` that are taken (a mask), without those near an
+    earlier one; tolerance: shape (n,)."""
+    first = np.argsort(~taken, axis=1, kind="stable")[:, :MOST]
+    vectors, taken = np.take_along_axis(vectors, first[..., None], axis=1), np.take_along_axis(taken, first, axis=1)
+    near = np.abs(vectors[:, :, None] - vectors[:, None]).max(axis=3) <= tolerance[:, None, None]
+    fresh = taken & ~(np.tril(near, -1) & taken[:, None]).any(axis=2)
+    return [own[kept] for own, kept in zip(vectors, fresh)]
 
 
 def find_joints(system: System, pairs: Pairs, relations: list[Relation], residual: Array) -> None:
@@ -201,27 +218,22 @@ def find_joints(system: System, pairs: Pairs, relations: list[Relation], residua
 
     residual: of the start pose, shape (rows,), scaled by ``system.length``.
     """
-    waiting = [
-        (i, candidates(r.space, r.geometry, r.length)) for i, r in enumerate(relations) if r.joint is None
-    ]
-    turn = 0
-    while waiting:
-        waiting = [(i, offers) for i, offers in waiting if turn < len(offers)]
-        chosen = [i for i, _ in waiting]
-        if not chosen:
-            break
-        worst = _try(system, pairs, relations, chosen, [offers[turn] for _, offers in waiting])
-        for (i, offers), misfit in zip(waiting, worst):
+    offers = {i: candidates(r.space, r.geometry, r.length) for i, r in enumerate(relations) if r.joint is None}
+    while True:
+        tried = {i: offer for i, own in offers.items() if (offer := next(own, None)) is not None}
+        if not tried:
+            return
+        worst = _try(system, pairs, relations, list(tried), list(tried.values()))
+        for (i, offer), misfit in zip(tried.items(), worst.tolist()):
             relation = relations[i]
             if misfit < relation.misfit:
-                relation.misfit = float(misfit)
-                relation.tried.append(offers[turn])
+                relation.misfit = misfit
+                relation.tried.append(offer)
             scaled = np.abs(residual[relation.rows]).max(initial=0.0)
             allowed = max(EXACT, min(SLACK * scaled, MOST_SLACK))
-            if misfit <= allowed and offers[turn].dof == relation.finite:
-                relation.joint = offers[turn]
-        waiting = [(i, offers) for i, offers in waiting if relations[i].joint is None]
-        turn += 1
+            if misfit <= allowed and offer.dof == relation.finite:
+                relation.joint = offer
+        offers = {i: offers[i] for i in tried if relations[i].joint is None}
 
 
 def _try(

@@ -11,10 +11,15 @@ from typing import Hashable, Iterable, Iterator
 import numpy as np
 
 
+MOST = 1000
+"""Problems in one stack, which bounds its memory."""
+
+
 def alike(keys: Iterable[Hashable]) -> Iterator[tuple[Hashable, np.ndarray]]:
-    """Each key, as they first come, and the places where it stands, ascending."""
+    """Each key, as they first come, and the places where it stands, ascending, up to ``MOST`` at a time."""
     places: dict[Hashable, list[int]] = {}
     for i, key in enumerate(keys):
         places.setdefault(key, []).append(i)
     for key, own in places.items():
-        yield key, np.array(own)
+        for at in range(0, len(own), MOST):
+            yield key, np.array(own[at : at + MOST])

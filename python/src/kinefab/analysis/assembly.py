@@ -10,7 +10,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import Joint, Scene
 from ..rigid import RigidGroups
-from ..spatial import Array, Pose
+from ..spatial import Array, Pose, cross
 from .blocks import Blocks, blocks_of, edges_of, relative_system
 from .bodies import Partition, stated_bodies
 from .canonical import canonical
@@ -195,7 +195,7 @@ def _at_origin(relative: System, bodies: np.ndarray, twist: Array) -> Array:
     """Twists (v / length, w) about one common point, that of the block's first body."""
     length = relative.length[bodies[0]]
     arm = (relative.center[bodies] - relative.center[bodies[0]]) / length
-    return np.concatenate([twist[:, :3] - np.cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)
+    return np.concatenate([twist[:, :3] - cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)
 
 
 def _same_twists(relative: System, root: int, bodies: np.ndarray, twist: Array) -> list[np.ndarray]:

@@ -8,6 +8,7 @@ against its block's root, an assembly falls into small independent systems (Hopc
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Iterator
 
 import numpy as np
 
@@ -35,6 +36,18 @@ class Blocks:
         order = np.argsort(self.block, kind="stable")
         starts = np.searchsorted(self.block[order], np.arange(len(self.root) + 1))
         return [order[starts[i] : starts[i + 1]] for i in range(len(self.root))]
+
+    def generations(self) -> Iterator[np.ndarray]:
+        """The bodies of all blocks, every root before its block's: those equally many blocks from their island's root."""
+        depth = np.zeros(len(self.block), dtype=np.int64)
+        root, block = self.root.tolist(), self.block.tolist()
+        for body in self.order.tolist():
+            if block[body] >= 0:
+                depth[body] = depth[root[block[body]]] + 1
+        order = np.argsort(depth, kind="stable")
+        starts = np.searchsorted(depth[order], np.arange(1, int(depth.max(initial=0)) + 2))
+        for at, end in zip(starts.tolist(), starts[1:].tolist()):
+            yield order[at:end]
 
 
 def edges_of(system: System) -> np.ndarray:

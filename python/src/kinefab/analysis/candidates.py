@@ -15,8 +15,7 @@ from typing import Iterable, Iterator
 import numpy as np
 
 from ..model import FREE, LOCKED, RX, RZ, TX, TY, JointKind
-from ..spatial import Array, frame_from_axes, perpendicular
-from .atoms import cross
+from ..spatial import Array, cross, frame_from_axes, perpendicular
 from .finite import Candidate
 from .twists import TwistSpace, revolving_point
 
@@ -61,7 +60,7 @@ def _sliding(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[C
     elif space.t == 1:
         yield Candidate(JointKind.PRISMATIC, geometry.frame(space.translations[0]), anchor)
     elif space.t == 2:
-        yield Candidate(JointKind.TRANSLATE_2, geometry.frame(np.cross(*space.translations)), anchor)
+        yield Candidate(JointKind.TRANSLATE_2, geometry.frame(cross(*space.translations)), anchor)
     else:
         yield Candidate(JointKind.TRANSLATE_3, geometry.axes, anchor)
 
@@ -77,7 +76,7 @@ def _turning_once(space: TwistSpace, geometry: Geometry, length: float) -> Itera
             yield Candidate(JointKind.REVOLUTE, geometry.frame(axis), on_axis)
     elif space.t == 1:
         along = space.translations[0]
-        if np.linalg.norm(np.cross(axis, along)) < ALIGNED:
+        if np.linalg.norm(cross(axis, along)) < ALIGNED:
             yield Candidate(JointKind.CYLINDRICAL, geometry.frame(axis), on_axis)
         elif abs(axis @ along) < ALIGNED:
             yield from _both_orders(JointKind.PIN_SLOT, frame_from_axes(axis, along), geometry.points)
@@ -85,7 +84,7 @@ def _turning_once(space: TwistSpace, geometry: Geometry, length: float) -> Itera
         if np.abs(space.translations @ axis).max() < ALIGNED:
             yield Candidate(JointKind.PLANAR, geometry.frame(axis), anchor)
         elif abs(np.linalg.norm(space.translations @ axis) - 1.0) < ALIGNED:
-            across = np.cross(axis, np.cross(*space.translations))
+            across = cross(axis, cross(*space.translations))
             free = tuple(FREE if i in (TX, TY, RX) else LOCKED for i in range(6))
             yield from _both_orders(JointKind.GENERAL, frame_from_axes(axis, across), geometry.points, free)
     else:
@@ -93,11 +92,11 @@ def _turning_once(space: TwistSpace, geometry: Geometry, length: float) -> Itera
 
 
 def _turning_twice(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:
-    normal = np.cross(*space.rotations)
+    normal = cross(*space.rotations)
     if space.t == 2:
-        z = np.cross(*space.translations)
+        z = cross(*space.translations)
         if abs(z @ normal) < ALIGNED:
-            axes = _columns(np.cross(normal, z), z)
+            axes = _columns(cross(normal, z), z)
             yield from _both_orders(JointKind.LINE_IN_PLANE, axes, geometry.points)
         return
     kind = {0: JointKind.UNIVERSAL, 1: JointKind.GENERAL, 3: JointKind.PERPENDICULAR}[space.t]
@@ -141,7 +140,7 @@ def _turning_freely(space: TwistSpace, geometry: Geometry, length: float) -> Ite
     else:
         x, y = space.translations
         yield from _both_orders(
-            JointKind.POINT_ON_PLANE, np.column_stack([x, y, np.cross(x, y)]), geometry.points
+            JointKind.POINT_ON_PLANE, np.column_stack([x, y, cross(x, y)]), geometry.points
         )
 
 
@@ -157,13 +156,13 @@ def _both_orders(kind: JointKind, axes: Array, points: Array, freedoms=()) -> It
 def _columns(x: Array, z: Array) -> Array:
     x = x / np.linalg.norm(x)
     z = z / np.linalg.norm(z)
-    return np.column_stack([x, np.cross(z, x), z])
+    return np.column_stack([x, cross(z, x), z])
 
 
 def _within(directions: Array, normal: Array) -> Iterable[Array]:
     """Directions at right angles to ``normal``, each once."""
     seen: list[Array] = []
     for d in directions:
-        if abs(d @ normal) < ALIGNED and not any(np.linalg.norm(np.cross(d, e)) < ALIGNED for e in seen):
+        if abs(d @ normal) < ALIGNED and not any(np.linalg.norm(cross(d, e)) < ALIGNED for e in seen):
             seen.append(d)
     return seen

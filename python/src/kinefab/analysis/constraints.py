@@ -14,7 +14,7 @@ from typing import Callable, Mapping
 import numpy as np
 
 from ..model import Constraint, ConstraintKind, FeatureKind
-from ..spatial import Array
+from ..spatial import Array, cross
 from .atoms import Atom
 from .coupled import coupled, screw
 from .distances import PARALLEL_SINE, apart, lines_apart, off_line
@@ -141,7 +141,7 @@ def _angle(
         return
     about = _angle_axis(c, a, b, reference, context)
     if about is not None:
-        measured = math.atan2(about @ np.cross(a.z, b.z), a.z @ b.z)
+        measured = math.atan2(about @ cross(a.z, b.z), a.z @ b.z)
         if _ranged(c):
             context.ranges.append(RangedCoordinate(c, a.body, b.body, about, True, measured))
             return
@@ -240,7 +240,7 @@ def _pin_slot(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) 
     slot = a.z if abs(a.z @ b.z) < 0.5 else a.x
     normal = b.z - slot * (slot @ b.z)
     normal /= np.linalg.norm(normal)
-    across = np.cross(normal, slot)
+    across = cross(normal, slot)
     rows.dot(a, slot, b, b.z)
     rows.dot(a, across, b, b.z)
     rows.plane(a, normal, b)

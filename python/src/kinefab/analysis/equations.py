@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Iterable
 
 import numpy as np
@@ -144,13 +146,10 @@ def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
             report.dropped(feature, "CONSTRAINT_NODE_MISSING", c.where, id=c.id, node=f.node)
             return False
         numbers = [f.point] + [v for v in (f.direction, f.secondary) if v is not None]
-        if (
-            not all(np.all(np.isfinite(v)) for v in numbers)
-            or not np.isfinite([c.value, f.radius, f.half_angle]).all()
-        ):
+        if not all(map(math.isfinite, chain(*numbers, (c.value, f.radius, f.half_angle)))):
             report.dropped(feature, "CONSTRAINT_NOT_FINITE", c.where, id=c.id)
             return False
-        if has_direction(f.kind) and (f.direction is None or not np.linalg.norm(f.direction) > 1e-12):
+        if has_direction(f.kind) and (f.direction is None or not math.hypot(*f.direction) > 1e-12):
             report.dropped(feature, "CONSTRAINT_AXIS_ZERO", c.where, id=c.id, kind=f.kind.value)
             return False
     if any(f.node is not None and scene.nodes[f.node].suppressed for f in c.features):

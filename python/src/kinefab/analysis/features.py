@@ -7,8 +7,7 @@ from typing import Sequence
 import numpy as np
 
 from ..model import Feature, FeatureKind, Scene
-from ..spatial import ROUNDING, Array
-from .atoms import cross
+from ..spatial import ROUNDING, Array, cross
 from .rows import NOWHERE, Side
 
 

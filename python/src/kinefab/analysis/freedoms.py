@@ -9,10 +9,10 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import NodeKind
-from ..spatial import Array
+from ..spatial import Array, cross
 from .assembly import Assembly
-from .atoms import cross
 from .rank import rank_of
+from .stacks import alike
 from .twists import twist_spaces
 
 TOO_FEW = 1e-7
@@ -48,38 +48,41 @@ def body_twists(assembly: Assembly) -> list[Array]:
     for freedom in assembly.freedoms:
         for body, rows in zip(freedom.bodies, freedom.basis.reshape(len(freedom.bodies), 6, -1)):
             own[body] = rows
-    floating = set(blocks.island_root[1:].tolist())
     found: list[Array] = [np.zeros((6, 0))] * relative.bodies
-    for body in blocks.order.tolist():
-        if blocks.block[body] < 0:
-            found[body] = np.eye(6) if body in floating else np.zeros((6, 0))
-            continue
-        root = int(blocks.root[blocks.block[body]])
-        carried = found[root]
-        if carried.shape[1] == 6:
-            found[body] = carried
-            continue
-        if carried.shape[1]:
-            arm = relative.center[body] - relative.center[root]
-            v = carried[:3] * relative.length[root] + cross(carried[3:].T, arm).T
-            carried = np.concatenate([v / relative.length[body], carried[3:]])
-        found[body] = _orthonormal(np.concatenate([carried, own[body]], axis=1))
+    for body in blocks.island_root[1:].tolist():  # the islands that float
+        found[body] = np.eye(6)
+    root = np.where(blocks.block >= 0, blocks.root[blocks.block], -1) if len(blocks.root) else np.full(relative.bodies, -1)
+    for bodies in blocks.generations():
+        for (k, _), part in alike((found[root[b]].shape[1], own[b].shape[1]) for b in bodies):
+            here = bodies[part]
+            before = root[here]
+            carried = np.array([found[b] for b in before])
+            if 0 < k < 6:
+                arm = (relative.center[here] - relative.center[before])[:, None]
+                turning = np.swapaxes(carried[:, 3:], 1, 2)
+                v = carried[:, :3] * relative.length[before, None, None] + np.swapaxes(cross(turning, arm), 1, 2)
+                carried = np.concatenate([v / relative.length[here, None, None], carried[:, 3:]], axis=1)
+            if k < 6:
+                carried = _orthonormal(np.concatenate([carried, [own[b] for b in here]], axis=2))
+            for body, twists in zip(here, carried):
+                found[body] = twists
     return found
 
 
-def _orthonormal(columns: Array) -> Array:
-    """Basis of a span; columns without length (bodies at rest) are left out first."""
-    if not columns.shape[1]:
-        return columns
-    size = np.linalg.norm(columns, axis=0)
-    columns = columns[:, size > TOO_FEW]
-    if columns.shape[1] == 0:
-        return columns
-    columns = columns / np.linalg.norm(columns, axis=0)
-    if columns.shape[1] == 1:
-        return columns
-    u, s, _ = np.linalg.svd(columns, full_matrices=False)
-    return u[:, : int(rank_of(s)[0])]
+def _orthonormal(stack: Array) -> list[Array]:
+    """Bases of the spans of columns, shape (n, m, k); columns without length (bodies at rest) are left out first."""
+    size = np.linalg.norm(stack, axis=1)
+    found: list = [None] * len(stack)
+    for moving, group in alike(map(tuple, (size > TOO_FEW).tolist())):
+        kept = np.flatnonzero(moving)
+        columns = stack[group][:, :, kept] / size[group][:, None, kept]
+        rank = np.full(len(group), len(kept))
+        if len(kept) > 1:
+            columns, s, _ = np.linalg.svd(columns, full_matrices=False)
+            rank = rank_of(s)[0]
+        for i, basis, count in zip(group, columns, rank):
+            found[i] = basis[:, :count]
+    return found
 
 
 def node_freedoms(assembly: Assembly) -> list[NodeFreedom]:
@@ -132,7 +135,7 @@ def _angle_between(a: Array, b: Array) -> float:
     """
     if not len(a):
         return 0.0
-    u, v = _orthonormal(a.T), _orthonormal(b.T)
+    u, v = (_orthonormal(rows.T[None])[0] for rows in (a, b))
     outside = max(np.linalg.norm(p - q @ (q.T @ p), 2) for p, q in ((u, v), (v, u)))
     return math.asin(min(1.0, outside))
 

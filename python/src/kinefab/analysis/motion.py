@@ -105,7 +105,9 @@ def _trial(
     active[list(directions)] = True
     state = solver.system.moved(start, bodies, twists)
     state, _ = solver.project(state, active, _floor(solver, start))
-    return {p: _displacement(solver, first_order[p].bodies, start, state) / step for p in directions}
+    moved = _displacement(solver, bodies, start, state) / step
+    ends = np.cumsum([6 * len(first_order[p].bodies) for p in directions])
+    return dict(zip(directions, np.split(moved, ends[:-1])))
 
 
 def _displacement(solver: Solver, bodies: np.ndarray, start: State, end: State) -> Array:

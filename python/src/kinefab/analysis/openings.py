@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model import LOCKED, RX, RY, RZ, Joint, Motion, Scene
-from ..spatial import Array, Pose
+from ..spatial import Array, Pose, cross
 from .loops import Link, Tree
 from .rank import rank_of
 
@@ -117,13 +117,13 @@ class BlockTree:
     def _freedoms(self, joint: Joint, a: Pose, b: Pose) -> Array:
         """Twists that the joint leaves free (of a screw, turn and slide apart), shape (free, 6)."""
         slides, turns = a.rotation.T, _turns(joint, a, b)
-        both = np.block([[slides, np.zeros((3, 3))], [np.cross(self._lever(b), turns), turns]])
+        both = np.block([[slides, np.zeros((3, 3))], [cross(self._lever(b), turns), turns]])
         return both[[i for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]]
 
     def _wrenches(self, joint: Joint, a: Pose, b: Pose) -> Array:
         """Rows of the joint's six freedoms, shape (6, 6)."""
         slides, turns = a.rotation.T, _turns(joint, a, b)
-        return np.block([[slides, np.cross(self._lever(b), slides)], [np.zeros((3, 3)), turns]])
+        return np.block([[slides, cross(self._lever(b), slides)], [np.zeros((3, 3)), turns]])
 
 
 def locked_of(joint: Joint) -> list[int]:
@@ -137,7 +137,7 @@ def _turns(joint: Joint, a: Pose, b: Pose) -> Array:
     if len(locked) != 1:
         return axes
     one, other = (frame.rotation[:, i] for frame, i in zip((a, b), CARDAN[locked[0]]))
-    across = np.cross(one, other)
+    across = cross(one, other)
     turns = np.empty((3, 3))
     turns[[i for i in range(3) if RX + i != locked[0]]] = one, other
     turns[locked[0] - RX] = across / np.linalg.norm(across)
@@ -179,8 +179,8 @@ def moved_by(wrenches: Array, twist: Array) -> np.ndarray:
     algebra = _orthonormal(twist)
     while True:
         v, w = algebra[:3].T, algebra[3:].T
-        across = np.cross(w[:, None], v[None]) - np.cross(w[None], v[:, None])
-        brackets = np.concatenate([across, np.cross(w[:, None], w[None])], axis=2).reshape(-1, 6).T
+        across = cross(w[:, None], v[None]) - cross(w[None], v[:, None])
+        brackets = np.concatenate([across, cross(w[:, None], w[None])], axis=2).reshape(-1, 6).T
         larger = _orthonormal(np.concatenate([algebra, brackets], axis=1))
         if larger.shape[1] == algebra.shape[1]:
             return np.abs(wrenches @ algebra).max(axis=1, initial=0.0) > NONE

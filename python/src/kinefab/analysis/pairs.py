@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..spatial import Array
-from .atoms import LENGTHS, cross
+from ..spatial import Array, cross
+from .atoms import LENGTHS
 from .candidates import Geometry, candidates
 from .finite import EXACT, Candidate, misfits
 from .rank import SURE_GAP, normalised, rank_of

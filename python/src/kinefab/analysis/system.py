@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..spatial import Array, skew
-from .atoms import LENGTHS, Atom, cross, evaluate
+from ..spatial import Array, cross, skew
+from .atoms import LENGTHS, Atom, evaluate
 
 TURN = 2.0 * np.pi
 IN_ONE_PLACE = 1e-5

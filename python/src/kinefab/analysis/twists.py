@@ -12,8 +12,7 @@ from typing import Iterable, Sequence
 
 import numpy as np
 
-from ..spatial import ROUNDING, Array, skew
-from .atoms import cross
+from ..spatial import ROUNDING, Array, cross, skew
 from .stacks import alike
 
 SPLIT = 1e-4
@@ -98,7 +97,7 @@ def snapped(space: TwistSpace, points: Array, directions: Array, length: float) 
 
     def turned(single: Array) -> Array:
         for d in directions if len(single) == 1 else ():
-            if np.linalg.norm(np.cross(d, single[0])) < NAMED:
+            if np.linalg.norm(cross(d, single[0])) < NAMED:
                 return d[None] * np.sign(d @ single[0])
         return single
 

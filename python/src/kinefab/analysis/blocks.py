@@ -37,6 +37,11 @@ class Blocks:
         starts = np.searchsorted(self.block[order], np.arange(len(self.root) + 1))
         return [order[starts[i] : starts[i + 1]] for i in range(len(self.root))]
 
+    def of_edges(self, ends: np.ndarray) -> np.ndarray:
+        """The block of each pair of joined bodies, shape (edges, 2) to (edges,)."""
+        age = _block_age(self)[ends]
+        return self.block[np.take_along_axis(ends, age.argmax(axis=1)[:, None], axis=1)[:, 0]]
+
     def generations(self) -> Iterator[np.ndarray]:
         """The bodies of all blocks, every root before its block's: those equally many blocks from their island's root."""
         depth = np.zeros(len(self.block), dtype=np.int64)

@@ -171,14 +171,16 @@ def _note_axis(c: Constraint, sides: list[Side], context: Context) -> None:
 
 def joint_sides(joint: Joint, scene: Scene) -> tuple[Side, Side]:
     """The joint's two frames in the WORLD at the exported pose, X as the sides' z (main axis)."""
-    result = []
-    for node, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
-        world = scene.pose(node) @ frame
-        x, y, z = world.rotation.T
-        result.append(
-            Side(0 if node is None else node + 1, world.translation, x, y, z, FeatureKind.FRAME, framed=True)
-        )
-    return result[0], result[1]
+    ends = ((joint.a, joint.frame_a), (joint.b, joint.frame_b))
+    worlds = [(0 if node is None else node + 1, scene.pose(node) @ frame) for node, frame in ends]
+    a, b = (frame_side(body, world.rotation, world.translation) for body, world in worlds)
+    return a, b
+
+
+def frame_side(body: int, rotation: Array, place: Array) -> Side:
+    """A joint's WORLD frame on a body, X as the side's z (main axis)."""
+    x, y, z = rotation.T
+    return Side(body, place, x, y, z, FeatureKind.FRAME, framed=True)
 
 
 def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:

@@ -51,7 +51,7 @@ def body_twists(assembly: Assembly) -> list[Array]:
     found: list[Array] = [np.zeros((6, 0))] * relative.bodies
     for body in blocks.island_root[1:].tolist():  # the islands that float
         found[body] = np.eye(6)
-    root = np.where(blocks.block >= 0, blocks.root[blocks.block], -1) if len(blocks.root) else np.full(relative.bodies, -1)
+    root = np.append(blocks.root, -1)[blocks.block]
     for bodies in blocks.generations():
         for (k, _), part in alike((found[root[b]].shape[1], own[b].shape[1]) for b in bodies):
             here = bodies[part]

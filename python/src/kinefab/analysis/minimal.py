@@ -18,13 +18,13 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import FREE, FREEDOM_NAMES, LOCKED, RX, Joint, Motion, Scene, kind_of
-from ..spatial import Array
+from ..spatial import Array, Pose
 from .assembly import Assembly
 from .blocks import Blocks, relative_system
-from .equations import joint_rows, joint_sides
+from .equations import frame_side, joint_rows
 from .freedom import block_freedoms
 from .loops import Link, Tree, replace_link
-from .openings import NONE, Block, BlockTree, Openings, locked_of, moved_by, openings
+from .openings import NONE, Block, BlockTree, Openings, locked_of, moved_by, openings, tree_twists
 from .rows import Rows
 from .solve import Solver
 from .system import State, System
@@ -57,7 +57,10 @@ class _Choice:
 def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Report) -> list[Link]:
     """The links with their closing joints reduced.  scene: with middle bodies, at the closed pose."""
     links = list(tree.links)
-    chosen = _chosen(assembly, tree, scene)
+    if not tree.closures:
+        return links
+    frames = _world_frames(links, scene)
+    chosen = _chosen(assembly, tree, frames)
     reduced = {}
     for i, choice in chosen.items():
         joint = links[i].joint
@@ -68,7 +71,7 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
                 kind=kind_of(tuple(n for n in range(6) if n not in choice.rows)),
                 freed=tuple(n for n in locked_of(joint) if n not in choice.rows),
             )
-    refused = _refused(assembly, links, reduced, scene)
+    refused = _refused(assembly, links, reduced, frames)
     mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
     for i, choice in chosen.items():
         joint = links[i].joint
@@ -122,12 +125,12 @@ def _blocks(assembly: Assembly, tree: Tree) -> list[Block]:
     return list(found.values())
 
 
-def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
+def _chosen(assembly: Assembly, tree: Tree, frames: tuple[Array, Array]) -> dict[int, _Choice]:
     """The choice for each closure of a block that is not singular."""
     found: dict[int, _Choice] = {}
     doubtful: dict[tuple, tuple[list[BlockTree], list[Openings]]] = {}
-    for block in (BlockTree(block, tree, scene) for block in _blocks(assembly, tree)):
-        twists = block.twists()
+    blocks = [BlockTree(block, tree, frames) for block in _blocks(assembly, tree)]
+    for block, twists in zip(blocks, tree_twists(blocks)):
         here = openings(twists)
         chosen = _choose(block, [here])
         found |= chosen
@@ -136,7 +139,7 @@ def _chosen(assembly: Assembly, tree: Tree, scene: Scene) -> dict[int, _Choice]:
             if freed and moved_by(rows[freed], twist).any():
                 doubtful.setdefault(block.likeness(), ([], [here]))[0].append(block)
                 break
-    _travel(assembly, tree, scene, [(alike[0], poses) for alike, poses in doubtful.values()])
+    _travel(assembly, tree, frames, [(alike[0], poses) for alike, poses in doubtful.values()])
     for alike, poses in doubtful.values():
         for block in alike:
             found |= _choose(block, poses)
@@ -164,13 +167,14 @@ def _fewest(locked: list[int], spans: list[Array]) -> _Choice:
     by_rank = [np.array([span for span in spans if span.shape[1] == rank]) for rank in sorted(ranks - {0})]
     for count in range(max(ranks), len(locked)):
         best, worth = tuple(locked), 0.0
-        for pick in combinations(range(len(locked)), count):
+        picks = np.array(list(combinations(range(len(locked)), count)), dtype=np.int64)
+        seen = np.ones(len(picks))
+        for some in by_rank:
+            seen = np.minimum(seen, np.linalg.svd(some[:, picks], compute_uv=False)[..., -1].min(axis=0))
+        for pick, sight in zip(picks.tolist(), seen.tolist()):
             names = tuple(locked[p] for p in pick)
-            if not _expressible(names):
-                continue
-            seen = [np.linalg.svd(some[:, list(pick)], compute_uv=False)[:, -1].min() for some in by_rank]
-            if min(seen, default=1.0) > worth / CLEAR:
-                best, worth = names, float(min(seen, default=1.0))
+            if sight > worth / CLEAR and _expressible(names):
+                best, worth = names, sight
         if worth > HELD:
             return _Choice(best, count - max(ranks))
     return _Choice(tuple(locked), len(locked) - max(ranks))
@@ -182,32 +186,36 @@ def _expressible(locked: tuple[int, ...]) -> bool:
 
 
 def _travel(
-    assembly: Assembly, tree: Tree, scene: Scene, doubtful: list[tuple[BlockTree, list[Openings]]]
+    assembly: Assembly,
+    tree: Tree,
+    world: tuple[Array, Array],
+    doubtful: list[tuple[BlockTree, list[Openings]]],
 ) -> None:
     """Add what the blocks come to at poses along their motions."""
     if not doubtful:
         return
     bodies = len(tree.parent)
     blocks = assembly.blocks_with([(l.a, l.b) for l in tree.links], bodies)
-    links = [l for block, _ in doubtful for l in [*(l for _, l in block.held), *block.closing]]
-    system = relative_system(_system(links, scene, bodies), blocks)
+    indices = [i for block, _ in doubtful for i in block.indices]
+    system = relative_system(_system({i: tree.links[i] for i in indices}, world, bodies), blocks)
     solver = Solver(system)
     system.fit(solver.row_part, solver.part, assembly.equations.length)
     frames = np.broadcast_to(np.eye(3), (bodies, 3, 3)).copy()
     parts = []
     for block, _ in doubtful:
-        for (body, _), (a, _) in zip(block.held, block.frames):
-            frames[body] = a.rotation
+        for (body, _), rotation in zip(block.held, block.rotation):
+            frames[body] = rotation[0]
         parts.append(np.unique(solver.part[block.block.bodies]))
     moving = {body for block, _ in doubtful for body in block.block.bodies}
     order = [body for body in blocks.order.tolist() if body in moving]
     for state, there in poses_along(solver, frames):
+        come = [n for n, own in enumerate(parts) if there[own[own >= 0]].any()]
         rotation, translation = _in_world(system, state, blocks, order)
-        for (block, poses), own in zip(doubtful, parts):
-            if there[own[own >= 0]].any():
-                found = openings(block.twists(rotation, translation), poses[0])
-                if found is not None:
-                    poses.append(found)
+        for n, twists in zip(come, tree_twists([doubtful[n][0] for n in come], rotation, translation)):
+            poses = doubtful[n][1]
+            found = openings(twists, poses[0])
+            if found is not None:
+                poses.append(found)
 
 
 def _in_world(system: System, state: State, blocks: Blocks, order: list[int]) -> tuple[Array, Array]:
@@ -221,29 +229,31 @@ def _in_world(system: System, state: State, blocks: Blocks, order: list[int]) ->
     return rotation, translation
 
 
-def _refused(assembly: Assembly, links: list[Link], reduced: dict[int, Link], scene: Scene) -> set[int]:
+def _refused(
+    assembly: Assembly, links: list[Link], reduced: dict[int, Link], frames: tuple[Array, Array]
+) -> set[int]:
     """Closures without which a walk along the mechanism violates what they stood for."""
     if not reduced:
         return set()
-    bodies = max(max(l.a, l.b) for l in links) + 1
-    kept, whole = (
-        _system([reduced.get(i, l) if fewer else l for i, l in enumerate(links)], scene, bodies)
-        for fewer in (True, False)
-    )
-    blocks = assembly.blocks_with([(l.a, l.b) for l in links], bodies)
-    kept, whole = relative_system(kept, blocks), relative_system(whole, blocks)
+    ends = [(link.a, link.b) for link in links]
+    bodies = max(map(max, ends)) + 1
+    blocks = assembly.blocks_with(ends, bodies)
+    of_link = blocks.of_edges(np.array(ends))
+    own = np.flatnonzero(np.isin(of_link, of_link[list(reduced)])).tolist()
+    kept = relative_system(_system({i: reduced.get(i, links[i]) for i in own}, frames, bodies), blocks)
+    whole = relative_system(_system({i: links[i] for i in own}, frames, bodies), blocks)
     solver, check = Solver(kept), Solver(whole)
     kept.fit(solver.row_part, solver.part, assembly.equations.length)
     whole.fit(check.row_part, check.part, assembly.equations.length)
     whole.center, whole.length = kept.center, kept.length
     state = _walked(solver, kept.start())
-    angle = whole.start().angle
-    residual = np.abs(whole.residual(State(state.rotation, state.shift, angle)))
-    floor = np.abs(whole.residual(whole.start()))
-    bad = residual > np.maximum(IMPLIED, 100.0 * floor)
+    start = whole.start()
+    residual = np.abs(whole.residual(State(state.rotation, state.shift, start.angle)))
+    bad = residual > np.maximum(IMPLIED, 100.0 * np.abs(whole.residual(start)))
     parts = set(check.row_part[bad].tolist())
-    rows_of = {i: check.row_part[np.flatnonzero(whole.owner == i)[:1]] for i in reduced}
-    return {i for i, part in rows_of.items() if len(part) and int(part[0]) in parts}
+    owners, first = np.unique(whole.owner, return_index=True)
+    part_of = dict(zip(owners.tolist(), check.row_part[first].tolist()))
+    return {i for i in reduced if part_of.get(i) in parts}
 
 
 def _walked(solver: Solver, start: State) -> State:
@@ -260,11 +270,22 @@ def _walked(solver: Solver, start: State) -> State:
     return solver.project(state)[0]
 
 
-def _system(links: list[Link], scene: Scene, bodies: int) -> System:
-    """The equations of the joints themselves, between the links' bodies."""
+def _world_frames(links: list[Link], scene: Scene) -> tuple[Array, Array]:
+    """Each joint's frames on a and on b, WORLD: rotations (links, 2, 3, 3) and places (links, 2, 3), metres."""
+    poses = [Pose(), *(node.pose for node in scene.nodes)]
+    node = np.array([[0 if n is None else n + 1 for n in (l.joint.a, l.joint.b)] for l in links])
+    inner = [frame for l in links for frame in (l.joint.frame_a, l.joint.frame_b)]
+    turn = np.array([pose.rotation for pose in poses])[node]
+    rotation = turn @ np.array([frame.rotation for frame in inner]).reshape(-1, 2, 3, 3)
+    place = turn @ np.array([frame.translation for frame in inner]).reshape(-1, 2, 3, 1)
+    return rotation, place[..., 0] + np.array([pose.translation for pose in poses])[node]
+
+
+def _system(links: dict[int, Link], frames: tuple[Array, Array], bodies: int) -> System:
+    """The equations of some links' joints themselves, by their numbers (the rows' owners), between the links' bodies."""
     rows = Rows()
-    for i, link in enumerate(links):
+    for i, link in links.items():
         rows.owner = i
-        a, b = joint_sides(link.joint, scene)
-        joint_rows(rows, link.joint, replace(a, body=link.a), replace(b, body=link.b))
+        ends = zip((link.a, link.b), frames[0][i], frames[1][i])
+        joint_rows(rows, link.joint, *(frame_side(body, rotation, place) for body, rotation, place in ends))
     return rows.system(bodies)

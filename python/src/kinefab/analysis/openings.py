@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model import LOCKED, RX, RY, RZ, Joint, Motion, Scene
-from ..spatial import Array, Pose, cross
-from .loops import Link, Tree
+from ..model import RX, RY, RZ, Joint, Motion
+from ..spatial import Array, cross
+from .loops import Tree
 from .rank import rank_of
 
 CARDAN = {RX: (1, 2), RY: (2, 0), RZ: (1, 0)}
@@ -53,49 +53,43 @@ class Openings:
 
 
 class BlockTree:
-    """The spanning tree inside one block, its twists in units of one length about one point."""
+    """The spanning tree inside one block, in units of one length about one point.
 
-    def __init__(self, block: Block, tree: Tree, scene: Scene):
+    held: each body and the link that holds it, outwards.  closing: the links that close loops.  links, indices: all of
+    them, the held ones first, and their numbers in the tree.  rotation, place: their WORLD frames, on a and on b, shapes
+    (links, 2, 3, 3) and (links, 2, 3), metres.
+    """
+
+    def __init__(self, block: Block, tree: Tree, frames: tuple[Array, Array]):
+        held = [(body, int(tree.parent[body])) for body in block.bodies if tree.parent[body] >= 0]
         self.block = block
-        self.held = [(b, tree.links[tree.parent[b]]) for b in block.bodies if tree.parent[b] >= 0]
+        self.held = [(body, tree.links[i]) for body, i in held]
         self.closing = [tree.links[i] for i in block.closures]
-        self.frames = [self._frames(link, scene) for _, link in self.held]
-        self.ends = [self._frames(link, scene) for link in self.closing]
-        points = np.array([a.translation for a, _ in self.frames] or [np.zeros(3)])
+        self.links = [*(link for _, link in self.held), *self.closing]
+        self.indices = [*(i for _, i in held), *block.closures]
+        self.rotation, self.place = (values[self.indices] for values in frames)
+        points = self.place[: len(held), 0] if held else np.zeros((1, 3))
         self.origin = points.mean(axis=0)
         self.length = float(np.linalg.norm(points - self.origin, axis=1).max()) or 1.0
 
-    @staticmethod
-    def _frames(link: Link, scene: Scene) -> tuple[Pose, Pose]:
-        joint = link.joint
-        return scene.pose(joint.a) @ joint.frame_a, scene.pose(joint.b) @ joint.frame_b
-
     def likeness(self) -> tuple:
         """Equal for blocks that are alike but for where they stand, as mass-produced mechanisms are."""
-        links = [*(link for _, link in self.held), *self.closing]
+        links = self.links
         number = {body: n for n, body in enumerate(sorted({b for link in links for b in (link.a, link.b)}))}
         motions = [tuple(f.motion for f in link.joint.freedoms) for link in links]
         joints = tuple((number[l.a], number[l.b], l.joint.kind, l.joint.lead, m) for l, m in zip(links, motions))
-        frames = [frame for ends in (*self.frames, *self.ends) for frame in ends]
-        seen = frames[0].rotation.T
-        turns = np.array([seen @ frame.rotation for frame in frames])
-        places = np.array([seen @ (frame.translation - self.origin) / self.length for frame in frames])
+        seen = self.rotation[0, 0].T
+        turns = seen @ self.rotation
+        places = (self.place - self.origin) @ seen.T / self.length
         # adding nothing to what is rounded makes a zero of a negative one
         return joints, (np.round(turns, ALIKE) + 0.0).tobytes(), (np.round(places, ALIKE) + 0.0).tobytes()
 
-    def twists(self, rotation: Array | None = None, translation: Array | None = None) -> list[tuple[Array, Array]]:
-        """For each closure its locked rows, shape (locked, 6), and the twists of its b against its a, shape
-        (6, columns), a column for each freedom of the tree; at the exported pose or displaced (all bodies)."""
+    def closed_by(self, freedoms: Array, wrenches: Array) -> list[tuple[Array, Array]]:
+        """For each closure its locked rows and the twists of its b against its a, see ``tree_twists``.
 
-        def at(link: Link, frames: tuple[Pose, Pose]) -> tuple[Pose, Pose]:
-            if rotation is None or translation is None:
-                return frames
-            a, b = (Pose(rotation[n], translation[n]) @ f for n, f in zip((link.a, link.b), frames))
-            return a, b
-
-        own = [self._freedoms(link.joint, *at(link, frames)) for (_, link), frames in zip(self.held, self.frames)]
-        columns = sum(len(twists) for twists in own)
-        rest = np.zeros((6, columns))
+        freedoms, wrenches: of the links' six freedoms, shape (links, 6, 6)."""
+        own = [twists[unlocked_of(link.joint)] for (_, link), twists in zip(self.held, freedoms)]
+        rest = np.zeros((6, sum(len(twists) for twists in own)))
         carried: dict[int, Array] = {}
         done = 0
         for (body, link), twists in zip(self.held, own):
@@ -104,48 +98,64 @@ class BlockTree:
             carried[body] = twist
             done += len(twists)
         return [
-            (
-                self._wrenches(link.joint, *at(link, ends))[locked_of(link.joint)],
-                carried.get(link.b, rest) - carried.get(link.a, rest),
-            )
-            for link, ends in zip(self.closing, self.ends)
+            (rows[locked_of(link.joint)], carried.get(link.b, rest) - carried.get(link.a, rest))
+            for link, rows in zip(self.closing, wrenches[len(self.held) :])
         ]
 
-    def _lever(self, b: Pose) -> Array:
-        return (b.translation - self.origin) / self.length
 
-    def _freedoms(self, joint: Joint, a: Pose, b: Pose) -> Array:
-        """Twists that the joint leaves free (of a screw, turn and slide apart), shape (free, 6)."""
-        slides, turns = a.rotation.T, _turns(joint, a, b)
-        both = np.block([[slides, np.zeros((3, 3))], [cross(self._lever(b), turns), turns]])
-        return both[[i for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]]
+def tree_twists(
+    trees: list[BlockTree], rotation: Array | None = None, translation: Array | None = None
+) -> list[list[tuple[Array, Array]]]:
+    """For each closure of each tree its locked rows, shape (locked, 6), and the twists of its b against its a, shape
+    (6, columns), a column for each freedom of the tree; at the exported pose or displaced (all bodies)."""
+    if not trees:
+        return []
+    links = [link for tree in trees for link in tree.links]
+    turn, place = (np.concatenate([getattr(tree, name) for tree in trees]) for name in ("rotation", "place"))
+    if rotation is not None and translation is not None:
+        bodies = np.array([(link.a, link.b) for link in links])
+        turn = rotation[bodies] @ turn
+        place = (rotation[bodies] @ place[..., None])[..., 0] + translation[bodies]
+    count = [len(tree.links) for tree in trees]
+    origin = np.repeat([tree.origin for tree in trees], count, axis=0)
+    lever = (place[:, 1] - origin) / np.repeat([tree.length for tree in trees], count)[:, None]
+    slides = np.swapaxes(turn[:, 0], 1, 2)
+    turns = _turns([link.joint for link in links], turn)
+    freedoms, wrenches = np.zeros((2, len(links), 6, 6))
+    freedoms[:, :3, :3] = wrenches[:, :3, :3] = slides  # of a screw, turn and slide are apart
+    freedoms[:, 3:, 3:] = wrenches[:, 3:, 3:] = turns
+    freedoms[:, 3:, :3] = cross(lever[:, None], turns)
+    wrenches[:, :3, 3:] = cross(lever[:, None], slides)
+    ends = np.cumsum(count)[:-1]
+    return [tree.closed_by(*own) for tree, *own in zip(trees, np.split(freedoms, ends), np.split(wrenches, ends))]
 
-    def _wrenches(self, joint: Joint, a: Pose, b: Pose) -> Array:
-        """Rows of the joint's six freedoms, shape (6, 6)."""
-        slides, turns = a.rotation.T, _turns(joint, a, b)
-        return np.block([[slides, cross(self._lever(b), slides)], [np.zeros((3, 3)), turns]])
+
+def unlocked_of(joint: Joint) -> list[int]:
+    return [i for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]
 
 
 def locked_of(joint: Joint) -> list[int]:
     return [i for i, f in enumerate(joint.freedoms) if f.motion is Motion.LOCKED]
 
 
-def _turns(joint: Joint, a: Pose, b: Pose) -> Array:
-    """Axes of the three rotations, rows: a's, which a lone locked one shares with b."""
-    axes = a.rotation.T
-    locked = [i for i in (RX, RY, RZ) if joint.freedoms[i].motion is Motion.LOCKED]
-    if len(locked) != 1:
-        return axes
-    one, other = (frame.rotation[:, i] for frame, i in zip((a, b), CARDAN[locked[0]]))
-    across = cross(one, other)
-    turns = np.empty((3, 3))
-    turns[[i for i in range(3) if RX + i != locked[0]]] = one, other
-    turns[locked[0] - RX] = across / np.linalg.norm(across)
-    return turns
+def _turns(joints: list[Joint], turn: Array) -> Array:
+    """Axes of the three rotations, rows, shape (joints, 3, 3): a's, which a lone locked one shares with b.
+
+    turn: see ``BlockTree.rotation``.
+    """
+    axes = np.swapaxes(turn[:, 0], 1, 2).copy()
+    for n, joint in enumerate(joints):
+        locked = [i for i in (RX, RY, RZ) if joint.freedoms[i].motion is Motion.LOCKED]
+        if len(locked) == 1:
+            one, other = (frame[:, i] for frame, i in zip(turn[n], CARDAN[locked[0]]))
+            across = cross(one, other)
+            axes[n, [i for i in range(3) if RX + i != locked[0]]] = one, other
+            axes[n, locked[0] - RX] = across / np.linalg.norm(across)
+    return axes
 
 
 def openings(twists: list[tuple[Array, Array]], like: Openings | None = None) -> Openings | None:
-    """What ``BlockTree.twists`` comes to.
+    """What a tree's ``tree_twists`` come to.
 
     like: the exported pose's, for any other pose; None is returned where all rows together are nearly singular.
     """

@@ -6,6 +6,7 @@ Nothing here knows of Unity: the one mirror lives in ``unity/frames.py``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -51,7 +52,10 @@ class Pose:
 
 
 def cross(x: Array, y: Array) -> Array:
-    """Cross product over the last axis; a fifth of numpy's own cost on the small arrays used here."""
+    """Cross product over the last axis, far cheaper than numpy's own on the small arrays used here."""
+    if x.ndim == y.ndim == 1:
+        (a, b, c), (d, e, f) = x.tolist(), y.tolist()
+        return np.array([b * f - c * e, c * d - a * f, a * e - b * d])
     out = np.empty(np.broadcast_shapes(x.shape, y.shape))
     out[..., 0] = x[..., 1] * y[..., 2] - x[..., 2] * y[..., 1]
     out[..., 1] = x[..., 2] * y[..., 0] - x[..., 0] * y[..., 2]
@@ -87,7 +91,7 @@ def perpendicular(axis: Array, axes: Array | None = None) -> Array:
     """
     axes = np.eye(3) if axes is None else axes
     side = cross(axis, axes[:, int(np.argmin(np.abs(axis @ axes).round(ROUNDING)))])
-    return side / np.linalg.norm(side)
+    return side / math.sqrt(side @ side)
 
 
 def frame_from_axes(primary: Array, secondary: Array | None = None) -> Array:

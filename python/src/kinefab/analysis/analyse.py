@@ -185,14 +185,9 @@ def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
 def _report_singular(assembly: Assembly, report: Report) -> None:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         if finite.mobility < first.mobility:
-            nodes = [
-                n.id
-                for i, n in enumerate(assembly.scene.nodes)
-                if int(assembly.body[i + 1]) in first.bodies[:4]
-            ]
-            report.add(
-                "MECHANISM_SINGULAR", parts=", ".join(nodes[:4]), first=first.mobility, finite=finite.mobility
-            )
+            nodes = sorted(n for body in first.bodies[:4] for n in assembly.nodes[body])
+            parts = ", ".join(assembly.scene.nodes[n].id for n in nodes[:4])
+            report.add("MECHANISM_SINGULAR", parts=parts, first=first.mobility, finite=finite.mobility)
 
 
 def _report_outcomes(assembly: Assembly, analysis: Analysis, report: Report) -> None:

@@ -55,6 +55,14 @@ class Assembly:
     finite: list[FiniteFreedom]
 
     @cached_property
+    def nodes(self) -> list[list[int]]:
+        """The nodes of each body, in scene order (of ground: those that stand on it)."""
+        nodes: list[list[int]] = [[] for _ in range(self.system.bodies)]
+        for node, body in enumerate(self.body[1:].tolist()):
+            nodes[body].append(node)
+        return nodes
+
+    @cached_property
     def poses(self) -> list[Pose]:
         """World poses of the nodes with every constraint closed."""
         shifted = self.closing
@@ -169,26 +177,28 @@ def _moving_as_one(
     for i, j in edges.tolist():
         neighbours.setdefault(i, set()).add(j)
         neighbours.setdefault(j, set()).add(i)
-    found = False
+    groups: dict[int, list[np.ndarray]] = {}
+    doubtful: dict[int, BlockFreedom] = {}
     for part, (first, last) in enumerate(zip(freedoms, finite)):
         if breakable[relative.owner[first.rows]].any():
             continue
         root = int(blocks.root[blocks.block[first.bodies[0]]])
         if first.mobility == 0:
-            groups = [np.concatenate([[root], first.bodies])]
+            groups[part] = [np.concatenate([[root], first.bodies])]
         elif len(first.bodies) > 1 and last.mobility > 0:
             twist = (first.basis @ draw.standard_normal(first.mobility)).reshape(-1, 6)
-            groups = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
-            if groups and last.singular or groups and len(first.rows) > first.rank:
-                shift = displaced(solver, part, first, start)
-                groups = [g for g in groups if _stays_one(relative, root, first.bodies, g, shift)]
-        else:
-            continue
-        for group in groups:
-            found = True
-            for other in group[1:]:
-                partition.join(int(group[0]), int(other))
-    return partition.labels() if found else None
+            groups[part] = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
+            if groups[part] and (last.singular or len(first.rows) > first.rank):
+                doubtful[part] = first
+    for part, shift in displaced(solver, doubtful, start).items():
+        bodies = doubtful[part].bodies
+        root = int(blocks.root[blocks.block[bodies[0]]])
+        groups[part] = [g for g in groups[part] if _stays_one(relative, root, bodies, g, shift)]
+    together = [group for of_part in groups.values() for group in of_part]
+    for group in together:
+        for other in group[1:]:
+            partition.join(int(group[0]), int(other))
+    return partition.labels() if together else None
 
 
 def _at_origin(relative: System, bodies: np.ndarray, twist: Array) -> Array:

@@ -40,7 +40,7 @@ def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
             # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
             count = int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
             if count:
-                nodes = [n for n in range(len(assembly.scene.nodes)) if int(assembly.body[n + 1]) in leg]
+                nodes = sorted(n for body in leg for n in assembly.nodes[body])
                 found.append(IdleFreedom(tuple(nodes), count))
     return found
 

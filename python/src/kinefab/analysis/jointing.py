@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import compress
+from typing import Iterable, Iterator
 
 import numpy as np
 
@@ -154,8 +156,7 @@ class _Jointing:
         return self.assembly.equations.names(relation.owners)
 
     def _label(self, body: int) -> str:
-        nodes = np.flatnonzero(self.assembly.body[1:] == body)
-        return "ground" if body == 0 else self.assembly.scene.nodes[nodes[0]].id
+        return "ground" if body == 0 else self.assembly.scene.nodes[self.assembly.nodes[body][0]].id
 
     def _resolve(self, relation: Relation) -> None:
         """What no candidate of the twists expresses: finite motions, middle bodies, or a report."""
@@ -255,11 +256,8 @@ class _Jointing:
     def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:
         """A body without geometry; a tenth of the lighter neighbour's mass keeps the solver's mass ratios low."""
         nodes = self.assembly.scene.nodes
-        masses = [
-            n.mass.mass
-            for i, n in enumerate(nodes)
-            if n.mass is not None and int(self.assembly.body[i + 1]) in (relation.first, relation.second)
-        ]
+        beside = [nodes[n].mass for body in (relation.first, relation.second) for n in self.assembly.nodes[body]]
+        masses = [mass.mass for mass in beside if mass is not None]
         mass = MIDDLE_SHARE * min(masses, default=1.0)
         radius = max(0.5 * float(np.linalg.norm(far - near)), 0.1 * relation.length)
         weight = MassProperties(mass, np.zeros(3), 0.4 * mass * radius * radius * np.eye(3))
@@ -312,15 +310,18 @@ class _Jointing:
         )
         self.links.append(Link(a, b, joint))
 
-    def _directions(self, relation: Relation, body: int) -> list[Array]:
+    def _directions(self, relation: Relation, body: int) -> Iterator[Array]:
         """Directions that the relation's constraints name, this body's first, WORLD at the closed pose."""
-        own, others = [], []
-        for owner in relation.owners:
-            for feature in getattr(self.assembly.equations.statements[owner], "features", ()):
-                if feature.direction is not None:
-                    mine = self.assembly.body[0 if feature.node is None else feature.node + 1] == body
-                    (own if mine else others).append(self._pose(feature.node).direction(feature.direction))
-        return own + others
+        named = [
+            feature
+            for owner in relation.owners
+            for feature in getattr(self.assembly.equations.statements[owner], "features", ())
+            if feature.direction is not None
+        ]
+        mine = [self.assembly.body[0 if f.node is None else f.node + 1] == body for f in named]
+        for whose in (True, False):
+            for feature in compress(named, (own == whose for own in mine)):
+                yield self._pose(feature.node).direction(feature.direction)
 
     def _rank(self, body: int) -> int:
         return int(self.depth[body]) if body < len(self.depth) else body
@@ -370,7 +371,7 @@ def order_matters(freedoms: tuple[Freedom, ...]) -> bool:
     return True
 
 
-def _along(axes: Array, directions: list[Array]) -> Array:
+def _along(axes: Array, directions: Iterable[Array]) -> Array:
     """The frame with X along the first of the source's own directions that it is parallel to."""
     for direction in directions:
         cosine = float(direction @ axes[:, 0])

@@ -7,7 +7,8 @@ the constraints, is still there: an obstructed one shrinks with the square root 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Mapping
 
 import numpy as np
 
@@ -64,21 +65,18 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
             directions = {
                 int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)
             }
-            moved = _trial(solver, first_order, start, directions) if directions else {}
+            moved = _trial(solver, dict(enumerate(first_order)), start, directions) if directions else {}
             for part, direction in directions.items():
                 if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
-                    found[part] = _searched(solver, part, first_order[part], start)
+                    found[part] = _searched(solver, part, first_order[part])
                     doubtful[part] = False
     return found
 
 
-def displaced(solver: Solver, part: int, first_order: BlockFreedom, start: State) -> Array:
-    """Displacements over STEP of a part's bodies after a random small motion, shape (6 n,)."""
-    listed: list = [None] * solver.parts
-    listed[part] = first_order
-    return _trial(
-        solver, listed, start, {part: _random_direction(first_order.basis, np.random.default_rng(11))}
-    )[part]
+def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
+    """Displacements over STEP of some parts' bodies after a random small motion, by part, shape (6 n,) each."""
+    directions = {p: _random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
+    return _trial(solver, first_order, start, directions) if directions else {}
 
 
 def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
@@ -93,7 +91,7 @@ def _floor(solver: Solver, state: State) -> Array:
 
 def _trial(
     solver: Solver,
-    first_order: list[BlockFreedom],
+    first_order: Mapping[int, BlockFreedom],
     start: State,
     directions: dict[int, Array],
     step: float = STEP,
@@ -136,9 +134,11 @@ def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, s
     return state
 
 
-def _searched(solver: Solver, part: int, first_order: BlockFreedom, start: State) -> FiniteFreedom:
-    """Walk away from the pose, then try every direction of the null space there."""
-    solver, part = Solver(solver.system.select(first_order.rows)), 0
+def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFreedom:
+    """Walk away from the start pose, then try every direction of the null space there."""
+    solver, part = Solver(solver.alone(part)), 0
+    first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
+    start = solver.system.start()
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
@@ -181,9 +181,6 @@ def _left_of(
     solver: Solver, part: int, freedom: BlockFreedom, state: State, direction: Array, step: float
 ) -> Array:
     """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,)."""
-    listed: list = [None] * solver.parts
-    listed[part] = freedom
     direction = direction / np.abs(direction).max()
-    there = _trial(solver, listed, state, {part: direction}, step)[part]
-    back = _trial(solver, listed, state, {part: -direction}, step)[part]
+    there, back = (_trial(solver, {part: freedom}, state, {part: way}, step)[part] for way in (direction, -direction))
     return 0.5 * (there - back) / np.linalg.norm(direction)

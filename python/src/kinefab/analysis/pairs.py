@@ -208,8 +208,10 @@ def _distinct(vectors: Array, taken: np.ndarray, tolerance: Array) -> list[Array
     earlier one; tolerance: shape (n,)."""
     first = np.argsort(~taken, axis=1, kind="stable")[:, :MOST]
     vectors, taken = np.take_along_axis(vectors, first[..., None], axis=1), np.take_along_axis(taken, first, axis=1)
-    near = np.abs(vectors[:, :, None] - vectors[:, None]).max(axis=3) <= tolerance[:, None, None]
-    fresh = taken & ~(np.tril(near, -1) & taken[:, None]).any(axis=2)
+    near = np.tril(np.broadcast_to(taken[:, None], taken.shape + taken.shape[1:]), -1)
+    for x in np.moveaxis(vectors, 2, 0):
+        near &= np.abs(x[:, :, None] - x[:, None]) <= tolerance[:, None, None]
+    fresh = taken & ~near.any(axis=2)
     return [own[kept] for own, kept in zip(vectors, fresh)]
 
 

@@ -16,6 +16,8 @@ ALONG = 1.0 - 1e-6
 
 def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Link]:
     """The links with the source's ranges as limits; what is no coordinate of a joint is reported."""
+    if not assembly.equations.ranges:
+        return links
     links = list(links)
     by_pair = {(min(l.a, l.b), max(l.a, l.b)): i for i, l in reversed(list(enumerate(links)))}
     for coordinate in assembly.equations.ranges:

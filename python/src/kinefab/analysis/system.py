@@ -26,7 +26,7 @@ class State:
     """Displacements of the bodies from the start pose.
 
     rotation: shape (n, 3, 3).  shift: shape (n, 3), metres, of the bodies' own points g.
-    angle: shape (atoms,), radians, the last value of each ANG, so that a coupling counts whole turns.
+    angle: shape (atoms,), radians, the last value of each ANG (others' are nothing), so that a coupling counts whole turns.
     """
 
     rotation: Array
@@ -82,7 +82,7 @@ class System:
         state = State(
             np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind))
         )
-        state.angle = self._values(state)[0] + self.d
+        self.remember(state)
         return state
 
     def select(self, rows: np.ndarray) -> "System":
@@ -91,18 +91,23 @@ class System:
         chosen[rows] = True
         number = np.cumsum(chosen) - 1
         atoms = chosen[self.row]
-        part = {
-            f: getattr(self, f)[atoms]
-            for f in ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")
-        }
-        return replace(
-            self,
-            row=number[self.row[atoms]],
-            owner=self.owner[chosen],
-            is_length=self.is_length[chosen],
-            row_length=self.row_length[chosen],
-            **part,
-        )
+        return replace(self, row=number[self.row[atoms]], **self._arrays_of(atoms, chosen))
+
+    def part(self, atoms: np.ndarray, rows: np.ndarray, bodies: np.ndarray) -> "System":
+        """Some rows with all their atoms, and only their bodies, numbered from 1 on; all other bodies are at rest.
+
+        atoms, rows, bodies: ascending."""
+        number = np.zeros(self.bodies, dtype=np.int64)
+        number[bodies] = np.arange(1, len(bodies) + 1)
+        kept = np.concatenate([[0], bodies])
+        ends = {"body_a": number[self.body_a[atoms]], "body_b": number[self.body_b[atoms]]}
+        own = {"center": self.center[kept], "length": self.length[kept]}
+        return replace(self, row=np.searchsorted(rows, self.row[atoms]), **self._arrays_of(atoms, rows) | ends | own)
+
+    def _arrays_of(self, atoms: np.ndarray, rows: np.ndarray) -> dict[str, np.ndarray]:
+        of_atoms = ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")
+        of_rows = ("owner", "is_length", "row_length")
+        return {f: getattr(self, f)[atoms] for f in of_atoms} | {f: getattr(self, f)[rows] for f in of_rows}
 
     def joining(self) -> np.ndarray:
         """Rows that join different bodies (a mask); the others are inside one."""
@@ -179,7 +184,7 @@ class System:
 
     def remember(self, state: State) -> None:
         """Note the angles of this pose as the ones further motion is counted from."""
-        state.angle = self._values(state)[0] + self.d
+        state.angle = self._values(state, (Atom.ANG,))[0] + self.d
 
     def scale(self) -> Array:
         """Factor from each atom's unit to its row's scaled residual, shape (atoms,)."""

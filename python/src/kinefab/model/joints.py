@@ -122,6 +122,8 @@ UNLOCKED: Mapping[JointKind, tuple[int, ...]] = {
 }
 """The freedoms each kind leaves; GENERAL has no fixed set."""
 
+_PLAIN = {k: tuple(FREE if i in UNLOCKED.get(k, ()) else LOCKED for i in range(6)) for k in JointKind}
+
 
 def kind_of(free: tuple[int, ...]) -> JointKind:
     """The kind with just these freedoms, GENERAL where none has a name (a screw is not told by them)."""
@@ -131,7 +133,9 @@ def kind_of(free: tuple[int, ...]) -> JointKind:
 
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:
     """Six freedoms with ``kind``'s own unlocked (none of GENERAL); ``given`` (tx=..., rx=...) replaces single ones."""
-    freedoms = [FREE if i in UNLOCKED.get(kind, ()) else LOCKED for i in range(6)]
+    if not given:
+        return _PLAIN[kind]
+    freedoms = list(_PLAIN[kind])
     for name, freedom in given.items():
         freedoms[FREEDOM_NAMES.index(name)] = freedom
     return tuple(freedoms)

@@ -130,15 +130,19 @@ def _chosen(assembly: Assembly, tree: Tree, frames: tuple[Array, Array]) -> dict
     found: dict[int, _Choice] = {}
     doubtful: dict[tuple, tuple[list[BlockTree], list[Openings]]] = {}
     blocks = [BlockTree(block, tree, frames) for block in _blocks(assembly, tree)]
-    for block, twists in zip(blocks, tree_twists(blocks)):
-        here = openings(twists)
-        chosen = _choose(block, [here])
+    twists = tree_twists(blocks)
+    here = openings(twists)
+    freed: list[tuple[int, Array, Array]] = []
+    for n, block in enumerate(blocks):
+        chosen = _choose(block, [here[n]])
         found |= chosen
-        for (rows, twist), choice, link in zip(twists, chosen.values(), block.closing):
-            freed = [n for n, i in enumerate(locked_of(link.joint)) if i not in choice.rows]
-            if freed and moved_by(rows[freed], twist).any():
-                doubtful.setdefault(block.likeness(), ([], [here]))[0].append(block)
-                break
+        for (rows, twist), choice, link in zip(twists[n], chosen.values(), block.closing):
+            left = [k for k, i in enumerate(locked_of(link.joint)) if i not in choice.rows]
+            if left:
+                freed.append((n, rows[left], twist))
+    moved = moved_by([rows for _, rows, _ in freed], [twist for *_, twist in freed])
+    for n in dict.fromkeys(n for (n, *_), rows in zip(freed, moved) if rows.any()):
+        doubtful.setdefault(blocks[n].likeness(), ([], [here[n]]))[0].append(blocks[n])
     _travel(assembly, tree, frames, [(alike[0], poses) for alike, poses in doubtful.values()])
     for alike, poses in doubtful.values():
         for block in alike:
@@ -211,11 +215,10 @@ def _travel(
     for state, there in poses_along(solver, frames):
         come = [n for n, own in enumerate(parts) if there[own[own >= 0]].any()]
         rotation, translation = _in_world(system, state, blocks, order)
-        for n, twists in zip(come, tree_twists([doubtful[n][0] for n in come], rotation, translation)):
-            poses = doubtful[n][1]
-            found = openings(twists, poses[0])
+        twists = tree_twists([doubtful[n][0] for n in come], rotation, translation)
+        for n, found in zip(come, openings(twists, [doubtful[n][1][0] for n in come])):
             if found is not None:
-                poses.append(found)
+                doubtful[n][1].append(found)
 
 
 def _in_world(system: System, state: State, blocks: Blocks, order: list[int]) -> tuple[Array, Array]:

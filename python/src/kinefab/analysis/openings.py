@@ -6,6 +6,7 @@ Everything here is of one pose: twists (v / length, w) about one point, rows tha
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Sequence
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..model import RX, RY, RZ, Joint, Motion
 from ..spatial import Array, cross
 from .loops import Tree
 from .rank import rank_of
+from .stacks import alike
 
 CARDAN = {RX: (1, 2), RY: (2, 0), RZ: (1, 0)}
 """Of a lone locked rotation: the axis of a and that of b which stay at right angles (see ``joint_rows``)."""
@@ -154,49 +156,78 @@ def _turns(joints: list[Joint], turn: Array) -> Array:
     return axes
 
 
-def openings(twists: list[tuple[Array, Array]], like: Openings | None = None) -> Openings | None:
-    """What a tree's ``tree_twists`` come to.
+def openings(
+    twists: Sequence[list[tuple[Array, Array]]], like: Sequence[Openings] | None = None
+) -> list[Openings | None]:
+    """What the ``tree_twists`` of each tree come to.
 
-    like: the exported pose's, for any other pose; None is returned where all rows together are nearly singular.
+    like: the exported pose's, for any other pose; None stands where all rows together are nearly singular.
     """
-    rows = [wrenches @ twist for wrenches, twist in twists]
-    s = np.linalg.svd(np.concatenate(rows), compute_uv=False)
-    rank = like.rank if like is not None else int(rank_of(s)[0]) if s.max(initial=0.0) > NONE else 0
-    least = float(s[rank - 1]) if rank else 0.0
-    if like is not None and least < NEARLY_SINGULAR * like.least:
-        return None
-    columns = rows[0].shape[1]
-    basis, span = np.zeros((0, columns)), []
-    for own in rows:
-        fresh = own - own @ basis.T @ basis
-        u, size, vt = np.linalg.svd(fresh, full_matrices=False)
-        if like is None:  # the exported pose is closed only as well as its data
-            count = int(rank_of(size)[0]) if np.abs(fresh).max(initial=0.0) > 1e-7 * max(np.abs(own).max(initial=0.0), 1e-300) else 0
+    found: list[Openings | None] = [None] * len(twists)
+    shapes = (tuple((*wrenches.shape, *twist.shape) for wrenches, twist in own) for own in twists)
+    for _, group in alike(shapes):
+        rows = [
+            np.array([wrenches for wrenches, _ in closure]) @ np.array([twist for _, twist in closure])
+            for closure in zip(*(twists[i] for i in group))
+        ]
+        s = np.linalg.svd(np.concatenate(rows, axis=1), compute_uv=False)
+        s = np.concatenate([s, np.zeros((len(group), 1))], axis=1)
+        if like is None:
+            rank = np.where(s[:, 0] > NONE, rank_of(s)[0], 0)
         else:
-            next_ = float(s[rank]) if rank < len(s) else 0.0
-            count = int(np.sum(size > np.sqrt(least * max(next_, REPEATED * s[0]))))
-        span.append(u[:, :count])
-        basis = np.concatenate([basis, vt[:count]])
-    return Openings(rows, span, least)
+            rank = np.array([like[i].rank for i in group])
+        at = np.arange(len(group))
+        least = np.where(rank > 0, s[at, rank - 1], 0.0)
+        border = np.sqrt(least * np.maximum(s[at, rank], REPEATED * s[:, 0]))
+        seen = np.zeros((len(group), rows[0].shape[2], rows[0].shape[2]))
+        spans = []
+        for own in rows:
+            fresh = own - own @ seen
+            u, size, vt = np.linalg.svd(fresh, full_matrices=False)
+            if like is None:  # the exported pose is closed only as well as its data
+                left, all_ = (np.abs(values).max(axis=(1, 2), initial=0.0) for values in (fresh, own))
+                count = np.where(left > 1e-7 * np.maximum(all_, 1e-300), rank_of(size)[0] if size.size else 0, 0)
+            else:
+                count = np.sum(size > border[:, None], axis=1)
+            kept = vt * (np.arange(vt.shape[1]) < count[:, None])[..., None]
+            seen = seen + np.swapaxes(kept, 1, 2) @ kept
+            spans.append([basis[:, :c] for basis, c in zip(u, count)])
+        for n, i in enumerate(group):
+            if like is None or least[n] >= NEARLY_SINGULAR * like[i].least:
+                found[i] = Openings([own[n] for own in rows], [own[n] for own in spans], float(least[n]))
+    return found
 
 
-def moved_by(wrenches: Array, twist: Array) -> np.ndarray:
-    """Which rows of a closure any finite motion of the tree can violate, a mask.
+def moved_by(wrenches: Sequence[Array], twists: Sequence[Array]) -> list[np.ndarray]:
+    """Which rows of each closure any finite motion of the tree can violate, masks.
 
     All motions of b against a are products of exponentials of the twists, hence of the algebra that the twists
     generate (planar, spherical, ...); a row that vanishes on the algebra vanishes at every pose.
     """
-    algebra = _orthonormal(twist)
-    while True:
-        v, w = algebra[:3].T, algebra[3:].T
-        across = cross(w[:, None], v[None]) - cross(w[None], v[:, None])
-        brackets = np.concatenate([across, cross(w[:, None], w[None])], axis=2).reshape(-1, 6).T
-        larger = _orthonormal(np.concatenate([algebra, brackets], axis=1))
-        if larger.shape[1] == algebra.shape[1]:
-            return np.abs(wrenches @ algebra).max(axis=1, initial=0.0) > NONE
-        algebra = larger
+    algebra = _orthonormal(list(twists))
+    growing = list(range(len(algebra)))
+    while growing:
+        larger = _orthonormal([_with_brackets(algebra[i]) for i in growing])
+        grown = [i for i, more in zip(growing, larger) if more.shape[1] > algebra[i].shape[1]]
+        for i, more in zip(growing, larger):
+            algebra[i] = more if i in grown else algebra[i]
+        growing = grown
+    return [np.abs(rows @ basis).max(axis=1, initial=0.0) > NONE for rows, basis in zip(wrenches, algebra)]
 
 
-def _orthonormal(vectors: Array) -> Array:
-    u, s, _ = np.linalg.svd(vectors, full_matrices=False)
-    return u[:, s > NONE * max(s.max(initial=0.0), 1e-300)]
+def _with_brackets(algebra: Array) -> Array:
+    """The twists and all their Lie brackets, columns."""
+    v, w = algebra[:3].T, algebra[3:].T
+    across = cross(w[:, None], v[None]) - cross(w[None], v[:, None])
+    brackets = np.concatenate([across, cross(w[:, None], w[None])], axis=2).reshape(-1, 6).T
+    return np.concatenate([algebra, brackets], axis=1)
+
+
+def _orthonormal(vectors: list[Array]) -> list[Array]:
+    found: list = [None] * len(vectors)
+    for _, group in alike(own.shape for own in vectors):
+        u, s, _ = np.linalg.svd(np.array([vectors[i] for i in group]), full_matrices=False)
+        kept = s > NONE * np.maximum(s.max(axis=1, keepdims=True, initial=0.0), 1e-300)
+        for i, basis, mask in zip(group, u, kept):
+            found[i] = basis[:, mask]
+    return found

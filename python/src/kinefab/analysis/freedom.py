@@ -14,8 +14,9 @@ from scipy.sparse import diags
 
 from ..spatial import Array, skew
 from .bodies import Partition
-from .rank import normalised, null_space, rank_of
+from .rank import factored, rank_of
 from .solve import DENSE, Solver
+from .stacks import alike
 from .system import State, System
 
 
@@ -50,12 +51,7 @@ def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
             rank, basis, gap = large_null_space(solver.system, state, group.bodies[0], group.atoms, jacobian)
             found[part] = BlockFreedom(group.bodies[0], group.rows[0], rank, gap, basis)
             continue
-        jacobian = normalised(solver.jacobians(group, block_a, block_b))
-        short = max(0, width - jacobian.shape[1])
-        if short:
-            jacobian = np.concatenate([jacobian, np.zeros((len(jacobian), short, width))], axis=1)
-        _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
-        ranks, gaps = rank_of(s)
+        ranks, gaps, vt = factored(solver.jacobians(group, block_a, block_b))
         for i, part in enumerate(group.members):
             found[part] = BlockFreedom(
                 group.bodies[i], group.rows[i], int(ranks[i]), float(gaps[i]), vt[i, ranks[i] :].T
@@ -114,12 +110,20 @@ def _spanning_tree(system: System, bodies: np.ndarray, atoms: np.ndarray, jacobi
     order = np.argsort(which.reshape(-1), kind="stable")
     starts = np.searchsorted(which.reshape(-1)[order], np.arange(len(pairs) + 1))
     rows_of = [plain[order[starts[p] : starts[p + 1]]] for p in range(len(pairs))]
-    dense = jacobian.tocsr()
-
-    def joining(p: int, body: int) -> Array:
-        return dense[rows_of[p], 6 * body : 6 * body + 6].toarray()
-
-    ranks = np.array([null_space(joining(p, pairs[p, 1]))[0] for p in range(len(pairs))])
+    entries = jacobian.tocoo()
+    body, column = np.divmod(entries.col, 6)
+    on_ends = np.zeros((2, jacobian.shape[0], 6))
+    for end in (0, 1):
+        own = body == row_ends[entries.row, end]
+        on_ends[end, entries.row[own], column[own]] = entries.data[own]
+    ranks = np.zeros(len(pairs), dtype=np.int64)
+    spaces: dict[tuple[int, int], Array] = {}
+    for _, group in alike(map(len, rows_of)):
+        rank, _, vt = factored(on_ends[:, np.array([rows_of[p] for p in group])])
+        ranks[group] = rank[1]
+        for end in (0, 1):
+            for n, p in enumerate(group.tolist()):
+                spaces[p, int(pairs[p, end])] = vt[end, n, rank[end, n] :].T
     forest = Partition(len(bodies) + 1)
     near: dict[int, list[int]] = {}
     for p in np.argsort(-ranks, kind="stable"):
@@ -136,7 +140,7 @@ def _spanning_tree(system: System, bodies: np.ndarray, atoms: np.ndarray, jacobi
             if other not in seen:
                 seen.add(other)
                 queue.append(other)
-                tree.append((body, other, null_space(joining(p, other))[1]))
+                tree.append((body, other, spaces[p, other]))
                 taken.append(rows_of[p])
     for body in set(range(len(bodies))) - seen:  # joined by rows over three or more bodies only
         tree.append((-1, body, np.eye(6)))

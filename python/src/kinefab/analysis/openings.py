@@ -179,18 +179,18 @@ def openings(
         at = np.arange(len(group))
         least = np.where(rank > 0, s[at, rank - 1], 0.0)
         border = np.sqrt(least * np.maximum(s[at, rank], REPEATED * s[:, 0]))
-        seen = np.zeros((len(group), rows[0].shape[2], rows[0].shape[2]))
+        seen = np.zeros((len(group), 0, rows[0].shape[2]))
         spans = []
         for own in rows:
-            fresh = own - own @ seen
+            fresh = own - own @ np.swapaxes(seen, 1, 2) @ seen
             u, size, vt = np.linalg.svd(fresh, full_matrices=False)
             if like is None:  # the exported pose is closed only as well as its data
                 left, all_ = (np.abs(values).max(axis=(1, 2), initial=0.0) for values in (fresh, own))
                 count = np.where(left > 1e-7 * np.maximum(all_, 1e-300), rank_of(size)[0] if size.size else 0, 0)
             else:
                 count = np.sum(size > border[:, None], axis=1)
-            kept = vt * (np.arange(vt.shape[1]) < count[:, None])[..., None]
-            seen = seen + np.swapaxes(kept, 1, 2) @ kept
+            most = int(count.max())
+            seen = np.concatenate([seen, vt[:, :most] * (np.arange(most) < count[:, None])[..., None]], axis=1)
             spans.append([basis[:, :c] for basis, c in zip(u, count)])
         for n, i in enumerate(group):
             if like is None or least[n] >= NEARLY_SINGULAR * like[i].least:

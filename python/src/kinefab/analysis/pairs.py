@@ -10,7 +10,7 @@ from ..spatial import Array, cross
 from .atoms import LENGTHS
 from .candidates import Geometry, candidates
 from .finite import EXACT, Candidate, misfits
-from .rank import SURE_GAP, normalised, rank_of
+from .rank import SURE_GAP, factored
 from .stacks import alike
 from .system import IN_ONE_PLACE, State, System
 from .twists import TwistSpace, twist_spaces
@@ -121,7 +121,7 @@ def relative_rows(system: System, pairs: Pairs, state: State):
     )
     rows = np.zeros((system.rows, 6))
     np.add.at(rows, system.row[used], wrench)
-    return normalised(rows), origin, length
+    return rows, origin, length
 
 
 def batched_null_spaces(rows: Array, row_pair: np.ndarray, count: int):
@@ -141,9 +141,7 @@ def batched_null_spaces(rows: Array, row_pair: np.ndarray, count: int):
         mine = number[pair_of] >= 0
         block = np.zeros((len(group), h, 6))
         block[number[pair_of[mine]], place[mine]] = rows[used[mine]]
-        _, s, v = np.linalg.svd(block, full_matrices=False)
-        rank[group], gap[group] = rank_of(s)
-        vt[group] = v
+        rank[group], gap[group], vt[group] = factored(block)
     return rank, gap, vt, used, starts
 
 

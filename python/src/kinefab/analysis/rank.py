@@ -43,11 +43,16 @@ def normalised(rows: Array) -> Array:
     return np.divide(rows, size, out=np.zeros_like(rows), where=size > 0.0)
 
 
+def factored(rows: Array) -> tuple[np.ndarray, Array, Array]:
+    """Rank and gap (...), and V' (..., n, n) of rows (..., m, n); the null space is V'[rank:]."""
+    m, n = rows.shape[-2:]
+    if m < n:
+        rows = np.concatenate([rows, np.zeros((*rows.shape[:-2], n - m, n))], axis=-2)
+    _, s, vt = np.linalg.svd(normalised(rows), full_matrices=False)
+    return *rank_of(s), vt
+
+
 def null_space(rows: Array) -> tuple[int, Array, float]:
     """Rank, orthonormal null space (columns, shape (n, n - rank)) and gap of rows (m, n)."""
-    n = rows.shape[1]
-    if rows.shape[0] < n:
-        rows = np.concatenate([rows, np.zeros((n - rows.shape[0], n))])
-    _, s, vt = np.linalg.svd(normalised(rows), full_matrices=False)
-    rank, gap = rank_of(s)
+    rank, gap, vt = factored(rows)
     return int(rank), vt[int(rank) :].T, float(gap)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..spatial import Array, Pose
+from ..spatial import Array, Pose, cross
 
 _POLAR = np.array([-1.0, 1.0, 1.0])
 _AXIAL = np.array([1.0, -1.0, -1.0])
@@ -78,4 +78,4 @@ def joint_basis(r) -> Array:
     """F1. Joint axes, shape (3, 3), columns X Y Z: X and Y are mapped as directions, and Z is the cross
     product that Unity forms of them, which is -M z."""
     x, y = direction(r[:, 0]), direction(r[:, 1])
-    return np.column_stack([x, y, np.cross(x, y)])
+    return np.column_stack([x, y, cross(x, y)])

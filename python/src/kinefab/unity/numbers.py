@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
-from typing import Any, Mapping
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -19,14 +20,14 @@ def rounded(value: Any) -> Any:
 
     Takes a number, an array, or dicts and lists of them; anything else passes through.
     """
-    if isinstance(value, np.ndarray):
-        return [_plain(round(x, DECIMALS)) for x in value.tolist()]
-    if isinstance(value, Mapping):
-        return {key: rounded(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [rounded(item) for item in value]
     if isinstance(value, (float, np.floating)):
         return _plain(round(float(value), DECIMALS))
+    if isinstance(value, np.ndarray):
+        return [_plain(round(x, DECIMALS)) for x in value.tolist()]
+    if isinstance(value, (list, tuple)):
+        return [rounded(item) for item in value]
+    if isinstance(value, Mapping):
+        return {key: rounded(item) for key, item in value.items()}
     return value
 
 
@@ -42,10 +43,26 @@ def _plain(x: float) -> float | int:
     return int(x) if abs(x) < 1e15 and x == int(x) else x
 
 
-@lru_cache(maxsize=1)
+@cache
 def _definitions() -> Mapping[str, Any]:
     schema = json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8"))
     return schema["$defs"]
+
+
+_NONE = object()
+"""The default of a field that has none."""
+
+
+@cache
+def _properties(name: str) -> Mapping[str, tuple[str, Any]]:
+    """Of each property of the schema's definition ``name``: the definition of the object that it holds ("" for other
+    values), and its default."""
+    found = {}
+    for key, rule in _definitions()[name]["properties"].items():
+        reference = rule.get("$ref", "").removeprefix("#/$defs/")
+        is_object = _definitions().get(reference, {}).get("type") == "object"
+        found[key] = (reference if is_object else "", rule.get("default", _NONE))
+    return found
 
 
 def without_defaults(name: str, fields: Mapping[str, Any]) -> dict[str, Any]:
@@ -53,20 +70,19 @@ def without_defaults(name: str, fields: Mapping[str, Any]) -> dict[str, Any]:
 
     Raises KeyError for a field that the definition does not have: a programmer's mistake.
     """
-    properties = _definitions()[name]["properties"]
+    properties = _properties(name)
     if unknown := fields.keys() - properties.keys():
         raise KeyError(f"{name} has no {', '.join(sorted(unknown))}")
     kept: dict[str, Any] = {}
-    for key, rule in properties.items():
+    for key, (reference, default) in properties.items():
         if key not in fields:
             continue
         value = fields[key]
-        reference = rule.get("$ref", "").removeprefix("#/$defs/")
-        if isinstance(value, Mapping) and _definitions().get(reference, {}).get("type") == "object":
+        if reference and isinstance(value, Mapping):
             value = without_defaults(reference, value) if reference != "extras" else value
             if not value:
                 continue
-        elif "default" in rule and value == rule["default"]:
+        elif default is not _NONE and value == default:
             continue
         kept[key] = value
     return kept

@@ -23,6 +23,10 @@ from .rows import Rows, Side
 from .tangency import tangent
 
 
+STRAIGHT = 1e-9
+"""Sine or cosine of a stated angle below which it asks for parallel directions."""
+
+
 @dataclass(slots=True)
 class Context:
     """What a constraint may need from the rest of its pair.
@@ -70,6 +74,11 @@ def _ranged(c: Constraint) -> bool:
 
 def _nearest_sign(value: float, measured: float) -> float:
     return value if abs(measured - value) <= abs(measured + value) else -value
+
+
+def _nearest_turn(value: float, measured: float) -> float:
+    """The angle as it is met nearest to ``measured``: 330 degrees are -30."""
+    return measured + math.remainder(value - measured, math.tau)
 
 
 def _offset(
@@ -137,7 +146,10 @@ def _angle(
     if "point" in pair:
         raise UnknownPairing
     if pair == ("plane", "line"):
-        rows.dot(first, first.z, second, second.z, math.sin(c.value))
+        if abs(math.cos(c.value)) < STRAIGHT:
+            rows.parallel(first, second)  # a.b = +-1 has no gradient
+        else:
+            rows.dot(first, first.z, second, second.z, math.sin(c.value))
         return
     about = _angle_axis(c, a, b, reference, context)
     if about is not None:
@@ -145,11 +157,14 @@ def _angle(
         if _ranged(c):
             context.ranges.append(RangedCoordinate(c, a.body, b.body, about, True, measured))
             return
-        directed = reference is not None or c.reading.get("angle") == "directed"
-        rows.angle(a, a.z, about, b, b.z, c.value if directed else _nearest_sign(c.value, measured))
+        value = _nearest_turn(c.value, measured)
+        if reference is None and c.reading.get("angle") != "directed":
+            other = _nearest_turn(-c.value, measured)
+            value = value if abs(measured - value) <= abs(measured - other) else other
+        rows.angle(a, a.z, about, b, b.z, value)
     elif _ranged(c):
         raise UnknownPairing
-    elif abs(math.sin(c.value)) < 1e-9:
+    elif abs(math.sin(c.value)) < STRAIGHT:
         rows.parallel(a, b)  # a.b = +-1 has no gradient
     else:
         rows.dot(a, a.z, b, b.z, math.cos(c.value))

@@ -86,9 +86,11 @@ def _about(axis: int, angle: Array) -> Array:
     return exponential(w)
 
 
-def world_motions(candidates: list[Candidate], lengths: Array, samples: int) -> tuple[Array, Array]:
+def world_motions(
+    candidates: list[Candidate], lengths: Array, samples: int, seed: int = 7
+) -> tuple[Array, Array]:
     """Displacements of each pair's second body (first at rest) about the candidate's origin, in the WORLD."""
-    rotation, shift = motions(candidates, lengths, samples)
+    rotation, shift = motions(candidates, lengths, samples, seed)
     axes = np.array([c.axes for c in candidates])[:, None]
     back = np.swapaxes(axes, 2, 3)
     rotation = axes @ rotation @ back
@@ -98,6 +100,20 @@ def world_motions(candidates: list[Candidate], lengths: Array, samples: int) -> 
         rotation[swapped] = np.swapaxes(rotation[swapped], 2, 3)
         shift[swapped] = -np.einsum("nsij,nsj->nsi", rotation[swapped], shift[swapped])
     return rotation, shift
+
+
+def chain_misfit(
+    system: System, second: int, near: Candidate, far: Candidate, length: float, samples: int = SAMPLES
+) -> float:
+    """As ``misfits``, of one pair whose second body hangs on the first by two joints, ``near`` first."""
+    lengths = np.array([length])
+    turn, shift = world_motions([near], lengths, samples)
+    far_turn, far_shift = world_motions([far], lengths, samples, seed=8)
+    arm = far.origin - near.origin
+    shift = (turn @ (arm + far_shift)[..., None])[..., 0] + shift - arm
+    one = np.zeros(len(system.kind), dtype=np.int64)
+    moved = turn @ far_turn, shift, far.origin[None]
+    return float(_violations(system, np.array([second]), one, *moved, lengths)[0])
 
 
 def misfits(
@@ -116,6 +132,23 @@ def misfits(
     """
     rotation, shift = world_motions(candidates, lengths, samples)
     origin = np.array([c.origin for c in candidates])
+    return _violations(system, second, atom_pair, rotation, shift, origin, lengths)
+
+
+def _violations(
+    system: System,
+    second: np.ndarray,
+    atom_pair: np.ndarray,
+    rotation: Array,
+    shift: Array,
+    origin: Array,
+    lengths: Array,
+) -> Array:
+    """Largest violation of each pair's rows, its second body displaced about ``origin``, shape (pairs,).
+
+    rotation: shape (pairs, samples, 3, 3).  shift: shape (pairs, samples, 3).
+    """
+    samples = rotation.shape[1]
     value = np.zeros((len(system.kind), samples))
     b_moves = system.body_b == second[atom_pair]
     for kind in Atom:
@@ -151,7 +184,7 @@ def misfits(
     scale = system.weight / np.where(system.is_length[system.row], lengths[atom_pair], 1.0)
     gather = csr_matrix((scale, (system.row, np.arange(len(scale)))), shape=(system.rows, len(scale)))
     by_row = np.abs(gather @ value).max(axis=1)
-    worst = np.zeros(len(candidates))
+    worst = np.zeros(len(second))
     row_pair = np.zeros(system.rows, dtype=np.int64)
     row_pair[system.row] = atom_pair
     np.maximum.at(worst, row_pair, by_row)

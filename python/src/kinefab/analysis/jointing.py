@@ -24,7 +24,7 @@ from ..model import (
 )
 from ..spatial import Array, Pose
 from .assembly import Assembly
-from .finite import Candidate, misfits
+from .finite import EXACT, Candidate, chain_misfit, misfits
 from .freedom import block_freedoms
 from .middle import middle_body
 from .motion import finite_freedoms
@@ -164,29 +164,52 @@ class _Jointing:
         self._by_finite_motions(relation)
         if relation.joint is not None:
             return
+        parts = self._parts(relation)
+        if parts is None:
+            self._approximate(relation)
+            return
+        for part, names in parts:
+            if isinstance(part, Relation):
+                self._add(relation.first, relation.second, part.joint, part, names)
+                continue
+            near, far = part
+            body = self._middle_node(near.origin, far.origin, names[0], relation)
+            self.report.add("RELATION_BY_MIDDLE_BODY", names=", ".join(names[:12]), body=self.nodes[-1].id)
+            self._add(relation.first, body, near, relation, names)
+            self._add(body, relation.second, far, relation, names)
+
+    def _parts(self, relation: Relation) -> list[tuple[Relation | tuple[Candidate, Candidate], list[str]]] | None:
+        """A joint, or two with a middle body, for each of the pair's constraints that says something new, and
+        the names of those that it stands for; None where there is no such joint.
+
+        A relation that is stated twice must not become two rods side by side: they would make a loop of their own.
+        """
         system = self.assembly.system
         owners = relation.owners
-        parts = []
+        found = []
         for owner in owners:
             rows = relation.rows[system.owner[relation.rows] == owner]
             single = self._single(rows) if len(owners) > 1 else relation
-            if single.joint is None:
-                middle = middle_body(system, rows, relation)
-                if middle is None:
-                    self._approximate(relation)
-                    return
-                parts.append((middle, self.assembly.equations.statements[owner].id))
+            part = single if single.joint is not None else middle_body(system, rows, relation)
+            if part is None:
+                return None
+            found.append((single.rank, part, rows, self.assembly.equations.statements[owner].id))
+        parts: list[tuple[Relation | tuple[Candidate, Candidate], list[str]]] = []
+        for _, part, rows, name in sorted(found, key=lambda f: -f[0]):
+            by = next((names for earlier, names in parts if self._implied(rows, earlier, relation)), None)
+            if by is None:
+                parts.append((part, [name]))
             else:
-                parts.append((single, self.assembly.equations.statements[owner].id))
-        for part, name in parts:
-            if isinstance(part, Relation):
-                self._add(relation.first, relation.second, part.joint, part, [name])
-                continue
-            near, far = part
-            body = self._middle_node(near.origin, far.origin, name, relation)
-            self.report.add("RELATION_BY_MIDDLE_BODY", names=name, body=self.nodes[-1].id)
-            self._add(relation.first, body, near, relation, [name])
-            self._add(body, relation.second, far, relation, [name])
+                by.append(name)
+        return parts
+
+    def _implied(
+        self, rows: np.ndarray, part: Relation | tuple[Candidate, Candidate], relation: Relation
+    ) -> bool:
+        """Whether all motions that two joints with a middle body allow keep these rows too."""
+        if isinstance(part, Relation):
+            return False
+        return chain_misfit(self.assembly.system.select(rows), relation.second, *part, relation.length) <= EXACT
 
     def _single(self, rows: np.ndarray) -> Relation:
         """The relation that some of a pair's rows make by themselves."""

@@ -28,7 +28,7 @@ def middle_body(system: System, rows: np.ndarray, relation: Relation) -> tuple[C
     first_is_a = system.body_a[last] == relation.first
     a, b = system.a[last], system.b[last]
     side_a, side_b = (system.p_a[last], a), (system.p_b[last], b if b.any() else a)
-    if recipe is not _point_round_line and not first_is_a:  # the same from either side
+    if recipe not in _SIDED and not first_is_a:  # the same from either side
         side_a, side_b, first_is_a = side_b, side_a, True
     on_a, on_b = recipe(*side_a, *side_b, relation.geometry)
     return (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
@@ -97,10 +97,31 @@ def _angled(p_a, a, p_b, b, geometry):
     )
 
 
+def _cone_on_plane(p_a, a, p_b, b, geometry):
+    return _joint(JointKind.PLANAR, geometry.frame(a), p_b), _far(JointKind.REVOLUTE, geometry.frame(b), p_b)
+
+
+def _edge_on_plane(p_a, a, p_b, b, geometry):
+    """The middle body turns in the circle and carries the tangent at its lowest point, which lies in the plane."""
+    down = b * (b @ a) - a
+    size = np.linalg.norm(down)
+    touching = p_b + down * ((a @ (p_b - p_a)) / size**2)
+    along = np.cross(a, b) / size
+    in_plane = np.column_stack([along, np.cross(a, along), a])
+    return (
+        _joint(JointKind.LINE_IN_PLANE, in_plane, touching),
+        _far(JointKind.REVOLUTE, geometry.frame(b), p_b),
+    )
+
+
 _RECIPES = {
     (Atom.DIST,): _rod,
     (Atom.PLD,): _point_round_line,
     (Atom.DOT, Atom.DOT, Atom.PLD): _line_round_line,
     (Atom.LLD,): _skew_lines,
     (Atom.DOT,): _angled,
+    (Atom.PIP, Atom.DOT): _cone_on_plane,
+    (Atom.CPT,): _edge_on_plane,
 }
+
+_SIDED = (_point_round_line, _cone_on_plane, _edge_on_plane)

@@ -20,6 +20,9 @@ internal interface ILane<TSelf>
     /// <summary>Writes Width doubles from the index on.</summary>
     void Store(double[] array, int index);
 
+    /// <summary>For each lane one number of a record of its own: from[records[lane] * stride + column]; the receiver's value does not matter.</summary>
+    TSelf Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column);
+
     /// <summary>The same number in every lane; the receiver's value does not matter.</summary>
     TSelf Splat(double value);
 
@@ -67,6 +70,11 @@ internal readonly struct Lane<V>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] array, int index) => _value.Store(array, index);
+
+    /// <inheritdoc cref="ILane{TSelf}.Gather"/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Lane<V> Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>
+        new(default(V).Gather(from, records, stride, column));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Lane<V> Splat(double value) => new(default(V).Splat(value));
@@ -131,6 +139,10 @@ internal readonly struct ScalarLane : ILane<ScalarLane>
         array[index] = _value;
 #endif
 
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public ScalarLane Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>
+        new(from[records[0] * stride + column]);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ScalarLane Splat(double value) => new(value);

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 
 namespace Kinefab.Numerics;
@@ -23,6 +24,13 @@ internal readonly struct LaneVector<V>
         Lane<V>.Load(array, index),
         Lane<V>.Load(array, index + Lane<V>.Width),
         Lane<V>.Load(array, index + 2 * Lane<V>.Width));
+
+    /// <summary>Columns from the given one on of each lane's record: see <see cref="ILane{TSelf}.Gather"/>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static LaneVector<V> Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) => new(
+        Lane<V>.Gather(from, records, stride, column),
+        Lane<V>.Gather(from, records, stride, column + 1),
+        Lane<V>.Gather(from, records, stride, column + 2));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] array, int index)

@@ -1,4 +1,5 @@
 #if NET
+using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 
@@ -23,6 +24,12 @@ internal readonly struct Lane4 : ILane<Lane4>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane4 Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>
+        new(Vector256.Create(
+            from[records[0] * stride + column], from[records[1] * stride + column],
+            from[records[2] * stride + column], from[records[3] * stride + column]));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane4 Splat(double value) => new(Vector256.Create(value));
@@ -75,6 +82,14 @@ internal readonly struct Lane8 : ILane<Lane8>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Lane8 Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>
+        new(Vector512.Create(
+            from[records[0] * stride + column], from[records[1] * stride + column],
+            from[records[2] * stride + column], from[records[3] * stride + column],
+            from[records[4] * stride + column], from[records[5] * stride + column],
+            from[records[6] * stride + column], from[records[7] * stride + column]));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Splat(double value) => new(Vector512.Create(value));

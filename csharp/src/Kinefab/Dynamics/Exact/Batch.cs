@@ -25,6 +25,8 @@ internal sealed class Batch<V>
         {
             Compliance = new double[shape.Pattern.RowCount * w];
         }
+
+        Members = new int[shape.Bodies.Length * w];
         Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
         Joints = new double[shape.Nodes.Length * JointCount * w];
         RowOffsets = new int[shape.Nodes.Length];
@@ -48,6 +50,12 @@ internal sealed class Batch<V>
     public static int Width => Lane<V>.Width;
 
     public Island Shape { get; }
+
+    /// <summary>Body b of a lane in the mechanism (or Joint.World), at b * Width + lane.</summary>
+    public int[] Members { get; }
+
+    /// <summary>Whether a moving body has an axis about which it does not turn.</summary>
+    public bool HasFrozenAxes { get; set; }
 
     /// <summary>Records of <see cref="BodySlot"/>.</summary>
     public double[] Bodies { get; }

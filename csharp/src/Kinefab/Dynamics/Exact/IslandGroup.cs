@@ -107,25 +107,19 @@ internal sealed class IslandGroup<V> : IslandGroup
             Transfer<V>.Finish(batch);
             int first = i * Lane<V>.Width;
             int occupied = Math.Min(Lane<V>.Width, _islands.Length - first);
-            for (int lane = 0; lane < occupied; lane++)
-            {
-                Transfer<V>.Store(batch, lane, _islands[first + lane], _mechanism);
-            }
-
+            Transfer<V>.Store(batch, occupied, _mechanism);
             Reactions<V>.Report(batch, _islands, first, occupied, _mechanism, dt);
         }
     }
 
     private void Load(Batch<V> batch, int index, double dt)
     {
-        bool isMoved = false;
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        bool isMoved = Transfer<V>.Load(batch, _mechanism, dt);
+        for (int lane = 0; lane < Lane<V>.Width && isMoved; lane++)
         {
-            bool isLaneMoved = Transfer<V>.Load(batch, lane, Occupant(index, lane), _mechanism, dt);
-            if (isLaneMoved)
+            if (batch.Work.Moved[lane] != 0)
             {
                 ClearHistory(batch, lane);
-                isMoved = true;
             }
         }
 
@@ -154,7 +148,7 @@ internal sealed class IslandGroup<V> : IslandGroup
     {
         Island island = Occupant(index, lane);
         Transfer<ScalarLane>.LoadConstants(_spare, 0, island, _mechanism);
-        Transfer<ScalarLane>.Load(_spare, 0, island, _mechanism, dt);
+        Transfer<ScalarLane>.Load(_spare, _mechanism, dt);
         Transfer<ScalarLane>.Start(_spare);
         for (int i = 0; i < _spare.Half.Length; i++)
         {
@@ -224,7 +218,7 @@ internal sealed class PreparedIslands : IslandGroup
         for (int i = 0; i < _islands.Length; i++)
         {
             Batch<ScalarLane> batch = _batches[i];
-            if (Transfer<ScalarLane>.Load(batch, 0, _islands[i], _mechanism, dt))
+            if (Transfer<ScalarLane>.Load(batch, _mechanism, dt))
             {
                 batch.ClearHistory();
                 Flight<ScalarLane>.Stay(batch);
@@ -238,7 +232,7 @@ internal sealed class PreparedIslands : IslandGroup
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
             _mechanism.Overflows += _ladders[i].Stops - stops;
             Transfer<ScalarLane>.Finish(batch);
-            Transfer<ScalarLane>.Store(batch, 0, _islands[i], _mechanism);
+            Transfer<ScalarLane>.Store(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);
             foreach (Node node in _islands[i].Nodes)
             {

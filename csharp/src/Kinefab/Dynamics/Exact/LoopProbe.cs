@@ -43,7 +43,7 @@ internal sealed class LoopProbe
     {
         _batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
         Transfer<ScalarLane>.LoadConstants(_batch, 0, island, mechanism);
-        Transfer<ScalarLane>.Load(_batch, 0, island, mechanism, 1);
+        Transfer<ScalarLane>.Load(_batch, mechanism, 1);
         _length = Length(island);
         double[] a = _batch.Bodies;
         for (int body = 0; body < island.MovingBodies; body++)

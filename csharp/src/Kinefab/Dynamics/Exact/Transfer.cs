@@ -1,31 +1,37 @@
 using System;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
 
-/// <summary>Copies one island between the world's bodies and a lane of a batch.</summary>
+/// <summary>Copies islands between the world's bodies and the lanes of a batch.</summary>
 internal static class Transfer<V>
     where V : struct, ILane<V>
 {
     // A kinematic body that is this close to where it was driven has not been moved otherwise, m and half radians.
     private const double Near = 1e-9;
 
+    // Numbers of a pose: position, then rotation xyzw.
+    private const int PoseCount = 7;
+
     // Keeps 0 / 0 out of the limit of a speed.
     private const double LeastSquare = 1e-300;
 
-    /// <summary>Constants of bodies and joints.</summary>
+    /// <summary>Whose bodies a lane holds, and the constants of bodies and joints.</summary>
     public static void LoadConstants(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         for (int b = 0; b < island.Bodies.Length; b++)
         {
             int body = island.Bodies[b];
+            batch.Members[b * Lane<V>.Width + lane] = body;
             bool isMoving = b < island.MovingBodies;
             Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
             batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
+            batch.HasFrozenAxes |= isMoving && !(inverse.X > 0 && inverse.Y > 0 && inverse.Z > 0);
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
@@ -49,51 +55,36 @@ internal static class Transfer<V>
         }
     }
 
-    /// <summary>State, forces and damping for a step of dt, before <see cref="Start"/>; true when a pose is not the one that the last step left.</summary>
+    /// <summary>State, forces and damping of all lanes for a step, before <see cref="Start"/>; fills <see cref="Workspace{V}.Moved"/>.</summary>
     /// <param name="batch">Where to.</param>
-    /// <param name="lane">Which lane of it.</param>
-    /// <param name="island">Whose bodies.</param>
     /// <param name="mechanism">Where from.</param>
     /// <param name="dt">Step, s.</param>
-    public static bool Load(Batch<V> batch, int lane, Island island, MultibodySystem mechanism, double dt)
+    /// <returns>Whether a pose of any lane is not the one that the last step left.</returns>
+    public static bool Load(Batch<V> batch, MultibodySystem mechanism, double dt)
     {
-        bool isMoved = false;
-        Bodies bodies = mechanism.Bodies;
-        double[] a = batch.Bodies;
-        for (int b = 0; b < island.Bodies.Length; b++)
+        Lane<V>.Splat(0).Store(batch.Work.Moved, 0);
+        for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
-            int body = island.Bodies[b];
-            if (body == Joint.World)
+            LoadState(batch, b, mechanism.Bodies);
+            LoadForces(batch, b, mechanism, dt);
+            if (batch.HasFrozenAxes)
             {
-                continue;
+                KeepFrozen(batch, b, mechanism.Bodies);
             }
+        }
 
-            int o = Batch<V>.Body(b, 0) + lane;
-            Pose pose = bodies.Poses[body];
-            Vector3d lastPosition = Vector(a, o + BodySlot.EndX * Lane<V>.Width);
-            Quaterniond lastRotation = Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width);
-            isMoved |= b < island.MovingBodies
-                ? pose.Position != lastPosition || pose.Rotation != lastRotation
-                : (pose.Position - lastPosition).LengthSquared > Near * Near || Distance(pose.Rotation, lastRotation) > Near;
-            Put(a, o + BodySlot.X * Lane<V>.Width, pose.Position);
-            Put(a, o + BodySlot.Q * Lane<V>.Width, pose.Rotation);
-            if (b >= island.MovingBodies)
+        for (int b = batch.Shape.MovingBodies; b < batch.Shape.Bodies.Length; b++)
+        {
+            for (int lane = 0; lane < Lane<V>.Width && !batch.Shape.IsStatic[b]; lane++)
             {
-                // A kinematic body goes to its target at constant velocity.
-                BodyMotion.PredictVelocity(bodies, body, Vector3d.Zero, dt);
-                Put(a, o + BodySlot.V * Lane<V>.Width, bodies.LinearVelocities[body]);
-                Put(a, o + BodySlot.W * Lane<V>.Width, bodies.AngularVelocities[body]);
-                continue;
+                LoadKinematic(batch, b, lane, mechanism.Bodies, dt);
             }
+        }
 
-            Put(a, o + BodySlot.V * Lane<V>.Width, bodies.LinearVelocities[body]);
-            Put(a, o + BodySlot.W * Lane<V>.Width, bodies.AngularVelocities[body]);
-            a[o + BodySlot.Kept * Lane<V>.Width] = Math.Max(0, 1 - bodies.LinearDampings[body] * dt);
-            a[o + (BodySlot.Kept + 1) * Lane<V>.Width] = Math.Max(0, 1 - bodies.AngularDampings[body] * dt);
-            a[o + BodySlot.MaxSpeed * Lane<V>.Width] = bodies.MaxAngularSpeeds[body];
-            Vector3d gravity = bodies.UseGravity[body] ? mechanism.Gravity : Vector3d.Zero;
-            Put(a, o + BodySlot.Acceleration * Lane<V>.Width, gravity + bodies.Forces[body] * bodies.InverseMasses[body]);
-            Put(a, o + BodySlot.Torque * Lane<V>.Width, OnTurningAxes(pose.Rotation, bodies.Torques[body], bodies.InverseInertias[body]));
+        bool isMoved = false;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            isMoved |= batch.Work.Moved[lane] != 0;
         }
 
         return isMoved;
@@ -127,18 +118,22 @@ internal static class Transfer<V>
         }
     }
 
-    /// <summary>Poses and velocities back to the world's bodies, after <see cref="Finish"/>.</summary>
-    public static void Store(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
+    /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="Finish"/>.</summary>
+    public static void Store(Batch<V> batch, int lanes, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;
-        for (int b = 0; b < island.MovingBodies; b++)
+        int w = Lane<V>.Width;
+        for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
-            int body = island.Bodies[b];
-            int o = Batch<V>.Body(b, 0) + lane;
-            bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * Lane<V>.Width), Quaternion(a, o + BodySlot.EndQ * Lane<V>.Width));
-            bodies.LinearVelocities[body] = Vector(a, o + BodySlot.V * Lane<V>.Width);
-            bodies.AngularVelocities[body] = Vector(a, o + BodySlot.W * Lane<V>.Width);
+            for (int lane = 0; lane < lanes; lane++)
+            {
+                int body = batch.Members[b * w + lane];
+                int o = Batch<V>.Body(b, 0) + lane;
+                bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * w), Quaternion(a, o + BodySlot.EndQ * w));
+                bodies.LinearVelocities[body] = Vector(a, o + BodySlot.V * w);
+                bodies.AngularVelocities[body] = Vector(a, o + BodySlot.W * w);
+            }
         }
     }
 
@@ -160,6 +155,88 @@ internal static class Transfer<V>
             batch.Half[i * Lane<V>.Width + lane] = from.Half[i];
             batch.Work.Total[i * Lane<V>.Width + lane] = from.Work.Total[i];
         }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void LoadState(Batch<V> batch, int b, Bodies bodies)
+    {
+        ReadOnlySpan<double> poses = MemoryMarshal.Cast<Pose, double>(bodies.Poses);
+        ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        int o = Batch<V>.Body(b, 0);
+        Lane<V> moved = Lane<V>.Load(batch.Work.Moved, 0);
+        for (int i = 0; i < PoseCount; i++)
+        {
+            // X and Q stand together, as do EndX and EndQ, and a pose's numbers.
+            Lane<V> now = Lane<V>.Gather(poses, members, PoseCount, i);
+            int x = i < 3 ? BodySlot.X + i : BodySlot.Q - 3 + i;
+            now.Store(a, o + x * w);
+            moved += Lane<V>.Abs(now - Lane<V>.Load(a, o + (BodySlot.EndX + i) * w));
+        }
+
+        moved.Store(batch.Work.Moved, 0);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o + BodySlot.V * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o + BodySlot.W * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void LoadForces(Batch<V> batch, int b, MultibodySystem mechanism, double dt)
+    {
+        Bodies bodies = mechanism.Bodies;
+        ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        int o = Batch<V>.Body(b, 0);
+        Lane<V> zero = Lane<V>.Splat(0);
+        Lane<V> one = Lane<V>.Splat(1);
+        Lane<V> time = Lane<V>.Splat(dt);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o + BodySlot.Kept * w);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o + (BodySlot.Kept + 1) * w);
+        Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o + BodySlot.MaxSpeed * w);
+        LaneVector<V> force = LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Forces), members, 3, 0);
+        LaneVector<V> acceleration = Lane<V>.Load(a, o + BodySlot.InverseMass * w) * force;
+        acceleration.Store(a, o + BodySlot.Acceleration * w);
+        for (int lane = 0; lane < w; lane++)
+        {
+            if (bodies.UseGravity[members[lane]])
+            {
+                int at = o + BodySlot.Acceleration * w + lane;
+                Put(a, at, mechanism.Gravity + Vector(a, at));
+            }
+        }
+
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o + BodySlot.Torque * w);
+    }
+
+    // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
+    private static void KeepFrozen(Batch<V> batch, int b, Bodies bodies)
+    {
+        int w = Lane<V>.Width;
+        int o = Batch<V>.Body(b, BodySlot.Torque);
+        for (int lane = 0; lane < w; lane++)
+        {
+            int body = batch.Members[b * w + lane];
+            Put(batch.Bodies, o + lane, OnTurningAxes(bodies.Poses[body].Rotation, bodies.Torques[body], bodies.InverseInertias[body]));
+        }
+    }
+
+    // It goes to its target at constant velocity.
+    private static void LoadKinematic(Batch<V> batch, int b, int lane, Bodies bodies, double dt)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        int o = Batch<V>.Body(b, 0) + lane;
+        int body = batch.Members[b * w + lane];
+        Pose pose = bodies.Poses[body];
+        bool isMoved = (pose.Position - Vector(a, o + BodySlot.EndX * w)).LengthSquared > Near * Near
+            || Distance(pose.Rotation, Quaternion(a, o + BodySlot.EndQ * w)) > Near;
+        batch.Work.Moved[lane] += isMoved ? 1 : 0;
+        BodyMotion.PredictVelocity(bodies, body, Vector3d.Zero, dt);
+        Put(a, o + BodySlot.X * w, pose.Position);
+        Put(a, o + BodySlot.Q * w, pose.Rotation);
+        Put(a, o + BodySlot.V * w, bodies.LinearVelocities[body]);
+        Put(a, o + BodySlot.W * w, bodies.AngularVelocities[body]);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -187,7 +264,6 @@ internal static class Transfer<V>
         q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodySlot.Inertia * w), inBody)).Store(a, o + BodySlot.L * w);
     }
 
-    // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
     private static Vector3d OnTurningAxes(Quaterniond q, Vector3d torque, Vector3d inverse)
     {
         if (inverse.X > 0 && inverse.Y > 0 && inverse.Z > 0)
@@ -211,6 +287,7 @@ internal static class Transfer<V>
         Put(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static void Put(double[] a, int index, Vector3d v)
     {
         a[index] = v.X;
@@ -224,8 +301,10 @@ internal static class Transfer<V>
         a[index + 3 * Lane<V>.Width] = q.W;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Quaterniond Quaternion(double[] a, int index) =>
         new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width], a[index + 3 * Lane<V>.Width]);
 }

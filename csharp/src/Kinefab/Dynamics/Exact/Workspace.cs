@@ -26,6 +26,7 @@ internal sealed class Workspace<V>
         First = new double[rows * w];
         Total = new double[rows * w];
         Active = new double[w];
+        Moved = new double[w];
         MaxError = new double[w];
         MaxChange = new double[w];
         MaxGap = new double[w];
@@ -59,6 +60,9 @@ internal sealed class Workspace<V>
 
     /// <summary>1 in lanes that still iterate, else 0.</summary>
     public double[] Active { get; }
+
+    /// <summary>Not 0 in lanes of which a pose is not the one that the last step left.</summary>
+    public double[] Moved { get; }
 
     /// <summary>Largest error, and largest change of an error, of each lane.</summary>
     public double[] MaxError { get; }

@@ -162,7 +162,7 @@ internal sealed class LadderTests
         double most = 0;
         for (int i = 0; i < steps; i++)
         {
-            Transfer<ScalarLane>.Load(batch, 0, island, mechanism, dt);
+            Transfer<ScalarLane>.Load(batch, mechanism, dt);
             Transfer<ScalarLane>.Start(batch);
             Flight<ScalarLane>.Stay(batch);
             RattleStep<ScalarLane>.Rebuild(batch);
@@ -175,7 +175,7 @@ internal sealed class LadderTests
             most = System.Math.Max(most, Ladder.Demand(stiffest, batch.Work.Fastest[0], dt));
             ladder.Step(dt, 1e-9, ref cut, false);
             Transfer<ScalarLane>.Finish(batch);
-            Transfer<ScalarLane>.Store(batch, 0, island, mechanism);
+            Transfer<ScalarLane>.Store(batch, 1, mechanism);
         }
 
         return (cut.Halvings, most);

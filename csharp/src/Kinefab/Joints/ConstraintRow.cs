@@ -87,6 +87,10 @@ internal struct ConstraintRow
     /// <summary>Whether all of the flags are set.</summary>
     public readonly bool Has(RowFlags flags) => (Flags & flags) == flags;
 
+    /// <summary>Whether the other row has the same J, to the bit.</summary>
+    public readonly bool HasJacobianOf(in ConstraintRow other) =>
+        Linear0 == other.Linear0 && Angular0 == other.Angular0 && Linear1 == other.Linear1 && Angular1 == other.Angular1;
+
     /// <summary>Cdot for the given velocities of the two centres of mass.</summary>
     public readonly double Velocity(Vector3d v0, Vector3d w0, Vector3d v1, Vector3d w1) =>
         Vector3d.Dot(Linear0, v0) + Vector3d.Dot(Angular0, w0) - Vector3d.Dot(Linear1, v1) - Vector3d.Dot(Angular1, w1);

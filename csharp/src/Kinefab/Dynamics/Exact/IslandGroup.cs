@@ -218,16 +218,19 @@ internal sealed class PreparedIslands : IslandGroup
         for (int i = 0; i < _islands.Length; i++)
         {
             Batch<ScalarLane> batch = _batches[i];
-            if (Transfer<ScalarLane>.Load(batch, _mechanism, dt))
+            bool isMoved = Transfer<ScalarLane>.Load(batch, _mechanism, dt);
+            Transfer<ScalarLane>.Start(batch);
+            if (isMoved)
             {
                 batch.ClearHistory();
                 Flight<ScalarLane>.Stay(batch);
+                RattleStep<ScalarLane>.Rebuild(batch);
+            }
+            else
+            {
+                RattleStep<ScalarLane>.Reread(batch);
             }
 
-            Transfer<ScalarLane>.Start(batch);
-
-            // Targets and other fields of the joints may have changed since the last step: their rows are read again.
-            RattleStep<ScalarLane>.Rebuild(batch);
             int stops = _ladders[i].Stops;
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
             _mechanism.Overflows += _ladders[i].Stops - stops;

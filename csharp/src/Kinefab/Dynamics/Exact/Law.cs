@@ -28,6 +28,19 @@ internal enum Segment : byte
     Sloped,
 }
 
+/// <summary>What a law is in the matrix.</summary>
+internal enum Hold : byte
+{
+    /// <summary>An identity row.</summary>
+    None,
+
+    /// <summary>A row like a locked axis's.</summary>
+    Rigid,
+
+    /// <summary>A row with a spring's compliance.</summary>
+    Compliant,
+}
+
 /// <summary>
 /// One row with a monotone piecewise-linear law. Impulse p is what the flight gets of it.
 /// Spring: the force -k C + d (vT - v) is taken at the share Theta of the step, C = C0 + Theta h v, and its impulse
@@ -47,6 +60,9 @@ internal struct Law
 
     /// <summary>J and C at the end of the flight.</summary>
     public ConstraintRow End;
+
+    /// <summary>What the factored matrix has of it.</summary>
+    public Hold Hold;
 
     /// <summary>C at the start of the step.</summary>
     public double C0;

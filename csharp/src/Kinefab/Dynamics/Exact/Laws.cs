@@ -27,6 +27,9 @@ internal sealed partial class Laws<V>
     private readonly Law[] _laws;
     private readonly int[] _first;
 
+    // Whether the matrix is that of the rows as they stand now, held as their Hold says.
+    private bool _isFactored;
+
     public Laws(Batch<V> batch)
     {
         _batch = batch;
@@ -60,7 +63,25 @@ internal sealed partial class Laws<V>
     {
         ref Law law = ref _laws[_first[node] + slot];
         law.IsWritten = true;
+        _isFactored &= law.Hold == Hold.None || row.HasJacobianOf(law.Row);
         law.Row = row;
+    }
+
+    /// <summary>The bodies have moved or the matrix was changed: it is to be assembled anew.</summary>
+    public void Invalidate() => _isFactored = false;
+
+    /// <summary>
+    /// Whether the matrix is still the flight's: the projection before it held the same rows, and no spring is to act.
+    /// </summary>
+    public bool IsFactoredForFlight()
+    {
+        bool isFactored = _isFactored;
+        for (int i = 0; i < _laws.Length && isFactored; i++)
+        {
+            isFactored = _laws[i].Hold != Hold.Compliant && HoldOf(_laws[i], true) == _laws[i].Hold;
+        }
+
+        return isFactored;
     }
 
     /// <summary>A node's row at the end of the flight.</summary>
@@ -168,7 +189,11 @@ internal sealed partial class Laws<V>
     /// <summary>Keeps, or brings back, impulses and segments.</summary>
     public void Save(Law[] to) => Array.Copy(_laws, to, _laws.Length);
 
-    public void Restore(Law[] from) => Array.Copy(from, _laws, _laws.Length);
+    public void Restore(Law[] from)
+    {
+        Array.Copy(from, _laws, _laws.Length);
+        Invalidate();
+    }
 
     /// <summary>Adds what a node's limits gave its first body in the whole step.</summary>
     public void AddLimits(int node, ref Vector3d linear, ref Vector3d angular)
@@ -206,19 +231,22 @@ internal sealed partial class Laws<V>
             ref Law law = ref _laws[i];
             Node node = _batch.Shape.Nodes[law.Node];
             int cell = _batch.Shape.Pattern.Diagonal(law.Node) + law.NodeRow * (node.Rows + 1);
-            if (law.Segment == Segment.Clamped || !law.IsWritten)
+            law.Hold = HoldOf(law, isFlight);
+            switch (law.Hold)
             {
-                _batch.Matrix[cell] = 1;
-            }
-            else if (law.Kind == LawKind.Spring && isFlight)
-            {
-                _batch.Matrix[cell] += 1 / (law.Theta * law.Gamma);
-            }
-            else
-            {
-                _batch.Matrix[cell] *= 1 + HeldShare;
+                case Hold.None:
+                    _batch.Matrix[cell] = 1;
+                    break;
+                case Hold.Rigid:
+                    _batch.Matrix[cell] *= 1 + HeldShare;
+                    break;
+                default:
+                    _batch.Matrix[cell] += 1 / (law.Theta * law.Gamma);
+                    break;
             }
         }
+
+        _isFactored = true;
     }
 
     /// <summary>Residuals of the laws at the end of the flight as errors, m or rad.</summary>
@@ -291,6 +319,11 @@ internal sealed partial class Laws<V>
 
         return law.Row.Has(RowFlags.Limit) ? LawKind.HardLimit : LawKind.Motor;
     }
+
+    private static Hold HoldOf(in Law law, bool isFlight) =>
+        law.Segment == Segment.Clamped || !law.IsWritten ? Hold.None
+        : law.Kind == LawKind.Spring && isFlight ? Hold.Compliant
+        : Hold.Rigid;
 
     private void SetBounds(ref Law law, double h)
     {

@@ -53,7 +53,11 @@ internal static class RattleStep<V>
         Kick(batch, h / 2);
         Array.Copy(batch.Half, batch.Work.First, batch.Half.Length);
         Impulses<V>.Apply(batch, batch.Work.First);
-        if (batch.Laws != null || batch.Shape.IsInexact)
+        if (batch.Laws != null)
+        {
+            FactorForFlight(batch, batch.Laws);
+        }
+        else if (batch.Shape.IsInexact)
         {
             Factor(batch, true);
         }
@@ -113,6 +117,22 @@ internal static class RattleStep<V>
         if (batch.Laws == null)
         {
             Factor(batch, true);
+        }
+        else
+        {
+            batch.Laws.Invalidate();
+        }
+    }
+
+    /// <summary>Reads the rows with a law again at the pose where all rows were built, since targets and gains may have changed.</summary>
+    public static void Reread(Batch<V> batch)
+    {
+        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        {
+            if (batch.Shape.Nodes[n].Laws > 0)
+            {
+                PreparedRows<V>.Build(batch, n);
+            }
         }
     }
 
@@ -187,6 +207,19 @@ internal static class RattleStep<V>
         ResponseMatrix<V>.Assemble(batch, batch.Shape.IsInexact && !isFlight ? ResponseMatrix<V>.NoPartShare : batch.AngularShare);
         batch.Laws?.Condition(isFlight);
         BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+    }
+
+    // The projection of the last step leaves the flight's matrix behind, unless a law moved or a spring acts.
+    private static void FactorForFlight(Batch<V> batch, Laws<V> laws)
+    {
+        if (!batch.Shape.IsInexact && laws.IsFactoredForFlight())
+        {
+            laws.WriteRows(false);
+        }
+        else
+        {
+            Factor(batch, true);
+        }
     }
 
     private static void ProjectWithLaws(Batch<V> batch, double tolerance, Laws<V> laws)

@@ -36,6 +36,11 @@ internal static class Transfer<V>
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);
+            if (isMoving)
+            {
+                // Nowhere yet: wherever the first step finds the body, it has been moved there.
+                Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndX) + lane, new Vector3d(double.NaN, double.NaN, double.NaN));
+            }
         }
 
         for (int n = 0; n < island.Nodes.Length; n++)

@@ -50,6 +50,18 @@ internal sealed class LawTests
         Assert.That(Speed(m), Is.EqualTo(4.0 / 2 * 1).Within(1e-9));
     }
 
+    [TestCase(0.0)]
+    [TestCase(1.0)]
+    public void Motor_FirstStep_ActsInFullWhereverTheBodyStands(double x)
+    {
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        int wheel = b.Body(new Vector3d(x, 0, 0), Quaterniond.Identity, 3, new Vector3d(1.1, 1.3, 2));
+        Motor(b.Hinge(Joint.World, wheel, new Vector3d(x, 0, 0), Vector3d.UnitZ), 6, 4, false);
+        MultibodySystem m = b.Build();
+        Run(m, Dt);
+        Assert.That(Speed(m), Is.EqualTo(4.0 / 2 * Dt).Within(1e-12));
+    }
+
     [Test]
     public void Motor_AtItsSpeed_HoldsItAgainstATorque()
     {
@@ -75,6 +87,49 @@ internal sealed class LawTests
         Assert.That(Angle(m), Is.EqualTo(80 * Math.PI / 180).Within(1e-8));
         Assert.That(Speed(m), Is.EqualTo(0).Within(1e-8));
         Assert.That(m.Reactions[0].Torque.Z, Is.EqualTo(0.5).Within(1e-6));
+    }
+
+    [Test]
+    public void HardLimit_MovedWhileItHolds_HoldsAtItsNewPlace()
+    {
+        MultibodySystem m = Wheel(h => Limits(h, -10, 80, default), 1);
+        var hinge = (RevoluteJoint)m.Joints[0];
+        var solver = new ExactSolver(m);
+        for (int i = 0; i < 800; i++)
+        {
+            if (i == 400)
+            {
+                Limits(hinge, -10, 90, default);
+            }
+
+            m.Bodies.Torques[0] = new Vector3d(0, 0, 0.5);
+            solver.Step(Dt);
+            if (i == 399)
+            {
+                Assert.That(Angle(m), Is.EqualTo(80 * Math.PI / 180).Within(1e-8));
+            }
+        }
+
+        Assert.That(Angle(m), Is.EqualTo(90 * Math.PI / 180).Within(1e-8));
+        Assert.That(m.Reactions[0].Torque.Z, Is.EqualTo(0.5).Within(1e-6));
+    }
+
+    [Test]
+    public void MotorThenSpring_SwitchedWhileRunning_ActsAsTheSpringAlone()
+    {
+        MultibodySystem m = Wheel(h => Motor(h, 6, 1000, false));
+        var hinge = (RevoluteJoint)m.Joints[0];
+        Run(m, 0.1);
+        var solver = new ExactSolver(m);
+        solver.Step(Dt);
+        hinge.MotorEnabled = false;
+        hinge.Spring = new JointDrive { Damping = 3, ForceLimit = double.PositiveInfinity };
+        for (int i = 0; i < 100; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        Assert.That(Speed(m), Is.EqualTo(6 * Math.Exp(-3.0 / 2)).Within(1e-4));
     }
 
     [Test]

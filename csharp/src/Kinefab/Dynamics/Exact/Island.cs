@@ -75,7 +75,7 @@ internal sealed class Island
         {
             for (int i = 0; i < nodes[n].Rows; i++)
             {
-                IsAngular[Pattern.Rows[n] + i] = nodes[n].Classes[i] == RowClass.Angular;
+                IsAngular[Pattern.Rows[n] + i] = nodes[n].IsLockedAngle(i);
             }
         }
     }
@@ -106,7 +106,7 @@ internal sealed class Island
     /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
     public bool IsInexact { get; set; }
 
-    /// <summary>Whether a row, in the vectors' order, has no linear part.</summary>
+    /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
     public bool[] IsAngular { get; }
 
     /// <summary>Rows with a law, of all nodes.</summary>

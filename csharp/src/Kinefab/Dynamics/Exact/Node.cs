@@ -90,6 +90,7 @@ internal sealed class Node
         Bodies = bodies;
         _signature = Signature(joint);
         var classes = new List<RowClass>();
+        int linearDrives = 0;
         if (joint is RevoluteJoint hinge)
         {
             LinearMask = 7;
@@ -114,6 +115,7 @@ internal sealed class Node
                 7 => AngularRows.All,
                 _ => AngularRows.Prepared,
             };
+            linearDrives = CountLinearDrives(d6);
             Drives = CountDrives(d6);
             bool swing1 = d6.Swing1 == AxisMotion.Limited;
             bool swing2 = d6.Swing2 == AxisMotion.Limited;
@@ -124,6 +126,7 @@ internal sealed class Node
         else
         {
             Drives = CountDrives(joint);
+            linearDrives = Drives;
         }
 
         for (int axis = 0; axis < 3; axis++)
@@ -151,9 +154,10 @@ internal sealed class Node
             PlacedMask1 |= 2 << axis1;
         }
 
-        for (int i = Laws; i > 0; i--)
+        for (int i = 0; i < Laws; i++)
         {
-            classes.Add(RowClass.General);
+            bool isLinear = i < linearDrives || (HasDistance && i == Laws - 1);
+            classes.Add(isLinear ? RowClass.General : RowClass.Angular);
         }
 
         Classes = classes.ToArray();
@@ -189,6 +193,9 @@ internal sealed class Node
         axis0 = axis0 > 2 ? axis0 - 3 : axis0;
         axis1 = free;
     }
+
+    /// <summary>Whether a row locks an angle.</summary>
+    public bool IsLockedAngle(int row) => row < RigidRows && Classes[row] == RowClass.Angular;
 
     /// <summary>Rows that obey a law.</summary>
     public int Laws => Drives + Limits;
@@ -255,12 +262,14 @@ internal sealed class Node
     }
 
     // The same conditions as in D6Joint.LinearDrives and AngularDrives.
+    private static int CountLinearDrives(D6Joint d6) =>
+        (d6.DriveX.IsActive && d6.X != AxisMotion.Locked ? 1 : 0)
+        + (d6.DriveY.IsActive && d6.Y != AxisMotion.Locked ? 1 : 0)
+        + (d6.DriveZ.IsActive && d6.Z != AxisMotion.Locked ? 1 : 0);
+
     private static int CountDrives(D6Joint d6)
     {
-        int count = 0;
-        count += d6.DriveX.IsActive && d6.X != AxisMotion.Locked ? 1 : 0;
-        count += d6.DriveY.IsActive && d6.Y != AxisMotion.Locked ? 1 : 0;
-        count += d6.DriveZ.IsActive && d6.Z != AxisMotion.Locked ? 1 : 0;
+        int count = CountLinearDrives(d6);
         bool twist = d6.Twist != AxisMotion.Locked;
         bool swing1 = d6.Swing1 != AxisMotion.Locked;
         bool swing2 = d6.Swing2 != AxisMotion.Locked;

@@ -14,13 +14,22 @@ internal sealed class ImplicitEulerStep
 {
     private const int MaxIterations = 20;
 
+    // A matrix of a place this near to the end, m, serves further iterations, as long as each leaves at most this share of
+    // what is off.
+    private const double Near = 1e-2;
+    private const double MostLeft = 0.05;
+
     // One share for all rows: with the larger one for angles the iteration stops converging.
     private const double Share = 1e-6;
 
     private readonly Batch<ScalarLane> _batch;
+
+    // Of each body velocity and angular momentum: wanted without joints, what they lack, what they are.
     private readonly double[] _aim;
     private readonly double[] _residual;
     private readonly double[] _momenta;
+
+    // h K of each body: xx, yy, zz, xy, xz, yz.
     private readonly double[] _stiffness;
 
     public ImplicitEulerStep(Batch<ScalarLane> batch)
@@ -30,7 +39,7 @@ internal sealed class ImplicitEulerStep
         _aim = new double[6 * bodies];
         _residual = new double[6 * bodies];
         _momenta = new double[6 * bodies];
-        _stiffness = new double[9 * bodies];
+        _stiffness = new double[6 * bodies];
     }
 
     /// <summary>From the start pose to a closed end pose; false when that was not reached.</summary>
@@ -42,11 +51,13 @@ internal sealed class ImplicitEulerStep
         batch.SoftStep = 0;
         laws?.Begin(h, true);
         RattleStep<ScalarLane>.Kick(batch, h);
-        Gather(_aim);
+        Read(_aim);
         Array.Clear(batch.Work.First, 0, batch.Work.First.Length);
         laws?.StartFromZero();
         Flight<ScalarLane>.MoveKinematic(batch, h);
         int lawPasses = 0;
+        double last = 0;
+        bool isNear = false;
         for (int iteration = 0; iteration < MaxIterations; iteration++)
         {
             Flight<ScalarLane>.Run(batch, h);
@@ -56,18 +67,37 @@ internal sealed class ImplicitEulerStep
             RigidRows<ScalarLane>.Build(batch);
             laws?.WriteRows(true);
             double unbalanced = h * Residual();
-            bool isClosed = RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
-            if (isClosed && unbalanced < tolerance && !(laws != null && laws.Update(lawPasses++, tolerance)))
+            double off = Math.Max(batch.Work.MaxError[0], unbalanced);
+            isNear &= off <= MostLeft * last;
+            last = off;
+            if (RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0) && unbalanced < tolerance)
             {
-                return true;
+                if (laws == null || !laws.Update(lawPasses++, tolerance))
+                {
+                    return true;
+                }
+
+                isNear = false;
             }
 
-            if (!(batch.Work.MaxError[0] < double.MaxValue && unbalanced < double.MaxValue))
+            if (!(off < double.MaxValue))
             {
                 return false;
             }
 
             laws?.Evaluate(h);
+            if (isNear)
+            {
+                laws?.WriteRows(false);
+            }
+            else
+            {
+                Factor(h);
+
+                // The first one knows of no tension yet.
+                isNear = iteration > 0 && off < Near;
+            }
+
             Correct(h);
         }
 
@@ -79,91 +109,81 @@ internal sealed class ImplicitEulerStep
     private double Residual()
     {
         Batch<ScalarLane> batch = _batch;
-        ResponseMatrix<ScalarLane>.InverseInertias(batch);
-        Gather(_momenta);
-        for (int i = 0; i < _residual.Length; i++)
-        {
-            _residual[i] = _aim[i];
-        }
-
-        Scatter(_residual);
+        Read(_momenta);
+        Write(_aim, 1);
         Impulses<ScalarLane>.Apply(batch, batch.Work.First);
-        Gather(_residual);
+        double[] a = batch.Bodies;
         double most = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            double inverse = a[Batch<ScalarLane>.Body(body, BodySlot.MostInverseInertia)];
             for (int i = 0; i < 6; i++)
             {
-                _residual[6 * body + i] = _momenta[6 * body + i] - _residual[6 * body + i];
-            }
-
-            double inverse = batch.Bodies[Batch<ScalarLane>.Body(body, BodySlot.MostInverseInertia)];
-            for (int i = 0; i < 3; i++)
-            {
-                most = Math.Max(most, Math.Abs(_residual[6 * body + i]));
-                most = Math.Max(most, Math.Abs(_residual[6 * body + 3 + i]) * inverse);
+                double r = _momenta[6 * body + i] - a[o + i];
+                _residual[6 * body + i] = r;
+                most = Math.Max(most, Math.Abs(r) * (i < 3 ? 1 : inverse));
             }
         }
 
-        Scatter(_momenta);
+        Write(_momenta, 1);
         return most;
+    }
+
+    // J M~^-1 J^T, by the impulses and where the bodies are now.
+    private void Factor(double h)
+    {
+        ResponseMatrix<ScalarLane>.InverseInertias(_batch);
+        Stiffen(h);
+        _batch.Laws?.WriteRows(false);
+        ResponseMatrix<ScalarLane>.Assemble(_batch, Share);
+        _batch.Laws?.Condition(true);
+        BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
     }
 
     // (J M~^-1 J^T) dl = -C / h + J M~^-1 r; dv = M~^-1 (J^T dl - r).
     private void Correct(double h)
     {
         Batch<ScalarLane> batch = _batch;
-        Stiffen(h);
-        batch.Laws?.WriteRows(false);
-        ResponseMatrix<ScalarLane>.Assemble(batch, Share);
-        batch.Laws?.Condition(true);
-        BlockCholesky<ScalarLane>.Factor(batch.Shape.Pattern, batch.Matrix);
-        Scatter(_residual);
+        double[] solution = batch.Work.Solution;
+        Write(_residual, 1);
         Impulses<ScalarLane>.NegativeSpeeds(batch, false);
-        for (int i = 0; i < batch.Work.Solution.Length; i++)
+        for (int i = 0; i < solution.Length; i++)
         {
-            batch.Work.Solution[i] = -batch.Work.Error[i] / h - batch.Work.Solution[i];
+            solution[i] = -batch.Work.Error[i] / h - solution[i];
         }
 
-        batch.Laws?.ClearClamped(batch.Work.Solution);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
-        for (int i = 0; i < batch.Work.Solution.Length; i++)
+        batch.Laws?.ClearClamped(solution);
+        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, solution);
+        for (int i = 0; i < solution.Length; i++)
         {
-            batch.Work.First[i] += batch.Work.Solution[i];
+            batch.Work.First[i] += solution[i];
         }
 
-        for (int i = 0; i < _residual.Length; i++)
-        {
-            _residual[i] = -_residual[i];
-        }
-
-        Scatter(_residual);
-        Impulses<ScalarLane>.Apply(batch, batch.Work.Solution);
-        Gather(_residual);
+        Write(_residual, -1);
+        Impulses<ScalarLane>.Apply(batch, solution);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             Advance(body);
         }
-
-        Scatter(_momenta);
     }
 
-    // The step of one body: dv as it is; dL = I (I + h K)^-1 (what was gathered), that is: gathered - h K dw.
+    // From what the impulses and the residual give a body to its new momenta: dv as it is; dL = I (I + h K)^-1 of it, that
+    // is: less h K dw.
     private void Advance(int body)
     {
         double[] a = _batch.Bodies;
-        int o = Batch<ScalarLane>.Body(body, BodySlot.WorldInverse);
-        double tx = _residual[6 * body + 3], ty = _residual[6 * body + 4], tz = _residual[6 * body + 5];
-        double wx = a[o] * tx + a[o + 3] * ty + a[o + 4] * tz;
-        double wy = a[o + 3] * tx + a[o + 1] * ty + a[o + 5] * tz;
-        double wz = a[o + 4] * tx + a[o + 5] * ty + a[o + 2] * tz;
-        int k = 9 * body;
-        for (int i = 0; i < 3; i++)
+        int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+        Vector3d turn = Symmetric3.Load(a, Batch<ScalarLane>.Body(body, BodySlot.WorldInverse)).Times(new Vector3d(a[o + 3], a[o + 4], a[o + 5]));
+        Vector3d held = Symmetric3.Load(_stiffness, 6 * body).Times(turn);
+        for (int i = 0; i < 6; i++)
         {
-            _momenta[6 * body + i] += _residual[6 * body + i];
-            double held = _stiffness[k + 3 * i] * wx + _stiffness[k + 3 * i + 1] * wy + _stiffness[k + 3 * i + 2] * wz;
-            _momenta[6 * body + 3 + i] += _residual[6 * body + 3 + i] - held;
+            a[o + i] += _momenta[6 * body + i];
         }
+
+        a[o + 3] -= held.X;
+        a[o + 4] -= held.Y;
+        a[o + 5] -= held.Z;
     }
 
     // h K of every body from the impulses, and (I + h K)^-1 = (1 + I^-1 h K)^-1 I^-1 into the world inverse inertia.
@@ -185,53 +205,51 @@ internal sealed class ImplicitEulerStep
                 {
                     Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.Work.First);
                     int lever = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
-                    AddStiffness(9 * node.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
+                    AddStiffness(6 * node.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
                 }
             }
         }
 
         for (int body = 0; body < shape.MovingBodies; body++)
         {
-            StiffenBody(body);
+            int o = Batch<ScalarLane>.Body(body, BodySlot.WorldInverse);
+            Symmetric3.InverseOfSum(Symmetric3.Load(_batch.Bodies, o), Symmetric3.Load(_stiffness, 6 * body)).Store(_batch.Bodies, o);
         }
     }
 
     private void AddStiffness(int k, Vector3d force, Vector3d lever)
     {
-        double diagonal = (Vector3d.Dot(force, lever) + force.Length * lever.Length) / 2;
-        for (int i = 0; i < 3; i++)
+        double[] sum = _stiffness;
+        double along = (Vector3d.Dot(force, lever) + Math.Sqrt(force.LengthSquared * lever.LengthSquared)) / 2;
+        sum[k] += along - lever.X * force.X;
+        sum[k + 1] += along - lever.Y * force.Y;
+        sum[k + 2] += along - lever.Z * force.Z;
+        sum[k + 3] -= (lever.X * force.Y + force.X * lever.Y) / 2;
+        sum[k + 4] -= (lever.X * force.Z + force.X * lever.Z) / 2;
+        sum[k + 5] -= (lever.Y * force.Z + force.Y * lever.Z) / 2;
+    }
+
+    private void Read(double[] momenta)
+    {
+        double[] a = _batch.Bodies;
+        for (int k = 0, o = BodySlot.V; k < momenta.Length; k += 6, o += BodySlot.Count)
         {
-            for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 6; i++)
             {
-                _stiffness[k + 3 * i + j] += (i == j ? diagonal : 0) - (lever[i] * force[j] + force[i] * lever[j]) / 2;
+                momenta[k + i] = a[o + i];
             }
         }
     }
 
-    private void StiffenBody(int body)
+    private void Write(double[] momenta, double factor)
     {
         double[] a = _batch.Bodies;
-        int o = Batch<ScalarLane>.Body(body, BodySlot.WorldInverse);
-        var inverse = Symmetric3.Load(a, o);
-        var stiffness = new Symmetric3(
-            _stiffness[9 * body], _stiffness[9 * body + 4], _stiffness[9 * body + 8],
-            _stiffness[9 * body + 1], _stiffness[9 * body + 2], _stiffness[9 * body + 5]);
-        Symmetric3.InverseOfSum(inverse, stiffness).Store(a, o);
-    }
-
-    private void Gather(double[] momenta)
-    {
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        for (int k = 0, o = BodySlot.V; k < momenta.Length; k += 6, o += BodySlot.Count)
         {
-            Array.Copy(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V), momenta, 6 * body, 6);
-        }
-    }
-
-    private void Scatter(double[] momenta)
-    {
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            Array.Copy(momenta, 6 * body, _batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+            for (int i = 0; i < 6; i++)
+            {
+                a[o + i] = factor * momenta[k + i];
+            }
         }
     }
 }

@@ -117,6 +117,14 @@ public sealed class World
             throw new ArgumentOutOfRangeException(nameof(dt));
         }
 
+        for (int i = 0; i < _broken.Length; i++)
+        {
+            if (_broken[i])
+            {
+                _mechanism.Reactions[i] = default;
+            }
+        }
+
         _solver.Step(dt);
         Time += dt;
         for (int i = 0; i < Joints.Count; i++)

@@ -58,22 +58,31 @@ internal sealed class D6Joint : Joint
     /// <inheritdoc/>
     public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.D6(this, ref body0, ref body1, moveBody1);
 
+    /// <summary>
+    /// The motion of X, Y or Z. Where the rows of all limits are asked for, Limited to a hard radius of nothing is Locked:
+    /// the direction of so small a distance would come and go, and with it the limit's row, which PhysX lets happen.
+    /// </summary>
+    public AxisMotion Linear(AxisMotion motion) =>
+        EveryLimit && motion == AxisMotion.Limited && LinearLimit.Value <= LeastLimitedDistance && !LinearLimit.Response.IsSoft
+            ? AxisMotion.Locked
+            : motion;
+
     // Spring-damper per axis a of frame 0: C = (target - c.p).a, Cdot = a.(velocity of 0 - velocity of 1).
     // Source: ExtD6Joint.cpp, D6JointSolverPrep (the velocity is actor 1's against 0, hence its sign).
     private void LinearDrives(ref RowWriter writer, in JointFrames f)
     {
         Vector3d error = DrivePose.Position - f.Relative.Position;
-        if (DriveX.IsActive && X != AxisMotion.Locked)
+        if (DriveX.IsActive && Linear(X) != AxisMotion.Locked)
         {
             writer.LinearDrive(f.Axis0(0), -DriveLinearVelocity.X, error.X, DriveX);
         }
 
-        if (DriveY.IsActive && Y != AxisMotion.Locked)
+        if (DriveY.IsActive && Linear(Y) != AxisMotion.Locked)
         {
             writer.LinearDrive(f.Axis0(1), -DriveLinearVelocity.Y, error.Y, DriveY);
         }
 
-        if (DriveZ.IsActive && Z != AxisMotion.Locked)
+        if (DriveZ.IsActive && Linear(Z) != AxisMotion.Locked)
         {
             writer.LinearDrive(f.Axis0(2), -DriveLinearVelocity.Z, error.Z, DriveZ);
         }
@@ -203,9 +212,9 @@ internal sealed class D6Joint : Joint
     {
         Vector3d p = f.Relative.Position;
         Vector3d d = Vector3d.Zero;
-        d += X == AxisMotion.Limited ? f.Axis0(0) * p.X : Vector3d.Zero;
-        d += Y == AxisMotion.Limited ? f.Axis0(1) * p.Y : Vector3d.Zero;
-        d += Z == AxisMotion.Limited ? f.Axis0(2) * p.Z : Vector3d.Zero;
+        d += Linear(X) == AxisMotion.Limited ? f.Axis0(0) * p.X : Vector3d.Zero;
+        d += Linear(Y) == AxisMotion.Limited ? f.Axis0(1) * p.Y : Vector3d.Zero;
+        d += Linear(Z) == AxisMotion.Limited ? f.Axis0(2) * p.Z : Vector3d.Zero;
         double distance = d.Length;
         if (distance > LeastLimitedDistance)
         {
@@ -217,7 +226,7 @@ internal sealed class D6Joint : Joint
     // Otherwise the rows of RowWriter.Locked. Source: ExtD6Joint.cpp, end of D6JointSolverPrep.
     private void LockedAxes(ref RowWriter writer, in JointFrames f, Vector3d x1)
     {
-        int linear = Bit(X, 0) | Bit(Y, 1) | Bit(Z, 2);
+        int linear = Bit(Linear(X), 0) | Bit(Linear(Y), 1) | Bit(Linear(Z), 2);
         int angular = Bit(Twist, 0) | Bit(Swing1, 1) | Bit(Swing2, 2);
         if (angular == 2)
         {

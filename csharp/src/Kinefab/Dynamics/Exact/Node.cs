@@ -104,7 +104,7 @@ internal sealed class Node
         }
         else if (joint is D6Joint d6)
         {
-            LinearMask = Locked(d6.X, 1) | Locked(d6.Y, 2) | Locked(d6.Z, 4);
+            LinearMask = Locked(d6.Linear(d6.X), 1) | Locked(d6.Linear(d6.Y), 2) | Locked(d6.Linear(d6.Z), 4);
             int angular = Locked(d6.Twist, 1) | Locked(d6.Swing1, 2) | Locked(d6.Swing2, 4);
             Angular = angular switch
             {
@@ -121,7 +121,7 @@ internal sealed class Node
             bool swing2 = d6.Swing2 == AxisMotion.Limited;
             HasCone = swing1 && swing2;
             AngleLimits = (swing1 ^ swing2 ? 2 : 0) + (d6.Twist == AxisMotion.Limited ? 2 : 0);
-            HasDistance = d6.X == AxisMotion.Limited || d6.Y == AxisMotion.Limited || d6.Z == AxisMotion.Limited;
+            HasDistance = IsLimited(d6, d6.X) || IsLimited(d6, d6.Y) || IsLimited(d6, d6.Z);
         }
         else
         {
@@ -245,12 +245,14 @@ internal sealed class Node
 
         if (joint is D6Joint d6)
         {
-            return (int)d6.X | ((int)d6.Y << 2) | ((int)d6.Z << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing1 << 8)
+            return (int)d6.Linear(d6.X) | ((int)d6.Linear(d6.Y) << 2) | ((int)d6.Linear(d6.Z) << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing1 << 8)
                 | ((int)d6.Swing2 << 10) | (CountDrives(d6) << 12) | (d6.DriveSlerp.IsActive ? 1 << 16 : 0);
         }
 
         return 0;
     }
+
+    private static bool IsLimited(D6Joint d6, AxisMotion motion) => d6.Linear(motion) == AxisMotion.Limited;
 
     private static int Locked(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? bit : 0;
 
@@ -263,9 +265,9 @@ internal sealed class Node
 
     // The same conditions as in D6Joint.LinearDrives and AngularDrives.
     private static int CountLinearDrives(D6Joint d6) =>
-        (d6.DriveX.IsActive && d6.X != AxisMotion.Locked ? 1 : 0)
-        + (d6.DriveY.IsActive && d6.Y != AxisMotion.Locked ? 1 : 0)
-        + (d6.DriveZ.IsActive && d6.Z != AxisMotion.Locked ? 1 : 0);
+        (d6.DriveX.IsActive && d6.Linear(d6.X) != AxisMotion.Locked ? 1 : 0)
+        + (d6.DriveY.IsActive && d6.Linear(d6.Y) != AxisMotion.Locked ? 1 : 0)
+        + (d6.DriveZ.IsActive && d6.Linear(d6.Z) != AxisMotion.Locked ? 1 : 0);
 
     private static int CountDrives(D6Joint d6)
     {

@@ -93,9 +93,21 @@ internal static class RattleStep<V>
                 RigidRows<V>.Rate(batch);
                 batch.Work.FirstMaxError[0] = batch.Work.MaxError[0];
             }
-            else if (isDone || iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
+            else if (isDone)
             {
                 return;
+            }
+            else if (iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
+            {
+                if (batch.Laws == null || !batch.Laws.Curb(lawPasses++))
+                {
+                    return;
+                }
+
+                batch.Work.Active[0] = 1;
+                restart = iteration + 1;
+                Factor(batch, true);
+                continue;
             }
 
             Correct(batch, h, iteration == restart);

@@ -79,6 +79,20 @@ internal static class BodyMotion
             ? v
             : new Vector3d((locks & x) != 0 ? 0 : v.X, (locks & y) != 0 ? 0 : v.Y, (locks & z) != 0 ? 0 : v.Z);
 
+    /// <summary>A pose moved and turned from where the body is, without the locked parts of the way and of the rotation vector.
+    /// Source: ScConstraintSim.cpp, constrainMotion.</summary>
+    public static Pose Unlocked(in Pose from, in Pose to, BodyLocks locks)
+    {
+        if (locks == BodyLocks.None)
+        {
+            return to;
+        }
+
+        Vector3d way = Unlocked(to.Position - from.Position, locks, BodyLocks.LinearX, BodyLocks.LinearY, BodyLocks.LinearZ);
+        Vector3d turn = RotationVector(to.Rotation * from.Rotation.Conjugate());
+        return Integrate(from, way, Unlocked(turn, locks, BodyLocks.AngularX, BodyLocks.AngularY, BodyLocks.AngularZ), 1);
+    }
+
     private static Vector3d RotationVector(Quaterniond q)
     {
         Vector3d v = q.W < 0 ? -q.Vector : q.Vector;

@@ -7,7 +7,7 @@ namespace Kinefab.Dynamics.Pgs;
 /// <summary>
 /// Which joints project which body, and in which order: trees that grow, layer by layer, from bodies held by the world, or
 /// else from the body with the most joints. A joint outside the trees (one that closes a loop) does not project.
-/// Source: ScConstraintProjectionTree.cpp.
+/// Source: ScConstraintProjectionTree.cpp; ScConstraintSim.cpp, projectPose.
 /// </summary>
 internal sealed class ProjectionOrder
 {
@@ -17,9 +17,13 @@ internal sealed class ProjectionOrder
     private const long HeldByKinematic = 1L << 29;
 
     private readonly MultibodySystem _mechanism;
+    private readonly ProjectionGroups _groups;
+    private readonly RankOrder _rankOrder;
     private readonly long[] _ranks;
     private readonly int[] _anchors;
+    private readonly bool[] _isPlanted;
     private readonly bool[] _found;
+    private readonly int[] _roots;
     private readonly int[] _queue;
     private readonly int[] _joints;
     private readonly bool[] _movesBody1;
@@ -29,16 +33,20 @@ internal sealed class ProjectionOrder
     {
         _mechanism = mechanism;
         int bodies = mechanism.Bodies.Count;
+        _groups = new ProjectionGroups(mechanism);
         _ranks = new long[bodies];
+        _rankOrder = new RankOrder(_ranks);
         _anchors = new int[bodies];
+        _isPlanted = new bool[bodies];
         _found = new bool[bodies];
+        _roots = new int[bodies];
         _queue = new int[bodies];
         _joints = new int[bodies];
         _movesBody1 = new bool[bodies];
         Refresh();
     }
 
-    /// <summary>Plants the trees again, after a joint broke.</summary>
+    /// <summary>Plants the trees again, after a joint broke: Unity then destroys it.</summary>
     public void Refresh()
     {
         _count = 0;
@@ -47,11 +55,13 @@ internal sealed class ProjectionOrder
             return;
         }
 
-        Array.Clear(_ranks, 0, _ranks.Length);
+        _groups.Refresh();
         for (int i = 0; i < _found.Length; i++)
         {
+            _ranks[i] = 0;
             _anchors[i] = -1;
             _found[i] = _mechanism.Bodies.IsKinematic[i];
+            _isPlanted[i] = false;
         }
 
         for (int i = 0; i < _mechanism.Joints.Length; i++)
@@ -64,28 +74,18 @@ internal sealed class ProjectionOrder
             }
         }
 
-        // Every body held with projection is a root; their trees grow together.
-        int end = 0;
-        for (int i = 0; i < _ranks.Length; i++)
+        foreach (Joint joint in _mechanism.Joints)
         {
-            if (!_found[i] && _ranks[i] >= HeldByProjection)
+            int first = joint.Projection && !joint.IsBroken ? _groups.First(joint.Body0 < 0 ? joint.Body1 : joint.Body0) : -1;
+            if (first >= 0 && !_isPlanted[first])
             {
-                _found[i] = true;
-                Add(_anchors[i], i);
-                _queue[end++] = i;
+                _isPlanted[first] = true;
+                Plant(first);
             }
-        }
-
-        Grow(end);
-        for (int root = NextRoot(); root >= 0; root = NextRoot())
-        {
-            _found[root] = true;
-            _queue[0] = root;
-            Grow(1);
         }
     }
 
-    /// <summary>Projects the bodies' poses.</summary>
+    /// <summary>Projects the bodies' poses; a joint that broke in this step no longer does. Motions that a body is denied, it is denied here too.</summary>
     public void Apply()
     {
         Bodies bodies = _mechanism.Bodies;
@@ -94,18 +94,10 @@ internal sealed class ProjectionOrder
             Joint joint = _mechanism.Joints[_joints[i]];
             Pose pose0 = bodies.PoseOf(joint.Body0);
             Pose pose1 = bodies.PoseOf(joint.Body1);
-            if (!joint.Project(ref pose0, ref pose1, _movesBody1[i]))
+            if (!joint.IsBroken && joint.Project(ref pose0, ref pose1, _movesBody1[i]))
             {
-                continue;
-            }
-
-            if (_movesBody1[i])
-            {
-                bodies.Poses[joint.Body1] = pose1;
-            }
-            else
-            {
-                bodies.Poses[joint.Body0] = pose0;
+                int moved = _movesBody1[i] ? joint.Body1 : joint.Body0;
+                bodies.Poses[moved] = BodyMotion.Unlocked(bodies.Poses[moved], _movesBody1[i] ? pose1 : pose0, bodies.Locks[moved]);
             }
         }
     }
@@ -132,18 +124,39 @@ internal sealed class ProjectionOrder
         _ranks[body] |= rank;
     }
 
-    private int NextRoot()
+    // Every body held with projection is a root; their trees grow together. Then what they do not reach, tree by tree.
+    private void Plant(int first)
     {
-        int best = -1;
-        for (int i = 0; i < _ranks.Length; i++)
+        int count = 0;
+        for (int body = first; body >= 0; body = _groups.Next(body))
         {
-            if (!_found[i] && _ranks[i] > 0 && (best < 0 || _ranks[i] > _ranks[best]))
+            if (Moves(body))
             {
-                best = i;
+                _roots[count++] = body;
+                _found[body] = _ranks[body] >= HeldByProjection;
             }
         }
 
-        return best;
+        _rankOrder.Sort(_roots.AsSpan(0, count));
+        int end = 0;
+        while (end < count && _ranks[_roots[end]] >= HeldByProjection)
+        {
+            Add(_anchors[_roots[end]], _roots[end]);
+            _queue[end] = _roots[end];
+            end++;
+        }
+
+        int held = end;
+        Grow(end);
+        for (int i = held; i < count; i++)
+        {
+            if (!_found[_roots[i]])
+            {
+                _found[_roots[i]] = true;
+                _queue[0] = _roots[i];
+                Grow(1);
+            }
+        }
     }
 
     private void Grow(int end)

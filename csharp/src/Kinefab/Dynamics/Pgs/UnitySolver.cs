@@ -78,8 +78,11 @@ internal sealed class UnitySolver : ISolver
             _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
             _startLinear[i] = _bodies.LinearVelocities[i];
             _startAngular[i] = _bodies.AngularVelocities[i];
-            positionIterations = Math.Max(positionIterations, _bodies.PositionIterations[i]);
-            velocityIterations = Math.Max(velocityIterations, _bodies.VelocityIterations[i]);
+            if (!_bodies.IsKinematic[i])
+            {
+                positionIterations = Math.Max(positionIterations, _bodies.PositionIterations[i]);
+                velocityIterations = Math.Max(velocityIterations, _bodies.VelocityIterations[i]);
+            }
         }
 
         int blocks = Prepare(dt);
@@ -100,13 +103,19 @@ internal sealed class UnitySolver : ISolver
             _couplings.Sweep(_deltas);
         }
 
-        Report(blocks, dt);
+        bool broken = Report(blocks, dt);
         for (int i = 0; i < _bodies.Count; i++)
         {
             Move(i, dt);
         }
 
         _projection.Apply();
+        if (broken)
+        {
+            _order.Refresh();
+            _projection.Refresh();
+        }
+
         _couplings.Finish();
     }
 
@@ -221,8 +230,8 @@ internal sealed class UnitySolver : ISolver
     }
 
     // Force and torque of the rows that count, moved to the anchor; a joint that passes its limits acted in full in
-    // this step and is gone in the next. Source: DySolverConstraints.cpp, writeBack1D.
-    private void Report(int blocks, double dt)
+    // this step and is gone in the next. True when one did. Source: DySolverConstraints.cpp, writeBack1D.
+    private bool Report(int blocks, double dt)
     {
         double inverseDt = 1 / dt;
         bool broken = false;
@@ -253,11 +262,7 @@ internal sealed class UnitySolver : ISolver
             }
         }
 
-        if (broken)
-        {
-            _order.Refresh();
-            _projection.Refresh();
-        }
+        return broken;
     }
 
     private static bool Exceeds(Vector3d impulse, double limit) => impulse.LengthSquared > limit * limit;

@@ -234,6 +234,9 @@ public static class DiagnosticCodes
     /// <summary>A soft limit does not bounce.</summary>
     public const string LimitBounceIgnored = "LIMIT_BOUNCE_IGNORED";
 
+    /// <summary>{field} {ignored} is not used: the joint has one for both limits, {used} of {other}.</summary>
+    public const string LimitResponseShared = "LIMIT_RESPONSE_SHARED";
+
     /// <summary>The damper makes the limit soft, and without a spring nothing pushes back.</summary>
     public const string LimitDamperWithoutSpring = "LIMIT_DAMPER_WITHOUT_SPRING";
 

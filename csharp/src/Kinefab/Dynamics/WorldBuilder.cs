@@ -120,9 +120,9 @@ internal sealed class WorldBuilder
         };
     }
 
-    // Positions are frozen in the world's axes, rotations in the body's own (ScriptReference, Rigidbody.constraints): by PhysX's
-    // locks and by infinite moments of inertia (Manual, Joint.enablePreprocessing). The own axes are then the principal ones; that
-    // Unity means these also where inertiaTensorRotation turns them is unconfirmed.
+    // Positions are frozen in the world's axes, by PhysX's locks; rotations by setting the inertia tensor's components to zero, which
+    // stands for infinite (ScriptReference, Rigidbody.constraints and Rigidbody.inertiaTensor): about the principal axes, also
+    // where inertiaTensorRotation turns these.
     private static BodyLocks Locks(RigidbodyConstraints frozen) =>
         (Frozen(frozen, RigidbodyConstraints.FreezePositionX) ? BodyLocks.LinearX : 0)
         | (Frozen(frozen, RigidbodyConstraints.FreezePositionY) ? BodyLocks.LinearY : 0)

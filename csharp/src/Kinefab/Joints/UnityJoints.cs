@@ -125,7 +125,8 @@ internal static class UnityJoints
                 settings.LinearLimit, settings.LinearLimitSpring, LinearBounceThreshold, linearContact > 0 ? linearContact : LinearContactDistance),
         };
 
-        // One response serves both ends: PhysX keeps one for the pair. Unity's own choice is unconfirmed; the upper end's is taken.
+        // One response serves both ends: PhysX keeps one for the pair. Unity's own choice is unconfirmed; the upper end's is taken, and
+        // Y's for both swings. LIMIT_RESPONSE_SHARED names what is not used.
         SoftJointLimit low = settings.LowAngularXLimit;
         SoftJointLimit high = settings.HighAngularXLimit;
         joint.TwistLimit = new AngularLimit

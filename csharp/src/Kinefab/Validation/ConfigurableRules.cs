@@ -95,6 +95,16 @@ internal static class ConfigurableRules
         Bounce(joint.AngularYZLimitSpring, joint.AngularZLimit, "angularZLimit", at);
     }
 
+    /// <summary>PhysX has one bounce and one contact distance for both ends of the twist, the high one's here, and one for both
+    /// swings, Y's.</summary>
+    internal static void SharedResponse(ConfigurableJoint joint, in Place at)
+    {
+        if (joint.AngularXMotion == Limited && !IsSoft(joint.AngularXLimitSpring))
+            Shared(joint.LowAngularXLimit, "lowAngularXLimit", joint.HighAngularXLimit, "highAngularXLimit", at);
+        if (joint.AngularZMotion == Limited && !IsSoft(joint.AngularYZLimitSpring))
+            Shared(joint.AngularZLimit, "angularZLimit", joint.AngularYLimit, "angularYLimit", at);
+    }
+
     /// <summary>A damper makes the limit soft; without a spring nothing pushes back.</summary>
     internal static void DamperWithoutSpring(ConfigurableJoint joint, in Place at)
     {
@@ -134,9 +144,31 @@ internal static class ConfigurableRules
 
     private static void Bounce(SoftJointLimitSpring spring, SoftJointLimit limit, string field, in Place at)
     {
-        if ((spring.Spring > 0 || spring.Damper > 0) && limit.Bounciness > 0)
+        if (IsSoft(spring) && limit.Bounciness > 0)
             at.Report(field + "/bounciness", DiagnosticCodes.LimitBounceIgnored);
     }
+
+    private static void Shared(SoftJointLimit ignored, string field, SoftJointLimit used, string other, in Place at)
+    {
+        Shared(ignored.Bounciness, used.Bounciness, "bounciness", field, other, at);
+        Shared(ignored.ContactDistance, used.ContactDistance, "contactDistance", field, other, at);
+    }
+
+    private static void Shared(double ignored, double used, string name, string field, string other, in Place at)
+    {
+        if (ignored != used)
+        {
+            at.Report(
+                field + "/" + name,
+                DiagnosticCodes.LimitResponseShared,
+                ("field", name),
+                ("ignored", Invariant.Text(ignored)),
+                ("used", Invariant.Text(used)),
+                ("other", other));
+        }
+    }
+
+    private static bool IsSoft(SoftJointLimitSpring spring) => spring.Spring > 0 || spring.Damper > 0;
 
     private static void Damper(SoftJointLimitSpring spring, string field, in Place at)
     {

@@ -147,6 +147,7 @@ public static class SceneValidator
         ConfigurableRules.SwingLimitBesideFree(joint, at);
         ConfigurableRules.LimitWithoutRoom(joint, at);
         ConfigurableRules.BounceOfSoftLimit(joint, at);
+        ConfigurableRules.SharedResponse(joint, at);
         ConfigurableRules.DamperWithoutSpring(joint, at);
         DriveRules.Numbers(joint, at);
         DriveRules.SlerpLocked(joint, at);

@@ -156,6 +156,11 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
     """``angularYLimit`` and ``angularZLimit``: half angles of a cone about X, the same to either side."""
     limited = [i for i in (1, 2) if w.shape.freedoms[RX + i].motion is Motion.LIMITED]
     half = 0.0
+    # The cone has one bounce for both swings, which may be either's: Unity's choice is not documented.
+    bounce = max((w.shape.freedoms[RX + i].restitution for i in limited), default=0.0)
+    if limited and bounce > 0.0:
+        w.fields["angularYLimit"] = {"bounciness": bounce}
+        w.fields["angularZLimit"] = {"bounciness": bounce}
     for i in limited:
         freedom = w.shape.freedoms[RX + i]
         lower, upper = (math.degrees(x - w.zeros[RX + i]) for x in (freedom.lower, freedom.upper))
@@ -173,7 +178,7 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
                 half=f"{half:g}",
             )
         key = "angularYLimit" if i == 1 else "angularZLimit"
-        w.fields[key] = {"limit": half, "bounciness": freedom.restitution}
+        w.fields[key] = {"limit": half, "bounciness": bounce}
     if len(limited) == 1 and motions[RX + 3 - limited[0]] is Motion.FREE:
         w.approximated("JOINT_LIMIT_ELEVATION", freedom=w.name(RX + limited[0]), half=f"{half:g}")
     if limited:

@@ -9,6 +9,10 @@ const MASS_SCALES = 0; // PxConstraintInvMassScale: linear0, angular0, linear1, 
 const REVOLUTE = { driveVelocity: 20, driveForceLimit: 21, driveGearRatio: 22, flags: 32 };
 const D6 = { distanceLimit: 26, distanceValue: 31, distanceMinDist: 116, flags: 119 };
 
+// The flags of a PxConstraint, in 16-bit words from its start.
+const CONSTRAINT_FLAGS = 14;
+const BROKEN = 1;
+
 const REVOLUTE_DRIVE_ENABLED = 2;
 const REVOLUTE_DRIVE_FREESPIN = 4;
 
@@ -56,4 +60,8 @@ export function setDistanceLimit(px, joint, limit) {
   px.HEAPF32.set([restitution, bounceThreshold, stiffness, damping, contactDistance, limit.value], block + D6.distanceLimit);
   // mUseDistanceLimit is the first of the four bytes at the block's end.
   px.HEAPU8[(block + D6.flags) * 4] = 1;
+}
+
+export function isBroken(px, joint) {
+  return (px.HEAPU16[(joint.getConstraint().$$.ptr >> 1) + CONSTRAINT_FLAGS] & BROKEN) !== 0;
 }

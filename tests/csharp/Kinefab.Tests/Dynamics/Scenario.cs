@@ -76,6 +76,9 @@ internal sealed class Scenario
         }
     }
 
+    /// <summary>A scenario that carries its own trace.</summary>
+    public static Scenario Of(JsonElement spec) => new(spec, spec);
+
     public override string ToString() => Name;
 
     private static Scenario[] Load()

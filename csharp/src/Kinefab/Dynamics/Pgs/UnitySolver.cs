@@ -7,7 +7,8 @@ namespace Kinefab.Dynamics.Pgs;
 /// <summary>
 /// Projected Gauss-Seidel as PhysX 4.1 does it and so Unity: position iterations with the error as bias, whose
 /// velocity moves the bodies; then velocity iterations without it, whose velocity is kept. No warm start. Its drift, softness and loss of energy
-/// are PhysX's own. Source: DySolverControl.cpp, DyConstraintSetup.cpp, DySolverConstraints.cpp (solve1D), DyBodyCoreIntegrator.h.
+/// are PhysX's own. Of both iterations there are as many as the moving body that asks for most, as PhysX has it among up to 128 bodies.
+/// Source: DySolverControl.cpp, DyConstraintSetup.cpp, DySolverConstraints.cpp (solve1D), DyBodyCoreIntegrator.h.
 /// </summary>
 internal sealed class UnitySolver : ISolver
 {

@@ -43,7 +43,7 @@ class Blocks:
         return self.block[np.take_along_axis(ends, age.argmax(axis=1)[:, None], axis=1)[:, 0]]
 
     def generations(self) -> Iterator[np.ndarray]:
-        """The bodies of all blocks, every root before its block's: those equally many blocks from their island's root."""
+        """The bodies of all blocks, roots first: those that are equally many blocks from their island's root."""
         depth = np.zeros(len(self.block), dtype=np.int64)
         root, block = self.root.tolist(), self.block.tolist()
         for body in self.order.tolist():

@@ -62,8 +62,9 @@ def motions(candidates: list[Candidate], lengths: Array, samples: int, seed: int
     stays fixed in b and Z (Y) in a; with only X locked, the swing is homokinetic.
     """
     draw = np.random.default_rng(seed).uniform(-1.0, 1.0, (samples, 6))
-    unit = np.concatenate([np.repeat(REACH * lengths[:, None], 3, axis=1), np.full((len(candidates), 3), TURN_REACH)], axis=1)
-    q = draw * unit[:, None]
+    q = np.repeat(draw[None], len(candidates), axis=0)
+    q[..., :3] *= (REACH * lengths)[:, None, None]
+    q[..., 3:] *= TURN_REACH
     rotation = np.empty((len(candidates), samples, 3, 3))
     for (unlocked, screw), own in alike((c.unlocked, c.kind is JointKind.SCREW) for c in candidates):
         q[own] *= [i in unlocked for i in range(6)]

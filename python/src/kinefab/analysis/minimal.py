@@ -11,7 +11,7 @@ A walk along the mechanism with only the kept rows then checks that the left-out
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -285,7 +285,7 @@ def _world_frames(links: list[Link], scene: Scene) -> tuple[Array, Array]:
 
 
 def _system(links: dict[int, Link], frames: tuple[Array, Array], bodies: int) -> System:
-    """The equations of some links' joints themselves, by their numbers (the rows' owners), between the links' bodies."""
+    """The equations of some joints themselves, by their links' numbers (the rows' owners), between links' bodies."""
     rows = Rows()
     for i, link in links.items():
         rows.owner = i

@@ -57,9 +57,9 @@ class Openings:
 class BlockTree:
     """The spanning tree inside one block, in units of one length about one point.
 
-    held: each body and the link that holds it, outwards.  closing: the links that close loops.  links, indices: all of
-    them, the held ones first, and their numbers in the tree.  rotation, place: their WORLD frames, on a and on b, shapes
-    (links, 2, 3, 3) and (links, 2, 3), metres.
+    held: each body and the link that holds it, outwards.  closing: the links that close loops.
+    links, indices: all of them, the held ones first, and their numbers in the tree.
+    rotation, place: their WORLD frames, on a and on b, shapes (links, 2, 3, 3) and (links, 2, 3), metres.
     """
 
     def __init__(self, block: Block, tree: Tree, frames: tuple[Array, Array]):

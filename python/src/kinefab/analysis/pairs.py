@@ -193,7 +193,8 @@ def _geometries(system: System, pairs: Pairs, length: Array) -> list[Geometry]:
             here = here.reshape(len(group), -1, 3)
             sides.append(_distinct(here, np.linalg.norm(here, axis=2) > 0.5, np.full(len(group), 1e-6)))
         p_a, p_b = system.p_a[atoms], system.p_b[atoms]
-        points = np.concatenate([np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)], axis=1)  # second body's first
+        on_second, on_first = np.where(a_first, p_b, p_a), np.where(a_first, p_a, p_b)
+        points = np.concatenate([on_second, on_first], axis=1)
         placed = pointed[atoms] | ~pointed[atoms].any(axis=1, keepdims=True)
         points = _distinct(points, np.tile(placed, 2), 1e-6 * length[group])
         for i, *own in zip(group, points, *sides):

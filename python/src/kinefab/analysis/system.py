@@ -26,7 +26,8 @@ class State:
     """Displacements of the bodies from the start pose.
 
     rotation: shape (n, 3, 3).  shift: shape (n, 3), metres, of the bodies' own points g.
-    angle: shape (atoms,), radians, the last value of each ANG (others' are nothing), so that a coupling counts whole turns.
+    angle: shape (atoms,), radians, the last value of each ANG, so that a coupling counts whole turns; of other
+    atoms nothing.
     """
 
     rotation: Array

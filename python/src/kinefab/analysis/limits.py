@@ -58,10 +58,10 @@ def found_ranges(
     ranges: list[JointRange] = []
     by_block = _by_block(assembly, links)
     total, done = sum(_single(l) is not None for l in links), 0
-    for part, (first, finite) in enumerate(zip(assembly.freedoms, assembly.finite)):
+    for part, first in enumerate(assembly.freedoms):
         inside = by_block.get(int(assembly.blocks.block[first.bodies[0]]), [])
         swept = [l for l in inside if _single(l) is not None and not l.joint.closure]
-        for link, ends in _ranges_in(assembly, first, finite, inside, swept, scene):
+        for link, ends in _ranges_in(assembly, part, inside, swept, scene):
             if isinstance(ends, str):
                 report.add("LIMITS_NOT_SWEPT", link.joint.where, joint=link.joint.id, detail=ends)
             else:
@@ -72,12 +72,12 @@ def found_ranges(
     return ranges
 
 
-def _ranges_in(assembly: Assembly, first, finite, inside: list[Link], swept: list[Link], scene: Scene) -> Iterator:
+def _ranges_in(assembly: Assembly, part: int, inside: list[Link], swept: list[Link], scene: Scene) -> Iterator:
     """Of each of a block's ``swept`` links the ends of its range, or why it has none.
 
-    first, finite: the block's freedoms.  inside: all links in the block.
+    part: the block's number among ``Assembly.freedoms``.  inside: all links in the block.
     """
-    bodies, mobility = len(first.bodies), finite.mobility
+    bodies, mobility = len(assembly.freedoms[part].bodies), assembly.finite[part].mobility
     if not swept:
         return
     if bodies == 1 and mobility == 1:  # a joint in no loop: nothing but its own limits
@@ -94,7 +94,7 @@ def _ranges_in(assembly: Assembly, first, finite, inside: list[Link], swept: lis
         return
     coordinates = [(l, _single(l)) for l in swept]
     coordinates += [(l, f) for l in inside for f in _limited(l) if (l, f) not in coordinates]
-    block = Measured(assembly, first.rows, first.bodies, coordinates, scene)
+    block = Measured(assembly, part, coordinates, scene)
     lost = "its mechanism was lost at a singular pose"
     if mobility == 1:
         found = ranges_of_curve(block)

@@ -10,7 +10,6 @@ import numpy as np
 from ..model import RX, Motion, Scene
 from ..spatial import Array
 from .assembly import Assembly
-from .blocks import relative_system
 from .equations import coordinate, joint_sides
 from .jointing import Link
 from .rows import Rows
@@ -24,7 +23,7 @@ CLOSED = 1e-9
 class Measured:
     """A block and coordinates (a link and its freedom TX..RZ each) to measure in it.
 
-    rows, bodies: numbers of the block's in the assembly; in here its bodies are 1 to n.
+    part: the block's number among ``Assembly.freedoms``; in here its bodies are 1 to n, its root is at rest as 0.
     lower, upper: the source's limits, infinite where there are none.  rotary: which coordinates are angles.
     system, start, turns: the block's equations, the exported pose, and the last angles there (``State.angle``
     of ``probe``).  length: metres, of its twists.
@@ -33,24 +32,23 @@ class Measured:
     def __init__(
         self,
         assembly: Assembly,
-        rows: np.ndarray,
-        bodies: np.ndarray,
+        part: int,
         coordinates: Sequence[tuple[Link, int]],
         scene: Scene,
     ):
-        label = np.zeros(assembly.system.bodies, dtype=np.int64)
-        label[bodies] = self.bodies = np.arange(1, len(bodies) + 1)
-        self.system: System = assembly.relative.select(rows).relabel(label)
-        self.system.center[1:] = assembly.relative.center[bodies]
-        self.system.length[1:] = assembly.relative.length[bodies]
+        bodies = assembly.freedoms[part].bodies.tolist()
+        number = {body: i for i, body in enumerate(bodies, start=1)}
+        self.bodies = np.arange(1, len(bodies) + 1)
+        self.system: System = assembly.solver.alone(part)
         self.length = float(self.system.length[1])
         self.solver = Solver(self.system)
         probe = Rows()
         for i, (link, freedom) in enumerate(coordinates):
             probe.owner = i
-            a, b = (replace(s, body=n) for s, n in zip(joint_sides(link.joint, scene), (link.a, link.b)))
+            ends = zip(joint_sides(link.joint, scene), (link.a, link.b))
+            a, b = (replace(side, body=number.get(body, 0)) for side, body in ends)
             coordinate(probe, probe.row(freedom < RX), a, b, freedom, 1.0)
-        self.probe = relative_system(probe.system(assembly.system.bodies), assembly.blocks).relabel(label)
+        self.probe = probe.system(len(bodies) + 1)
         self.probe.center, self.probe.length = self.system.center, self.system.length
         self.start = self.system.start()
         self.rotary = np.array([f >= RX for _, f in coordinates], dtype=bool)

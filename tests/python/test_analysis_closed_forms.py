@@ -10,7 +10,7 @@ from mechanism_cases import analysed, node, table
 
 from kinefab.analysis.freedom import block_freedoms
 from kinefab.analysis.system import State
-from kinefab.model import RX, TX
+from kinefab.model import RX, TX, JointKind
 
 TOLERANCE = 1e-9
 
@@ -113,6 +113,34 @@ def test_couplings_of_a_planetary_count_against_its_carrier():
         ("carrier - sun", "carrier - planet"): pytest.approx(-24 / 18),
         ("base - carrier", "carrier - planet"): pytest.approx(-60 / 18),
     }
+
+
+def test_two_planetary_stages_multiply_their_ratio():
+    """M43: each carrier turns 24 / 84 as far as its sun; the second stage's sun is the first one's carrier."""
+    found = analysed("M43")
+    drive = found.drive((joint(found, "base", "carrier2").id, RX))
+    drive.to([math.radians(20.0)])
+    for name, angle in (("carrier1", 70.0), ("sun", 245.0)):
+        got = turned(drive.poses()[node(found.source, name)])
+        assert math.radians(abs(math.remainder(got - angle, 360.0))) < TOLERANCE
+
+
+def test_every_coupling_of_a_planetary_train_has_its_joints():
+    """The first carrier counts against the housing in one stage and against the second carrier in the other."""
+    found = analysed("M43")
+    assert len(found.couplings) == 12
+    beside = next(j for j in found.joints if {j.a, j.b} == {node(found.source, f"carrier{i}") for i in (1, 2)})
+    assert beside.kind is JointKind.FREE and any(beside.id in (c.joint_a, c.joint_b) for c in found.couplings)
+
+
+@pytest.mark.parametrize("angle", [-40.0, 10.0, 40.0])
+def test_peaucellier_draws_a_straight_line(angle):
+    """M46: the inversion of a circle through its centre: x = (1.1^2 - 0.5^2) / (2 0.4), y = x tan(angle / 2)."""
+    found = analysed("M46")
+    drive = found.drive((joint(found, "base", "crank").id, RX))
+    drive.to([math.radians(angle - 25.0)])
+    end = drive.poses()[node(found.source, "ad")].translation
+    assert np.abs(end - [1.2, 1.2 * math.tan(math.radians(angle / 2)), 0.0]).max() < TOLERANCE
 
 
 def test_sarrus_platform_rises_as_twice_the_sine():

@@ -120,6 +120,7 @@ CASES = {
     "JOINT_CONSTRAINTS_DISAGREE": lambda: replace(scene("P03"), joints=[tube()]),
     "JOINT_SUPERSEDED": lambda: replace(scene("P03"), joints=[tube()]),
     "JOINT_REHUNG": lambda: scene("M27"),
+    "JOINT_FOR_COUPLING": lambda: scene("M43"),
     "PAIR_RANK_UNCERTAIN": uncertain,
     "RELATION_BY_MIDDLE_BODY": lambda: scene("P30"),
     "RELATION_APPROXIMATED": lambda: parts(EDGE),

@@ -55,6 +55,19 @@ def test_leg_spins_are_idle_freedoms():
     assert analysed("M14").idle == []
 
 
+def test_idle_freedoms_of_a_single_loop_are_those_of_bodies_that_turn_as_one():
+    """M28: the rod of an RSSR spins.  M42: the middle stage of a ram slides, and the ram spins as a whole."""
+    for id, expected in (("M28", [{"rod"}]), ("M42", [{"middle"}, {"tube", "middle", "piston"}])):
+        found = analysed(id)
+        assert [i.count for i in found.idle] == [1] * len(expected)
+        assert [{found.source.nodes[n].name for n in i.nodes} for i in found.idle] == expected
+
+
+def test_a_leg_that_only_seems_to_buckle_is_not_idle():
+    """M45: four velocities, no motion, so none that moves nothing else."""
+    assert analysed("M45").idle == []
+
+
 @pytest.mark.parametrize(
     ("id", "loops"), [("M01", 1), ("M06", 2), ("M09", 1), ("M14", 5), ("M19", 5), ("M32", 2), ("M40", 40)]
 )

@@ -47,6 +47,9 @@ PAIRS = {
     "P27": (K.CYLINDRICAL, X, (None, -0.2, 0.3), 4, 4, 0),
     "P28": (K.SPHERICAL, None, (0.1, -0.2, 0.0), 2, 1, 1),
     "P29": (K.SPHERICAL, None, (0.0, 0.0, 0.0), 3, 2, 1),
+    "P34": (K.PARALLEL_PLANES, X, None, 2, 2, 0),
+    "P35": (K.FIXED, None, None, 6, 6, 0),
+    "P36": (K.FIXED, None, None, 6, 3, 3),
 }
 
 
@@ -86,6 +89,28 @@ def test_a_rod_is_not_a_point_on_a_plane():
     ends = sorted((world(found, j).translation.tolist() for j in found.joints))
     assert np.allclose(ends, sorted([C0.tolist(), (C0 + [0.3, 0.0, 0.4]).tolist()]), atol=1e-12)
     assert len(found.nodes) == 1
+
+
+@pytest.mark.parametrize(
+    ("id", "kinds"),
+    [
+        ("P31", ["planar", "revolute"]),
+        ("P32", ["line_in_plane", "revolute"]),
+        ("P33", ["spherical", "universal"]),
+    ],
+)
+def test_relations_by_a_middle_body_have_one(id, kinds):
+    """Cone and circle edge on a plane, and a rod that is stated twice: two joints and one light body."""
+    found = analysed(id)
+    assert sorted(j.kind.value for j in found.joints) == kinds and len(found.nodes) == 1
+    assert {name for j in found.joints for name in j.because} == {c.id for c in found.source.constraints}
+
+
+@pytest.mark.parametrize(("id", "left"), [("P28", (0, 3)), ("P29", (0, 3)), ("P36", (0, 0))])
+def test_a_part_at_a_singular_pose_keeps_the_freedoms_of_its_joint(id, left):
+    """The twists promise two translations, one, or three freedoms that no motion has."""
+    part = analysed(id).freedoms[1]
+    assert (len(part.translations), len(part.rotations)) == left
 
 
 def test_screw_keeps_its_lead_and_hand():

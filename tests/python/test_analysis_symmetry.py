@@ -237,7 +237,7 @@ def test_what_keeps_step_for_a_moment_only_is_reported():
 @pytest.mark.parametrize(("value", "hand"), [(0.0, "right"), (35.0, "right"), (-200.0, "right"), (35.0, "left")])
 def test_displayed_values_become_the_couplings_offset(tmp_path, value, hand):
     """Levers with hinges of the source's own: the coupling holds at the exported pose whatever their joints display."""
-    bundle = json.loads((ROOT / "fixtures" / "mechanisms" / "M43.bundle.json").read_text("utf-8"))
+    bundle = json.loads((ROOT / "fixtures" / "mechanisms" / "M49.bundle.json").read_text("utf-8"))
     bundle["constraints"] = bundle["constraints"][2:]
     bundle["joints"] = [
         {"id": name, "type": "revolute", "a": "base", "b": name, "dof": [{"name": "rz", "value": math.radians(q)}],
@@ -257,12 +257,12 @@ def test_displayed_values_become_the_couplings_offset(tmp_path, value, hand):
 
 def test_a_gripper_keeps_its_symmetry_wherever_its_plane_goes():
     """Jaws in a palm that turns, jaws on parallelograms: the symmetry is one coupling, of jaws or of cranks."""
-    (slides,) = analysed("M42").couplings
+    (slides,) = analysed("M48").couplings
     assert (slides.freedom_a, slides.freedom_b, abs(slides.ratio)) == (TX, TX, 1.0)
-    (cranks,) = analysed("M44").couplings
+    (cranks,) = analysed("M50").couplings
     assert (cranks.freedom_a, cranks.freedom_b, cranks.ratio) == (RX, RX, -1.0)
-    ends = {j.id: (j.a, j.b) for j in analysed("M44").joints}
-    base = node(scene("M44"), "base")
+    ends = {j.id: (j.a, j.b) for j in analysed("M50").joints}
+    base = node(scene("M50"), "base")
     assert all(base in ends[name] for name in (cranks.joint_a, cranks.joint_b))
 
 

@@ -31,6 +31,9 @@ internal sealed class FiniteMobility
     /// <summary>For each block the freedoms of the velocities at poses in general position, the least that Count found.</summary>
     public int[] AtGeneralPose { get; private set; } = Array.Empty<int>();
 
+    /// <summary>The velocities some steps away from the exported pose, where Count looked.</summary>
+    public VelocitySpace? Away { get; private set; }
+
     /// <summary>For each block its finite freedoms.</summary>
     public int[] Count(MechanismState start)
     {
@@ -41,6 +44,7 @@ internal sealed class FiniteMobility
         }
 
         var space = new VelocitySpace(_mechanism, _newton, _blocks, state);
+        Away = space;
         var survivors = new List<double[]>[_blocks.Columns.Count];
         for (int b = 0; b < survivors.Length; b++)
         {

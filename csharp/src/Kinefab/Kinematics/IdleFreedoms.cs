@@ -4,19 +4,31 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
-/// <summary>Freedoms of a body, or of a leg of bodies between two others, that move nothing else: a rod's spin between its balls.</summary>
+/// <summary>
+/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else: a rod's spin between its balls. In a
+/// single loop: of bodies that turn in it as one.
+/// </summary>
 internal static class IdleFreedoms
 {
     private const double LeastMotion = 1e-6;
 
-    /// <summary>Of the velocities at one pose, loop by loop; a free end of a chain is no loop, and not idle.</summary>
-    public static List<IdleFreedom> Of(Mechanism mechanism, VelocitySpace space)
+    /// <summary>
+    /// Of the velocities at one pose, loop by loop; a free end of a chain is no loop, and not idle. Where these are more than
+    /// the <paramref name="finite"/> motions, those some steps away are looked at: there no part seems to move alone that cannot.
+    /// </summary>
+    public static List<IdleFreedom> Of(Mechanism mechanism, VelocitySpace here, VelocitySpace away, int[] finite)
     {
         var idle = new List<IdleFreedom>();
         DisjointSets rigid = RigidGroups(mechanism);
         Dictionary<int, SortedSet<int>> neighbours = Neighbours(mechanism, rigid);
-        for (int block = 0; block < space.Blocks.Columns.Count; block++)
+        for (int block = 0; block < finite.Length; block++)
         {
+            VelocitySpace space = here.Blocks.Columns[block].Count - here.Ranks[block] == finite[block] ? here : away;
+            if (space.Blocks.Columns[block].Count - space.Ranks[block] != finite[block])
+            {
+                continue;
+            }
+
             var motions = new List<double[]>();
             foreach ((int of, double[] vector) in space.Basis)
             {
@@ -32,9 +44,20 @@ internal static class IdleFreedoms
                 continue;
             }
 
-            foreach (List<int> leg in Legs(groups, neighbours))
+            List<List<int>> legs = Legs(groups, neighbours);
+            if (legs.Count == 1)
             {
-                int count = leg.Count == groups.Count ? 0 : motions.Count - RankWithout(leg, groups, motions, space);
+                foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(mechanism, groups, neighbours, motions, space))
+                {
+                    idle.Add(new IdleFreedom(GameObjects(mechanism, rigid, turning), count));
+                }
+
+                continue;
+            }
+
+            foreach (List<int> leg in legs)
+            {
+                int count = motions.Count - RankWithout(leg, groups, motions, space);
                 if (count > 0)
                 {
                     idle.Add(new IdleFreedom(GameObjects(mechanism, rigid, leg), count));

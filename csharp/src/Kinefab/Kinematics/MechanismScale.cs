@@ -7,6 +7,9 @@ namespace Kinefab.Kinematics;
 /// <summary>Where a mechanism stands and how large its links are, so that angles and lengths can be weighed and rounding stays small.</summary>
 internal static class MechanismScale
 {
+    // Places nearer than this, in metres or by their distance from the origin, differ by the rounding of the file.
+    private const double SamePlace = 1e-9;
+
     /// <summary>Mean of the joints' places, world.</summary>
     public static Vector3d Center(Mechanism mechanism, Pose[] poses)
     {
@@ -39,7 +42,7 @@ internal static class MechanismScale
         Each((body, anchor) =>
         {
             double square = (anchor - sum[body] * (1.0 / count[body])).LengthSquared;
-            if (square > 0)
+            if (square > SamePlace * SamePlace * Math.Max(1, anchor.LengthSquared))
             {
                 squares += square;
                 links++;

@@ -50,7 +50,7 @@ public static class MobilityAnalysis
 
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
-        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, space.Gap, islands, bodies, Named(mechanism, redundant), IdleFreedoms.Of(mechanism, space));
+        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, space.Gap, islands, bodies, Named(mechanism, redundant), IdleFreedoms.Of(mechanism, space, finiteMobility.Away ?? space, finite));
     }
 
     private static List<IslandMobility> Islands(Mechanism mechanism, NewtonSolver newton, VelocitySpace space, int[] finite)

@@ -8,12 +8,12 @@ from typing import Callable
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Joint, Scene
+from ..model import Coupling, Joint, Motion, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly import Assembly, assemble
 from .couplings import couplings_of
-from .freedoms import check_records
+from .freedoms import check_records, singular_joints
 from .idle import idle_freedoms
 from .jointing import Link, Links, links_of
 from .limits import found_ranges, with_found_ranges
@@ -69,7 +69,7 @@ def analyse(
         rank=_rank(assembly),
         groups=groups,
         fixed=fixed,
-        islands=_islands(assembly, tree),
+        islands=_islands(assembly, tree, links, couplings),
         idle=sorted(idle_freedoms(assembly), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
         couplings=couplings,
@@ -81,6 +81,7 @@ def analyse(
         contradictory=assembly.closing.contradictory,
         report=report,
         assembly=assembly,
+        singular=singular_joints(assembly, found.relations),
     )
     _report_singular(assembly, report)
     if analysis.joints and not any(groups.grounded) and all(island.floating for island in analysis.islands):
@@ -125,8 +126,11 @@ def _fixed(assembly: Assembly) -> tuple[tuple[int | None, int], ...]:
     return tuple(pairs)
 
 
-def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
-    """Connected by joints without ground: on ground, every branch from it is an island of its own."""
+def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[Coupling]) -> list[Island]:
+    """Connected by joints without ground: on ground, every branch from it is an island of its own.
+
+    links: the joints as they are exported; one that removes nothing closes no loop, unless a coupling counts from it.
+    """
     branch = np.full(len(tree.parent), -1)
     for body in tree.order:
         link = None if tree.parent[body] < 0 else tree.links[tree.parent[body]]
@@ -156,10 +160,13 @@ def _islands(assembly: Assembly, tree: Tree) -> list[Island]:
         if body and island[body] >= 0:
             nodes_of.setdefault(int(island[body]), []).append(node)
     loops = dict.fromkeys(nodes_of, 0)
-    for i in tree.closures:
-        ends = [int(island[b]) for b in (tree.links[i].a, tree.links[i].b) if island[b] >= 0]
-        if ends and ends[0] in loops:
-            loops[ends[0]] += 1
+    counted = {id for c in couplings for id in (c.joint_a, c.joint_b)}
+    for link in links:
+        holds = any(f.motion is Motion.LOCKED for f in link.joint.freedoms)
+        if link.joint.closure and (holds or link.joint.id in counted):
+            ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
+            if ends and ends[0] in loops:
+                loops[ends[0]] += 1
     counts = {key: [0, 0, 0, 0] for key in nodes_of}
     for first, finite in zip(assembly.freedoms, assembly.finite):
         key = int(island[first.bodies[0]])

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Mapping, Sequence
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import NodeKind
+from ..model import Motion, NodeKind
 from ..spatial import Array, cross
 from .assembly import Assembly
+from .finite import Candidate
+from .pairs import Relation
 from .rank import rank_of
 from .stacks import alike
 from .twists import twist_spaces
@@ -22,7 +25,8 @@ OFF_DIRECTION = math.radians(0.5)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NodeFreedom:
-    """What is left of a node's six freedoms against ground, first order at the closed pose.
+    """What is left of a node's six freedoms against ground, first order at the closed pose; of a part whose own
+    joint had to be found from finite motions there, what that joint leaves.
 
     translations: shape (t, 3), unit, WORLD, pure translations.  rotations: shape (r, 3), unit, WORLD.
     center: WORLD, a point of the rotation axes, or None where they have none in common.
@@ -38,16 +42,43 @@ class NodeFreedom:
         return len(self.translations) + len(self.rotations)
 
 
-def body_twists(assembly: Assembly) -> list[Array]:
+def singular_joints(assembly: Assembly, relations: Sequence[Relation]) -> dict[int, Candidate]:
+    """The joints of bodies that hang by one alone, where twists promise more than its motions keep."""
+    found = {}
+    for relation in relations:
+        if relation.finite < 6 - relation.rank and relation.joint is not None:
+            body = next((b for b in (relation.second, relation.first) if _hangs_alone(assembly, b)), None)
+            if body is not None:
+                found[body] = relation.joint
+    return found
+
+
+def _hangs_alone(assembly: Assembly, body: int) -> bool:
+    block = int(assembly.blocks.block[body])
+    return block >= 0 and int(np.sum(assembly.blocks.block == block)) == 1
+
+
+def _joint_twists(joint: Candidate, center: Array, length: float) -> Array:
+    """Scaled twists about ``center`` that a joint allows where it stands."""
+    free = [f.motion is not Motion.LOCKED for f in joint.six]
+    slides, axes = joint.axes[:, free[:3]], joint.axes[:, free[3:]]
+    turns = np.concatenate([cross(axes.T, center - joint.origin).T / length, axes])
+    return np.concatenate([np.concatenate([slides, 0.0 * slides]), turns], axis=1)
+
+
+def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[Array]:
     """Scaled twists (v / length, w) of every body about its own point, orthonormal columns, shape (6, d).
 
     Blocks move independently: a body's twists are those of its block's root, carried along, and its own.
+    singular: see ``singular_joints``.
     """
     relative, blocks = assembly.relative, assembly.blocks
     own: list[Array] = [np.zeros((6, 0))] * relative.bodies
     for freedom in assembly.freedoms:
         for body, rows in zip(freedom.bodies, freedom.basis.reshape(len(freedom.bodies), 6, -1)):
             own[body] = rows
+    for body, joint in singular.items():
+        own[body] = _joint_twists(joint, relative.center[body], float(relative.length[body]))
     found: list[Array] = [np.zeros((6, 0))] * relative.bodies
     for body in blocks.island_root[1:].tolist():  # the islands that float
         found[body] = np.eye(6)
@@ -85,9 +116,9 @@ def _orthonormal(stack: Array) -> list[Array]:
     return found
 
 
-def node_freedoms(assembly: Assembly) -> list[NodeFreedom]:
-    """Of every part of the scene."""
-    twists = body_twists(assembly)
+def node_freedoms(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[NodeFreedom]:
+    """Of every part of the scene.  singular: see ``singular_joints``."""
+    twists = body_twists(assembly, singular)
     relative = assembly.relative
     spaces = twist_spaces(twists, relative.center, relative.length, relative.axes)
     found = []

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..spatial import Array
 from .assembly import Assembly
-
+from .freedom import BlockFreedom, block_freedoms
+from .motion import walked
+from .solve import Solver
 
 ALONE = 1e-12
 """Share of a motion, squared, that all other bodies may have in it."""
+NEW = 1e-6
+"""Length of a motion beside those already found from which it is another one."""
+MOVING = 1e-7
+"""Share of a joint's largest singular value below which it has no further freedom in any motion."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,27 +29,105 @@ class IdleFreedom:
 
 
 def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
-    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else."""
+    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else; in a single loop,
+    of bodies that turn in it as one."""
     neighbours: dict[int, set[int]] = {}
     low, high = assembly.system.body_a, assembly.system.body_b
     for i, j in set(zip(low.tolist(), high.tolist())):
         neighbours.setdefault(i, set()).add(j)
         neighbours.setdefault(j, set()).add(i)
     found = []
-    for freedom in assembly.freedoms:
-        if freedom.mobility < 2 or len(freedom.bodies) < 2:
+    for part in range(len(assembly.freedoms)):
+        freedom = _moving(assembly, part)
+        if freedom is None:
             continue
-        place = {int(b): k for k, b in enumerate(freedom.bodies)}
-        for leg in _legs(freedom.bodies.tolist(), neighbours):
-            if len(leg) == len(freedom.bodies):
-                continue
-            own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
-            # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
-            count = int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
+        legs = _legs(freedom.bodies.tolist(), neighbours)
+        if len(legs) > 1:
+            counted = [(leg, _alone(freedom, leg)) for leg in legs]
+        elif (assembly.pairs.row_pair[freedom.rows] < 0).any():
+            continue  # a coupling between joints of the loop
+        else:
+            root = int(assembly.blocks.root[assembly.blocks.block[freedom.bodies[0]]])
+            counted = _turning_in_a_loop(assembly, freedom, _ring(root, neighbours, legs[0]))
+        for bodies, count in counted:
             if count:
-                nodes = sorted(n for body in leg for n in assembly.nodes[body])
+                nodes = sorted(n for body in bodies for n in assembly.nodes[body])
                 found.append(IdleFreedom(tuple(nodes), count))
     return found
+
+
+def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:
+    """A block's velocities that are motions, or None where they are fewer than two or not to be told from others.
+
+    At a singular pose they are looked at some steps away, where no part seems to move alone that cannot.
+    """
+    first, finite = assembly.freedoms[part], assembly.finite[part]
+    if finite.mobility < 2 or len(first.bodies) < 2:
+        return None
+    if finite.mobility == first.mobility:
+        return first
+    solver = Solver(assembly.solver.system.select(first.rows))
+    away = block_freedoms(solver, walked(solver, 0, first, assembly.start))[0]
+    return replace(away, rows=first.rows) if away.mobility == finite.mobility else None
+
+
+def _alone(freedom: BlockFreedom, leg: list[int]) -> int:
+    place = {int(b): k for k, b in enumerate(freedom.bodies)}
+    own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
+    # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
+    return int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
+
+
+def _turning_in_a_loop(
+    assembly: Assembly, freedom: BlockFreedom, ring: list[int]
+) -> list[tuple[list[int], int]]:
+    """Neighbouring bodies of one closed loop that move as one and alone: the joints at their two ends share a twist.
+
+    ring: the bodies in the loop's order, its root left out.
+    """
+    place = {int(b): k for k, b in enumerate(freedom.bodies)}
+    relative, length = assembly.relative, float(assembly.relative.length[freedom.bodies[0]])
+    twists = [np.zeros((6, freedom.mobility))]
+    for body in ring:
+        own = freedom.basis[6 * place[body] : 6 * place[body] + 6]
+        arm = (relative.center[body] - relative.center[ring[0]]) / length
+        v = own[:3] * relative.length[body] / length - np.cross(own[3:].T, arm).T
+        twists.append(np.concatenate([v, own[3:]]))
+    twists.append(twists[0])
+    joints = [_span(after - before) for before, after in zip(twists, twists[1:])]
+    found: list[tuple[list[int], int]] = []
+    known = np.zeros((6 * len(ring), 0))
+    for size in range(1, len(ring)):
+        for first in range(len(ring) - size + 1):
+            ends = joints[first].T @ joints[first + size]
+            if not ends.size:
+                continue
+            u, s, _ = np.linalg.svd(ends)
+            shared = joints[first] @ u[:, : int(np.sum(s**2 > 1.0 - ALONE))]
+            motions = np.zeros((len(ring), 6, shared.shape[1]))
+            motions[first : first + size] = shared / np.sqrt(size)
+            new = motions.reshape(len(known), -1)
+            new = new - known @ (known.T @ new)  # a ram's spin is that of its tube and of its piston, if these turn
+            u, s, _ = np.linalg.svd(new, full_matrices=False)
+            if count := int(np.sum(s > NEW)):
+                known = np.concatenate([known, u[:, :count]], axis=1)
+                found.append((ring[first : first + size], count))
+    return found
+
+
+def _span(columns: Array) -> Array:
+    u, s, _ = np.linalg.svd(columns, full_matrices=False)
+    return u[:, s > MOVING * s[0]]
+
+
+def _ring(root: int, neighbours: dict[int, set[int]], bodies: list[int]) -> list[int]:
+    """The bodies in the order in which their loop joins them, from the root and back; empty where they make none."""
+    inside, ring, before = set(bodies), [], root
+    body = min(neighbours[root] & inside, default=root)
+    while body != root and len(ring) < len(bodies):
+        ring.append(body)
+        before, body = body, next((n for n in sorted(neighbours[body]) if n != before), root)
+    return ring if body == root and len(ring) == len(bodies) else []
 
 
 def _legs(bodies: list[int], neighbours: dict[int, set[int]]) -> list[list[int]]:

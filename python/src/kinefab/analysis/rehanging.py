@@ -2,6 +2,8 @@
 
 A planetary's sun turns in the housing, yet its gear counts the sun against the carrier, which turns on the
 same axis.  A hinge of the sun on the carrier instead leaves the very same motions and has that coordinate.
+Where another coupling counts from the hinge as it is (the carrier of a planetary's first stage, which is the
+sun of the second), it stays, and a joint that removes nothing is put beside it.
 """
 
 from __future__ import annotations
@@ -11,8 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import FREE, RX, Constraint, ConstraintKind, JointKind, Scene
+from ..model import FREE, RX, Constraint, ConstraintKind, JointKind, Scene, freedoms_of
 from .assembly import Assembly
+from .couplings import COUPLED
 from .jointing import Link
 
 ON_AXIS = 1e-6
@@ -22,6 +25,7 @@ ON_AXIS = 1e-6
 def rehung(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Link]:
     """The links with such hinges moved.  scene: with middle bodies, at the closed pose."""
     links = list(links)
+    counted = _counted_from(assembly)
     for statement in assembly.equations.statements:
         if (
             isinstance(statement, Constraint)
@@ -31,13 +35,31 @@ def rehung(assembly: Assembly, links: list[Link], scene: Scene, report: Report) 
             carrier = statement.features[2].node
             for feature in statement.features[:2]:
                 if feature.node is not None and carrier is not None:
-                    _hang(assembly, links, scene, report, statement, feature.node, carrier)
+                    _hang(assembly, links, scene, report, statement, feature.node, carrier, counted)
     return links
 
 
+def _counted_from(assembly: Assembly) -> set[frozenset[int]]:
+    """Pairs of bodies whose joint a gear, belt, rack or linear coupling counts from."""
+    pairs = set()
+    for statement in assembly.equations.statements:
+        if isinstance(statement, Constraint) and statement.kind in COUPLED:
+            bodies = [int(assembly.body[0 if f.node is None else f.node + 1]) for f in statement.features]
+            carrier = bodies[2] if len(bodies) > 2 else 0
+            pairs |= {frozenset((body, carrier)) for body in bodies[:2]}
+    return pairs
+
+
 def _hang(
-    assembly, links: list[Link], scene: Scene, report: Report, statement: Constraint, part: int, carrier: int
-):
+    assembly: Assembly,
+    links: list[Link],
+    scene: Scene,
+    report: Report,
+    statement: Constraint,
+    part: int,
+    carrier: int,
+    counted: set[frozenset[int]],
+) -> None:
     body, onto = int(assembly.body[part + 1]), int(assembly.body[carrier + 1])
     if any({link.a, link.b} == {body, onto} for link in links) or body == onto:
         return
@@ -47,12 +69,16 @@ def _hang(
         base = own.a if own.b == body else own.b
         for other in links:
             if {other.a, other.b} == {base, onto} and _plain_hinge(other) and _same_axis(own, other, scene):
-                links[i] = _moved(own, part, carrier, body, onto, scene)
+                moved = _moved(own, part, carrier, body, onto, scene)
+                if stays := frozenset((body, base)) in counted:
+                    links.append(_removing_nothing(moved))
+                else:
+                    links[i] = moved
                 name = (
                     "ground" if base == 0 else scene.nodes[own.joint.a if own.b == body else own.joint.b].id
                 )
                 report.add(
-                    "JOINT_REHUNG",
+                    "JOINT_FOR_COUPLING" if stays else "JOINT_REHUNG",
                     statement.where,
                     id=statement.id,
                     part=scene.nodes[part].id,
@@ -81,3 +107,8 @@ def _moved(link: Link, part: int, carrier: int, body: int, onto: int, scene: Sce
     name = f"{scene.nodes[carrier].id} - {scene.nodes[part].id}"
     joint = replace(link.joint, id=name, a=carrier, b=part, frame_a=frames[carrier], frame_b=frames[part])
     return Link(onto, body, joint)
+
+
+def _removing_nothing(link: Link) -> Link:
+    joint = replace(link.joint, kind=JointKind.FREE, freedoms=freedoms_of(JointKind.FREE), closure=True, because=())
+    return Link(link.a, link.b, joint)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Mapping
 
 from ..diagnostics import Report
 from ..model import Coupling, Joint, Node, Scene
@@ -13,6 +14,7 @@ from .assembly import Assembly
 from .closing import Gap
 from .drive import Drive
 from .effective import Effective, effective
+from .finite import Candidate
 from .freedoms import NodeFreedom, node_freedoms
 from .idle import IdleFreedom
 from .limits import JointRange
@@ -43,7 +45,7 @@ class Analysis:
     groups: the rigid groups, with what the constraints fix.  fixed: pairs of nodes that constraints fix to
     each other (None: ground).  joints, couplings: what to export.  nodes: middle bodies, to be appended to
     the scene's.  poses: of the scene's own nodes with every constraint closed.
-    ranges: of hinges and slides that close no loop, when asked for.
+    ranges: of hinges and slides that close no loop, when asked for.  singular: see ``singular_joints``.
     """
 
     source: Scene
@@ -65,6 +67,7 @@ class Analysis:
     contradictory: list[str]
     report: Report
     assembly: Assembly = field(repr=False)
+    singular: Mapping[int, Candidate] = field(repr=False)
 
     @property
     def redundant(self) -> int:
@@ -73,7 +76,7 @@ class Analysis:
     @cached_property
     def freedoms(self) -> list[NodeFreedom]:
         """Of every part, in scene order."""
-        return node_freedoms(self.assembly)
+        return node_freedoms(self.assembly, self.singular)
 
     def between(self, a: int, b: int) -> Effective:
         """The effective joint of node ``b`` against node ``a``."""

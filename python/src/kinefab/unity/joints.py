@@ -88,7 +88,8 @@ def map_joint(
         else:
             report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
         return None
-    if len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6)):
+    free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
+    if free and not any(joint.id in (c.joint_a, c.joint_b) for c in scene.couplings):
         if joint.freed:
             remark = {"joint": joint.id, "loop": scene.loop(joint)}
             report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)

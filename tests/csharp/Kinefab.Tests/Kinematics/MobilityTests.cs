@@ -117,6 +117,78 @@ public class MobilityTests
         Assert.That((report.Mobility, report.Rows, report.Redundant, report.Islands.Count), Is.EqualTo((1, 17, 0, 1)));
     }
 
+    // Crank and rocker turn about skew axes; the rod between their balls spins, and moves nothing else.
+    [Test]
+    public void Mobility_RodOfASingleLoop_SpinsIdly()
+    {
+        var scene = new MechanismScene();
+        int crank = scene.Body("crank", Vector3d.Zero);
+        int rod = scene.Body("rod", new Vector3d(0.3, 0.1, 0.2));
+        int rocker = scene.Body("rocker", new Vector3d(1, 0, 0.3));
+        scene.Hinge(crank, null, Vector3d.Zero, new Vector3d(0.1, 0, 1));
+        scene.Ball(rod, crank, new Vector3d(0.3, 0.1, 0.2));
+        scene.Ball(rod, rocker, new Vector3d(0.9, 0.7, 0.5));
+        scene.Hinge(rocker, null, new Vector3d(1, 0, 0.3), new Vector3d(1, 0.2, 0.1));
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.Mobility, report.Idle.Count), Is.EqualTo((2, 1)));
+        Assert.That((report.Idle[0].GameObjects.Single(), report.Idle[0].Count), Is.EqualTo((rod, 1)));
+    }
+
+    // A ram between two balls spins as a whole, its two parts by themselves do not; the middle stage slides between the others.
+    [Test]
+    public void Mobility_RamOfThreeStagesInASingleLoop_SpinsAsOneAndShiftsItsMiddle()
+    {
+        var scene = new MechanismScene();
+        Vector3d foot = new(0.3, -0.2, 0), tip = new(0.8, 0.6, 0), along = (tip - foot) * (1 / (tip - foot).Length);
+        int boom = scene.Body("boom", Vector3d.Zero);
+        int tube = scene.Body("tube", foot);
+        int middle = scene.Body("middle", foot);
+        int piston = scene.Body("piston", tip);
+        scene.Hinge(boom, null, Vector3d.Zero, Vector3d.UnitZ);
+        scene.Ball(tube, null, foot);
+        scene.Slide(middle, tube, foot, along);
+        scene.Slide(piston, middle, foot, along);
+        scene.Ball(piston, boom, tip);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That(report.Mobility, Is.EqualTo(3));
+        Assert.That(report.Idle.Select(i => string.Join(" ", i.GameObjects)), Is.EquivalentTo(new[] { $"{middle}", $"{tube} {middle} {piston}" }));
+    }
+
+    // Three stretched legs hold the platform: each seems to buckle by itself, and none does.
+    [Test]
+    public void Mobility_ThreeStretchedLegs_HaveNoIdleFreedom()
+    {
+        var scene = new MechanismScene();
+        int platform = scene.Body("platform", Vector3d.Zero);
+        for (int k = 0; k < 3; k++)
+        {
+            Vector3d foot = PlanarMechanisms.Polar(1, 120 * k), knee = foot * 0.65, hip = foot * 0.3;
+            int lower = scene.Body($"lower{k}", foot);
+            int upper = scene.Body($"upper{k}", knee);
+            scene.Hinge(lower, null, foot, Vector3d.UnitZ);
+            scene.Hinge(upper, lower, knee, Vector3d.UnitZ);
+            scene.Hinge(upper, platform, hip, Vector3d.UnitZ);
+        }
+
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.FirstOrder, report.Mobility, report.Idle.Count), Is.EqualTo((4, 0, 0)));
+    }
+
+    // All joints in one point but for the file's rounding: its 1e-13 m are no length of a link.
+    [Test]
+    public void Mobility_JointsInOnePoint_RoundingIsNoLinkLength()
+    {
+        var scene = new MechanismScene();
+        Vector3d at = new(0.1, -0.2, 0.3), rounded = at + new Vector3d(3e-13, -4e-13, 2e-13);
+        Vector3d normal = PlanarMechanisms.Polar(1, 20);
+        int middle = scene.Body("middle", at);
+        int cone = scene.Body("cone", new Vector3d(0.15, -0.1, 0.2));
+        scene.Configurable(middle, null, at, normal, Vector3d.UnitZ, "LFFFLL");
+        scene.Hinge(middle, cone, rounded, Vector3d.UnitX);
+        scene.Ball(cone, null, at);
+        Assert.That(MobilityAnalysis.Of(scene.Mechanism()).Mobility, Is.EqualTo(2));
+    }
+
     private static TestCaseData Case(string name, Func<Mechanism> make, int rows, int firstOrder, int finite) =>
         new TestCaseData(make, rows, firstOrder, finite).SetArgDisplayNames(name);
 

@@ -1,0 +1,221 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>Neighbouring bodies of one closed loop that move as one and alone: the joints at their two ends share a twist.</summary>
+internal static class SingleLoop
+{
+    // Share of a joint's largest singular value below which it has no further freedom in any motion.
+    private const double Moving = 1e-7;
+
+    // How far the cosine between two joints' twists, squared, may be from 1.
+    private const double Shared = 1e-12;
+
+    // Length of a motion beside those already found from which it is another one.
+    private const double New = 1e-6;
+
+    /// <summary>Nothing where a coupling joins joints of the loop: their motions are then not their own.</summary>
+    public static List<(List<int> Groups, int Count)> TurningAlone(
+        Mechanism mechanism, List<int> groups, Dictionary<int, SortedSet<int>> neighbours, List<double[]> motions, VelocitySpace space)
+    {
+        var found = new List<(List<int> Groups, int Count)>();
+        List<int> ring = Ring(groups, neighbours);
+        if (IsCoupled(mechanism, groups, space))
+        {
+            return found;
+        }
+
+        List<double[]>[] joints = JointTwists(ring, motions, space);
+        var known = new List<double[]>();
+        for (int size = 1; size < ring.Count; size++)
+        {
+            for (int first = 0; first + size <= ring.Count; first++)
+            {
+                int count = 0;
+                foreach (double[] twist in Common(joints[first], joints[first + size]))
+                {
+                    var motion = new double[6 * ring.Count];
+                    for (int i = 0; i < 6 * size; i++)
+                    {
+                        motion[6 * first + i] = twist[i % 6] / Math.Sqrt(size);
+                    }
+
+                    count += IsNew(motion, known) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
+                }
+
+                if (count > 0)
+                {
+                    found.Add((ring.GetRange(first, size), count));
+                }
+            }
+        }
+
+        return found;
+    }
+
+    private static bool IsCoupled(Mechanism mechanism, List<int> groups, VelocitySpace space)
+    {
+        int block = space.BlockOf(groups[0]);
+        for (int i = 0; i < mechanism.Couplings.Length; i++)
+        {
+            PositionCoupling coupling = mechanism.Couplings[i];
+            foreach (int body in mechanism.Coordinates[coupling.A].Joint == mechanism.Coordinates[coupling.B].Joint ? Array.Empty<int>() : mechanism.Rows.Couplings[i].Bodies)
+            {
+                if (mechanism.Tree.Freedoms[body] > 0 && space.BlockOf(body) == block)
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
+    }
+
+    // The bodies in the order in which their loop joins them, from the one at rest and back to it.
+    private static List<int> Ring(List<int> groups, Dictionary<int, SortedSet<int>> neighbours)
+    {
+        var inside = new HashSet<int>(groups);
+        var ring = new List<int>();
+        foreach (int group in groups)
+        {
+            if (!inside.IsSupersetOf(neighbours[group]))
+            {
+                ring.Add(group);
+                break;
+            }
+        }
+
+        while (ring.Count > 0 && inside.Remove(ring[ring.Count - 1]))
+        {
+            foreach (int next in neighbours[ring[ring.Count - 1]])
+            {
+                if (inside.Contains(next))
+                {
+                    ring.Add(next);
+                    break;
+                }
+            }
+        }
+
+        return ring;
+    }
+
+    // For each joint of the loop an orthonormal basis of its twists in the motions, the joint before the first body first.
+    private static List<double[]>[] JointTwists(List<int> ring, List<double[]> motions, VelocitySpace space)
+    {
+        var joints = new List<double[]>[ring.Count + 1];
+        var before = new double[motions.Count, 6];
+        for (int k = 0; k <= ring.Count; k++)
+        {
+            var after = new double[motions.Count, 6];
+            var relative = new double[motions.Count, 6];
+            for (int m = 0; m < motions.Count; m++)
+            {
+                if (k < ring.Count)
+                {
+                    space.Twist(ring[k], motions[m], out Vector3d linear, out Vector3d angular);
+                    for (int i = 0; i < 3; i++)
+                    {
+                        after[m, i] = linear[i];
+                        after[m, 3 + i] = angular[i];
+                    }
+                }
+
+                for (int i = 0; i < 6; i++)
+                {
+                    relative[m, i] = after[m, i] - before[m, i];
+                }
+            }
+
+            joints[k] = Span(relative);
+            before = after;
+        }
+
+        return joints;
+    }
+
+    private static List<double[]> Span(double[,] rows)
+    {
+        var values = new SingularValues(rows);
+        var span = new List<double[]>();
+        for (int k = 0; k < 6 && values.Values[k] > Moving * values.Values[0]; k++)
+        {
+            var vector = new double[6];
+            for (int i = 0; i < 6; i++)
+            {
+                vector[i] = values.Vector(i, k);
+            }
+
+            span.Add(vector);
+        }
+
+        return span;
+    }
+
+    // Unit twists that lie in both spans.
+    private static IEnumerable<double[]> Common(List<double[]> a, List<double[]> b)
+    {
+        var cosines = new double[b.Count, a.Count];
+        for (int i = 0; i < b.Count; i++)
+        {
+            for (int j = 0; j < a.Count; j++)
+            {
+                cosines[i, j] = Dot(b[i], a[j]);
+            }
+        }
+
+        var values = new SingularValues(cosines);
+        for (int k = 0; k < a.Count && values.Values[k] * values.Values[k] > 1 - Shared; k++)
+        {
+            var twist = new double[6];
+            for (int j = 0; j < a.Count; j++)
+            {
+                for (int i = 0; i < 6; i++)
+                {
+                    twist[i] += a[j][i] * values.Vector(j, k);
+                }
+            }
+
+            yield return twist;
+        }
+    }
+
+    private static bool IsNew(double[] motion, List<double[]> known)
+    {
+        foreach (double[] other in known)
+        {
+            double along = Dot(motion, other);
+            for (int i = 0; i < motion.Length; i++)
+            {
+                motion[i] -= along * other[i];
+            }
+        }
+
+        double rest = Math.Sqrt(Dot(motion, motion));
+        if (rest <= New)
+        {
+            return false;
+        }
+
+        for (int i = 0; i < motion.Length; i++)
+        {
+            motion[i] /= rest;
+        }
+
+        known.Add(motion);
+        return true;
+    }
+
+    private static double Dot(double[] a, double[] b)
+    {
+        double sum = 0;
+        for (int i = 0; i < a.Length; i++)
+        {
+            sum += a[i] * b[i];
+        }
+
+        return sum;
+    }
+}

@@ -1,4 +1,4 @@
-"""The golden scenes of ``fixtures``: each mechanism's bundle beside the scene it is exported to.
+"""The golden scenes of ``fixtures``: each mechanism's and pair's bundle beside the scene it is exported to.
 
 ``python tests/python/golden.py`` (``make golden``) writes them anew; a person reads the difference before it
 is committed.  C# counts and drives the same files.
@@ -18,7 +18,7 @@ FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 def golden_pairs() -> list[tuple[Path, Path]]:
     """Every bundle that has a golden scene, and where the scene is."""
-    folders = ("mechanisms", "lever", "hinge_slider_zup", "hinge_slider_yup")
+    folders = ("mechanisms", "pairs", "lever", "hinge_slider_zup", "hinge_slider_yup")
     bundles = [bundle for folder in folders for bundle in sorted((FIXTURES / folder).glob("*.bundle.json"))]
     return [(bundle, bundle.with_name(bundle.name.replace(".bundle.json", ".kinefab"))) for bundle in bundles]
 

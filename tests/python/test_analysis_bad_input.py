@@ -19,6 +19,7 @@ from kinefab.model import (
     Joint,
     JointKind,
     Node,
+    NodeKind,
     Scene,
     Sense,
     freedoms_of,
@@ -190,3 +191,18 @@ def test_a_part_without_constraints_keeps_six_freedoms():
     found = analyse(two_parts())
     assert found.mobility == 6
     assert [(len(f.translations), len(f.rotations)) for f in found.freedoms] == [(0, 0), (3, 3)]
+
+
+def test_a_flexible_assembly_in_another_adds_no_freedoms():
+    """Nested assemblies that may move in themselves are no bodies: the hinge below them is all that moves."""
+    source = scene("P03")
+    above = [
+        Node("top", "top", NodeKind.ASSEMBLY, flexible=True),
+        Node("sub", "sub", NodeKind.ASSEMBLY, parent=0, flexible=True),
+    ]
+    below = [replace(n, parent=1) for n in source.nodes]
+    moved = [
+        replace(c, features=tuple(replace(f, node=f.node + 2) for f in c.features)) for c in source.constraints
+    ]
+    found = analyse(Scene(nodes=above + below, constraints=moved))
+    assert (found.mobility, found.rank, [j.kind for j in found.joints]) == (1, 5, [JointKind.REVOLUTE])

@@ -91,14 +91,13 @@ def bounded(*others) -> Scene:
 BALL = joining("ball", C.COINCIDENT, (F.POINT, O), (F.POINT, O))
 LINES = (F.LINE, O, Z), (F.LINE, O, Z)
 SLIDE = joining("slide", C.SLIDER, *LINES)
-EDGE = Constraint(
-    "edge",
-    C.TANGENT,
-    (
-        Feature(0, F.PLANE, O, Z),
-        Feature(1, F.CIRCLE, np.array([0.0, 0.0, 0.1 * 0.8]), 0.8 * X + 0.6 * Z, radius=0.1),
-    ),
+ANGLE_ALONE = Constraint(
+    "angle",
+    C.ANGLE,
+    (Feature(0, F.LINE, O, X), Feature(1, F.LINE, O, 0.8 * X + 0.6 * Y), Feature(0, F.LINE, O, Z)),
+    value=float(np.arctan2(0.6, 0.8)),
 )
+ON_PLANE = Constraint("on", C.COINCIDENT, (Feature(0, F.PLANE, O, X), Feature(1, F.POINT, O)))
 RECORD = DofRecord(1, np.array([X]), np.zeros((0, 3)))
 
 CASES = {
@@ -123,7 +122,7 @@ CASES = {
     "JOINT_FOR_COUPLING": lambda: scene("M43"),
     "PAIR_RANK_UNCERTAIN": uncertain,
     "RELATION_BY_MIDDLE_BODY": lambda: scene("P30"),
-    "RELATION_APPROXIMATED": lambda: parts(EDGE),
+    "RELATION_APPROXIMATED": lambda: parts(ANGLE_ALONE, ON_PLANE),
     "RELATION_DROPPED": lambda: Scene(
         nodes=[Node("base", "base", grounded=True), Node("a", "a"), Node("b", "b")],
         constraints=[

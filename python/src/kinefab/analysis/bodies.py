@@ -35,7 +35,7 @@ def stated_bodies(scene: Scene) -> tuple[np.ndarray, RigidGroups]:
     """Body of each node as the source states it, shape (nodes + 1,): entry 0 is ground, body 0.
 
     Flexible assemblies are no bodies: the geometry of the document's own assembly stands on the ground,
-    that of one further down is a body of its own, held by nothing.
+    that of one further down is a body of its own, held by nothing; without a statement about it, it is none.
     """
     fixed = [
         (None, f.node)
@@ -45,9 +45,11 @@ def stated_bodies(scene: Scene) -> tuple[np.ndarray, RigidGroups]:
         if f.node is not None
     ]
     groups = rigid_groups(scene, fixed)
+    named = {f.node for c in scene.constraints for f in c.features} | {n for j in scene.joints for n in (j.a, j.b)}
     bodies = Partition(len(scene.nodes) + 1)
     for i, node in enumerate(scene.nodes):
-        if groups.is_ground(i) or (groups.group_of[i] is None and node.parent is None):
+        bodiless = groups.group_of[i] is None
+        if groups.is_ground(i) or bodiless and (node.parent is None or i not in named):
             bodies.join(0, i + 1)
         elif groups.group_of[i] is not None:
             bodies.join(groups.members[groups.group_of[i]][0] + 1, i + 1)

@@ -49,7 +49,6 @@ PAIRS = {
     "P29": (K.SPHERICAL, None, (0.0, 0.0, 0.0), 3, 2, 1),
     "P34": (K.PARALLEL_PLANES, X, None, 2, 2, 0),
     "P35": (K.FIXED, None, None, 6, 6, 0),
-    "P36": (K.FIXED, None, None, 6, 3, 3),
 }
 
 
@@ -104,6 +103,13 @@ def test_relations_by_a_middle_body_have_one(id, kinds):
     found = analysed(id)
     assert sorted(j.kind.value for j in found.joints) == kinds and len(found.nodes) == 1
     assert {name for j in found.joints for name in j.because} == {c.id for c in found.source.constraints}
+
+
+def test_rods_in_their_own_plane_hold_a_platform_by_their_stress():
+    """P36: rank 3 at the pose, yet six rods that pull against each other leave no motion: a fixed joint."""
+    found = analysed("P36")
+    assert (found.rows, found.rank, found.mobility) == (6, 3, 0)
+    assert [j.kind for j in found.joints] == [K.FIXED]
 
 
 @pytest.mark.parametrize(("id", "left"), [("P28", (0, 3)), ("P29", (0, 3)), ("P36", (0, 0))])

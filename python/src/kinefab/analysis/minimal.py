@@ -11,7 +11,7 @@ A walk along the mechanism with only the kept rows then checks that the left-out
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np

@@ -24,6 +24,7 @@ class Measured:
     """A block and coordinates (a link and its freedom TX..RZ each) to measure in it.
 
     part: the block's number among ``Assembly.freedoms``; in here its bodies are 1 to n, its root is at rest as 0.
+    without: statements (by place) whose rows are left out.
     lower, upper: the source's limits, infinite where there are none.  rotary: which coordinates are angles.
     system, start, turns: the block's equations, the exported pose, and the last angles there (``State.angle``
     of ``probe``).  length: metres, of its twists.
@@ -35,11 +36,13 @@ class Measured:
         part: int,
         coordinates: Sequence[tuple[Link, int]],
         scene: Scene,
+        without: Sequence[int] = (),
     ):
         bodies = assembly.freedoms[part].bodies.tolist()
         number = {body: i for i, body in enumerate(bodies, start=1)}
         self.bodies = np.arange(1, len(bodies) + 1)
-        self.system: System = assembly.solver.alone(part)
+        whole = assembly.solver.alone(part)
+        self.system: System = whole.select(~np.isin(whole.owner, without)) if len(without) else whole
         self.length = float(self.system.length[1])
         self.solver = Solver(self.system)
         probe = Rows()

@@ -99,8 +99,7 @@ class _Block:
         self.singular = assembly.finite[part].singular
         self.coordinates: list[Coordinate] = []
         self.ways = {owner: self._way(owner, tree, links) for owner in owners}
-        rows = self.first.rows[~np.isin(assembly.relative.owner[self.first.rows], owners)]
-        self.measured = Measured(assembly, rows, self.first.bodies, self.coordinates, scene)
+        self.measured = Measured(assembly, part, self.coordinates, scene, without=owners)
         self.system: System = self.measured.system
         self.value, self.rates = self.measured.read(self.measured.start, self.measured.turns)
 

@@ -6,7 +6,7 @@ import math
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from ..diagnostics import printable
-from ..model import FREEDOM_NAMES, RX, Coupling, Joint, JointKind, Motion
+from ..model import FREEDOM_NAMES, RX, Coupling, Joint
 from .freedoms import NodeFreedom
 from .reasons import fixings, group_names, reasons
 from .result import Analysis

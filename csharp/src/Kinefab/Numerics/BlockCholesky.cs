@@ -70,9 +70,13 @@ internal static class BlockCholesky<V>
 
     private static void FactorDiagonal(double[] a, int diagonal, int n)
     {
+        if (n == Five)
+        {
+            FactorFive(a, diagonal);
+            return;
+        }
+
         int w = Lane<V>.Width;
-        Lane<V> one = Lane<V>.Splat(1);
-        Lane<V> least = Lane<V>.Splat(LeastPivot);
         int row = diagonal;
         for (int i = 0; i < n; i++, row += n * w)
         {
@@ -91,9 +95,45 @@ internal static class BlockCholesky<V>
                 pivot -= s * s;
             }
 
-            (one / Lane<V>.Sqrt(Lane<V>.Max(pivot, least))).Store(a, row + i * w);
+            InverseRoot(pivot).Store(a, row + i * w);
         }
     }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void FactorFive(double[] a, int g)
+    {
+        int w = Lane<V>.Width;
+        int row1 = g + Five * w, row2 = row1 + Five * w, row3 = row2 + Five * w, row4 = row3 + Five * w;
+        Lane<V> d = InverseRoot(Lane<V>.Load(a, g));
+        d.Store(a, g);
+        Lane<V> l10 = Lane<V>.Load(a, row1) * d, l20 = Lane<V>.Load(a, row2) * d, l30 = Lane<V>.Load(a, row3) * d, l40 = Lane<V>.Load(a, row4) * d;
+        l10.Store(a, row1);
+        l20.Store(a, row2);
+        l30.Store(a, row3);
+        l40.Store(a, row4);
+        d = InverseRoot(Lane<V>.Load(a, row1 + w) - l10 * l10);
+        d.Store(a, row1 + w);
+        Lane<V> l21 = (Lane<V>.Load(a, row2 + w) - l20 * l10) * d;
+        Lane<V> l31 = (Lane<V>.Load(a, row3 + w) - l30 * l10) * d;
+        Lane<V> l41 = (Lane<V>.Load(a, row4 + w) - l40 * l10) * d;
+        l21.Store(a, row2 + w);
+        l31.Store(a, row3 + w);
+        l41.Store(a, row4 + w);
+        d = InverseRoot(Lane<V>.Load(a, row2 + 2 * w) - l20 * l20 - l21 * l21);
+        d.Store(a, row2 + 2 * w);
+        Lane<V> l32 = (Lane<V>.Load(a, row3 + 2 * w) - l30 * l20 - l31 * l21) * d;
+        Lane<V> l42 = (Lane<V>.Load(a, row4 + 2 * w) - l40 * l20 - l41 * l21) * d;
+        l32.Store(a, row3 + 2 * w);
+        l42.Store(a, row4 + 2 * w);
+        d = InverseRoot(Lane<V>.Load(a, row3 + 3 * w) - l30 * l30 - l31 * l31 - l32 * l32);
+        d.Store(a, row3 + 3 * w);
+        Lane<V> l43 = (Lane<V>.Load(a, row4 + 3 * w) - l40 * l30 - l41 * l31 - l42 * l32) * d;
+        l43.Store(a, row4 + 3 * w);
+        InverseRoot(Lane<V>.Load(a, row4 + 4 * w) - l40 * l40 - l41 * l41 - l42 * l42 - l43 * l43).Store(a, row4 + 4 * w);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Lane<V> InverseRoot(Lane<V> pivot) => Lane<V>.Splat(1) / Lane<V>.Sqrt(Lane<V>.Max(pivot, Lane<V>.Splat(LeastPivot)));
 
     // C -= X Y^T, X m x n, Y k x n; with k = 0 the lower triangle of C -= X X^T.
     private static void SubtractProduct(double[] a, int c, int x, int y, int m, int k, int n)

@@ -56,6 +56,7 @@ internal readonly struct Lane<V>
 {
     private readonly V _value;
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Lane(V value) => _value = value;
 
     /// <summary>Number of lanes.</summary>

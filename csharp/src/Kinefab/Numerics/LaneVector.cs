@@ -56,13 +56,6 @@ internal readonly struct LaneVector<V>
         Lane<V>.Select(mask, first.Y, second.Y),
         Lane<V>.Select(mask, first.Z, second.Z));
 
-    /// <summary>M v for a row-major 3 x 3 matrix in an array.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneVector<V> Multiply(double[] matrix, int index, LaneVector<V> v) => new(
-        Dot(Load(matrix, index), v),
-        Dot(Load(matrix, index + 3 * Lane<V>.Width), v),
-        Dot(Load(matrix, index + 6 * Lane<V>.Width), v));
-
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static LaneVector<V> operator +(LaneVector<V> a, LaneVector<V> b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
 

@@ -17,6 +17,12 @@ internal static class Impulses<V>
         {
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
+            if (node.IsAnchor)
+            {
+                ApplyAnchor(batch, n, node, impulses, row);
+                continue;
+            }
+
             for (int side = 0; side < node.Bodies.Length; side++)
             {
                 if (node.Bodies[side] < batch.Shape.MovingBodies)
@@ -27,8 +33,48 @@ internal static class Impulses<V>
         }
     }
 
-    // Of an anchor the force l and the torque r x l, both reversed on side 1; r is read off the built rows r x e, which are
-    // reversed there. Of the other rows as they stand.
+    // The force l and the torque r x l, both reversed on side 1, and the torques along the turns.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void ApplyAnchor(Batch<V> batch, int n, Node node, double[] impulses, int row)
+    {
+        double[] rows = batch.Angular;
+        int w = Lane<V>.Width;
+        int o = batch.Row(n, 0, 0);
+        LaneVector<V> force = LaneVector<V>.Load(impulses, row);
+        LaneVector<V> torque0 = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o), force);
+        LaneVector<V> torque1 = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o + 3 * w), force);
+        for (int i = 3; i < node.Rows; i++)
+        {
+            LaneVector<V> turn = Lane<V>.Load(impulses, row + i * w) * LaneVector<V>.Load(rows, o + 6 * i * w);
+            torque0 += turn;
+            torque1 -= turn;
+        }
+
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        if (node.Bodies[0] < batch.Shape.MovingBodies)
+        {
+            Add(batch, node.Bodies[0], active, force, torque0);
+        }
+
+        if (node.Bodies[1] < batch.Shape.MovingBodies)
+        {
+            Add(batch, node.Bodies[1], active, -force, torque1);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Add(Batch<V> batch, int body, Lane<V> active, LaneVector<V> force, LaneVector<V> torque)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        int at = Batch<V>.Body(body, 0);
+        LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
+        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
+        LaneVector<V>.Select(active, v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force, v).Store(a, at + BodySlot.V * w);
+        LaneVector<V>.Select(active, momentum + torque, momentum).Store(a, at + BodySlot.L * w);
+    }
+
+    // The same of any rows.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ApplySide(Batch<V> batch, int n, Node node, int side, double[] impulses, int row)
     {
@@ -43,8 +89,7 @@ internal static class Impulses<V>
         if (node.LinearMask == 7)
         {
             LaneVector<V> l = LaneVector<V>.Load(impulses, row);
-            var lever = new LaneVector<V>(Lane<V>.Load(rows, o + stride + 2 * w), Lane<V>.Load(rows, o + 2 * stride), Lane<V>.Load(rows, o + w));
-            torque = LaneVector<V>.Cross(lever, l);
+            torque = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o), l);
             force = side == 0 ? l : force - l;
             i = 3;
             o += 3 * stride;
@@ -60,13 +105,7 @@ internal static class Impulses<V>
             }
         }
 
-        double[] a = batch.Bodies;
-        int at = Batch<V>.Body(node.Bodies[side], 0);
-        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
-        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
-        LaneVector<V>.Select(active, v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force, v).Store(a, at + BodySlot.V * w);
-        LaneVector<V>.Select(active, momentum + torque, momentum).Store(a, at + BodySlot.L * w);
+        Add(batch, node.Bodies[side], Lane<V>.Load(batch.Work.Active, 0), force, torque);
     }
 
     /// <summary>Solution = -J v of all rows at the built pose.</summary>

@@ -78,6 +78,9 @@ internal sealed class Node
     /// <summary>Whether some rows' linear parts are known from the pose alone.</summary>
     public readonly bool HasGeneralRows;
 
+    /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>
+    public readonly bool IsAnchor;
+
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
@@ -162,6 +165,7 @@ internal sealed class Node
 
         Classes = classes.ToArray();
         HasGeneralRows = classes.Contains(RowClass.General);
+        IsAnchor = LinearMask == 7 && !HasGeneralRows && Angular != AngularRows.Prepared;
     }
 
     public Node(Coupling coupling, int index, int[] bodies, int[] sides)

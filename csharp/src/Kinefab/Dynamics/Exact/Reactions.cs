@@ -89,5 +89,6 @@ internal static class Reactions<V>
         torque += (angular - Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
 }

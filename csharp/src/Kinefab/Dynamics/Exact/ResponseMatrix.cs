@@ -35,8 +35,8 @@ internal static class ResponseMatrix<V>
         }
     }
 
-    // R I^-1 R^T.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // R I^-1 R^T. By itself: within its callers there is more to inline than the compiler does.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private static void InverseInertia(double[] a, int body)
     {
         int w = Lane<V>.Width;
@@ -101,19 +101,51 @@ internal static class ResponseMatrix<V>
         int inverse = Batch<V>.Body(node.Bodies[side], BodySlot.WorldInverse);
         int stride = 3 * node.Bodies.Length * w;
         int o = batch.Row(n, 0, side);
-        for (int i = 0; i < node.Rows; i++, o += stride)
+        int i = 0;
+        if (node.IsAnchor)
+        {
+            AnchorResponses(batch, inverse, o);
+            i = 3;
+            o += 3 * stride;
+        }
+
+        for (; i < node.Rows; i++, o += stride)
         {
             Turn(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
         }
+    }
+
+    // I^-1 (r x e) for e = x, y, z, by the columns of I^-1.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AnchorResponses(Batch<V> batch, int inverse, int o)
+    {
+        double[] a = batch.Bodies;
+        double[] responses = batch.Work.Response;
+        int w = Lane<V>.Width;
+        LaneVector<V> r = RigidRows<V>.BuiltLever(batch.Angular, o);
+        Lane<V> xy = Lane<V>.Load(a, inverse + 3 * w), xz = Lane<V>.Load(a, inverse + 4 * w), yz = Lane<V>.Load(a, inverse + 5 * w);
+        var x = new LaneVector<V>(Lane<V>.Load(a, inverse), xy, xz);
+        var y = new LaneVector<V>(xy, Lane<V>.Load(a, inverse + w), yz);
+        var z = new LaneVector<V>(xz, yz, Lane<V>.Load(a, inverse + 2 * w));
+        (r.Z * y - r.Y * z).Store(responses, o);
+        (r.X * z - r.Z * x).Store(responses, o + 6 * w);
+        (r.Y * x - r.X * y).Store(responses, o + 12 * w);
     }
 
     private static void AddDiagonal(Batch<V> batch, int n, Node node, int side)
     {
         int first = batch.Row(n, 0, side);
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
-        for (int i = 0; i < node.Rows; i++)
+        if (node.IsAnchor)
         {
-            AddTurns(batch, first, i, node, first, i + 1, node, cell + i * node.Rows * Lane<V>.Width);
+            AddAnchorTurns(batch, first, node, first, node, cell, true);
+        }
+        else
+        {
+            for (int i = 0; i < node.Rows; i++)
+            {
+                AddTurns(batch, first, i, node, first, i + 1, node, cell + i * node.Rows * Lane<V>.Width);
+            }
         }
 
         AddMasses(batch, node.Bodies[side], node, side, first, node, side, first, cell, true);
@@ -126,9 +158,16 @@ internal static class ResponseMatrix<V>
         int firstI = batch.Row(link.Later, 0, link.LaterSide);
         int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide);
         int cell = link.Block * Lane<V>.Width;
-        for (int i = 0; i < later.Rows; i++)
+        if (earlier.IsAnchor)
         {
-            AddTurns(batch, firstI, i, later, firstJ, earlier.Rows, earlier, cell + i * earlier.Rows * Lane<V>.Width);
+            AddAnchorTurns(batch, firstI, later, firstJ, earlier, cell, false);
+        }
+        else
+        {
+            for (int i = 0; i < later.Rows; i++)
+            {
+                AddTurns(batch, firstI, i, later, firstJ, earlier.Rows, earlier, cell + i * earlier.Rows * Lane<V>.Width);
+            }
         }
 
         AddMasses(batch, link.Body, later, link.LaterSide, firstI, earlier, link.EarlierSide, firstJ, cell, false);
@@ -146,6 +185,32 @@ internal static class ResponseMatrix<V>
         for (int end = cell + count * w; cell < end; cell += w, firstJ += stride)
         {
             (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, firstJ))).Store(matrix, cell);
+        }
+    }
+
+    // The same for all rows of the first node where the second is an anchor: the products of q with r x e for e = x, y, z are
+    // q x r. Of a node with itself the lower triangle (above it only what the factor does not read).
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AddAnchorTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, Node nodeJ, int cell, bool isTriangle)
+    {
+        double[] rows = batch.Angular;
+        double[] matrix = batch.Matrix;
+        int w = Lane<V>.Width;
+        int strideI = 3 * nodeI.Bodies.Length * w;
+        LaneVector<V> r = RigidRows<V>.BuiltLever(rows, firstJ);
+        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI)
+        {
+            LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
+            (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, r)).Store(matrix, cell);
+            cell += 3 * w;
+            int end = isTriangle ? i + 1 : nodeJ.Rows;
+            for (int j = 3; j < nodeJ.Rows; j++, cell += w)
+            {
+                if (j < end)
+                {
+                    (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(q, LaneVector<V>.Load(rows, firstJ + 6 * j * w))).Store(matrix, cell);
+                }
+            }
         }
     }
 

@@ -105,23 +105,28 @@ internal static class RigidRows<V>
             return;
         }
 
-        int matrix = Batch<V>.Body(body, BodySlot.R);
-        int from = Batch<V>.Joint(n, Batch<V>.Frame(side));
-        int to = Batch<V>.Joint(n, Batch<V>.Placed(side));
+        ToWorld(
+            batch.Bodies, Batch<V>.Body(body, BodySlot.R), batch.Joints, Batch<V>.Joint(n, Batch<V>.Frame(side)),
+            Batch<V>.Joint(n, Batch<V>.Placed(side)), side == 0 ? node.PlacedMask0 : node.PlacedMask1);
+    }
+
+    // Turns those vectors of a frame that the mask names, by one matrix.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void ToWorld(double[] bodies, int matrix, double[] joints, int from, int to, int mask)
+    {
         int step = 3 * Lane<V>.Width;
-        int mask = side == 0 ? node.PlacedMask0 : node.PlacedMask1;
-        for (int vector = 0; vector < 4; vector++)
+        LaneVector<V> x = LaneVector<V>.Load(bodies, matrix);
+        LaneVector<V> y = LaneVector<V>.Load(bodies, matrix + step);
+        LaneVector<V> z = LaneVector<V>.Load(bodies, matrix + 2 * step);
+        for (; mask != 0; mask >>= 1, from += step, to += step)
         {
-            if ((mask & (1 << vector)) != 0)
+            if ((mask & 1) != 0)
             {
-                ToWorld(batch.Bodies, matrix, batch.Joints, from + vector * step, to + vector * step);
+                LaneVector<V> v = LaneVector<V>.Load(joints, from);
+                new LaneVector<V>(LaneVector<V>.Dot(x, v), LaneVector<V>.Dot(y, v), LaneVector<V>.Dot(z, v)).Store(joints, to);
             }
         }
     }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ToWorld(double[] bodies, int matrix, double[] joints, int from, int to) =>
-        LaneVector<V>.Multiply(bodies, matrix, LaneVector<V>.Load(joints, from)).Store(joints, to);
 
     // Returns the number of rows.
     private static int EvaluateLinear(Batch<V> batch, int n, Node node, int row)
@@ -196,6 +201,14 @@ internal static class RigidRows<V>
         (most + (sum - sum)).Store(batch.Work.MaxError, 0);
         change.Store(batch.Work.MaxChange, 0);
         gap.Store(batch.Work.MaxGap, 0);
+    }
+
+    /// <summary>The lever off an anchor's built rows r x e; reversed on side 1, as they are.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static LaneVector<V> BuiltLever(double[] rows, int first)
+    {
+        int w = Lane<V>.Width;
+        return new LaneVector<V>(Lane<V>.Load(rows, first + 8 * w), Lane<V>.Load(rows, first + 12 * w), Lane<V>.Load(rows, first + w));
     }
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.

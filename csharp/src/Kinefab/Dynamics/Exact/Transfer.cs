@@ -173,7 +173,7 @@ internal static class Transfer<V>
         Lane<V> moved = Lane<V>.Load(batch.Work.Moved, 0);
         for (int i = 0; i < PoseCount; i++)
         {
-            // X and Q stand together, as do EndX and EndQ, and a pose's numbers.
+            // EndX and EndQ stand as a pose's numbers do, Q apart from X.
             Lane<V> now = Lane<V>.Gather(poses, members, PoseCount, i);
             int x = i < 3 ? BodySlot.X + i : BodySlot.Q - 3 + i;
             now.Store(a, o + x * w);

@@ -44,10 +44,11 @@ public sealed class World
     public double Time { get; private set; }
 
     /// <summary>m/s^2.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public Vector3d Gravity
     {
         get => _mechanism.Gravity;
-        set => _mechanism.Gravity = value;
+        set => _mechanism.Gravity = value.IsFinite ? value : throw new ArgumentOutOfRangeException(nameof(value));
     }
 
     /// <summary>
@@ -117,6 +118,7 @@ public sealed class World
             throw new ArgumentOutOfRangeException(nameof(dt));
         }
 
+        // A broken joint is in no island any more, so that nobody writes its reaction.
         for (int i = 0; i < _broken.Length; i++)
         {
             if (_broken[i])

@@ -36,39 +36,43 @@ public sealed class WorldBody
     /// <summary>The component as the scene has it.</summary>
     public Rigidbody Settings { get; }
 
-    /// <summary>Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities.</summary>
+    /// <summary>Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities; the rotation is normalised.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
     public Pose Pose
     {
         get => _bodies.Poses[_index] * _localInverse;
         set
         {
-            _bodies.Poses[_index] = value * _local;
+            _bodies.Poses[_index] = Checked(value) * _local;
             _bodies.KinematicTargets[_index] = _bodies.Poses[_index];
         }
     }
 
-    /// <summary>Where a kinematic body is after the next step (Rigidbody.MovePosition and MoveRotation).</summary>
+    /// <summary>Where a kinematic body is after the next step (Rigidbody.MovePosition and MoveRotation); the rotation is normalised.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
     public Pose KinematicTarget
     {
         get => _bodies.KinematicTargets[_index] * _localInverse;
-        set => _bodies.KinematicTargets[_index] = value * _local;
+        set => _bodies.KinematicTargets[_index] = Checked(value) * _local;
     }
 
     /// <summary>Centre of mass in the world, metres.</summary>
     public Vector3d CenterOfMass => _bodies.Poses[_index].Position;
 
     /// <summary>Velocity of the centre of mass, world frame, m/s.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public Vector3d LinearVelocity
     {
         get => _bodies.LinearVelocities[_index];
-        set => _bodies.LinearVelocities[_index] = value;
+        set => _bodies.LinearVelocities[_index] = Checked(value);
     }
 
     /// <summary>World frame, rad/s.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public Vector3d AngularVelocity
     {
         get => _bodies.AngularVelocities[_index];
-        set => _bodies.AngularVelocities[_index] = value;
+        set => _bodies.AngularVelocities[_index] = Checked(value);
     }
 
     /// <summary>Whether only its target moves the body.</summary>
@@ -78,15 +82,29 @@ public sealed class WorldBody
     public double KineticEnergy => _bodies.KineticEnergy(_index);
 
     /// <summary>A force at the centre of mass over the next step, world frame, N.</summary>
-    public void AddForce(Vector3d force) => _bodies.Forces[_index] += force;
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
+    public void AddForce(Vector3d force) => _bodies.Forces[_index] += Checked(force);
 
     /// <summary>A torque over the next step, world frame, N m.</summary>
-    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += torque;
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
+    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += Checked(torque);
 
     /// <summary>A force over the next step at a point of the world, N.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddForceAtPosition(Vector3d force, Vector3d position)
     {
+        Vector3d torque = Checked(Vector3d.Cross(position - CenterOfMass, force));
         AddForce(force);
-        AddTorque(Vector3d.Cross(position - CenterOfMass, force));
+        AddTorque(torque);
+    }
+
+    private static Vector3d Checked(Vector3d value) => value.IsFinite ? value : throw new ArgumentOutOfRangeException(nameof(value));
+
+    private static Pose Checked(Pose value)
+    {
+        double square = value.Rotation.LengthSquared;
+        return value.Position.IsFinite && square > 0 && square < double.PositiveInfinity
+            ? new Pose(value.Position, value.Rotation.Normalized())
+            : throw new ArgumentOutOfRangeException(nameof(value));
     }
 }

@@ -30,7 +30,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     /// Motions, limits, drives, targets, break limits and mass scales. A new value acts from the next step on; the frames and swapBodies stay
     /// as created.
     /// </summary>
-    /// <exception cref="ArgumentException">swapBodies differs.</exception>
+    /// <exception cref="ArgumentException">swapBodies differs; or a number is out of its range or none.</exception>
     public ConfigurableJoint Settings
     {
         get => _settings;
@@ -46,6 +46,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
                 throw new ArgumentException("swapBodies is decided when the joint is created.", nameof(value));
             }
 
+            SettingsCheck.ThrowIfWrong(value);
             _settings = value;
             UnityJoints.Apply(value, (D6Joint)Solved);
         }
@@ -63,6 +64,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     public override void DriveTo(Coordinate coordinate, double target)
     {
         int i = Axis(coordinate);
+        ThrowUnlessFinite(target, nameof(target));
         var joint = (D6Joint)Solved;
         ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
         drive = PositionDrive(drive);
@@ -76,6 +78,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         // A damper this stiff holds the speed to one part in a million within a step of 1 ms.
         const double damping = 1e9;
         int i = Axis(coordinate);
+        ThrowUnlessFinite(speed, nameof(speed));
         var joint = (D6Joint)Solved;
         ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
         double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;

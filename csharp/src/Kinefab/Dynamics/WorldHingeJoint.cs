@@ -15,12 +15,19 @@ public sealed class WorldHingeJoint : WorldJoint
         : base(mechanism, index, place) => _settings = settings;
 
     /// <summary>Limits, motor, spring, break limits and mass scales. A new value acts from the next step on; the frames stay as created.</summary>
+    /// <exception cref="ArgumentException">A number is out of its range or none.</exception>
     public HingeJoint Settings
     {
         get => _settings;
         set
         {
-            _settings = value ?? throw new ArgumentNullException(nameof(value));
+            if (value is null)
+            {
+                throw new ArgumentNullException(nameof(value));
+            }
+
+            SettingsCheck.ThrowIfWrong(value);
+            _settings = value;
             UnityJoints.Apply(value, (RevoluteJoint)Solved);
         }
     }
@@ -52,6 +59,7 @@ public sealed class WorldHingeJoint : WorldJoint
     public override void DriveTo(Coordinate coordinate, double target)
     {
         Check(coordinate);
+        ThrowUnlessFinite(target, nameof(target));
         var joint = (RevoluteJoint)Solved;
         joint.MotorEnabled = false;
         joint.Spring = PositionDrive(joint.Spring);
@@ -62,6 +70,7 @@ public sealed class WorldHingeJoint : WorldJoint
     public override void DriveAt(Coordinate coordinate, double speed)
     {
         Check(coordinate);
+        ThrowUnlessFinite(speed, nameof(speed));
         var joint = (RevoluteJoint)Solved;
         joint.MotorEnabled = true;
         joint.MotorVelocity = -speed / Degrees;

@@ -32,7 +32,10 @@ public abstract class WorldJoint
     /// <summary>Whether its constraint force or torque has passed a limit; a broken joint holds nothing any more.</summary>
     public bool IsBroken => Solved.IsBroken;
 
-    /// <summary>Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count.</summary>
+    /// <summary>
+    /// Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count. In the
+    /// step that breaks the joint the force that broke it, then none.
+    /// </summary>
     public Vector3d CurrentForce => MultibodySystem.Reactions[Index].Force;
 
     /// <summary>Torque of the constraint on actor 0 about the connected anchor in the last step, N m; drives do not count.</summary>
@@ -67,14 +70,22 @@ public abstract class WorldJoint
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="target">Degrees or metres.</param>
-    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
     public abstract void DriveTo(Coordinate coordinate, double target);
 
     /// <summary>Drives a coordinate at a speed, with the component's force limit if it has one. Stands until Settings is set.</summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="speed">Degrees/s or metres/s.</param>
-    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    /// <exception cref="ArgumentException">The joint has no such coordinate, or the speed is no number.</exception>
     public abstract void DriveAt(Coordinate coordinate, double speed);
+
+    private protected static void ThrowUnlessFinite(double value, string name)
+    {
+        if (double.IsNaN(value) || double.IsInfinity(value))
+        {
+            throw new ArgumentOutOfRangeException(name);
+        }
+    }
 
     // Overdamped: time constant Damping/Stiffness = 0.1 s; yields by 1e-6 of the acceleration that the load would give.
     private protected static Kinefab.Joints.JointDrive PositionDrive(in Kinefab.Joints.JointDrive given) => given.Stiffness > 0

@@ -12,6 +12,9 @@ internal sealed class D6Joint : Joint
     // Below this distance the direction of a disc or ball limit is undefined (PhysX: 1e-6 of the length scale).
     private const double LeastLimitedDistance = 1e-6;
 
+    // What Unity's angle of 0 becomes, with room for rounding.
+    private const double LeastConeAngle = 1.0001e-4;
+
     /// <summary>Motions in PxD6Axis's order: X, Y, Z, twist, swing about Y, swing about Z. All locked at first.</summary>
     public AxisMotion X, Y, Z, Twist, Swing1, Swing2;
 
@@ -67,6 +70,13 @@ internal sealed class D6Joint : Joint
             ? AxisMotion.Locked
             : motion;
 
+    /// <summary>The motion of either swing, Locked likewise where both are Limited to a hard cone without width.</summary>
+    public AxisMotion Swing(AxisMotion motion) =>
+        EveryLimit && Swing1 == AxisMotion.Limited && Swing2 == AxisMotion.Limited && !SwingLimit.Response.IsSoft
+            && Math.Max(SwingLimit.Y, SwingLimit.Z) <= LeastConeAngle
+            ? AxisMotion.Locked
+            : motion;
+
     // Spring-damper per axis a of frame 0: C = (target - c.p).a, Cdot = a.(velocity of 0 - velocity of 1).
     // Source: ExtD6Joint.cpp, D6JointSolverPrep (the velocity is actor 1's against 0, hence its sign).
     private void LinearDrives(ref RowWriter writer, in JointFrames f)
@@ -94,9 +104,11 @@ internal sealed class D6Joint : Joint
     // Source: ExtD6Joint.cpp, D6JointSolverPrep; prepareData for which drives count.
     private void AngularDrives(ref RowWriter writer, in JointFrames f, Vector3d x1, Vector3d y1, Vector3d z1)
     {
-        bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && Swing1 != AxisMotion.Locked && Swing2 != AxisMotion.Locked;
+        bool isSwing1Free = Swing(Swing1) != AxisMotion.Locked;
+        bool isSwing2Free = Swing(Swing2) != AxisMotion.Locked;
+        bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && isSwing1Free && isSwing2Free;
         bool twist = DriveTwist.IsActive && Twist != AxisMotion.Locked;
-        bool swing = DriveSwing.IsActive && (Swing1 != AxisMotion.Locked || Swing2 != AxisMotion.Locked);
+        bool swing = DriveSwing.IsActive && (isSwing1Free || isSwing2Free);
         if (!slerp && !twist && !swing)
         {
             return;
@@ -134,12 +146,12 @@ internal sealed class D6Joint : Joint
         if (swing)
         {
             Vector3d x = delta * Vector3d.UnitX;
-            if (Swing1 != AxisMotion.Locked)
+            if (isSwing1Free)
             {
                 writer.AngularDrive(y1, DriveAngularVelocity.Y, x.Z, DriveSwing);
             }
 
-            if (Swing2 != AxisMotion.Locked)
+            if (isSwing2Free)
             {
                 writer.AngularDrive(z1, DriveAngularVelocity.Z, -x.Y, DriveSwing);
             }
@@ -153,8 +165,8 @@ internal sealed class D6Joint : Joint
     private void AngularLimits(ref RowWriter writer, in JointFrames f, Vector3d x1)
     {
         bool twist = Twist == AxisMotion.Limited;
-        bool swing1 = Swing1 == AxisMotion.Limited;
-        bool swing2 = Swing2 == AxisMotion.Limited;
+        bool swing1 = Swing(Swing1) == AxisMotion.Limited;
+        bool swing2 = Swing(Swing2) == AxisMotion.Limited;
         if (!twist && !swing1 && !swing2)
         {
             return;
@@ -227,7 +239,7 @@ internal sealed class D6Joint : Joint
     private void LockedAxes(ref RowWriter writer, in JointFrames f, Vector3d x1)
     {
         int linear = Bit(Linear(X), 0) | Bit(Linear(Y), 1) | Bit(Linear(Z), 2);
-        int angular = Bit(Twist, 0) | Bit(Swing1, 1) | Bit(Swing2, 2);
+        int angular = Bit(Twist, 0) | Bit(Swing(Swing1), 1) | Bit(Swing(Swing2), 2);
         if (angular == 2)
         {
             writer.LockedAngle(Vector3d.Cross(x1, f.Axis0(2)), -Vector3d.Dot(x1, f.Axis0(2)));

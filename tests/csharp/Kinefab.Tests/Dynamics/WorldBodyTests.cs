@@ -84,4 +84,31 @@ public sealed class WorldBodyTests
         world = SmallScene.Create(new ConfigurableJoint(), settings);
         return world.Bodies[0];
     }
+
+    [TestCase(double.NaN)]
+    [TestCase(double.NegativeInfinity)]
+    public void Setters_NoNumber_Throw(double value)
+    {
+        World world = SmallScene.Create(new HingeJoint());
+        WorldBody body = world.Bodies[0];
+        var wrong = new Vector3d(0, value, 0);
+        Assert.That(() => body.LinearVelocity = wrong, Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.AngularVelocity = wrong, Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.AddForce(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.AddTorque(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.AddForceAtPosition(Vector3d.UnitX, wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.Pose = new Pose(wrong, Quaterniond.Identity), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.Pose = new Pose(Vector3d.Zero, new Quaterniond(0, 0, value, 1)), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => body.KinematicTarget = default, Throws.InstanceOf<ArgumentOutOfRangeException>());
+        Assert.That(() => world.Gravity = wrong, Throws.InstanceOf<ArgumentOutOfRangeException>());
+    }
+
+    [Test]
+    public void Pose_RotationOfAnotherLength_IsNormalised()
+    {
+        WorldBody body = SmallScene.Create(new HingeJoint()).Bodies[0];
+        body.Pose = new Pose(Vector3d.Zero, new Quaterniond(0, 3, 0, 4));
+        Assert.That((body.Pose.Rotation * new Quaterniond(0, 0.6, 0, 0.8).Conjugate()).Vector.Length, Is.LessThanOrEqualTo(1e-12));
+        Assert.That(body.Pose.Rotation.LengthSquared, Is.EqualTo(1).Within(1e-12));
+    }
 }

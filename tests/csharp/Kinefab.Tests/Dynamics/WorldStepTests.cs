@@ -96,6 +96,65 @@ public sealed class WorldStepTests
     }
 
     [Test]
+    public void Step_BodyAtTheOrigin_IsHeldFromTheFirstStep([Values] SolverKind solver)
+    {
+        World world = World.Create(
+            SmallScene.Validate(new SceneDocument
+            {
+                GameObjects =
+                [
+                    new() { Id = "own", Name = "own", Components = [new Rigidbody(), new HingeJoint { UseMotor = true, Motor = new JointMotor { TargetVelocity = 90, Force = 1e6 } }] },
+                ],
+            }),
+            solver);
+        world.Step(0.02);
+        Assert.That(world.Bodies[0].AngularVelocity.X, Is.EqualTo(Math.PI / 2).Within(1e-6));
+        Assert.That(world.Bodies[0].LinearVelocity.Y, Is.EqualTo(0).Within(1e-6));
+        Assert.That(world.Joints[0].CurrentForce.Y, Is.EqualTo(9.81).Within(1e-6));
+    }
+
+    [Test]
+    public void CurrentForce_BrokenJoint_IsWhatBrokeItThenNone([Values] SolverKind solver)
+    {
+        World world = World.Create(
+            SmallScene.Validate(new SceneDocument { GameObjects = [new() { Id = "own", Name = "own", Components = [new Rigidbody(), new FixedJoint { BreakForce = 5 }] }] }),
+            solver);
+        double breaking = 0;
+        world.JointBroken += (_, e) => breaking = e.Joint.CurrentForce.Y;
+        world.Step(0.02);
+        Assert.That(breaking, Is.EqualTo(9.81).Within(1e-6));
+        world.Step(0.02);
+        Assert.That(world.Joints[0].CurrentForce, Is.EqualTo(Vector3d.Zero));
+    }
+
+    [Test]
+    public void Settings_NumberNoFileMayState_ThrowsAndChangesNothing()
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ });
+        var hinge = (WorldHingeJoint)world.Joints[0];
+        HingeJoint before = hinge.Settings;
+        Assert.That(() => hinge.Settings = new HingeJoint { UseMotor = true, Motor = new JointMotor { TargetVelocity = double.NaN } }, Throws.ArgumentException);
+        Assert.That(() => hinge.Settings = new HingeJoint { UseSpring = true, Spring = new JointSpring { Spring = -1 } }, Throws.ArgumentException);
+        Assert.That(hinge.Settings, Is.SameAs(before));
+        world = SmallScene.Create(new ConfigurableJoint());
+        Assert.That(
+            () => ((WorldConfigurableJoint)world.Joints[0]).Settings = new ConfigurableJoint { XDrive = new JointDrive { PositionSpring = double.NaN } },
+            Throws.ArgumentException);
+    }
+
+    [TestCase(double.NaN)]
+    [TestCase(double.PositiveInfinity)]
+    public void Drive_NoNumber_Throws(double value)
+    {
+        foreach (WorldJoint joint in new[] { SmallScene.Create(new HingeJoint()).Joints[0], SmallScene.Create(new ConfigurableJoint()).Joints[0] })
+        {
+            Coordinate coordinate = joint is WorldHingeJoint ? Coordinate.Angle : Coordinate.AngularX;
+            Assert.That(() => joint.DriveTo(coordinate, value), Throws.InstanceOf<ArgumentOutOfRangeException>());
+            Assert.That(() => joint.DriveAt(coordinate, value), Throws.InstanceOf<ArgumentOutOfRangeException>());
+        }
+    }
+
+    [Test]
     public void HingeJoint_MotorAndSpring_MotorWins()
     {
         World world = SmallScene.Create(new HingeJoint

@@ -30,6 +30,12 @@ internal sealed partial class Laws<V>
     // Whether the matrix is that of the rows as they stand now, held as their Hold says.
     private bool _isFactored;
 
+    /// <summary>
+    /// Whether the last flight ended beyond a hard limit that had no row at its start, as in the middle of a cone, where no
+    /// direction leads out: it takes shorter steps.
+    /// </summary>
+    public bool HasPassed { get; private set; }
+
     public Laws(Batch<V> batch)
     {
         _batch = batch;
@@ -107,7 +113,7 @@ internal sealed partial class Laws<V>
         {
             ref Law law = ref _laws[i];
             law.C0 = law.Row.GeometricError;
-            law.End = law.Row;
+            law.End = law.IsWritten ? law.Row : default;
             law.Second = 0;
             law.Theta = isImplicit ? 1 : 0.5;
             law.Kind = KindOf(law);
@@ -252,9 +258,17 @@ internal sealed partial class Laws<V>
     /// <summary>Residuals of the laws at the end of the flight as errors, m or rad.</summary>
     public void Evaluate(double h)
     {
+        HasPassed = false;
         for (int i = 0; i < _laws.Length; i++)
         {
             ref Law law = ref _laws[i];
+            if (!law.IsWritten)
+            {
+                // Not to be seen again by the next flight, which may have no row at its end either.
+                HasPassed |= law.End.GeometricError < 0 && !law.End.Has(RowFlags.Spring);
+                law.End.GeometricError = 0;
+            }
+
             double error = 0;
             law.First = _batch.Work.First[law.Index];
             if (law.Segment == Segment.Sloped)
@@ -302,68 +316,6 @@ internal sealed partial class Laws<V>
         }
 
         return isChanged;
-    }
-
-    /// <summary>
-    /// When the flight is lost: the drives and motors that asked for more than their bound get the bound, and all other
-    /// rows the impulses they began with; false when it was none of these. An impulse far beyond its bound, as of a weak
-    /// motor that shall turn fast, may hurl the bodies so that no iteration brings them back.
-    /// </summary>
-    public bool Curb(int pass)
-    {
-        bool isAny = false;
-        for (int i = 0; i < _laws.Length; i++)
-        {
-            isAny |= IsBeyond(_laws[i]);
-        }
-
-        if (!isAny || pass >= MaxPasses)
-        {
-            return false;
-        }
-
-        double[] first = _batch.Work.First;
-        double[] move = _batch.Work.Move;
-        for (int i = 0; i < move.Length; i++)
-        {
-            move[i] = _batch.Half[i] - first[i];
-        }
-
-        for (int i = 0; i < _laws.Length; i++)
-        {
-            if (_laws[i].Segment == Segment.Clamped)
-            {
-                move[_laws[i].Index] = 0;
-            }
-        }
-
-        Impulses<V>.Apply(_batch, move);
-        for (int i = 0; i < _laws.Length; i++)
-        {
-            ref Law law = ref _laws[i];
-            if (IsBeyond(law))
-            {
-                bool isLow = first[law.Index] < law.Theta * law.Low;
-                law.First = first[law.Index] + move[law.Index];
-                move[law.Index] = 0;
-                SetFirst(ref law, law.Theta * (isLow ? law.Low : law.High));
-                law.Segment = Segment.Clamped;
-            }
-        }
-
-        for (int i = 0; i < move.Length; i++)
-        {
-            first[i] += move[i];
-        }
-
-        return true;
-    }
-
-    private bool IsBeyond(in Law law)
-    {
-        double first = _batch.Work.First[law.Index];
-        return law.Segment == Segment.Sloped && (law.Kind == LawKind.Motor || law.Kind == LawKind.Spring)
-            && (first < law.Theta * law.Low || first > law.Theta * law.High);
     }
 
     private static LawKind KindOf(in Law law)

@@ -108,7 +108,7 @@ internal sealed class Node
         else if (joint is D6Joint d6)
         {
             LinearMask = Locked(d6.Linear(d6.X), 1) | Locked(d6.Linear(d6.Y), 2) | Locked(d6.Linear(d6.Z), 4);
-            int angular = Locked(d6.Twist, 1) | Locked(d6.Swing1, 2) | Locked(d6.Swing2, 4);
+            int angular = Locked(d6.Twist, 1) | Locked(d6.Swing(d6.Swing1), 2) | Locked(d6.Swing(d6.Swing2), 4);
             Angular = angular switch
             {
                 0 => AngularRows.None,
@@ -120,8 +120,8 @@ internal sealed class Node
             };
             linearDrives = CountLinearDrives(d6);
             Drives = CountDrives(d6);
-            bool swing1 = d6.Swing1 == AxisMotion.Limited;
-            bool swing2 = d6.Swing2 == AxisMotion.Limited;
+            bool swing1 = d6.Swing(d6.Swing1) == AxisMotion.Limited;
+            bool swing2 = d6.Swing(d6.Swing2) == AxisMotion.Limited;
             HasCone = swing1 && swing2;
             AngleLimits = (swing1 ^ swing2 ? 2 : 0) + (d6.Twist == AxisMotion.Limited ? 2 : 0);
             HasDistance = IsLimited(d6, d6.X) || IsLimited(d6, d6.Y) || IsLimited(d6, d6.Z);
@@ -249,8 +249,8 @@ internal sealed class Node
 
         if (joint is D6Joint d6)
         {
-            return (int)d6.Linear(d6.X) | ((int)d6.Linear(d6.Y) << 2) | ((int)d6.Linear(d6.Z) << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing1 << 8)
-                | ((int)d6.Swing2 << 10) | (CountDrives(d6) << 12) | (d6.DriveSlerp.IsActive ? 1 << 16 : 0);
+            return (int)d6.Linear(d6.X) | ((int)d6.Linear(d6.Y) << 2) | ((int)d6.Linear(d6.Z) << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing(d6.Swing1) << 8)
+                | ((int)d6.Swing(d6.Swing2) << 10) | (CountDrives(d6) << 12) | (d6.DriveSlerp.IsActive ? 1 << 16 : 0);
         }
 
         return 0;
@@ -277,8 +277,8 @@ internal sealed class Node
     {
         int count = CountLinearDrives(d6);
         bool twist = d6.Twist != AxisMotion.Locked;
-        bool swing1 = d6.Swing1 != AxisMotion.Locked;
-        bool swing2 = d6.Swing2 != AxisMotion.Locked;
+        bool swing1 = d6.Swing(d6.Swing1) != AxisMotion.Locked;
+        bool swing2 = d6.Swing(d6.Swing2) != AxisMotion.Locked;
         if (d6.DriveSlerp.IsActive && twist && swing1 && swing2)
         {
             return count + 3;

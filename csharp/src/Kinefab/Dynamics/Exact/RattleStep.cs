@@ -95,19 +95,12 @@ internal static class RattleStep<V>
             }
             else if (isDone)
             {
+                converged[0] &= batch.Laws == null || !batch.Laws.HasPassed;
                 return;
             }
             else if (iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
             {
-                if (batch.Laws == null || !batch.Laws.Curb(lawPasses++))
-                {
-                    return;
-                }
-
-                batch.Work.Active[0] = 1;
-                restart = iteration + 1;
-                Factor(batch, true);
-                continue;
+                return;
             }
 
             Correct(batch, h, iteration == restart);

@@ -140,6 +140,25 @@ internal sealed class LawTests
         Assert.That(Angle(m), Is.EqualTo(-10 * Math.PI / 180).Within(1e-8));
     }
 
+    [TestCase(10, 50, 10)]
+    [TestCase(-50, -10, -10)]
+    public void HardLimits_BeyondThemAtTheStart_ComesBackAndStays(double lower, double upper, double expected)
+    {
+        // The way back within one step, at 17 rad/s, is no motion: else the wheel would fly on to the other limit.
+        MultibodySystem m = Wheel(h => Limits(h, lower, upper, default));
+        Run(m, 1);
+        Assert.That(Angle(m), Is.EqualTo(expected * Math.PI / 180).Within(1e-8));
+        Assert.That(Speed(m), Is.EqualTo(0).Within(1e-8));
+    }
+
+    [Test]
+    public void HardLimits_BeyondThemOnTheWayIn_KeepTheSpeed()
+    {
+        MultibodySystem m = Wheel(h => Limits(h, 1, 170, default), 3);
+        Run(m, 0.5);
+        Assert.That(Speed(m), Is.EqualTo(3).Within(1e-8));
+    }
+
     [Test]
     public void BouncyLimit_Hit_GivesBackItsShareOfTheSpeed()
     {
@@ -287,6 +306,46 @@ internal sealed class LawTests
         Vector3d axis = m.Bodies.Poses[0].Rotation * Vector3d.UnitX;
         Assert.That(Math.Acos(axis.Y), Is.EqualTo(0.6).Within(1e-5));
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
+    }
+
+    [TestCase(1e-4)]
+    [TestCase(3.5e-4)]
+    [TestCase(5e-3)]
+    public void ConeLimit_NarrowerThanAStepsWay_HoldsWithoutGain(double angle)
+    {
+        // In a cone's middle no direction leads out of it; 2.2 rad/s pass all of it within a step.
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        int body = b.Body(Vector3d.Zero, Quaterniond.Identity, 1, new Vector3d(0.1, 0.2, 0.3));
+        var joint = new D6Joint { Swing1 = AxisMotion.Limited, Swing2 = AxisMotion.Limited, SwingLimit = new ConeLimit { Y = angle, Z = angle } };
+        b.Add(joint, Joint.World, body, Pose.Identity);
+        MultibodySystem m = b.Build();
+        m.Bodies.AngularVelocities[body] = new Vector3d(0, 1, 2);
+        double energy = m.Bodies.KineticEnergy(body);
+        double widest = 0;
+        Run(m, 1, Dt, () => widest = Math.Max(widest, Math.Acos(Math.Min(1, (m.Bodies.Poses[body].Rotation * Vector3d.UnitX).X))));
+        Assert.That(widest, Is.LessThanOrEqualTo(1.001 * angle));
+        Assert.That(m.Bodies.KineticEnergy(body), Is.LessThanOrEqualTo(energy));
+        Assert.That(m.Overflows, Is.Zero);
+    }
+
+    [Test]
+    public void LinearLimit_OfNothing_HoldsTheAnchorAndTheEnergy()
+    {
+        var b = new MechanismBuilder();
+        int bar = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        var joint = new D6Joint
+        {
+            X = AxisMotion.Limited, Y = AxisMotion.Limited, Z = AxisMotion.Limited, Twist = AxisMotion.Free, Swing1 = AxisMotion.Free,
+            Swing2 = AxisMotion.Free, LinearLimit = new LinearLimit { Value = 0 },
+        };
+        b.Add(joint, Joint.World, bar, Pose.Identity);
+        MultibodySystem m = b.Build();
+        double energy = Energy();
+        Run(m, 4);
+        Assert.That(m.Bodies.Poses[bar].Point(new Vector3d(-0.5, 0, 0)).Length, Is.LessThanOrEqualTo(1e-8));
+        Assert.That(Energy(), Is.EqualTo(energy).Within(0.01));
+
+        double Energy() => m.Bodies.KineticEnergy(bar) + m.Bodies.PotentialEnergy(bar, m.Gravity);
     }
 
     [Test]

@@ -31,7 +31,7 @@ internal sealed partial class Laws<V>
     private bool _isFactored;
 
     /// <summary>
-    /// Whether the last flight ended beyond a hard limit that had no row at its start, as in the middle of a cone, where no
+    /// Whether the last flight ended beyond a hard cone or distance limit that had no row at its start, from whose middle no
     /// direction leads out: it takes shorter steps.
     /// </summary>
     public bool HasPassed { get; private set; }
@@ -265,7 +265,8 @@ internal sealed partial class Laws<V>
             if (!law.IsWritten)
             {
                 // Not to be seen again by the next flight, which may have no row at its end either.
-                HasPassed |= law.End.GeometricError < 0 && !law.End.Has(RowFlags.Spring);
+                bool hasDirection = law.End.Has(RowFlags.Angular) && !law.End.Has(RowFlags.Cone);
+                HasPassed |= law.End.GeometricError < 0 && !law.End.Has(RowFlags.Spring) && !hasDirection;
                 law.End.GeometricError = 0;
             }
 

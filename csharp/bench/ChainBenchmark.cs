@@ -67,7 +67,7 @@ internal static class ChainBenchmark
             Island island = Island.Find(chain)[0];
             var batch = new Batch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
             Transfer<Numerics.ScalarLane>.LoadConstants(batch, 0, island, chain);
-            Transfer<Numerics.ScalarLane>.Load(batch, 0, island, chain, 1.0 / 60);
+            Transfer<Numerics.ScalarLane>.Load(batch, chain, 1.0 / 60);
             Transfer<Numerics.ScalarLane>.Start(batch);
             Flight<Numerics.ScalarLane>.Stay(batch);
             RattleStep<Numerics.ScalarLane>.Rebuild(batch);

@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.Globalization;
+using System.Linq;
 using Kinefab.Cli.Motion;
 using Kinefab.Cli.Simulation;
 using Kinefab.Diagnostics;
@@ -48,6 +49,7 @@ internal static class SimulateCommand
         if (count > TypedOptions.MostSteps)
             return Refuse(string.Create(CultureInfo.InvariantCulture, $"--seconds {seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
         World world = World.Create(loaded.Scene, kind);
+        int told = world.Findings.Diagnostics.Count;
         ReportWriter.WriteLines(file, world.Findings, Console.Error);
         Mechanism? mechanism = drives.Length == 0 ? null : Mechanism.Create(loaded.Scene);
         foreach (string text in drives)
@@ -72,6 +74,7 @@ internal static class SimulateCommand
         }
 
         progress.End();
+        ReportWriter.WriteLines(file, new Report(world.Findings.Diagnostics.Skip(told).ToArray()), Console.Error);
         summary.Write(Console.Out, kind, steps, dt);
         Report saved = recording is null ? Report.Empty : TrajectoryFile.Save(recording.Trajectory, output!);
         return saved.HasErrors ? Fail(file, saved) : world.Overflows == 0 ? 0 : 1;

@@ -41,7 +41,7 @@ internal sealed class RunSummary
         target.WriteLine(Text($"{Counted.Of(steps, "step", "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
         target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
         if (world.Overflows > 0)
-            target.WriteLine(Text($"the solver could not follow: motion left the range of numbers {Counted.Of(world.Overflows, "time", "times")}"));
+            target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Overflows, "time", "times")}"));
         foreach (JointRecord joint in joints)
             joint.Write(target, NameOf(joint.Joint), scene.Document.GameObjects[joint.Joint.GameObject].Name);
     }

@@ -264,6 +264,9 @@ public static class DiagnosticCodes
     /// <summary>The loop through {joints} does not move as its joints stand: its axes are off by a small angle, which locks it. The solvers let the locked angles give, as Unity does.</summary>
     public const string LoopInconsistent = "LOOP_INCONSISTENT";
 
+    /// <summary>The exact solver found no motion of the mechanism of {object} in a part of the step from {time} s: {reason}. The mechanism stands still in that part, and its speeds fall.</summary>
+    public const string StepUnsolved = "STEP_UNSOLVED";
+
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 

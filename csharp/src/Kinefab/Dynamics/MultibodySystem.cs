@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -21,6 +22,9 @@ internal sealed class MultibodySystem
     /// <summary>Times that a body's motion left the range of numbers and was stopped; counted by the solver.</summary>
     public int Overflows;
 
+    /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>
+    public readonly List<UnsolvedStep> Unsolved = new();
+
     public MultibodySystem(Bodies bodies, Joint[] joints, Coupling[] couplings)
     {
         Bodies = bodies;
@@ -38,6 +42,20 @@ internal struct JointReaction
 
     /// <summary>N m.</summary>
     public Vector3d Torque;
+}
+
+/// <summary>An island that stood still in a part of a step.</summary>
+internal struct UnsolvedStep
+{
+    /// <summary>One of the island's bodies.</summary>
+    public int Body;
+
+    /// <summary>The joint that was farthest from closed, or null when all closed and energy came from nothing.</summary>
+    public Joint? Joint;
+
+    /// <summary>By how much, m or rad; infinite when it was no number.</summary>
+    public double Error;
+    public bool IsAngular;
 }
 
 /// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>

@@ -17,12 +17,17 @@ public sealed class World
     private readonly MultibodySystem _mechanism;
     private readonly ISolver _solver;
     private readonly bool[] _broken;
+    private readonly WorldBody[] _bodies;
+    private readonly WorldJoint[] _joints;
+    private readonly UnsolvedStepFindings _unsolved = new();
 
     internal World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
     {
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
+        _bodies = bodies;
+        _joints = joints;
         Bodies = bodies;
         Joints = joints;
         Findings = findings;
@@ -37,8 +42,11 @@ public sealed class World
     /// <summary>In the order of their GameObjects and components.</summary>
     public IReadOnlyList<WorldJoint> Joints { get; }
 
-    /// <summary>What of the scene this world's solver does not follow; none is an error.</summary>
-    public Report Findings { get; }
+    /// <summary>
+    /// What of the scene this world's solver does not follow; none is an error. Steps that the exact solver could not solve
+    /// are added as they occur: each joint once, ten findings at most.
+    /// </summary>
+    public Report Findings { get; private set; }
 
     /// <summary>Seconds simulated.</summary>
     public double Time { get; private set; }
@@ -52,8 +60,9 @@ public sealed class World
     }
 
     /// <summary>
-    /// Number of times that a body's motion left the range of numbers and was stopped where it stood; not 0 only when the
-    /// solver cannot follow the scene.
+    /// Number of times that motion was stopped where it stood: a body's that left the range of numbers, or a mechanism's in a
+    /// part of a step that the exact solver could not solve (see <see cref="Findings"/>). 0 unless the solver cannot follow
+    /// the scene.
     /// </summary>
     public int Overflows => _mechanism.Overflows;
 
@@ -128,6 +137,12 @@ public sealed class World
         }
 
         _solver.Step(dt);
+        if (_mechanism.Unsolved.Count > 0)
+        {
+            List<Diagnostic> found = _unsolved.Of(_mechanism, _bodies, _joints, Time);
+            Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;
+        }
+
         Time += dt;
         for (int i = 0; i < Joints.Count; i++)
         {

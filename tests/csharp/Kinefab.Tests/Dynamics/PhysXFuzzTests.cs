@@ -129,8 +129,11 @@ public sealed class PhysXFuzzTests
         double scale = 1;
         for (int body = 0; body < after.Length / Numbers; body++)
         {
-            double velocities = new[] { 7, 10 }.Max(i => Math.Max(Vector(before, body * Numbers + i).Length, Vector(after, body * Numbers + i).Length));
-            scale = Math.Max(scale, Math.Max(velocities, Way(PoseOf(before, body), PoseOf(after, body), dt)));
+            int i = body * Numbers;
+            double linear = Math.Max(Vector(before, i + 7).Length, Vector(after, i + 7).Length);
+            double angular = Math.Max(Vector(before, i + 10).Length, Vector(after, i + 10).Length);
+            double way = Way(PoseOf(before, body), PoseOf(after, body), dt);
+            scale = Math.Max(scale, Math.Max(way, Math.Max(linear, angular)));
         }
 
         return scale;

@@ -208,6 +208,26 @@ public sealed class WorldCreationTests
     }
 
     [Test]
+    public void Step_JointsAtOdds_AreNamedOnce()
+    {
+        // Held to the world where it stands, and by a second joint to a place 5 m away.
+        ConfigurableJoint far = Locked(connectedAnchor: new Vector3d(5, 0, 0), auto: false);
+        SceneDocument document = SmallScene.Document(Locked(), new Rigidbody(), connected: false);
+        GameObject own = document.GameObjects[0];
+        var twice = new GameObject { Id = own.Id, Name = own.Name, Transform = own.Transform, Components = [.. own.Components, far] };
+        World world = World.Create(SmallScene.Validate(new SceneDocument { Physics = document.Physics, GameObjects = [twice] }), SolverKind.Exact);
+        for (int i = 0; i < 5; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Diagnostic found = world.Findings.Diagnostics.Single(d => d.Code == DiagnosticCodes.StepUnsolved);
+        Assert.That((found.Severity, found.Pointer.StartsWith("/gameObjects/0/components/", StringComparison.Ordinal)), Is.EqualTo((Severity.Warning, true)));
+        Assert.That(found.Message, Does.Contain("own").And.Contain("from 0 s"));
+        Assert.That(world.Overflows, Is.Positive);
+    }
+
+    [Test]
     public void MassScale_ExactSolver_IsNamedAsIgnored()
     {
         ConfigurableJoint scaled = Locked(auto: false, massScale: 4);

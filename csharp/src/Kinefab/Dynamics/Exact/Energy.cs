@@ -16,6 +16,10 @@ internal readonly struct Energy
     // Of the speeds that the forces give in a step.
     private readonly double _forced;
 
+    // In springs, and an upper bound of what motors and drives gave since the start of the step.
+    private readonly double _stored;
+    private readonly double _driven;
+
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="dt">Step, s.</param>
     public Energy(Batch<ScalarLane> batch, double dt)
@@ -24,6 +28,8 @@ internal readonly struct Energy
         _work = 0;
         _terms = 0;
         _forced = 0;
+        _stored = batch.Laws?.Stored(dt) ?? 0;
+        _driven = batch.Laws?.Driven() ?? 0;
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -43,10 +49,10 @@ internal readonly struct Energy
         }
     }
 
-    /// <summary>Whether nothing does work on an island but its bodies' own constant forces.</summary>
+    /// <summary>Whether nothing does work on an island but its bodies' own constant forces and its laws.</summary>
     public static bool IsKnown(Batch<ScalarLane> batch)
     {
-        bool isKnown = batch.Laws == null && batch.Shape.IsWorkless && !batch.Shape.IsInexact;
+        bool isKnown = batch.Shape.IsWorkless && !batch.Shape.IsInexact;
         for (int body = 0; body < batch.Shape.MovingBodies && isKnown; body++)
         {
             int o = Batch<ScalarLane>.Body(body, BodySlot.Torque);
@@ -56,10 +62,16 @@ internal readonly struct Energy
         return isKnown;
     }
 
-    /// <summary>Whether kinetic energy less work changed since by no more than a share of what moves, and rounding.</summary>
-    public bool IsKept(in Energy since, double share)
+    /// <summary>
+    /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as
+    /// to laws, whether it grew by no more than that and what drives can have given.
+    /// </summary>
+    public bool IsKept(in Energy since, bool mayLose, double share)
     {
-        double change = Math.Abs(_kinetic - since._kinetic - (_work - since._work));
-        return change <= share * (_kinetic + _forced) + Rounding * (_terms + since._terms);
+        double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work);
+        double rounding = Rounding * (_terms + since._terms);
+        return mayLose
+            ? change <= share * (since._kinetic + since._stored + _forced) + _driven + rounding
+            : Math.Abs(change) <= share * (_kinetic + _forced) + rounding;
     }
 }

@@ -60,6 +60,7 @@ internal sealed class ExactSolver : ISolver
             Regroup();
         }
 
+        _mechanism.Unsolved.Clear();
         double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         foreach (IslandGroup group in _groups)
         {

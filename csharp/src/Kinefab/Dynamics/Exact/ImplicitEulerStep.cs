@@ -60,6 +60,7 @@ internal sealed class ImplicitEulerStep
         bool isNear = false;
         for (int iteration = 0; iteration < MaxIterations; iteration++)
         {
+            FrozenAxes<ScalarLane>.Clear(batch);
             Flight<ScalarLane>.Run(batch, h);
             RigidRows<ScalarLane>.Evaluate(batch);
             laws?.Evaluate(h);
@@ -70,7 +71,8 @@ internal sealed class ImplicitEulerStep
             double off = Math.Max(batch.Work.MaxError[0], unbalanced);
             isNear &= off <= MostLeft * last;
             last = off;
-            if (RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0) && unbalanced < tolerance)
+            bool isClosed = RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
+            if (isClosed && unbalanced < tolerance)
             {
                 if (laws == null || !laws.Update(lawPasses++, tolerance))
                 {
@@ -85,7 +87,14 @@ internal sealed class ImplicitEulerStep
                 return false;
             }
 
-            laws?.Evaluate(h);
+            if (isClosed && laws != null)
+            {
+                // A row may have come to its bound just now.
+                laws.Evaluate(h);
+                laws.WriteRows(true);
+                Residual();
+            }
+
             if (isNear)
             {
                 laws?.WriteRows(false);
@@ -112,6 +121,7 @@ internal sealed class ImplicitEulerStep
         Read(_momenta);
         Write(_aim, 1);
         Impulses<ScalarLane>.Apply(batch, batch.Work.First);
+        FrozenAxes<ScalarLane>.Clear(batch);
         double[] a = batch.Bodies;
         double most = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)

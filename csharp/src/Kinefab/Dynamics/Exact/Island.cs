@@ -68,6 +68,7 @@ internal sealed class Island
             Spins[b] = new Spin(inverseInertias[bodies[b]]);
         }
 
+        FrozenBodies = FindFrozen(bodies, movingBodies, inverseInertias);
         Pattern = new BlockPattern(sizes, Couplings(touching));
         Links = MakeLinks(touching, Pattern);
         IsAngular = new bool[Pattern.RowCount];
@@ -102,6 +103,12 @@ internal sealed class Island
 
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
     public bool HasLoops => Nodes.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
+
+    /// <summary>Whether rows may repeat each other or ask for a turn that a body does not make: by loops or by infinite moments.</summary>
+    public bool IsRedundant => HasLoops || FrozenBodies.Length > 0;
+
+    /// <summary>Moving bodies with an infinite moment of inertia.</summary>
+    public int[] FrozenBodies { get; }
 
     /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
     public bool IsInexact { get; set; }
@@ -228,6 +235,19 @@ internal sealed class Island
             }
         }
 
+        if (FrozenBodies.Length != other.FrozenBodies.Length)
+        {
+            return false;
+        }
+
+        for (int b = 0; b < FrozenBodies.Length; b++)
+        {
+            if (FrozenBodies[b] != other.FrozenBodies[b])
+            {
+                return false;
+            }
+        }
+
         for (int b = 0; b < MovingBodies; b++)
         {
             if (!Spins[b].Equals(other.Spins[b]))
@@ -245,6 +265,21 @@ internal sealed class Island
         }
 
         return true;
+    }
+
+    private static int[] FindFrozen(int[] bodies, int movingBodies, Vector3d[] inverseInertias)
+    {
+        var frozen = new List<int>();
+        for (int b = 0; b < movingBodies; b++)
+        {
+            Vector3d inverse = inverseInertias[bodies[b]];
+            if (inverse.X == 0 || inverse.Y == 0 || inverse.Z == 0)
+            {
+                frozen.Add(b);
+            }
+        }
+
+        return frozen.ToArray();
     }
 
     private static bool IsWhole(Coupling coupling) => !coupling.A.Joint.IsBroken && !coupling.B.Joint.IsBroken;

@@ -164,7 +164,12 @@ internal sealed class IslandGroup<V> : IslandGroup
         RattleStep<ScalarLane>.Rebuild(_spare);
         int stops = _ladder.Stops;
         _ladder.Step(dt, tolerance, ref Cut(index, lane), hasFailed);
-        _mechanism.Overflows += _ladder.Stops - stops;
+        if (_ladder.Stops > stops)
+        {
+            _mechanism.Overflows += _ladder.Stops - stops;
+            _mechanism.Unsolved.Add(_ladder.Unsolved(island));
+        }
+
         Transfer<V>.CopyFrom(batch, lane, _spare);
     }
 
@@ -233,7 +238,12 @@ internal sealed class PreparedIslands : IslandGroup
 
             int stops = _ladders[i].Stops;
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
-            _mechanism.Overflows += _ladders[i].Stops - stops;
+            if (_ladders[i].Stops > stops)
+            {
+                _mechanism.Overflows += _ladders[i].Stops - stops;
+                _mechanism.Unsolved.Add(_ladders[i].Unsolved(_islands[i]));
+            }
+
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);

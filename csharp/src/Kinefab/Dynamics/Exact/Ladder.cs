@@ -12,8 +12,8 @@ namespace Kinefab.Dynamics.Exact;
 internal sealed class Ladder
 {
     /// <summary>Halvings into even parts, and, below these, of a part alone.</summary>
-    public const int MaxHalvings = 7;
-    private const int MaxDepth = 9;
+    public const int MaxHalvings = 10;
+    private const int MaxDepth = 12;
 
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
@@ -33,6 +33,12 @@ internal sealed class Ladder
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
 
+    // A start more open than this is being closed, m or rad.
+    private const double MostOpen = 1e-6;
+
+    // Largest growth of the energy in a step, springs included, where laws may take any amount.
+    private const double MostEnergyGain = 0.005;
+
     private readonly Batch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _floor;
     private readonly Snapshot _start;
@@ -42,6 +48,12 @@ internal sealed class Ladder
     private double _part;
     private int _failures;
     private int _stops;
+    private int _worst;
+    private double _worstError;
+    private bool _isEager;
+    private bool _isAudited;
+    private Energy _energy;
+    private double _dt;
 
     public Ladder(Batch<ScalarLane> batch)
     {
@@ -57,6 +69,23 @@ internal sealed class Ladder
     /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
     public int Stops { get; private set; }
 
+    /// <summary>What was farthest from closed in the last step that had a stop.</summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    public UnsolvedStep Unsolved(Island island)
+    {
+        for (int n = 0; n < island.Nodes.Length; n++)
+        {
+            Node node = island.Nodes[n];
+            int row = _worst - island.Pattern.Rows[n];
+            if (row >= 0 && row < node.Rows)
+            {
+                return new UnsolvedStep { Body = island.Bodies[0], Joint = node.Joint ?? node.Coupling!.B.Joint, Error = _worstError, IsAngular = island.IsAngular[_worst] };
+            }
+        }
+
+        return new UnsolvedStep { Body = island.Bodies[0] };
+    }
+
     /// <summary>Up to 1 a plain RATTLE step of dt will do; above, it takes as many shorter ones.</summary>
     /// <param name="stiffness">Largest <see cref="BodySlot.Stiffness"/>.</param>
     /// <param name="speed">Largest angular speed, rad/s.</param>
@@ -71,6 +100,18 @@ internal sealed class Ladder
     /// <param name="hasFailed">Whether the plain step was tried already.</param>
     public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed)
     {
+        Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
+        _part = dt;
+        _failures = 0;
+        _stops = 0;
+        _isEager = false;
+        _isAudited = Energy.IsKnown(_batch);
+        bool hasSettled = hasFailed;
+        if (hasFailed)
+        {
+            Settle();
+        }
+
         double demand = Demand(Stiffest(), Fastest(), dt);
         int halvings = Math.Max(cut.Halvings, hasFailed ? 1 : 0);
         while (halvings < MaxHalvings && demand > 1 << halvings)
@@ -78,18 +119,22 @@ internal sealed class Ladder
             halvings++;
         }
 
-        Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
-        _part = dt;
-        _failures = 0;
-        _stops = 0;
         _start.Save(_batch);
-        bool isAudited = Energy.IsKnown(_batch);
-        var energy = new Energy(_batch, dt);
-        while (!TryParts(dt, halvings, tolerance)
-            || (isAudited && halvings < MaxHalvings && !new Energy(_batch, dt).IsKept(energy, MostEnergyChange)))
+        _energy = new Energy(_batch, dt);
+        _dt = dt;
+        while (!TryParts(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
             _part = dt;
+            if (!hasSettled)
+            {
+                hasSettled = true;
+                _isEager = true;
+                Settle();
+                _start.Save(_batch);
+                _energy = new Energy(_batch, dt);
+            }
+
             if (halvings == MaxHalvings)
             {
                 ForceParts(dt, tolerance);
@@ -101,6 +146,71 @@ internal sealed class Ladder
 
         cut.Note(halvings, demand);
         SetPart(dt);
+    }
+
+    // The joints' first word on speeds that they do not allow (of a scene as it starts, or set from outside): a blow at the
+    // start pose, that takes energy and gives none. Left to the flight it would have to be found with the end pose, where
+    // a thin body turns far for a small gap. Without contradiction it does nothing.
+    private void Settle()
+    {
+        double[] blow = _batch.Work.Solution;
+        _batch.Work.Active[0] = 1;
+        _isAudited &= !IsOpen();
+        _batch.Laws?.Clamp();
+        RattleStep<ScalarLane>.Factor(_batch, false);
+        Impulses<ScalarLane>.NegativeSpeeds(_batch);
+        _batch.Laws?.ClearClamped(blow);
+        BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, blow);
+        Impulses<ScalarLane>.Apply(_batch, blow);
+        for (int i = 0; i < blow.Length; i++)
+        {
+            _batch.Work.Total[i] += blow[i];
+        }
+
+        if (_batch.Laws == null)
+        {
+            RattleStep<ScalarLane>.Factor(_batch, true);
+        }
+    }
+
+    // Of the first part that no method could take.
+    private void Blame(double tolerance)
+    {
+        _worst = -1;
+        _worstError = tolerance;
+        for (int i = 0; i < _batch.Work.Error.Length; i++)
+        {
+            double error = Math.Abs(_batch.Work.Error[i]);
+            error = double.IsNaN(error) ? double.PositiveInfinity : error;
+            if (error > _worstError)
+            {
+                _worst = i;
+                _worstError = error;
+            }
+        }
+    }
+
+    // Whether the step has to close what stands open at its start, which does work on springs.
+    private bool IsOpen()
+    {
+        RigidRows<ScalarLane>.Evaluate(_batch);
+        double most = _batch.Laws?.DeepestStop() ?? 0;
+        for (int n = 0; n < _batch.Shape.Nodes.Length; n++)
+        {
+            for (int i = 0; i < _batch.Shape.Nodes[n].RigidRows; i++)
+            {
+                most = Math.Max(most, Math.Abs(_batch.Work.Error[_batch.Shape.Pattern.Rows[n] + i]));
+            }
+        }
+
+        return most > MostOpen;
+    }
+
+    // At the finest even parts a violent motion without laws may lose energy: nothing below these is better.
+    private bool IsEnergyKept(int halvings)
+    {
+        bool mayLose = _batch.Laws != null || halvings >= MaxHalvings;
+        return !_isAudited || new Energy(_batch, _dt).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
     private bool TryParts(double dt, int halvings, double tolerance)
@@ -137,7 +247,7 @@ internal sealed class Ladder
         Snapshot start = _parts[depth - MaxHalvings];
         SetPart(h);
         start.Save(_batch);
-        if (TryRattle(h, tolerance))
+        if (TryRattle(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
@@ -151,9 +261,14 @@ internal sealed class Ladder
             return;
         }
 
-        if (TryFloor(h, tolerance))
+        if (TryFloor(h, tolerance) && IsEnergyKept(depth))
         {
             return;
+        }
+
+        if (_stops == 0)
+        {
+            Blame(tolerance);
         }
 
         start.Restore(_batch);
@@ -164,8 +279,8 @@ internal sealed class Ladder
     private bool TryRattle(double h, double tolerance)
     {
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.Fly(_batch, h, tolerance, _converged);
-        if (!_converged[0])
+        RattleStep<ScalarLane>.Fly(_batch, h, tolerance, _converged, _isEager);
+        if (!_converged[0] || (_batch.Laws != null && _batch.Laws.HasPassedUnseen(tolerance)))
         {
             return false;
         }

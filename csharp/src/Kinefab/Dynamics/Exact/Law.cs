@@ -84,6 +84,9 @@ internal struct Law
     public double First;
     public double Second;
 
+    /// <summary>Change of First when it came to its bound, until the momenta have it.</summary>
+    public double Jump;
+
     /// <summary>Node, row in the node and row in the vectors.</summary>
     public int Node;
     public int NodeRow;

@@ -81,8 +81,8 @@ internal sealed partial class Laws<V>
                 double high = law.High * (1 - law.Theta);
                 if (law.Kind == LawKind.HardLimit)
                 {
-                    // What brought a row back from beyond its limit within the step was no push: its speed is taken away.
-                    low = law.C0 < -tolerance ? -law.First : 0;
+                    // What pushed the joint back out of its stop on the way is no speed to leave it with.
+                    low = -law.First;
                     high = double.PositiveInfinity;
                 }
 

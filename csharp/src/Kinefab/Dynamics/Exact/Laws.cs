@@ -30,12 +30,6 @@ internal sealed partial class Laws<V>
     // Whether the matrix is that of the rows as they stand now, held as their Hold says.
     private bool _isFactored;
 
-    /// <summary>
-    /// Whether the last flight ended beyond a hard cone or distance limit that had no row at its start, from whose middle no
-    /// direction leads out: it takes shorter steps.
-    /// </summary>
-    public bool HasPassed { get; private set; }
-
     public Laws(Batch<V> batch)
     {
         _batch = batch;
@@ -115,6 +109,7 @@ internal sealed partial class Laws<V>
             law.C0 = law.Row.GeometricError;
             law.End = law.IsWritten ? law.Row : default;
             law.Second = 0;
+            law.Jump = 0;
             law.Theta = isImplicit ? 1 : 0.5;
             law.Kind = KindOf(law);
             if (law.Kind == LawKind.None)
@@ -171,6 +166,15 @@ internal sealed partial class Laws<V>
         }
     }
 
+    /// <summary>Takes all rows out of the matrix until the next <see cref="Begin"/> guesses anew.</summary>
+    public void Clamp()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            _laws[i].Segment = Segment.Clamped;
+        }
+    }
+
     /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
     public void ClearClamped(double[] vector)
     {
@@ -216,6 +220,55 @@ internal sealed partial class Laws<V>
         }
     }
 
+    /// <summary>Energy in the springs where the rows were last built, J: of one at its limit, what that force gives on the way back.</summary>
+    /// <param name="dt">Step, s.</param>
+    public double Stored(double dt)
+    {
+        double sum = 0;
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            double c = law.Row.GeometricError;
+            if (law.IsWritten && law.Row.Has(RowFlags.Spring) && law.Row.Stiffness > 0 && !(law.Row.Has(RowFlags.Limit) && c >= 0))
+            {
+                double response = law.Row.Has(RowFlags.AccelerationSpring) ? Response(law) : 1;
+                double k = response > LeastResponse ? law.Row.Stiffness / response : 0;
+                bool isForce = _batch.Shape.Nodes[law.Node].Joint!.DriveLimitsAreForces || !law.Row.Has(RowFlags.HasDriveLimit);
+                double most = (c < 0 ? law.Row.Maximum : -law.Row.Minimum) / (isForce ? 1 : dt);
+                double yield = Math.Min(Math.Abs(c), most / Math.Max(k, LeastResponse));
+                sum += k * yield * (Math.Abs(c) - yield / 2);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>By how much the worst hard limit is passed where the rows were last built, m or rad.</summary>
+    public double DeepestStop()
+    {
+        double most = 0;
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            bool isStop = _laws[i].IsWritten && _laws[i].Row.Has(RowFlags.Limit) && !_laws[i].Row.Has(RowFlags.Spring);
+            most = isStop ? Math.Max(most, -_laws[i].Row.GeometricError) : most;
+        }
+
+        return most;
+    }
+
+    /// <summary>The most that velocity targets can have given since the start of the step, J.</summary>
+    public double Driven()
+    {
+        double sum = 0;
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            sum += law.IsWritten ? Math.Abs(law.Row.VelocityTarget * _batch.Work.Total[law.Index]) : 0;
+        }
+
+        return sum;
+    }
+
     /// <summary>J of the sloped rows into the batch, 0 for the clamped ones.</summary>
     /// <param name="isAll">Write J of all rows, so that impulses can be applied by them.</param>
     public void WriteRows(bool isAll)
@@ -258,18 +311,9 @@ internal sealed partial class Laws<V>
     /// <summary>Residuals of the laws at the end of the flight as errors, m or rad.</summary>
     public void Evaluate(double h)
     {
-        HasPassed = false;
         for (int i = 0; i < _laws.Length; i++)
         {
             ref Law law = ref _laws[i];
-            if (!law.IsWritten)
-            {
-                // Not to be seen again by the next flight, which may have no row at its end either.
-                bool hasDirection = law.End.Has(RowFlags.Angular) && !law.End.Has(RowFlags.Cone);
-                HasPassed |= law.End.GeometricError < 0 && !law.End.Has(RowFlags.Spring) && !hasDirection;
-                law.End.GeometricError = 0;
-            }
-
             double error = 0;
             law.First = _batch.Work.First[law.Index];
             if (law.Segment == Segment.Sloped)
@@ -286,6 +330,52 @@ internal sealed partial class Laws<V>
         }
     }
 
+    /// <summary>Holds rows at their bounds whose impulses are beyond them; true when one was.</summary>
+    public bool ClampOutside()
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.Jump = 0;
+            if (law.Segment == Segment.Sloped)
+            {
+                law.First = _batch.Work.First[law.Index];
+                isChanged |= ClampOutside(ref law);
+            }
+        }
+
+        return isChanged;
+    }
+
+    /// <summary>Whether a hard limit was passed that had no row at the start of the flight: one of a distance or cone, in the middle.</summary>
+    public bool HasPassedUnseen(double tolerance)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            if (!law.IsWritten && law.End.Has(RowFlags.Limit) && !law.End.Has(RowFlags.Spring) && law.End.GeometricError < -tolerance)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Gives the momenta what the last <see cref="Update"/> changed of the impulses.</summary>
+    public void ApplyJumps()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            if (_laws[i].Jump != 0)
+            {
+                Impulses<V>.ApplyRow(_batch, _laws[i].Node, _laws[i].Row, _laws[i].Jump);
+                _laws[i].Jump = 0;
+            }
+        }
+    }
+
     /// <summary>Moves rows that have left their segment; true when one had to.</summary>
     public bool Update(int pass, double tolerance)
     {
@@ -293,23 +383,17 @@ internal sealed partial class Laws<V>
         for (int i = 0; i < _laws.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
         {
             ref Law law = ref _laws[i];
+            law.Jump = 0;
             if (law.Kind == LawKind.None)
             {
                 continue;
             }
 
-            double low = law.Theta * law.Low;
-            double high = law.Theta * law.High;
             if (law.Segment == Segment.Sloped)
             {
-                if (law.First < low || law.First > high)
-                {
-                    SetFirst(ref law, law.First < low ? low : high);
-                    law.Segment = Segment.Clamped;
-                    isChanged = true;
-                }
+                isChanged |= ClampOutside(ref law);
             }
-            else if (Returns(law, low, high, tolerance))
+            else if (Returns(law, law.Theta * law.Low, law.Theta * law.High, tolerance))
             {
                 law.Segment = Segment.Sloped;
                 isChanged = true;
@@ -377,11 +461,19 @@ internal sealed partial class Laws<V>
         }
     }
 
-    private void SetFirst(ref Law law, double impulse)
+    private bool ClampOutside(ref Law law)
     {
-        Impulses<V>.ApplyRow(_batch, law.Node, law.Row, impulse - law.First);
+        double impulse = Math.Min(law.Theta * law.High, Math.Max(law.Theta * law.Low, law.First));
+        if (impulse == law.First)
+        {
+            return false;
+        }
+
+        law.Jump = impulse - law.First;
         law.First = impulse;
+        law.Segment = Segment.Clamped;
         _batch.Work.First[law.Index] = impulse;
+        return true;
     }
 
     private double StartSpeed(in Law law) => Impulses<V>.Speed(_batch, law.Node, law.Row);

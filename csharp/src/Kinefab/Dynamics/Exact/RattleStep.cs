@@ -26,6 +26,9 @@ internal static class RattleStep<V>
     // An error that does not fall below this share of itself in an iteration gets no better.
     private const double StillShare = 0.25;
 
+    // Tolerances that anchors may be apart then: with the speed of a short step little changes in an iteration, closed or not.
+    private const double MostGaps = 4;
+
     // Largest error of an angle that may be left then, radians.
     private const double MostAngle = 1e-3;
 
@@ -40,7 +43,9 @@ internal static class RattleStep<V>
     /// <param name="h">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="converged">Set for each lane.</param>
-    public static void Fly(Batch<V> batch, double h, double tolerance, bool[] converged)
+    /// <param name="isEager">Rows with a law keep to their bounds in every iteration instead of at its end alone: dearer, but
+    /// rows that contradict each other give way before the flight is led astray.</param>
+    public static void Fly(Batch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false)
     {
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
@@ -67,6 +72,7 @@ internal static class RattleStep<V>
         int restart = 0;
         for (int iteration = 0; ; iteration++)
         {
+            FrozenAxes<V>.Clear(batch);
             Flight<V>.Run(batch, h);
             RigidRows<V>.Evaluate(batch);
             batch.Laws?.Evaluate(h);
@@ -90,12 +96,12 @@ internal static class RattleStep<V>
                 restart = iteration;
                 Factor(batch, true);
                 batch.Laws.Evaluate(h);
+                LetGo(batch, h, batch.Laws);
                 RigidRows<V>.Rate(batch);
                 batch.Work.FirstMaxError[0] = batch.Work.MaxError[0];
             }
             else if (isDone)
             {
-                converged[0] &= batch.Laws == null || !batch.Laws.HasPassed;
                 return;
             }
             else if (iteration - restart == MaxIterations || IsHopeless(batch, iteration == restart))
@@ -104,6 +110,14 @@ internal static class RattleStep<V>
             }
 
             Correct(batch, h, iteration == restart);
+            while (isEager && batch.Laws != null && batch.Laws.ClampOutside())
+            {
+                Array.Clear(batch.Work.Error, 0, batch.Work.Error.Length);
+                Factor(batch, true);
+                LetGo(batch, h, batch.Laws);
+                Correct(batch, h, true);
+                restart = iteration;
+            }
         }
     }
 
@@ -227,6 +241,24 @@ internal static class RattleStep<V>
         }
     }
 
+    // Rows that came to their bounds let go of momentum. What that will open is told to first order and closed by the same
+    // correction: alone, it can throw a thin body beyond where the chord finds back from.
+    private static void LetGo(Batch<V> batch, double h, Laws<V> laws)
+    {
+        double[] speeds = batch.Work.Solution;
+        double[] before = batch.Work.LastSolution;
+        Impulses<V>.NegativeSpeeds(batch);
+        Array.Copy(speeds, before, speeds.Length);
+        laws.ApplyJumps();
+        Impulses<V>.NegativeSpeeds(batch);
+        for (int i = 0; i < speeds.Length; i++)
+        {
+            batch.Work.Error[i] += h * (before[i] - speeds[i]);
+        }
+
+        laws.ClearClamped(batch.Work.Error);
+    }
+
     private static void ProjectWithLaws(Batch<V> batch, double tolerance, Laws<V> laws)
     {
         laws.BeginProjection(tolerance * LimitReach);
@@ -268,7 +300,7 @@ internal static class RattleStep<V>
         batch.Work.LastMaxError[lane] = error;
         return error < tolerance
             || (batch.Shape.IsInexact && batch.SoftStep == 0 && batch.Work.MaxGap[lane] < tolerance)
-            || (isRepeated && batch.Work.MaxChange[lane] < tolerance && error < MostAngle)
+            || (isRepeated && batch.Work.MaxChange[lane] < tolerance && batch.Work.MaxGap[lane] < MostGaps * tolerance && error < MostAngle)
             || (isRepeated && isStill && batch.Work.MaxGap[lane] < tolerance && error < MostAngle);
     }
 

@@ -17,7 +17,7 @@ internal static class ResponseMatrix<V>
     private const double LinearShare = 1e-6;
     public const double AngularShare = 1e-3;
 
-    // Against frozen axes alone.
+    // Against rounding alone.
     private const double TreeShare = 1e-12;
 
     /// <summary>The same in loops whose axes are off: softer than a misalignment, harder than a freedom.</summary>
@@ -284,7 +284,7 @@ internal static class ResponseMatrix<V>
         for (int i = 0; i < node.RigidRows; i++)
         {
             int cell = (block + i * (node.Rows + 1)) * w;
-            double share = !batch.Shape.HasLoops ? TreeShare : node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
+            double share = !batch.Shape.IsRedundant ? TreeShare : node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
             if (batch.Shape.IsInexact)
             {
                 (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(share)).Store(batch.Compliance, (batch.Shape.Pattern.Rows[n] + i) * w);

@@ -154,6 +154,11 @@ internal sealed class LadderTests
 
     private static (int Halvings, double Demand) HalvingsAfter(MultibodySystem mechanism, double dt, int steps)
     {
+        foreach (Joint joint in mechanism.Joints)
+        {
+            joint.EveryLimit = true;
+        }
+
         Island island = Island.Find(mechanism)[0];
         var batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
         Transfer<ScalarLane>.LoadConstants(batch, 0, island, mechanism);

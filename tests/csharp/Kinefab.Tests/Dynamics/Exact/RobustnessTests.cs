@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
+using System.Threading;
 using System.Threading.Tasks;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Exact;
@@ -17,10 +18,9 @@ internal sealed class RobustnessTests
     private const int Scenes = 10_000;
     private const int Steps = 2;
 
-    // Known: in 23 of the scenes soft and hard limits at odds with each other gain energy, or leave an anchor open by up to
-    // 1.4 mm that the iteration cannot close and the solver does not count as an overflow.
-    private const int MostFaults = 30;
-    private const double MostOpen = 2e-3;
+    // A tenth of the scenes contradict themselves by construction, and some move farther in a step than any cut follows.
+    private const int MostOverflows = 1500;
+    private const double MostOpen = 1e-8;
 
     // Above what is there at the start and what gravity adds.
     private const double MostGain = 0.02;
@@ -29,7 +29,7 @@ internal sealed class RobustnessTests
     public void Step_ExactInRandomScenes_FiniteClosedAndWithoutGain()
     {
         var faults = new ConcurrentDictionary<int, string>();
-        var broken = new ConcurrentQueue<int>();
+        int overflows = 0;
         Parallel.For(0, Scenes, seed =>
         {
             var scene = new RandomScene(seed);
@@ -54,15 +54,20 @@ internal sealed class RobustnessTests
             double open = isWhole && m.Overflows == 0 ? MechanismMeasures.Drift(m) : 0;
             if (!IsFinite(m) || !(open <= MostOpen))
             {
-                broken.Enqueue(seed);
-            }
-            else if (open > 1e-8)
-            {
                 faults[seed] = $"seed {seed}: open by {open} m";
             }
+
+            if (m.Overflows > 0)
+            {
+                Interlocked.Increment(ref overflows);
+                if (m.Unsolved.Count == 0)
+                {
+                    faults[seed] = $"seed {seed}: stopped without a reason";
+                }
+            }
         });
-        Assert.That(broken, Is.Empty);
-        Assert.That(faults, Has.Count.LessThanOrEqualTo(MostFaults));
+        Assert.That(faults, Is.Empty);
+        Assert.That(overflows, Is.LessThanOrEqualTo(MostOverflows));
     }
 
     [Test]

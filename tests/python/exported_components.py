@@ -12,7 +12,8 @@ from kinefab.unity.joints import map_joint
 
 
 def components(found):
-    """(node of the own body, node of the connected one or None, component) of every joint."""
+    """(node of the own body, node of the connected one or None, component) of every joint that has one: none has one
+    inside a rigid group."""
     return found.scene(), [(m.owner, m.connected, m.component) for m in _mapped(found)]
 
 
@@ -29,7 +30,8 @@ def _mapped(found):
     scene = found.scene()
     groups = rigid_groups(scene, found.fixed)
     carrier = lambda node: groups.members[groups.group_of[node]][0]  # noqa: E731
-    return [map_joint(j, scene, groups, carrier, Report()) for j in found.joints]
+    mapped = (map_joint(j, scene, groups, carrier, Report()) for j in found.joints)
+    return [m for m in mapped if m is not None]
 
 
 def unity_pose(scene, node):

@@ -11,7 +11,7 @@ from kinefab.model import Constraint, ConstraintKind, Feature, Motion, Scene
 from kinefab.spatial import Pose, rotation_exp
 
 SENSITIVE = (ConstraintKind.PIN_SLOT, ConstraintKind.GEAR, ConstraintKind.RACK, ConstraintKind.LINEAR)
-"""Constraints whose two sides play different roles."""
+"""Constraints whose two sides play different roles; so do those of an angle about a stated axis."""
 
 
 @dataclass
@@ -129,7 +129,7 @@ def swapped(source: Scene) -> Scene:
     """The two sides of each constraint exchanged, where they mean the same."""
 
     def turn(c: Constraint) -> Constraint:
-        if c.kind in SENSITIVE:
+        if c.kind in SENSITIVE or c.kind is ConstraintKind.ANGLE and len(c.features) > 2:
             return c
         return replace(c, features=(c.features[1], c.features[0], *c.features[2:]))
 

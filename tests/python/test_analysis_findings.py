@@ -97,7 +97,7 @@ ANGLE_ALONE = Constraint(
     (Feature(0, F.LINE, O, X), Feature(1, F.LINE, O, 0.8 * X + 0.6 * Y), Feature(0, F.LINE, O, Z)),
     value=float(np.arctan2(0.6, 0.8)),
 )
-ON_PLANE = Constraint("on", C.COINCIDENT, (Feature(0, F.PLANE, O, X), Feature(1, F.POINT, O)))
+ON_PLANE = Constraint("on", C.COINCIDENT, (Feature(0, F.PLANE, O, X), Feature(1, F.POINT, 0.2 * Y)))
 RECORD = DofRecord(1, np.array([X]), np.zeros((0, 3)))
 
 CASES = {

@@ -34,6 +34,9 @@ from .twists import NAMED, snapped, twist_space
 
 MIDDLE_SHARE = 0.1
 """Mass of a middle body against the lighter of its neighbours."""
+MISSED_SAMPLES = 1000
+"""Motions among which the largest misfit of an approximated joint is looked for: the few that tell whether a joint fits
+find half of it."""
 MANY = 200
 """Constraints between one pair from which the report mentions their number."""
 
@@ -274,7 +277,8 @@ class _Jointing:
         for lengths in (True, False):
             some = system.select(relation.rows[system.is_length[relation.rows] == lengths])
             one = np.zeros(len(some.kind), dtype=np.int64)
-            worst.append(float(misfits(some, *pair, one, [relation.joint], np.array([relation.length]))[0]))
+            length = np.array([relation.length])
+            worst.append(float(misfits(some, *pair, one, [relation.joint], length, MISSED_SAMPLES)[0]))
         return worst[0] * relation.length, worst[1]
 
     def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:

@@ -71,7 +71,7 @@ def _hang(
             if {other.a, other.b} == {base, onto} and _plain_hinge(other) and _same_axis(own, other, scene):
                 moved = _moved(own, part, carrier, body, onto, scene)
                 if stays := frozenset((body, base)) in counted:
-                    links.append(_removing_nothing(moved))
+                    links.append(_removing_nothing(moved, statement.id))
                 else:
                     links[i] = moved
                 name = (
@@ -109,6 +109,7 @@ def _moved(link: Link, part: int, carrier: int, body: int, onto: int, scene: Sce
     return Link(onto, body, joint)
 
 
-def _removing_nothing(link: Link) -> Link:
-    joint = replace(link.joint, kind=JointKind.FREE, freedoms=freedoms_of(JointKind.FREE), closure=True, because=())
+def _removing_nothing(link: Link, coupling: str) -> Link:
+    free = freedoms_of(JointKind.FREE)
+    joint = replace(link.joint, kind=JointKind.FREE, freedoms=free, closure=True, because=(coupling,))
     return Link(link.a, link.b, joint)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Joint, Scene
+from ..model import Constraint, ConstraintKind, Joint, Scene
 from ..rigid import RigidGroups
 from ..spatial import Array, Pose, cross
 from .blocks import Blocks, blocks_of, edges_of, relative_system
@@ -85,11 +85,13 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     body = order.body
     equations = equations_of(order.scene, report, order.frame.rotation, scene)
     closing = closed(equations, body, report)
-    system, duplicates = without_duplicates(closing.system, equations, report)
+    mirrored = np.array([_is_symmetry(s) for s in equations.statements], dtype=bool)
+    folded = closing.system.folded(mirrored[closing.system.owner])
+    system, duplicates = without_duplicates(folded, equations, report)
     counted = system.rows
     breakable = np.array([_can_break(s) for s in equations.statements], dtype=bool)
     while True:
-        body, system = _merge_rigid_pairs(body, system, breakable, equations.length)
+        body, system = _merge_rigid_pairs(body, system, breakable, mirrored, equations.length)
         edges = edges_of(system)
         blocks = blocks_of(system.bodies, edges)
         relative = relative_system(system, blocks)
@@ -101,7 +103,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
         together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges, breakable)
         if together is None:
             break
-        body, system = together[body], _merged(system, together)
+        body, system = together[body], _merged(system, together, mirrored)
     system.center, system.length = relative.center, relative.length
     system.row_length = relative.row_length
     pairs = pairs_of(system)
@@ -124,9 +126,16 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     )
 
 
-def _merged(system: System, label: np.ndarray) -> System:
+def _merged(system: System, label: np.ndarray, mirrored: np.ndarray) -> System:
+    """With other body numbers, without rows inside one body.  mirrored: shape (statements,), the symmetries."""
     merged = system.relabel(label)
-    return merged.select(merged.joining())
+    merged = merged.select(merged.joining())
+    return merged.folded(mirrored[merged.owner])
+
+
+def _is_symmetry(statement: object) -> bool:
+    """Its rows join three bodies, or two, where the plane's body moves as one with that of a side."""
+    return isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY
 
 
 def _can_break(statement: object) -> bool:
@@ -135,7 +144,7 @@ def _can_break(statement: object) -> bool:
 
 
 def _merge_rigid_pairs(
-    body: np.ndarray, system: System, breakable: np.ndarray, length: float
+    body: np.ndarray, system: System, breakable: np.ndarray, mirrored: np.ndarray, length: float
 ) -> tuple[np.ndarray, System]:
     """Merge bodies whose common rows leave nothing, and again, until none are left."""
     while True:
@@ -153,7 +162,7 @@ def _merge_rigid_pairs(
         for i in rigid:
             partition.join(int(pairs.first[i]), int(pairs.second[i]))
         label = partition.labels()
-        body, system = label[body], _merged(system, label)
+        body, system = label[body], _merged(system, label, mirrored)
 
 
 def _moving_as_one(

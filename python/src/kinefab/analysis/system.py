@@ -116,6 +116,22 @@ class System:
         across[self.row[self.body_a != self.body_b]] = True
         return across
 
+    def folded(self, rows: np.ndarray) -> "System":
+        """Without those atoms of some rows (a mask) that are inside one body: what they come to at the start pose goes
+        into another atom of the row, so that the row is between the bodies that are left.
+
+        Rows wholly inside one body stay as they are.
+        """
+        inside = (self.body_a == self.body_b) & (rows & self.joining())[self.row]
+        if not inside.any():
+            return self
+        value = self.weight * self._values(self.start())[0]
+        constant = np.bincount(self.row[inside], value[inside], minlength=self.rows)
+        row, d = self.row[~inside], self.d[~inside].copy()
+        folded, first = np.unique(row, return_index=True)
+        d[first] -= constant[folded] / self.weight[~inside][first]
+        return replace(self, row=row, **self._arrays_of(~inside, np.arange(self.rows)) | {"d": d})
+
     def relabel(self, body: np.ndarray) -> "System":
         """Other body numbers: ``body[old]``.  Sizes and own points are to be set anew (``fit``)."""
         count = int(body.max()) + 1

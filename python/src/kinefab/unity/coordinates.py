@@ -91,13 +91,16 @@ def _hold_single_values(joint: CanonicalJoint) -> CanonicalJoint:
     for i, freedom in enumerate(joint.freedoms):
         if freedom.motion is Motion.LIMITED and freedom.lower == freedom.upper:
             values[i] = freedom.lower
+    freedoms = tuple(_plain(f) for f in joint.freedoms)
+    if not values.any():  # as nearly always: the frames stay
+        return replace(joint, freedoms=freedoms)
     twist = rotation_about(AXES[0], -values[RX])
     swing = rotation_about(AXES[2], values[RZ]) @ rotation_about(AXES[1], values[RY])
     return replace(
         joint,
         frame_a=joint.frame_a @ Pose(swing, values[:3]),
         frame_b=joint.frame_b @ Pose(twist, np.zeros(3)),
-        freedoms=tuple(_plain(f) for f in joint.freedoms),
+        freedoms=freedoms,
     )
 
 

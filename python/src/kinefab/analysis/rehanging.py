@@ -110,6 +110,7 @@ def _moved(link: Link, part: int, carrier: int, body: int, onto: int, scene: Sce
 
 
 def _removing_nothing(link: Link, coupling: str) -> Link:
+    """The same place as a joint with all six freedoms, there for the coupling ``coupling`` alone."""
     free = freedoms_of(JointKind.FREE)
     joint = replace(link.joint, kind=JointKind.FREE, freedoms=free, closure=True, because=(coupling,))
     return Link(link.a, link.b, joint)

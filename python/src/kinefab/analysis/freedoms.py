@@ -54,12 +54,16 @@ def singular_joints(assembly: Assembly, relations: Sequence[Relation]) -> dict[i
 
 
 def _hangs_alone(assembly: Assembly, body: int) -> bool:
+    """Whether the body is all of its block: nothing but one pair holds it."""
     block = int(assembly.blocks.block[body])
     return block >= 0 and int(np.sum(assembly.blocks.block == block)) == 1
 
 
 def _joint_twists(joint: Candidate, center: Array, length: float) -> Array:
-    """Scaled twists about ``center`` that a joint allows where it stands."""
+    """Scaled twists (v / length, w) that a joint allows where it stands, columns, shape (6, freedoms).
+
+    center: WORLD, metres, the point whose velocity v is.
+    """
     free = [f.motion is not Motion.LOCKED for f in joint.six]
     slides, axes = joint.axes[:, free[:3]], joint.axes[:, free[3:]]
     turns = np.concatenate([cross(axes.T, center - joint.origin).T / length, axes])

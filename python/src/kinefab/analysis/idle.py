@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..spatial import Array
+from ..spatial import Array, cross
 from .assembly import Assembly
 from .freedom import BlockFreedom, block_freedoms
 from .motion import walked
 from .solve import Solver
 
 ALONE = 1e-12
-"""Share of a motion, squared, that all other bodies may have in it."""
+"""Share of a motion, squared, that all other bodies may have in it; of a shared twist, that is not the other joint's."""
 NEW = 1e-6
 """Length of a motion beside those already found from which it is another one."""
 MOVING = 1e-7
@@ -72,6 +72,7 @@ def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:
 
 
 def _alone(freedom: BlockFreedom, leg: list[int]) -> int:
+    """How many of the motions are the leg's own."""
     place = {int(b): k for k, b in enumerate(freedom.bodies)}
     own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
     # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
@@ -91,7 +92,7 @@ def _turning_in_a_loop(
     for body in ring:
         own = freedom.basis[6 * place[body] : 6 * place[body] + 6]
         arm = (relative.center[body] - relative.center[ring[0]]) / length
-        v = own[:3] * relative.length[body] / length - np.cross(own[3:].T, arm).T
+        v = own[:3] * relative.length[body] / length - cross(own[3:].T, arm).T
         twists.append(np.concatenate([v, own[3:]]))
     twists.append(twists[0])
     joints = [_span(after - before) for before, after in zip(twists, twists[1:])]
@@ -116,6 +117,7 @@ def _turning_in_a_loop(
 
 
 def _span(columns: Array) -> Array:
+    """Orthonormal columns with the same span."""
     u, s, _ = np.linalg.svd(columns, full_matrices=False)
     return u[:, s > MOVING * s[0]]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model import FREE, LOCKED, RX, RZ, TZ, JointKind
-from ..spatial import Array, perpendicular
+from ..spatial import Array, cross, perpendicular
 from .atoms import Atom
 from .finite import Candidate
 from .pairs import Relation
@@ -50,8 +50,8 @@ def _joint(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = True,
 def _rod(p_a, a, p_b, b, geometry):
     along = (p_b - p_a) / np.linalg.norm(p_b - p_a)
     z = perpendicular(along, geometry.axes)
-    cross = np.column_stack([np.cross(along, z), along, z])  # Y, the rod's own axis, is the locked one
-    return _joint(JointKind.UNIVERSAL, cross, p_a), _far(JointKind.SPHERICAL, geometry.axes, p_b)
+    axes = np.column_stack([cross(along, z), along, z])  # Y, the rod's own axis, is the locked one
+    return _joint(JointKind.UNIVERSAL, axes, p_a), _far(JointKind.SPHERICAL, geometry.axes, p_b)
 
 
 def _far(kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = False, freedoms=()):
@@ -76,15 +76,13 @@ def _line_round_line(p_a, a, p_b, b, geometry):
 
 
 def _skew_lines(p_a, a, p_b, b, geometry):
-    normal = np.cross(a, b)
+    normal = cross(a, b)
     size = normal @ normal
     offset = p_b - p_a
-    foot_a = p_a + a * (np.cross(offset, b) @ normal / size)
-    foot_b = p_b + b * (np.cross(offset, a) @ normal / size)
+    foot_a = p_a + a * (cross(offset, b) @ normal / size)
+    foot_b = p_b + b * (cross(offset, a) @ normal / size)
     z, x = b, normal / np.sqrt(size)
-    carried = np.column_stack(
-        [x, np.cross(z, x), z]
-    )  # slides along b and turns about b, all swinging about n
+    carried = np.column_stack([x, cross(z, x), z])  # slides along b and turns about b, all swinging about n
     return (
         _joint(JointKind.CYLINDRICAL, geometry.frame(a), foot_a),
         _far(JointKind.GENERAL, carried, foot_b, outer_is_a=True, freedoms=CARRIED),
@@ -98,6 +96,7 @@ def _angled(p_a, a, p_b, b, geometry):
 
 
 def _cone_on_plane(p_a, a, p_b, b, geometry):
+    """The middle body slides and turns on the plane under the apex; the cone turns in it about its own axis."""
     return _joint(JointKind.PLANAR, geometry.frame(a), p_b), _far(JointKind.REVOLUTE, geometry.frame(b), p_b)
 
 
@@ -106,8 +105,8 @@ def _edge_on_plane(p_a, a, p_b, b, geometry):
     down = b * (b @ a) - a
     size = np.linalg.norm(down)
     touching = p_b + down * ((a @ (p_b - p_a)) / size**2)
-    along = np.cross(a, b) / size
-    in_plane = np.column_stack([along, np.cross(a, along), a])
+    along = cross(a, b) / size
+    in_plane = np.column_stack([along, cross(a, along), a])
     return (
         _joint(JointKind.LINE_IN_PLANE, in_plane, touching),
         _far(JointKind.REVOLUTE, geometry.frame(b), p_b),
@@ -123,5 +122,8 @@ _RECIPES = {
     (Atom.PIP, Atom.DOT): _cone_on_plane,
     (Atom.CPT,): _edge_on_plane,
 }
+"""By the kinds of a constraint's atoms.  Each takes a point and the direction of the sides a and b of the last of them,
+WORLD, metres, and returns the joints on a and on b."""
 
 _SIDED = (_point_round_line, _cone_on_plane, _edge_on_plane)
+"""Those whose side a is another kind of thing than b."""

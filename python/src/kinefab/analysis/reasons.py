@@ -11,7 +11,7 @@ from .result import Analysis
 
 def reasons(analysis: Analysis, joint: Joint) -> list[str]:
     """Ids of what the source states that a joint comes from: itself, where it is the source's own, and constraints."""
-    stated = (j.id for j in analysis.source.joints if j.id == joint.id)
+    stated = (joint.id,) if joint.id in analysis.stated_joints else ()
     return list(dict.fromkeys([*stated, *joint.because]))
 
 

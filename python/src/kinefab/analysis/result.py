@@ -74,6 +74,11 @@ class Analysis:
         return self.rows - self.rank
 
     @cached_property
+    def stated_joints(self) -> frozenset[str]:
+        """Ids of the source's own joints."""
+        return frozenset(joint.id for joint in self.source.joints)
+
+    @cached_property
     def freedoms(self) -> list[NodeFreedom]:
         """Of every part, in scene order."""
         return node_freedoms(self.assembly, self.singular)

@@ -16,17 +16,25 @@ internal static class SingleLoop
     // Length of a motion beside those already found from which it is another one.
     private const double New = 1e-6;
 
-    /// <summary>Nothing where a coupling joins joints of the loop: their motions are then not their own.</summary>
+    /// <summary>
+    /// Neighbours that move as one and alone, and in how many ways; none where a coupling joins joints of the loop, whose motions
+    /// are then not their own.
+    /// </summary>
+    /// <param name="mechanism">The whole.</param>
+    /// <param name="groups">The loop's moving bodies, each by one of its rigid group.</param>
+    /// <param name="neighbours">Bodies that joints connect with each, the one at rest included.</param>
+    /// <param name="motions">Velocities of the loop's coordinates that keep it closed.</param>
+    /// <param name="space">What tells the bodies' twists of them.</param>
     public static List<(List<int> Groups, int Count)> TurningAlone(
         Mechanism mechanism, List<int> groups, Dictionary<int, SortedSet<int>> neighbours, List<double[]> motions, VelocitySpace space)
     {
         var found = new List<(List<int> Groups, int Count)>();
-        List<int> ring = Ring(groups, neighbours);
         if (IsCoupled(mechanism, groups, space))
         {
             return found;
         }
 
+        List<int> ring = Ring(groups, neighbours);
         List<double[]>[] joints = JointTwists(ring, motions, space);
         var known = new List<double[]>();
         for (int size = 1; size < ring.Count; size++)
@@ -60,8 +68,14 @@ internal static class SingleLoop
         int block = space.BlockOf(groups[0]);
         for (int i = 0; i < mechanism.Couplings.Length; i++)
         {
+            // A screw's is within one joint.
             PositionCoupling coupling = mechanism.Couplings[i];
-            foreach (int body in mechanism.Coordinates[coupling.A].Joint == mechanism.Coordinates[coupling.B].Joint ? Array.Empty<int>() : mechanism.Rows.Couplings[i].Bodies)
+            if (mechanism.Coordinates[coupling.A].Joint == mechanism.Coordinates[coupling.B].Joint)
+            {
+                continue;
+            }
+
+            foreach (int body in mechanism.Rows.Couplings[i].Bodies)
             {
                 if (mechanism.Tree.Freedoms[body] > 0 && space.BlockOf(body) == block)
                 {

@@ -12,8 +12,8 @@ internal sealed class D6Joint : Joint
     // Below this distance the direction of a disc or ball limit is undefined (PhysX: 1e-6 of the length scale).
     private const double LeastLimitedDistance = 1e-6;
 
-    // What Unity's angle of 0 becomes, with room for rounding.
-    private const double LeastConeAngle = 1.0001e-4;
+    // Half angle of a cone without width, radians, with room for rounding.
+    private const double NoConeAngle = 1.0001 * UnityJoints.LeastConeAngle;
 
     /// <summary>Motions in PxD6Axis's order: X, Y, Z, twist, swing about Y, swing about Z. All locked at first.</summary>
     public AxisMotion X, Y, Z, Twist, Swing1, Swing2;
@@ -73,7 +73,7 @@ internal sealed class D6Joint : Joint
     /// <summary>The motion of either swing, Locked likewise where both are Limited to a hard cone without width.</summary>
     public AxisMotion Swing(AxisMotion motion) =>
         EveryLimit && Swing1 == AxisMotion.Limited && Swing2 == AxisMotion.Limited && !SwingLimit.Response.IsSoft
-            && Math.Max(SwingLimit.Y, SwingLimit.Z) <= LeastConeAngle
+            && Math.Max(SwingLimit.Y, SwingLimit.Z) <= NoConeAngle
             ? AxisMotion.Locked
             : motion;
 

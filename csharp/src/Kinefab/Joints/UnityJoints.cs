@@ -23,8 +23,8 @@ internal static class UnityJoints
     private const double AngularBounceThreshold = 0.5;
     private const double LinearBounceThreshold = 0;
 
-    // A cone without width has no axis to turn about.
-    private const double LeastConeAngle = 1e-4;
+    /// <summary>Half angle of the narrowest cone, radians: one without width has no axis to turn about.</summary>
+    public const double LeastConeAngle = 1e-4;
 
     /// <summary>A PhysX joint for a component, without bodies and frames.</summary>
     public static Kinefab.Joints.Joint Create(Document.Joint settings)

@@ -19,14 +19,14 @@ internal sealed class UnsolvedStepFindings
     /// <param name="bodies">The world's.</param>
     /// <param name="joints">The world's.</param>
     /// <param name="time">At the start of the step, s.</param>
-    public List<Diagnostic> Of(MultibodySystem mechanism, WorldBody[] bodies, WorldJoint[] joints, double time)
+    public List<Diagnostic> Of(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, double time)
     {
         var found = new List<Diagnostic>();
         foreach (UnsolvedStep step in mechanism.Unsolved)
         {
             // Behind the scene's joints stand those that freeze positions: there the body is what can be named.
             int joint = step.Joint == null ? -1 : Array.IndexOf(mechanism.Joints, step.Joint);
-            bool isJoint = joint >= 0 && joint < joints.Length;
+            bool isJoint = joint >= 0 && joint < joints.Count;
             string id = isJoint ? joints[joint].Id : bodies[step.Body].Id;
             string pointer = isJoint
                 ? $"/gameObjects/{Text(joints[joint].GameObject)}/components/{Text(joints[joint].Component)}"

@@ -17,8 +17,6 @@ public sealed class World
     private readonly MultibodySystem _mechanism;
     private readonly ISolver _solver;
     private readonly bool[] _broken;
-    private readonly WorldBody[] _bodies;
-    private readonly WorldJoint[] _joints;
     private readonly UnsolvedStepFindings _unsolved = new();
 
     internal World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
@@ -26,8 +24,6 @@ public sealed class World
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
-        _bodies = bodies;
-        _joints = joints;
         Bodies = bodies;
         Joints = joints;
         Findings = findings;
@@ -139,7 +135,7 @@ public sealed class World
         _solver.Step(dt);
         if (_mechanism.Unsolved.Count > 0)
         {
-            List<Diagnostic> found = _unsolved.Of(_mechanism, _bodies, _joints, Time);
+            List<Diagnostic> found = _unsolved.Of(_mechanism, Bodies, Joints, Time);
             Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;
         }
 

@@ -75,7 +75,7 @@ internal sealed class Node
     public readonly bool HasDistance;
     public readonly RowClass[] Classes;
 
-    /// <summary>Whether some rows' linear parts are known from the pose alone.</summary>
+    /// <summary>Whether some rows' linear parts are not known before the pose is: <see cref="RowClass.General"/>.</summary>
     public readonly bool HasGeneralRows;
 
     /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>

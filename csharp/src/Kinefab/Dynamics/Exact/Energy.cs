@@ -16,8 +16,9 @@ internal readonly struct Energy
     // Of the speeds that the forces give in a step.
     private readonly double _forced;
 
-    // In springs, and an upper bound of what motors and drives gave since the start of the step.
+    // In springs; what those without potential gave since the start of the step, and an upper bound of what motors did.
     private readonly double _stored;
+    private readonly double _sprung;
     private readonly double _driven;
 
     /// <param name="batch">Built at the end pose.</param>
@@ -29,6 +30,7 @@ internal readonly struct Energy
         _terms = 0;
         _forced = 0;
         _stored = batch.Laws?.Stored(dt) ?? 0;
+        _sprung = batch.Laws?.SpringWork() ?? 0;
         _driven = batch.Laws?.Driven() ?? 0;
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
@@ -68,10 +70,11 @@ internal readonly struct Energy
     /// </summary>
     public bool IsKept(in Energy since, bool mayLose, double share)
     {
-        double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work);
+        double sprung = _sprung - since._sprung;
+        double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - sprung;
         double rounding = Rounding * (_terms + since._terms);
         return mayLose
-            ? change <= share * (since._kinetic + since._stored + _forced) + _driven + rounding
+            ? change <= share * (since._kinetic + since._stored + Math.Abs(sprung) + _forced) + _driven + rounding
             : Math.Abs(change) <= share * (_kinetic + _forced) + rounding;
     }
 }

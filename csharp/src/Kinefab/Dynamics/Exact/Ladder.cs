@@ -101,6 +101,7 @@ internal sealed class Ladder
     public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed)
     {
         Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
+        _batch.Laws?.ClearWork();
         _part = dt;
         _failures = 0;
         _stops = 0;
@@ -285,6 +286,7 @@ internal sealed class Ladder
             return false;
         }
 
+        _batch.Laws?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.Project(_batch, h, tolerance);
@@ -300,6 +302,7 @@ internal sealed class Ladder
             return false;
         }
 
+        _batch.Laws?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
         Stiffness<ScalarLane>.Measure(_batch, _batch.Work.First, h);
         _batch.Work.Active[0] = 1;

@@ -87,6 +87,9 @@ internal struct Law
     /// <summary>Change of First when it came to its bound, until the momenta have it.</summary>
     public double Jump;
 
+    /// <summary>Work of a spring without potential since the account was opened, J.</summary>
+    public double Work;
+
     /// <summary>Node, row in the node and row in the vectors.</summary>
     public int Node;
     public int NodeRow;

@@ -266,6 +266,34 @@ internal sealed class LawTests
         Assert.That((m.Bodies.Poses[0].Rotation * goal.Conjugate()).Vector.Length, Is.LessThanOrEqualTo(1e-7));
     }
 
+    [TestCase(0.3)]
+    [TestCase(0.6)]
+    [TestCase(0.9)]
+    public void TwistDrive_TooWeakForTheWeight_FallsAsFarAsItsForceSaysAndSwingsBack(double share)
+    {
+        // A bar of 1 kg and 1 m lies level on a drive whose torque is a share of its weight's: it falls until the work of both is
+        // the same, m g r sin q = share m g r q.
+        var b = new MechanismBuilder();
+        int bar = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        var drive = new JointDrive { Stiffness = 1e5, ForceLimit = share * 9.81 * 0.5 };
+        b.Add(new D6Joint { Twist = AxisMotion.Free, DriveTwist = drive }, Joint.World, bar, Vector3d.Zero, Vector3d.UnitZ);
+        MultibodySystem m = b.Build();
+        double lowest = 0;
+        double back = 0;
+        void Note()
+        {
+            Vector3d along = m.Bodies.Poses[bar].Rotation * Vector3d.UnitX;
+            double angle = Math.Atan2(-along.Y, along.X);
+            back = angle > lowest ? angle : Math.Min(back, angle);
+            lowest = Math.Max(lowest, angle);
+        }
+
+        Run(m, 4, before: Note);
+        Assert.That(Math.Sin(lowest) / lowest, Is.EqualTo(share).Within(5e-3));
+        Assert.That(back, Is.LessThan(0.1));
+        Assert.That(m.Overflows, Is.Zero);
+    }
+
     [Test]
     public void BallLimit_BodyOnIt_HangsAtItsRadius()
     {

@@ -30,6 +30,10 @@ internal sealed class LoopProbe
     private const double LeastSpeed = 1e-4;
     private const double MostSpeed = 0.04;
 
+    // Share of the axes' speed that further projections leave of one that is slow by itself. Of a freedom with a rest of a
+    // stiffer motion they leave less: the rest goes, and nothing but its smallness made it look slow.
+    private const double LeastKept = 0.5;
+
     // Error at the end of the way against that of a constant speed.
     private const double MostGrowth = 3;
 
@@ -116,7 +120,7 @@ internal sealed class LoopProbe
             Flight<ScalarLane>.Stay(_batch);
             Rebuild();
             Start(mixture);
-            if (IsSlow(Allowed(), out double speed) && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out _))
+            if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out _))
             {
                 return true;
             }

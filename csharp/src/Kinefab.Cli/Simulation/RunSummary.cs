@@ -95,12 +95,15 @@ internal sealed class RunSummary
         internal void Write(TextWriter target, string joint, string gameObject)
         {
             IEnumerable<string> ranges = coordinates.Select((c, i) => Text(
-                $", {c.ToJson()} {least[i]:0.#####}..{greatest[i]:0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
+                $", {c.ToJson()} {Rounded(least[i]):0.#####}..{Rounded(greatest[i]):0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
             string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
             string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
             target.WriteLine(Text(
                 $"{joint} ({gameObject}): drift {distance:0.0e+0} m, {angle * 180 / Math.PI:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
+
+        // As it is written, without the sign that the format gives a negative number that comes to 0.
+        private static double Rounded(double value) => Math.Round(value, 5) + 0.0;
 
         // The coordinates that a joint leaves free or limited.
         private static Coordinate[] FreeCoordinates(WorldJoint joint) => joint switch

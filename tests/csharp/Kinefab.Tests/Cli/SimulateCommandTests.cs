@@ -127,6 +127,7 @@ public sealed class SimulateCommandTests
         Assert.That((exit, findings), Is.EqualTo((0, "")));
         Assert.That(data, Does.Contain("25 steps of 0.02 s, exact solver").And.Contain("(0 J)"));
         Assert.That(data, Does.Match(@"Lever/Crank:1 \(Crank:1\): drift [0-9.]+e-1[0-9] m"));
+        Assert.That(data, Does.Contain("angularZ 0..0 deg").And.Not.Contain("-0..").And.Not.Contain("..-0 "));
     }
 
     // Its rocker carries the hinge to the base and the one that closes the loop.

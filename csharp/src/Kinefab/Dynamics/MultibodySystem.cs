@@ -19,7 +19,7 @@ internal sealed class MultibodySystem
     /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
     public readonly JointReaction[] Reactions;
 
-    /// <summary>Times that a body's motion left the range of numbers and was stopped; counted by the solver.</summary>
+    /// <summary>Times that motion was stopped: a body's that left the range of numbers, or an island's in a part of a step without solution; counted by the solver.</summary>
     public int Overflows;
 
     /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>

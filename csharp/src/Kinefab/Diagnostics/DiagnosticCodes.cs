@@ -267,6 +267,9 @@ public static class DiagnosticCodes
     /// <summary>The exact solver found no motion of the mechanism of {object} in a part of the step from {time} s: {reason}. The mechanism stands still in that part, and its speeds fall.</summary>
     public const string StepUnsolved = "STEP_UNSOLVED";
 
+    /// <summary>The mechanism of {object} stood open by {gap} there at {time} s. The exact solver moved its bodies by up to {distance} and turned them by up to {turn} to close it, without giving them speed.</summary>
+    public const string StartClosed = "START_CLOSED";
+
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 

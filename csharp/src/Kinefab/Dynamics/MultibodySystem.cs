@@ -25,6 +25,9 @@ internal sealed class MultibodySystem
     /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>
     public readonly List<UnsolvedStep> Unsolved = new();
 
+    /// <summary>Islands of which the last step found the joints apart and moved the bodies together; written by the exact solver.</summary>
+    public readonly List<ClosedPose> Closed = new();
+
     public MultibodySystem(Bodies bodies, Joint[] joints, Coupling[] couplings)
     {
         Bodies = bodies;
@@ -56,6 +59,24 @@ internal struct UnsolvedStep
     /// <summary>By how much, m or rad; infinite when it was no number.</summary>
     public double Error;
     public bool IsAngular;
+}
+
+/// <summary>An island whose bodies were moved to close its joints.</summary>
+internal struct ClosedPose
+{
+    /// <summary>One of the island's bodies.</summary>
+    public int Body;
+
+    /// <summary>The joint that stood farthest open.</summary>
+    public Joint? Joint;
+
+    /// <summary>By how much, m or rad.</summary>
+    public double Error;
+    public bool IsAngular;
+
+    /// <summary>The farthest that a body's centre of mass was moved, m, and a body turned, rad.</summary>
+    public double Distance;
+    public double Angle;
 }
 
 /// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>

@@ -17,7 +17,7 @@ public sealed class World
     private readonly MultibodySystem _mechanism;
     private readonly ISolver _solver;
     private readonly bool[] _broken;
-    private readonly UnsolvedStepFindings _unsolved = new();
+    private readonly ExactStepFindings _exact = new();
 
     internal World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
     {
@@ -39,8 +39,8 @@ public sealed class World
     public IReadOnlyList<WorldJoint> Joints { get; }
 
     /// <summary>
-    /// What of the scene this world's solver does not follow; none is an error. Steps that the exact solver could not solve
-    /// are added as they occur: each joint once, ten findings at most.
+    /// What of the scene this world's solver does not follow; none is an error. Steps that the exact solver could not solve,
+    /// and poses that it closed before a step, are added as they occur: each joint once, ten findings of a kind at most.
     /// </summary>
     public Report Findings { get; private set; }
 
@@ -133,9 +133,9 @@ public sealed class World
         }
 
         _solver.Step(dt);
-        if (_mechanism.Unsolved.Count > 0)
+        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0)
         {
-            List<Diagnostic> found = _unsolved.Of(_mechanism, Bodies, Joints, Time);
+            List<Diagnostic> found = _exact.Of(_mechanism, Bodies, Joints, Time);
             Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;
         }
 

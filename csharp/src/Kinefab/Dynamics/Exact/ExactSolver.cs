@@ -61,6 +61,7 @@ internal sealed class ExactSolver : ISolver
         }
 
         _mechanism.Unsolved.Clear();
+        _mechanism.Closed.Clear();
         double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         foreach (IslandGroup group in _groups)
         {

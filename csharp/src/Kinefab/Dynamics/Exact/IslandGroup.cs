@@ -10,6 +10,25 @@ internal abstract class IslandGroup
     /// <summary>One step of all islands.</summary>
     public abstract void Step(double dt, double tolerance);
 
+    /// <summary>Tells the mechanism what a ladder's last step has to say of an island.</summary>
+    /// <param name="mechanism">Takes the notes.</param>
+    /// <param name="ladder">The one that made the step.</param>
+    /// <param name="island">The island that was stepped.</param>
+    /// <param name="stopsBefore">The ladder's stops before the step.</param>
+    protected static void Note(MultibodySystem mechanism, Ladder ladder, Island island, int stopsBefore)
+    {
+        if (ladder.HasClosed)
+        {
+            mechanism.Closed.Add(ladder.Closed(island));
+        }
+
+        if (ladder.Stops > stopsBefore)
+        {
+            mechanism.Overflows += ladder.Stops - stopsBefore;
+            mechanism.Unsolved.Add(ladder.Unsolved(island));
+        }
+    }
+
     /// <summary>Whether a joint's fields ask for other rows than the islands were made for.</summary>
     public abstract bool IsStale();
 
@@ -140,6 +159,24 @@ internal sealed class IslandGroup<V> : IslandGroup
         {
             Flight<V>.Stay(batch);
             RattleStep<V>.Rebuild(batch);
+            LeaveOpenOnes(batch);
+        }
+    }
+
+    // Moved lanes that stand open are the ladder's to close.
+    private void LeaveOpenOnes(Batch<V> batch)
+    {
+        if (batch.Shape.IsInexact)
+        {
+            return;
+        }
+
+        RigidRows<V>.Evaluate(batch);
+        RigidRows<V>.Rate(batch);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _isHard[lane] |= batch.Work.Moved[lane] != 0 && batch.Work.MaxError[lane] > PoseClosure.MostOpen;
+            batch.Work.Active[lane] = _isHard[lane] ? 0 : 1;
         }
     }
 
@@ -163,13 +200,8 @@ internal sealed class IslandGroup<V> : IslandGroup
         Flight<ScalarLane>.Stay(_spare);
         RattleStep<ScalarLane>.Rebuild(_spare);
         int stops = _ladder.Stops;
-        _ladder.Step(dt, tolerance, ref Cut(index, lane), hasFailed);
-        if (_ladder.Stops > stops)
-        {
-            _mechanism.Overflows += _ladder.Stops - stops;
-            _mechanism.Unsolved.Add(_ladder.Unsolved(island));
-        }
-
+        _ladder.Step(dt, tolerance, ref Cut(index, lane), hasFailed, batch.Work.Moved[lane] != 0);
+        Note(_mechanism, _ladder, island, stops);
         Transfer<V>.CopyFrom(batch, lane, _spare);
     }
 
@@ -237,13 +269,8 @@ internal sealed class PreparedIslands : IslandGroup
             }
 
             int stops = _ladders[i].Stops;
-            _ladders[i].Step(dt, tolerance, ref _cuts[i], false);
-            if (_ladders[i].Stops > stops)
-            {
-                _mechanism.Overflows += _ladders[i].Stops - stops;
-                _mechanism.Unsolved.Add(_ladders[i].Unsolved(_islands[i]));
-            }
-
+            _ladders[i].Step(dt, tolerance, ref _cuts[i], false, isMoved);
+            Note(_mechanism, _ladders[i], _islands[i], stops);
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);

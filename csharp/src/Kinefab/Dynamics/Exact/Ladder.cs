@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
@@ -33,14 +34,12 @@ internal sealed class Ladder
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
 
-    // A start more open than this is being closed, m or rad.
-    private const double MostOpen = 1e-6;
-
     // Largest growth of the energy in a step, springs included, where laws may take any amount.
     private const double MostEnergyGain = 0.005;
 
     private readonly Batch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _floor;
+    private readonly PoseClosure _closure;
     private readonly Snapshot _start;
     private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
@@ -59,6 +58,7 @@ internal sealed class Ladder
     {
         _batch = batch;
         _floor = new ImplicitEulerStep(batch);
+        _closure = new PoseClosure(batch);
         _start = new Snapshot(batch);
         for (int i = 0; i < _parts.Length; i++)
         {
@@ -73,18 +73,25 @@ internal sealed class Ladder
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
     public UnsolvedStep Unsolved(Island island)
     {
-        for (int n = 0; n < island.Nodes.Length; n++)
-        {
-            Node node = island.Nodes[n];
-            int row = _worst - island.Pattern.Rows[n];
-            if (row >= 0 && row < node.Rows)
-            {
-                return new UnsolvedStep { Body = island.Bodies[0], Joint = node.Joint ?? node.Coupling!.B.Joint, Error = _worstError, IsAngular = island.IsAngular[_worst] };
-            }
-        }
-
-        return new UnsolvedStep { Body = island.Bodies[0] };
+        return _worst < 0
+            ? new UnsolvedStep { Body = island.Bodies[0] }
+            : new UnsolvedStep { Body = island.Bodies[0], Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
     }
+
+    /// <summary>Whether the last step began by closing its start pose.</summary>
+    public bool HasClosed { get; private set; }
+
+    /// <summary>What was moved then.</summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    public ClosedPose Closed(Island island) => new()
+    {
+        Body = island.Bodies[0],
+        Joint = JointOf(island, _closure.Worst),
+        Error = _closure.WorstError,
+        IsAngular = island.IsAngular[_closure.Worst],
+        Distance = _closure.Distance,
+        Angle = _closure.Angle,
+    };
 
     /// <summary>Up to 1 a plain RATTLE step of dt will do; above, it takes as many shorter ones.</summary>
     /// <param name="stiffness">Largest <see cref="BodySlot.Stiffness"/>.</param>
@@ -98,7 +105,8 @@ internal sealed class Ladder
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="cut">The island's cut; takes note of the step.</param>
     /// <param name="hasFailed">Whether the plain step was tried already.</param>
-    public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed)
+    /// <param name="isMoved">Whether the start pose is not the one that the last step left.</param>
+    public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed, bool isMoved)
     {
         Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
         _batch.Laws?.ClearWork();
@@ -107,8 +115,9 @@ internal sealed class Ladder
         _stops = 0;
         _isEager = false;
         _isAudited = Energy.IsKnown(_batch);
-        bool hasSettled = hasFailed;
-        if (hasFailed)
+        HasClosed = isMoved && _closure.TryClose(tolerance);
+        bool hasSettled = hasFailed || HasClosed;
+        if (hasSettled)
         {
             Settle();
         }
@@ -174,6 +183,20 @@ internal sealed class Ladder
         }
     }
 
+    // Closing what stands open does work on springs.
+    private bool IsOpen()
+    {
+        bool isOpen = _closure.IsOpen();
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        return isOpen;
+    }
+
+    private static Joint? JointOf(Island island, int row)
+    {
+        int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
+        return island.Nodes[n].Joint ?? island.Nodes[n].Coupling!.B.Joint;
+    }
+
     // Of the first part that no method could take.
     private void Blame(double tolerance)
     {
@@ -189,22 +212,6 @@ internal sealed class Ladder
                 _worstError = error;
             }
         }
-    }
-
-    // Whether the step has to close what stands open at its start, which does work on springs.
-    private bool IsOpen()
-    {
-        RigidRows<ScalarLane>.Evaluate(_batch);
-        double most = _batch.Laws?.DeepestStop() ?? 0;
-        for (int n = 0; n < _batch.Shape.Nodes.Length; n++)
-        {
-            for (int i = 0; i < _batch.Shape.Nodes[n].RigidRows; i++)
-            {
-                most = Math.Max(most, Math.Abs(_batch.Work.Error[_batch.Shape.Pattern.Rows[n] + i]));
-            }
-        }
-
-        return most > MostOpen;
     }
 
     // At the finest even parts a violent motion without laws may lose energy: nothing below these is better.

@@ -175,6 +175,21 @@ internal sealed partial class Laws<V>
         }
     }
 
+    /// <summary>Holds the hard limits that are passed where the rows were last built, and nothing else; writes their J and C.</summary>
+    public void HoldPassedStops()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.Kind = law.IsWritten && law.Row.Has(RowFlags.Limit) && !law.Row.Has(RowFlags.Spring) ? LawKind.HardLimit : LawKind.None;
+            bool isPassed = law.Kind == LawKind.HardLimit && law.Row.GeometricError < 0;
+            law.Segment = isPassed ? Segment.Sloped : Segment.Clamped;
+            _batch.Work.Error[law.Index] = isPassed ? law.Row.GeometricError : 0;
+        }
+
+        WriteRows(false);
+    }
+
     /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
     public void ClearClamped(double[] vector)
     {

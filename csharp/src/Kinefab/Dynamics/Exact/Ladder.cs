@@ -130,7 +130,7 @@ internal sealed class Ladder
         }
 
         _start.Save(_batch);
-        _energy = new Energy(_batch, dt);
+        Audit(dt);
         _dt = dt;
         while (!TryParts(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
@@ -142,7 +142,7 @@ internal sealed class Ladder
                 _isEager = true;
                 Settle();
                 _start.Save(_batch);
-                _energy = new Energy(_batch, dt);
+                Audit(dt);
             }
 
             if (halvings == MaxHalvings)
@@ -156,6 +156,14 @@ internal sealed class Ladder
 
         cut.Note(halvings, demand);
         SetPart(dt);
+    }
+
+    private void Audit(double dt)
+    {
+        if (_isAudited)
+        {
+            _energy = new Energy(_batch, dt);
+        }
     }
 
     // The joints' first word on speeds that they do not allow (of a scene as it starts, or set from outside): a blow at the

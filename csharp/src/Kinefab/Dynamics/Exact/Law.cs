@@ -95,3 +95,16 @@ internal struct Law
     public int NodeRow;
     public int Index;
 }
+
+/// <summary>What a law brings into a step from the one before: all else follows from the rows that are built at its start.</summary>
+internal readonly struct LawHistory
+{
+    public readonly double First;
+    public readonly Segment Segment;
+
+    public LawHistory(double first, Segment segment)
+    {
+        First = first;
+        Segment = segment;
+    }
+}

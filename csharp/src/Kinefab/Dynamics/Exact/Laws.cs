@@ -212,11 +212,22 @@ internal sealed partial class Laws<V>
     }
 
     /// <summary>Keeps, or brings back, impulses and segments.</summary>
-    public void Save(Law[] to) => Array.Copy(_laws, to, _laws.Length);
-
-    public void Restore(Law[] from)
+    public void Save(LawHistory[] to)
     {
-        Array.Copy(from, _laws, _laws.Length);
+        for (int i = 0; i < to.Length; i++)
+        {
+            to[i] = new LawHistory(_laws[i].First, _laws[i].Segment);
+        }
+    }
+
+    public void Restore(LawHistory[] from)
+    {
+        for (int i = 0; i < from.Length; i++)
+        {
+            _laws[i].First = from[i].First;
+            _laws[i].Segment = from[i].Segment;
+        }
+
         Invalidate();
     }
 

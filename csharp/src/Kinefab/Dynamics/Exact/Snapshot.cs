@@ -9,14 +9,14 @@ internal sealed class Snapshot
     private readonly double[] _bodies;
     private readonly double[] _half;
     private readonly double[] _total;
-    private readonly Law[] _laws;
+    private readonly LawHistory[] _laws;
 
     public Snapshot(Batch<ScalarLane> batch)
     {
         _bodies = new double[batch.Bodies.Length];
         _half = new double[batch.Half.Length];
         _total = new double[batch.Half.Length];
-        _laws = new Law[batch.Shape.Laws];
+        _laws = new LawHistory[batch.Shape.Laws];
     }
 
     public void Save(Batch<ScalarLane> batch)

@@ -178,7 +178,7 @@ internal sealed class LadderTests
             }
 
             most = System.Math.Max(most, Ladder.Demand(stiffest, batch.Work.Fastest[0], dt));
-            ladder.Step(dt, 1e-9, ref cut, false);
+            ladder.Step(dt, 1e-9, ref cut, false, false);
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 1, mechanism);
         }

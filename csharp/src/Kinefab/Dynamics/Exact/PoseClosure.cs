@@ -127,7 +127,8 @@ internal sealed class PoseClosure
         double most = 0;
         foreach (double c in _batch.Work.Error)
         {
-            most = Math.Abs(c) <= most ? most : Math.Abs(c);
+            // Unlike a comparison, this keeps NaN.
+            most = Math.Max(most, Math.Abs(c));
         }
 
         return most;
@@ -182,7 +183,7 @@ internal sealed class PoseClosure
         for (int body = 0; body < shape.MovingBodies; body++)
         {
             double turn = Impulses<ScalarLane>.AngularVelocity(_batch, body).Length;
-            widest = turn <= widest ? widest : turn;
+            widest = Math.Max(widest, turn);
         }
 
         double share = widest > MostTurn ? MostTurn / widest : 1;

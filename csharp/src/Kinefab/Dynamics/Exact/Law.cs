@@ -101,10 +101,12 @@ internal readonly struct LawHistory
 {
     public readonly double First;
     public readonly Segment Segment;
+    public readonly double Work;
 
-    public LawHistory(double first, Segment segment)
+    public LawHistory(in Law law)
     {
-        First = first;
-        Segment = segment;
+        First = law.First;
+        Segment = law.Segment;
+        Work = law.Work;
     }
 }

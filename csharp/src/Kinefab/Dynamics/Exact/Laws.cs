@@ -211,12 +211,12 @@ internal sealed partial class Laws<V>
         }
     }
 
-    /// <summary>Keeps, or brings back, impulses and segments.</summary>
+    /// <summary>Keeps, or brings back, impulses, segments and the account of work.</summary>
     public void Save(LawHistory[] to)
     {
         for (int i = 0; i < to.Length; i++)
         {
-            to[i] = new LawHistory(_laws[i].First, _laws[i].Segment);
+            to[i] = new LawHistory(_laws[i]);
         }
     }
 
@@ -226,6 +226,7 @@ internal sealed partial class Laws<V>
         {
             _laws[i].First = from[i].First;
             _laws[i].Segment = from[i].Segment;
+            _laws[i].Work = from[i].Work;
         }
 
         Invalidate();

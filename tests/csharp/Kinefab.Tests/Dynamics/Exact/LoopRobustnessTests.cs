@@ -23,8 +23,8 @@ internal sealed class LoopRobustnessTests
     // A light body on a short lever turns far within one step from rest: the error of the rule, which goes with the step.
     private const double MostGain = 0.3;
 
-    // Where Exact gains more, once to four times the sum. To be emptied.
-    private static readonly int[] GainShows = { 409, 457, 628, 745, 1456 };
+    // Where Exact gains more, once to three times the sum. To be emptied.
+    private static readonly int[] GainShows = { 628, 745, 1456 };
 
     // Of the loops; some meet limits that contradict each other.
     private const double MostOverflows = 0.05;
@@ -173,9 +173,8 @@ internal sealed class LoopRobustnessTests
         Assert.That(faults, Is.Empty);
     }
 
-    // Where the order still shows: in 37, 79, 226 and 235, loops of a hinge, two balls and a hinge, from the first step on;
-    // in the others where a motor, a spring or a gear meets a cut step, by 1e-7 to 1e-5 m. To be emptied.
-    private static readonly int[] OrderShows = { 27, 37, 79, 99, 139, 226, 235, 273 };
+    // Where the order still shows: a motor, a spring or a gear meets a cut step, 1e-7 to 1e-5 m. To be emptied.
+    private static readonly int[] OrderShows = { 27, 99, 139, 273 };
 
     [Test]
     public void Step_ExactInRandomLoopsInAnotherOrder_SameMotion()

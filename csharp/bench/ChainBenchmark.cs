@@ -64,7 +64,7 @@ internal static class ChainBenchmark
         for (int run = 0; run < 2000; run++)
         {
             MultibodySystem chain = SolverScenes.Chain(64);
-            Island island = Island.Find(chain)[0];
+            Island island = IslandFinder.Find(chain)[0];
             var batch = new Batch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
             Transfer<Numerics.ScalarLane>.LoadConstants(batch, 0, island, chain);
             Transfer<Numerics.ScalarLane>.Load(batch, chain, 1.0 / 60);

@@ -54,9 +54,6 @@ internal sealed class Batch<V>
     /// <summary>Body b of a lane in the mechanism (or Joint.World), at b * Width + lane.</summary>
     public int[] Members { get; }
 
-    /// <summary>Whether a moving body has an axis about which it does not turn.</summary>
-    public bool HasFrozenAxes { get; set; }
-
     /// <summary>Records of <see cref="BodySlot"/>.</summary>
     public double[] Bodies { get; }
 

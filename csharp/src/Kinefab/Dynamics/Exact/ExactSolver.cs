@@ -84,7 +84,7 @@ internal sealed class ExactSolver : ISolver
     private void Regroup()
     {
         _groups.Clear();
-        List<Island> rest = Island.Find(_mechanism);
+        List<Island> rest = IslandFinder.Find(_mechanism);
         foreach (Island island in rest)
         {
             island.IsInexact = Array.Exists(island.Nodes, node => node.Joint != null && _inexactJoints.Contains(node.Index));

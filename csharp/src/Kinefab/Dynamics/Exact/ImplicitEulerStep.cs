@@ -71,7 +71,7 @@ internal sealed class ImplicitEulerStep
             double off = Math.Max(batch.Work.MaxError[0], unbalanced);
             isNear &= off <= MostLeft * last;
             last = off;
-            bool isClosed = RattleStep<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
+            bool isClosed = ChordIteration<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
             if (isClosed && unbalanced < tolerance)
             {
                 if (laws == null || !laws.Update(lawPasses++, tolerance))

@@ -151,7 +151,7 @@ internal sealed class IslandGroup<V> : IslandGroup
                 stiffest = Math.Max(stiffest, batch.Bodies[Batch<V>.Body(body, BodySlot.Stiffness) + lane]);
             }
 
-            _isHard[lane] = Ladder.Demand(stiffest, batch.Work.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
+            _isHard[lane] = StepDemand.Of(stiffest, batch.Work.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && Cut(index, lane).Halvings > 0);
             batch.Work.Active[lane] = _isHard[lane] ? 0 : 1;
         }
 

@@ -22,12 +22,6 @@ internal sealed class Ladder
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxStops = 8;
 
-    // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given halves.
-    private const double MostStiffness = 1;
-
-    // Largest turn of a body in a substep, radians.
-    private const double MostTurn = 0.5;
-
     // Largest error of a quaternion's square.
     private const double MostStretch = 1e-3;
 
@@ -43,7 +37,6 @@ internal sealed class Ladder
     private readonly Snapshot _start;
     private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
-    private readonly double[] _rate = new double[1];
     private double _part;
     private int _failures;
     private int _stops;
@@ -93,13 +86,6 @@ internal sealed class Ladder
         Angle = _closure.Angle,
     };
 
-    /// <summary>Up to 1 a plain RATTLE step of dt will do; above, it takes as many shorter ones.</summary>
-    /// <param name="stiffness">Largest <see cref="BodySlot.Stiffness"/>.</param>
-    /// <param name="speed">Largest angular speed, rad/s.</param>
-    /// <param name="dt">Step, s.</param>
-    public static double Demand(double stiffness, double speed, double dt) =>
-        Math.Max(dt * Math.Sqrt(stiffness / MostStiffness), dt * speed / MostTurn);
-
     /// <summary>A whole step of dt from the loaded state; the batch is built at the start pose.</summary>
     /// <param name="dt">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
@@ -122,7 +108,7 @@ internal sealed class Ladder
             Settle();
         }
 
-        double demand = Demand(Stiffest(), Fastest(), dt);
+        double demand = StepDemand.Of(_batch, dt);
         int halvings = Math.Max(cut.Halvings, hasFailed ? 1 : 0);
         while (halvings < MaxHalvings && demand > 1 << halvings)
         {
@@ -158,45 +144,20 @@ internal sealed class Ladder
         SetPart(dt);
     }
 
+    // Closing what stands open does work on springs.
+    private void Settle()
+    {
+        _isAudited &= !_closure.IsOpen();
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        ForbiddenSpeeds.TakeOff(_batch);
+    }
+
     private void Audit(double dt)
     {
         if (_isAudited)
         {
             _energy = new Energy(_batch, dt);
         }
-    }
-
-    // The joints' first word on speeds that they do not allow (of a scene as it starts, or set from outside): a blow at the
-    // start pose, that takes energy and gives none. Left to the flight it would have to be found with the end pose, where
-    // a thin body turns far for a small gap. Without contradiction it does nothing.
-    private void Settle()
-    {
-        double[] blow = _batch.Work.Solution;
-        _batch.Work.Active[0] = 1;
-        _isAudited &= !IsOpen();
-        _batch.Laws?.Clamp();
-        RattleStep<ScalarLane>.Factor(_batch, false);
-        Impulses<ScalarLane>.NegativeSpeeds(_batch);
-        _batch.Laws?.ClearClamped(blow);
-        BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, blow);
-        Impulses<ScalarLane>.Apply(_batch, blow);
-        for (int i = 0; i < blow.Length; i++)
-        {
-            _batch.Work.Total[i] += blow[i];
-        }
-
-        if (_batch.Laws == null)
-        {
-            RattleStep<ScalarLane>.Factor(_batch, true);
-        }
-    }
-
-    // Closing what stands open does work on springs.
-    private bool IsOpen()
-    {
-        bool isOpen = _closure.IsOpen();
-        RattleStep<ScalarLane>.Rebuild(_batch);
-        return isOpen;
     }
 
     private static Joint? JointOf(Island island, int row)
@@ -353,30 +314,6 @@ internal sealed class Ladder
         }
 
         _part = h;
-    }
-
-    private double Stiffest()
-    {
-        double most = 0;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            most = Math.Max(most, _batch.Bodies[Batch<ScalarLane>.Body(body, BodySlot.Stiffness)]);
-        }
-
-        return most;
-    }
-
-    private double Fastest()
-    {
-        double most = 0;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            most = Math.Max(most, Impulses<ScalarLane>.AngularVelocity(_batch, body).Length);
-            Flight<ScalarLane>.SphereRate(_batch.Bodies, Batch<ScalarLane>.Body(body, 0), _batch.Shape.Spins[body]).Store(_rate, 0);
-            most = Math.Max(most, _rate[0]);
-        }
-
-        return most;
     }
 
     private bool IsFinite()

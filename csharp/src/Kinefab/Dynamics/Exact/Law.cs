@@ -94,6 +94,55 @@ internal struct Law
     public int Node;
     public int NodeRow;
     public int Index;
+
+    /// <summary>What the row is to the step that begins at the pose where it was written.</summary>
+    public readonly LawKind FindKind()
+    {
+        if (!IsWritten)
+        {
+            return LawKind.None;
+        }
+
+        if (Row.Has(RowFlags.Spring))
+        {
+            bool isIdle = Row.Stiffness == 0 && Row.Damping == 0;
+            return isIdle || (Row.Has(RowFlags.Limit) && C0 >= 0) ? LawKind.None : LawKind.Spring;
+        }
+
+        return Row.Has(RowFlags.Limit) ? LawKind.HardLimit : LawKind.Motor;
+    }
+
+    /// <summary>What the matrix is to have of it; springs act in the flight, not in the projection.</summary>
+    public readonly Hold HoldIn(bool isFlight) =>
+        Segment == Segment.Clamped || !IsWritten ? Hold.None
+        : Kind == LawKind.Spring && isFlight ? Hold.Compliant
+        : Hold.Rigid;
+
+    /// <param name="h">Step, s.</param>
+    /// <param name="areForces">Whether the bounds of the joint's drives are forces, not impulses.</param>
+    public void SetBounds(double h, bool areForces)
+    {
+        bool isForce = areForces && Row.Has(RowFlags.HasDriveLimit);
+        Low = Row.Minimum * (isForce ? h : 1);
+        High = Row.Maximum * (isForce ? h : 1);
+    }
+
+    /// <param name="h">Step, s.</param>
+    /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the flight (implicit Euler).</param>
+    public void SetSpring(double h, double response, bool isImplicit)
+    {
+        double perMass = Row.Has(RowFlags.AccelerationSpring) && response > 0 ? 1 / response : 1;
+        double k = Row.Stiffness * perMass;
+        double d = Row.Damping * perMass;
+
+        // Half the step's stiffness and damping against the inertia that they move, at most: where the step is too long to
+        // follow the spring, its share goes from the midpoint's towards implicit Euler's, so that it decays and does not ring.
+        double z = h * (d + h * k) * response;
+        Theta = isImplicit ? 1 : z < 1 ? 0.5 : 1 - 0.5 / z;
+        Gamma = h * (d + Theta * h * k);
+        Rest = h * (d * Row.VelocityTarget - k * C0);
+    }
 }
 
 /// <summary>What a law brings into a step from the one before: all else follows from the rows that are built at its start.</summary>

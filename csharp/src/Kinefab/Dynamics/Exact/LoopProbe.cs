@@ -73,7 +73,7 @@ internal sealed class LoopProbe
     public static List<int[]> Find(MultibodySystem mechanism)
     {
         var found = new List<int[]>();
-        foreach (Island island in Island.Find(mechanism))
+        foreach (Island island in IslandFinder.Find(mechanism))
         {
             island.IsInexact = true;
             if (island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None) && new LoopProbe(island, mechanism).IsInexact())

@@ -153,8 +153,8 @@ internal sealed class PoseClosure
             node.Turn(i, out axis, out _);
             Vector3d along = node.Turns == 3 ? Unit(i) : q0 * Unit(axis);
             _batch.Work.Error[_batch.Shape.Pattern.Rows[n] + first + i] = Vector3d.Dot(along, turn);
-            Put(_batch.Angular, _batch.Row(n, first + i, 0), along);
-            Put(_batch.Angular, _batch.Row(n, first + i, 1), -1 * along);
+            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 0), along);
+            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 1), -1 * along);
         }
     }
 
@@ -192,15 +192,14 @@ internal sealed class PoseClosure
             int o = Batch<ScalarLane>.Body(body, 0);
             Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, body) * share;
             double angle = turn.Length;
-            Quaterniond q = Quaternion(a, o + BodySlot.EndQ);
+            Quaterniond q = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ);
             q = angle > 0 ? (Quaterniond.AxisAngle(turn * (1 / angle), angle) * q).Normalized() : q;
             for (int i = 0; i < 3; i++)
             {
                 a[o + BodySlot.EndX + i] += share * a[o + BodySlot.V + i];
             }
 
-            Put(a, o + BodySlot.EndQ, q.Vector);
-            a[o + BodySlot.EndQ + 3] = q.W;
+            Transfer<ScalarLane>.Put(a, o + BodySlot.EndQ, q);
             LaneQuaternion<ScalarLane>.Load(a, o + BodySlot.EndQ).StoreMatrix(a, o + BodySlot.R);
         }
 
@@ -226,9 +225,9 @@ internal sealed class PoseClosure
         Array.Copy(_momenta, 6 * body, a, o + BodySlot.V, 6);
         if (isClosed)
         {
-            Quaterniond turn = Quaternion(a, o + BodySlot.EndQ) * Quaternion(_start, 7 * body + 3).Conjugate();
-            Put(a, o + BodySlot.L, turn * Vector(a, o + BodySlot.L));
-            Distance = Math.Max(Distance, (Vector(a, o + BodySlot.EndX) - Vector(_start, 7 * body)).Length);
+            Quaterniond turn = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ) * Transfer<ScalarLane>.Quaternion(_start, 7 * body + 3).Conjugate();
+            Transfer<ScalarLane>.Put(a, o + BodySlot.L, turn * Transfer<ScalarLane>.Vector(a, o + BodySlot.L));
+            Distance = Math.Max(Distance, (Transfer<ScalarLane>.Vector(a, o + BodySlot.EndX) - Transfer<ScalarLane>.Vector(_start, 7 * body)).Length);
             Angle = Math.Max(Angle, Turn(turn).Length);
         }
     }
@@ -237,8 +236,8 @@ internal sealed class PoseClosure
     {
         double[] joints = _batch.Joints;
         int o = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Frame(side));
-        Quaterniond frame = Quaterniond.FromAxes(Vector(joints, o + 3), Vector(joints, o + 6), Vector(joints, o + 9));
-        return Quaternion(_batch.Bodies, Batch<ScalarLane>.Body(node.Bodies[side], BodySlot.EndQ)) * frame;
+        Quaterniond frame = Quaterniond.FromAxes(Transfer<ScalarLane>.Vector(joints, o + 3), Transfer<ScalarLane>.Vector(joints, o + 6), Transfer<ScalarLane>.Vector(joints, o + 9));
+        return Transfer<ScalarLane>.Quaternion(_batch.Bodies, Batch<ScalarLane>.Body(node.Bodies[side], BodySlot.EndQ)) * frame;
     }
 
     private static Vector3d Turn(Quaterniond q)
@@ -259,15 +258,4 @@ internal sealed class PoseClosure
     }
 
     private static Vector3d Unit(int axis) => axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
-
-    private static void Put(double[] a, int o, Vector3d v)
-    {
-        a[o] = v.X;
-        a[o + 1] = v.Y;
-        a[o + 2] = v.Z;
-    }
-
-    private static Vector3d Vector(double[] a, int o) => new(a[o], a[o + 1], a[o + 2]);
-
-    private static Quaterniond Quaternion(double[] a, int o) => new(a[o], a[o + 1], a[o + 2], a[o + 3]);
 }

@@ -29,8 +29,8 @@ internal static class Reactions<V>
             for (int lane = 0; lane < count; lane++)
             {
                 Node own = islands[first + lane].Nodes[n];
-                Vector3d force = Vector(batch.Work.Reaction, lane);
-                Vector3d torque = Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
+                Vector3d force = Transfer<V>.Vector(batch.Work.Reaction, lane);
+                Vector3d torque = Transfer<V>.Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
                 if (batch.Laws != null)
                 {
                     AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
@@ -86,9 +86,6 @@ internal static class Reactions<V>
         Vector3d angular = Vector3d.Zero;
         laws.AddLimits(n, ref linear, ref angular);
         force += linear * rate;
-        torque += (angular - Vector3d.Cross(Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
+        torque += (angular - Vector3d.Cross(Transfer<V>.Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
 }

@@ -13,7 +13,7 @@ internal struct StepCut
 
     /// <summary>Takes note of a step.</summary>
     /// <param name="halvings">Halvings that it took.</param>
-    /// <param name="demand">See <see cref="Ladder.Demand"/>.</param>
+    /// <param name="demand">See <see cref="StepDemand"/>.</param>
     public void Note(int halvings, double demand)
     {
         if (halvings > Halvings || demand * Margin > 1 << Halvings)

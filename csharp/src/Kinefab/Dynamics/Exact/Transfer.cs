@@ -31,7 +31,6 @@ internal static class Transfer<V>
             batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
-            batch.HasFrozenAxes |= isMoving && !(inverse.X > 0 && inverse.Y > 0 && inverse.Z > 0);
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
@@ -72,10 +71,11 @@ internal static class Transfer<V>
         {
             LoadState(batch, b, mechanism.Bodies);
             LoadForces(batch, b, mechanism, dt);
-            if (batch.HasFrozenAxes)
-            {
-                KeepFrozen(batch, b, mechanism.Bodies);
-            }
+        }
+
+        foreach (int body in batch.Shape.FrozenBodies)
+        {
+            KeepFrozen(batch, body, mechanism.Bodies);
         }
 
         for (int b = batch.Shape.MovingBodies; b < batch.Shape.Bodies.Length; b++)
@@ -222,7 +222,10 @@ internal static class Transfer<V>
         for (int lane = 0; lane < w; lane++)
         {
             int body = batch.Members[b * w + lane];
-            Put(batch.Bodies, o + lane, OnTurningAxes(bodies.Poses[body].Rotation, bodies.Torques[body], bodies.InverseInertias[body]));
+            Quaterniond q = bodies.Poses[body].Rotation;
+            Vector3d inverse = bodies.InverseInertias[body];
+            Vector3d inBody = q.InverseRotate(bodies.Torques[body]);
+            Put(batch.Bodies, o + lane, q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0));
         }
     }
 
@@ -269,17 +272,6 @@ internal static class Transfer<V>
         q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodySlot.Inertia * w), inBody)).Store(a, o + BodySlot.L * w);
     }
 
-    private static Vector3d OnTurningAxes(Quaterniond q, Vector3d torque, Vector3d inverse)
-    {
-        if (inverse.X > 0 && inverse.Y > 0 && inverse.Z > 0)
-        {
-            return torque;
-        }
-
-        Vector3d inBody = q.InverseRotate(torque);
-        return q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0);
-    }
-
     private static double OrNone(double inverse) => inverse > 0 ? 1 / inverse : 0;
 
     private static double Distance(Quaterniond a, Quaterniond b) => (a * b.Conjugate()).Vector.Length;
@@ -292,24 +284,26 @@ internal static class Transfer<V>
         Put(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
     }
 
+    /// <summary>Writes a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void Put(double[] a, int index, Vector3d v)
+    public static void Put(double[] a, int index, Vector3d v)
     {
         a[index] = v.X;
         a[index + Lane<V>.Width] = v.Y;
         a[index + 2 * Lane<V>.Width] = v.Z;
     }
 
-    private static void Put(double[] a, int index, Quaterniond q)
+    public static void Put(double[] a, int index, Quaterniond q)
     {
         Put(a, index, q.Vector);
         a[index + 3 * Lane<V>.Width] = q.W;
     }
 
+    /// <summary>Reads a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
+    public static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Quaterniond Quaternion(double[] a, int index) =>
+    public static Quaterniond Quaternion(double[] a, int index) =>
         new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width], a[index + 3 * Lane<V>.Width]);
 }

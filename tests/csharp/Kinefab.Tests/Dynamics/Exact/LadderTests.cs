@@ -58,7 +58,7 @@ internal sealed class LadderTests
     [TestCase(10000, 10, 0.1, 10)]
     public void Demand_StiffnessAndSpeed_TheLarger(double stiffness, double speed, double dt, double expected)
     {
-        Assert.That(Ladder.Demand(stiffness, speed, dt), Is.EqualTo(expected).Within(1e-12));
+        Assert.That(StepDemand.Of(stiffness, speed, dt), Is.EqualTo(expected).Within(1e-12));
     }
 
     [Test]
@@ -159,7 +159,7 @@ internal sealed class LadderTests
             joint.EveryLimit = true;
         }
 
-        Island island = Island.Find(mechanism)[0];
+        Island island = IslandFinder.Find(mechanism)[0];
         var batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
         Transfer<ScalarLane>.LoadConstants(batch, 0, island, mechanism);
         var ladder = new Ladder(batch);
@@ -177,7 +177,7 @@ internal sealed class LadderTests
                 stiffest = System.Math.Max(stiffest, batch.Bodies[Batch<ScalarLane>.Body(body, BodySlot.Stiffness)]);
             }
 
-            most = System.Math.Max(most, Ladder.Demand(stiffest, batch.Work.Fastest[0], dt));
+            most = System.Math.Max(most, StepDemand.Of(stiffest, batch.Work.Fastest[0], dt));
             ladder.Step(dt, 1e-9, ref cut, false, false);
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 1, mechanism);

@@ -53,12 +53,12 @@ internal sealed class LoopRobustnessTests
                 double gain = MechanismMeasures.Energy(m) - start;
                 if (m.Overflows == 0 && loop.Ground == Joint.World && !GainShows.Contains(seed))
                 {
-                    gains.Add(((gain - loop.Work) / (FallEnergy(m, i * dt) + loop.Work), seed));
+                    gains.Add(((gain - loop.Work) / (MechanismMeasures.FallEnergy(m, i * dt) + loop.Work), seed));
                 }
             }
 
             double open = m.Overflows == 0 ? Open(m) : 0;
-            if (!IsFinite(m) || !(open <= MostOpen))
+            if (!MechanismMeasures.IsFinite(m) || !(open <= MostOpen))
             {
                 faults.Enqueue($"seed {seed}, steps of {dt} s: open by {open} m");
             }
@@ -97,11 +97,11 @@ internal sealed class LoopRobustnessTests
                 loop.MotorWork();
                 if (loop.IsBalanced)
                 {
-                    gains.Add(((MechanismMeasures.Energy(m) - start) / (FallEnergy(m, i * dt) + loop.Work), seed));
+                    gains.Add(((MechanismMeasures.Energy(m) - start) / (MechanismMeasures.FallEnergy(m, i * dt) + loop.Work), seed));
                 }
             }
 
-            if (!IsFinite(m))
+            if (!MechanismMeasures.IsFinite(m))
             {
                 faults.Enqueue($"seed {seed}");
             }
@@ -237,34 +237,7 @@ internal sealed class LoopRobustnessTests
     private static string Most(ConcurrentBag<(double Ratio, int Seed)> gains) =>
         string.Join(", ", gains.GroupBy(g => g.Seed).Select(g => (Ratio: g.Max(x => x.Ratio), g.Key)).OrderByDescending(g => g.Ratio).Take(12));
 
-    // What free fall from rest would have given all bodies by now.
-    private static double FallEnergy(MultibodySystem m, double time)
-    {
-        double sum = 0;
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            sum += m.Bodies.InverseMasses[i] > 0 ? m.Gravity.LengthSquared * time * time / (2 * m.Bodies.InverseMasses[i]) : 0;
-        }
-
-        return sum;
-    }
-
     // Largest gap of the joints that hold.
     private static double Open(MultibodySystem m) =>
         MechanismMeasures.Drift(new MultibodySystem(m.Bodies, m.Joints.Where(j => !j.IsBroken).ToArray(), Array.Empty<Coupling>()));
-
-    private static bool IsFinite(MultibodySystem m)
-    {
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            Pose p = m.Bodies.Poses[i];
-            if (!p.Position.IsFinite || !(Math.Abs(p.Rotation.LengthSquared - 1) < 1e-3)
-                || !m.Bodies.LinearVelocities[i].IsFinite || !m.Bodies.AngularVelocities[i].IsFinite)
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
 }

@@ -31,25 +31,61 @@ internal static class MechanismMeasures
     }
 
     /// <summary>Kinetic and gravitational energy, J.</summary>
-    public static double Energy(MultibodySystem mechanism)
+    public static double Energy(MultibodySystem mechanism) => Kinetic(mechanism) + Potential(mechanism);
+
+    /// <summary>Kinetic energy, J.</summary>
+    public static double Kinetic(MultibodySystem mechanism)
     {
         double sum = 0;
-        Bodies bodies = mechanism.Bodies;
-        for (int i = 0; i < bodies.Count; i++)
+        for (int i = 0; i < mechanism.Bodies.Count; i++)
         {
-            if (bodies.InverseMasses[i] == 0)
-            {
-                continue;
-            }
-
-            Vector3d w = bodies.Poses[i].Rotation.InverseRotate(bodies.AngularVelocities[i]);
-            Vector3d inverse = bodies.InverseInertias[i];
-            double mass = 1 / bodies.InverseMasses[i];
-            sum += mass * (bodies.LinearVelocities[i].LengthSquared / 2 - Vector3d.Dot(mechanism.Gravity, bodies.Poses[i].Position));
-            sum += (w.X * w.X / inverse.X + w.Y * w.Y / inverse.Y + w.Z * w.Z / inverse.Z) / 2;
+            sum += mechanism.Bodies.KineticEnergy(i);
         }
 
         return sum;
+    }
+
+    /// <summary>Gravitational energy, J.</summary>
+    public static double Potential(MultibodySystem mechanism)
+    {
+        double sum = 0;
+        for (int i = 0; i < mechanism.Bodies.Count; i++)
+        {
+            sum += mechanism.Bodies.PotentialEnergy(i, mechanism.Gravity);
+        }
+
+        return sum;
+    }
+
+    /// <summary>
+    /// What free fall from rest would have given all bodies after a time, J. By Gauss's principle of least constraint joints
+    /// take from its speed and add nothing.
+    /// </summary>
+    public static double FallEnergy(MultibodySystem mechanism, double time)
+    {
+        double sum = 0;
+        foreach (double inverseMass in mechanism.Bodies.InverseMasses)
+        {
+            sum += inverseMass > 0 ? mechanism.Gravity.LengthSquared * time * time / (2 * inverseMass) : 0;
+        }
+
+        return sum;
+    }
+
+    /// <summary>Whether all poses and velocities are numbers, and rotations are rotations.</summary>
+    public static bool IsFinite(MultibodySystem mechanism)
+    {
+        Bodies bodies = mechanism.Bodies;
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            if (!bodies.Poses[i].Position.IsFinite || !(Math.Abs(bodies.Poses[i].Rotation.LengthSquared - 1) < 1e-3)
+                || !bodies.LinearVelocities[i].IsFinite || !bodies.AngularVelocities[i].IsFinite)
+            {
+                return false;
+            }
+        }
+
+        return true;
     }
 
     /// <summary>A number that differs when any bit of any pose or velocity does.</summary>

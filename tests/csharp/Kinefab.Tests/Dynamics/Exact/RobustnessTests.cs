@@ -36,23 +36,23 @@ internal sealed class RobustnessTests
             MultibodySystem m = scene.System;
             double dt = StepOf(seed);
             bool isWhole = scene.IsWhole();
-            double start = Kinetic(m) + scene.Stored();
-            double height = Potential(m);
+            double start = MechanismMeasures.Kinetic(m) + scene.Stored();
+            double height = MechanismMeasures.Potential(m);
 
             // Looking for inexact loops takes most of a small scene's time.
             ExactSolver solver = seed % 10 == 0 ? new ExactSolver(m) : new ExactSolver(m, new List<int[]>());
             for (int i = 1; i <= Steps && m.Overflows == 0; i++)
             {
                 solver.Step(dt);
-                double gain = Kinetic(m) + Potential(m) - height - start;
-                if (scene.IsPassive && isWhole && !(gain <= MostGain * (start + FallEnergy(m, i * dt))))
+                double gain = MechanismMeasures.Kinetic(m) + MechanismMeasures.Potential(m) - height - start;
+                if (scene.IsPassive && isWhole && !(gain <= MostGain * (start + MechanismMeasures.FallEnergy(m, i * dt))))
                 {
                     faults[seed] = $"seed {seed}: {gain} J more than {start} J";
                 }
             }
 
             double open = isWhole && m.Overflows == 0 ? MechanismMeasures.Drift(m) : 0;
-            if (!IsFinite(m) || !(open <= MostOpen))
+            if (!MechanismMeasures.IsFinite(m) || !(open <= MostOpen))
             {
                 faults[seed] = $"seed {seed}: open by {open} m";
             }
@@ -83,7 +83,7 @@ internal sealed class RobustnessTests
                 solver.Step(StepOf(seed));
             }
 
-            if (!IsFinite(m))
+            if (!MechanismMeasures.IsFinite(m))
             {
                 faults.Enqueue($"seed {seed}");
             }
@@ -112,7 +112,7 @@ internal sealed class RobustnessTests
             solver.Step(dt);
         }
 
-        Assert.That(IsFinite(m), Is.True);
+        Assert.That(MechanismMeasures.IsFinite(m), Is.True);
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
         if (dt < 0.01)
         {
@@ -122,53 +122,4 @@ internal sealed class RobustnessTests
 
     // 0.1 ms to 0.1 s.
     private static double StepOf(int seed) => Math.Pow(10, -4 + 3 * new Random(seed).NextDouble());
-
-    private static double Kinetic(MultibodySystem m)
-    {
-        double sum = 0;
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            sum += m.Bodies.KineticEnergy(i);
-        }
-
-        return sum;
-    }
-
-    private static double Potential(MultibodySystem m)
-    {
-        double sum = 0;
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            sum += m.Bodies.PotentialEnergy(i, m.Gravity);
-        }
-
-        return sum;
-    }
-
-    // What free fall from rest would have given all bodies by now.
-    private static double FallEnergy(MultibodySystem m, double time)
-    {
-        double sum = 0;
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            sum += m.Bodies.InverseMasses[i] > 0 ? m.Gravity.LengthSquared * time * time / (2 * m.Bodies.InverseMasses[i]) : 0;
-        }
-
-        return sum;
-    }
-
-    private static bool IsFinite(MultibodySystem m)
-    {
-        for (int i = 0; i < m.Bodies.Count; i++)
-        {
-            Pose p = m.Bodies.Poses[i];
-            if (!p.Position.IsFinite || !(Math.Abs(p.Rotation.LengthSquared - 1) < 1e-3)
-                || !m.Bodies.LinearVelocities[i].IsFinite || !m.Bodies.AngularVelocities[i].IsFinite)
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
 }

@@ -52,7 +52,7 @@ public sealed class World
     public Vector3d Gravity
     {
         get => _mechanism.Gravity;
-        set => _mechanism.Gravity = value.IsFinite ? value : throw new ArgumentOutOfRangeException(nameof(value));
+        set => _mechanism.Gravity = Finite.OrThrow(value, nameof(value));
     }
 
     /// <summary>

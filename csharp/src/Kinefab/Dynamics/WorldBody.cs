@@ -64,7 +64,7 @@ public sealed class WorldBody
     public Vector3d LinearVelocity
     {
         get => _bodies.LinearVelocities[_index];
-        set => _bodies.LinearVelocities[_index] = Checked(value);
+        set => _bodies.LinearVelocities[_index] = Finite.OrThrow(value, nameof(value));
     }
 
     /// <summary>World frame, rad/s.</summary>
@@ -72,7 +72,7 @@ public sealed class WorldBody
     public Vector3d AngularVelocity
     {
         get => _bodies.AngularVelocities[_index];
-        set => _bodies.AngularVelocities[_index] = Checked(value);
+        set => _bodies.AngularVelocities[_index] = Finite.OrThrow(value, nameof(value));
     }
 
     /// <summary>Whether only its target moves the body.</summary>
@@ -83,22 +83,20 @@ public sealed class WorldBody
 
     /// <summary>A force at the centre of mass over the next step, world frame, N.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
-    public void AddForce(Vector3d force) => _bodies.Forces[_index] += Checked(force);
+    public void AddForce(Vector3d force) => _bodies.Forces[_index] += Finite.OrThrow(force, nameof(force));
 
     /// <summary>A torque over the next step, world frame, N m.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
-    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += Checked(torque);
+    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += Finite.OrThrow(torque, nameof(torque));
 
     /// <summary>A force over the next step at a point of the world, N.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddForceAtPosition(Vector3d force, Vector3d position)
     {
-        Vector3d torque = Checked(Vector3d.Cross(position - CenterOfMass, force));
+        Vector3d torque = Finite.OrThrow(Vector3d.Cross(position - CenterOfMass, force), nameof(position));
         AddForce(force);
         AddTorque(torque);
     }
-
-    private static Vector3d Checked(Vector3d value) => value.IsFinite ? value : throw new ArgumentOutOfRangeException(nameof(value));
 
     private static Pose Checked(Pose value)
     {

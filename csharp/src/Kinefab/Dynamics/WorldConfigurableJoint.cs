@@ -1,6 +1,7 @@
 using System;
 using Kinefab.Document;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics;
 
@@ -64,7 +65,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     public override void DriveTo(Coordinate coordinate, double target)
     {
         int i = Axis(coordinate);
-        ThrowUnlessFinite(target, nameof(target));
+        Finite.OrThrow(target, nameof(target));
         var joint = (D6Joint)Solved;
         ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
         drive = PositionDrive(drive);
@@ -78,7 +79,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         // A damper this stiff holds the speed to one part in a million within a step of 1 ms.
         const double damping = 1e9;
         int i = Axis(coordinate);
-        ThrowUnlessFinite(speed, nameof(speed));
+        Finite.OrThrow(speed, nameof(speed));
         var joint = (D6Joint)Solved;
         ref Kinefab.Joints.JointDrive drive = ref ConfigurableDrives.Of(joint, i);
         double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;

@@ -59,7 +59,7 @@ public sealed class WorldHingeJoint : WorldJoint
     public override void DriveTo(Coordinate coordinate, double target)
     {
         Check(coordinate);
-        ThrowUnlessFinite(target, nameof(target));
+        Finite.OrThrow(target, nameof(target));
         var joint = (RevoluteJoint)Solved;
         joint.MotorEnabled = false;
         joint.Spring = PositionDrive(joint.Spring);
@@ -70,7 +70,7 @@ public sealed class WorldHingeJoint : WorldJoint
     public override void DriveAt(Coordinate coordinate, double speed)
     {
         Check(coordinate);
-        ThrowUnlessFinite(speed, nameof(speed));
+        Finite.OrThrow(speed, nameof(speed));
         var joint = (RevoluteJoint)Solved;
         joint.MotorEnabled = true;
         joint.MotorVelocity = -speed / Degrees;

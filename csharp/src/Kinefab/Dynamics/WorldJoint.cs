@@ -79,14 +79,6 @@ public abstract class WorldJoint
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the speed is no number.</exception>
     public abstract void DriveAt(Coordinate coordinate, double speed);
 
-    private protected static void ThrowUnlessFinite(double value, string name)
-    {
-        if (double.IsNaN(value) || double.IsInfinity(value))
-        {
-            throw new ArgumentOutOfRangeException(name);
-        }
-    }
-
     // Overdamped: time constant Damping/Stiffness = 0.1 s; yields by 1e-6 of the acceleration that the load would give.
     private protected static Kinefab.Joints.JointDrive PositionDrive(in Kinefab.Joints.JointDrive given) => given.Stiffness > 0
         ? given

@@ -51,7 +51,7 @@ public sealed class PositionSolver
         {
             if ((uint)targets[i].Coordinate >= (uint)Mechanism.Coordinates.Count)
                 throw new ArgumentOutOfRangeException(nameof(targets), "There is no such coordinate.");
-            if (double.IsNaN(targets[i].Value) || double.IsInfinity(targets[i].Value))
+            if (!Finite.Is(targets[i].Value))
                 throw new ArgumentOutOfRangeException(nameof(targets), "A target is not a finite number.");
             for (int k = 0; k < i; k++)
             {

@@ -46,7 +46,7 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     public double Length => Math.Sqrt(LengthSquared);
 
     /// <summary>True when no component is NaN or infinite.</summary>
-    public bool IsFinite => Finite(X) && Finite(Y) && Finite(Z);
+    public bool IsFinite => Finite.Is(X) && Finite.Is(Y) && Finite.Is(Z);
 
     /// <summary>The same direction with length 1; zero stays zero.</summary>
     public Vector3d Normalized()
@@ -116,6 +116,4 @@ public readonly struct Vector3d : IEquatable<Vector3d>
 
     /// <inheritdoc/>
     public override string ToString() => string.Format(CultureInfo.InvariantCulture, "({0}, {1}, {2})", X, Y, Z);
-
-    private static bool Finite(double v) => !double.IsNaN(v) && !double.IsInfinity(v);
 }

@@ -53,7 +53,7 @@ internal static class NumberRules
 
     internal static void Finite(in Place at, string field, double value)
     {
-        if (double.IsNaN(value) || double.IsInfinity(value))
+        if (!Numerics.Finite.Is(value))
             at.Report(field, DiagnosticCodes.NumberNotFinite, ("number", Invariant.Text(value)));
     }
 

@@ -12,15 +12,17 @@ internal sealed class ProjectionGroups
     private const int None = -1;
 
     private readonly MultibodySystem _mechanism;
+    private readonly BodyJoints _bodyJoints;
     private readonly int[] _parents;
     private readonly int[] _depths;
     private readonly int[] _next;
     private readonly int[] _tails;
     private readonly int[] _queue;
 
-    public ProjectionGroups(MultibodySystem mechanism)
+    public ProjectionGroups(MultibodySystem mechanism, BodyJoints bodyJoints)
     {
         _mechanism = mechanism;
+        _bodyJoints = bodyJoints;
         int bodies = mechanism.Bodies.Count;
         _parents = new int[bodies];
         _depths = new int[bodies];
@@ -91,10 +93,9 @@ internal sealed class ProjectionGroups
             return;
         }
 
-        for (int i = 0; i < _mechanism.Joints.Length; i++)
+        foreach (int i in _bodyJoints.Of(body))
         {
-            Joint other = _mechanism.Joints[i];
-            if (i != joint && !other.IsBroken && (other.Body0 == body || other.Body1 == body) && !(i >= waits && Projects(i)))
+            if (i != joint && !_mechanism.Joints[i].IsBroken && !(i >= waits && Projects(i)))
             {
                 _queue[end++] = i;
             }

@@ -17,6 +17,7 @@ internal sealed class ProjectionOrder
     private const long HeldByKinematic = 1L << 29;
 
     private readonly MultibodySystem _mechanism;
+    private readonly BodyJoints _bodyJoints;
     private readonly ProjectionGroups _groups;
     private readonly RankOrder _rankOrder;
     private readonly long[] _ranks;
@@ -33,7 +34,8 @@ internal sealed class ProjectionOrder
     {
         _mechanism = mechanism;
         int bodies = mechanism.Bodies.Count;
-        _groups = new ProjectionGroups(mechanism);
+        _bodyJoints = new BodyJoints(mechanism);
+        _groups = new ProjectionGroups(mechanism, _bodyJoints);
         _ranks = new long[bodies];
         _rankOrder = new RankOrder(_ranks);
         _anchors = new int[bodies];
@@ -164,7 +166,7 @@ internal sealed class ProjectionOrder
         for (int next = 0; next < end; next++)
         {
             int parent = _queue[next];
-            for (int i = 0; i < _mechanism.Joints.Length; i++)
+            foreach (int i in _bodyJoints.Of(parent))
             {
                 Joint joint = _mechanism.Joints[i];
                 int child = joint.Body0 == parent ? joint.Body1 : joint.Body1 == parent ? joint.Body0 : Joint.World;

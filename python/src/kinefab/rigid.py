@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Iterable
 
-from .model import JointKind, Motion, NodeKind, Scene
+from .model import JointKind, NodeKind, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,5 +93,5 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()
 
 def is_rigid(joint) -> bool:
     """Whether a joint leaves no freedom at all and cannot break."""
-    locked = joint.kind is JointKind.FIXED or all(f.motion is Motion.LOCKED for f in joint.freedoms)
+    locked = joint.kind is JointKind.FIXED or not joint.unlocked
     return locked and joint.break_force == joint.break_torque == float("inf")

@@ -8,7 +8,7 @@ from typing import Callable
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Coupling, Joint, Motion, Scene
+from ..model import Coupling, Joint, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly import Assembly, assemble
@@ -162,8 +162,7 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
     loops = dict.fromkeys(nodes_of, 0)
     counted = {id for c in couplings for id in (c.joint_a, c.joint_b)}
     for link in links:
-        holds = any(f.motion is Motion.LOCKED for f in link.joint.freedoms)
-        if link.joint.closure and (holds or link.joint.id in counted):
+        if link.joint.closure and (link.joint.locked or link.joint.id in counted):
             ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
             if ends and ends[0] in loops:
                 loops[ends[0]] += 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..diagnostics import Report
-from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Motion, Scene
+from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Scene
 from .assembly import Assembly
 from .jointing import Link
 
@@ -78,7 +78,7 @@ def _coordinate(assembly: Assembly, by_pair: dict, scene: Scene, feature, carrie
     axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
     for i in range(3):
         cosine = float(direction @ axes[:, i])
-        if abs(cosine) > ALONG and link.joint.freedoms[first + i].motion is not Motion.LOCKED:
+        if abs(cosine) > ALONG and first + i in link.joint.unlocked:
             sign = (1.0 if cosine > 0.0 else -1.0) * (1.0 if link.b == body else -1.0)
             return link.joint.id, first + i, sign
     return None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model import RX, JointKind, Motion
+from ..model import RX, JointKind
 from ..spatial import Array
 from .assembly import Assembly
 from .candidates import Geometry, candidates
@@ -135,11 +135,10 @@ def _absolute(assembly: Assembly, rotation: Array, translation: Array, body: int
 
 
 def _allowed(candidate: Candidate, turn: Array, shift: Array) -> bool:
-    free = [f.motion is not Motion.LOCKED for f in candidate.six]
     if candidate.kind is JointKind.SCREW:
         return True
-    turning = [i for i in range(3) if free[RX + i]]
-    off = [abs(shift[i]) for i in range(3) if not free[i]]
+    turning = [i - RX for i in candidate.unlocked if i >= RX]
+    off = [abs(shift[i]) for i in range(3) if i not in candidate.unlocked]
     if not turning:
         off.append(float(np.abs(turn - np.eye(3)).max()))
     elif len(turning) == 1:

@@ -21,7 +21,6 @@ from ..model import (
     FeatureKind,
     Joint,
     JointKind,
-    Motion,
     Scene,
 )
 from ..spatial import Array
@@ -190,12 +189,12 @@ def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:
     a, b: its two frames as ``joint_sides`` gives them.
     """
     axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)  # X, Y, Z
-    locked = [f.motion is Motion.LOCKED for f in joint.freedoms]
+    locked = joint.locked
     screw = joint.kind is JointKind.SCREW and joint.lead != 0.0
     for i in range(3):
-        if locked[i]:
+        if i in locked:
             rows.plane(a, axes_a[i], b)
-    turns = [i for i in range(3) if locked[RX + i]]
+    turns = [i - RX for i in locked if i >= RX]
     if len(turns) == 3:
         rows.parallel(a, b)
         rows.dot(a, axes_a[1], b, axes_b[2])

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from ..model import RX, RY, RZ, TX, Freedom, JointKind, Motion, freedoms_of
+from ..model import RX, RY, RZ, TX, Freedom, JointKind, freedoms_of, unlocked_of
 from ..spatial import Array
 from .atoms import Atom, evaluate
 from .stacks import alike
@@ -47,7 +47,7 @@ class Candidate:
 
     @property
     def unlocked(self) -> tuple[int, ...]:
-        return tuple(i for i, f in enumerate(self.six) if f.motion is not Motion.LOCKED)
+        return unlocked_of(self.six)
 
     @property
     def dof(self) -> int:

@@ -9,7 +9,7 @@ from typing import Mapping, Sequence
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Motion, NodeKind
+from ..model import RX, NodeKind
 from ..spatial import Array, cross
 from .assembly import Assembly
 from .finite import Candidate
@@ -64,8 +64,8 @@ def _joint_twists(joint: Candidate, center: Array, length: float) -> Array:
 
     center: WORLD, metres, the point whose velocity v is.
     """
-    free = [f.motion is not Motion.LOCKED for f in joint.six]
-    slides, axes = joint.axes[:, free[:3]], joint.axes[:, free[3:]]
+    slides = joint.axes[:, [i for i in joint.unlocked if i < RX]]
+    axes = joint.axes[:, [i - RX for i in joint.unlocked if i >= RX]]
     turns = np.concatenate([cross(axes.T, center - joint.origin).T / length, axes])
     return np.concatenate([np.concatenate([slides, 0.0 * slides]), turns], axis=1)
 

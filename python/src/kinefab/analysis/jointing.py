@@ -11,15 +11,14 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import (
+    RX,
     TY,
     TZ,
     Constraint,
     Coupling,
-    Freedom,
     Joint,
     JointKind,
     MassProperties,
-    Motion,
     Node,
 )
 from ..spatial import Array, Pose
@@ -313,10 +312,8 @@ class _Jointing:
         """Write a candidate between two bodies as a joint of the model."""
         bodies = (first, second)
         first_is_a = candidate.first_is_a
-        if not order_matters(candidate.six) and self._rank(second) < self._rank(first):
-            first_is_a = False
-        elif not order_matters(candidate.six):
-            first_is_a = True
+        if not order_matters(candidate.unlocked):
+            first_is_a = self._rank(first) <= self._rank(second)
         a, b = bodies if first_is_a else bodies[::-1]
         axes = candidate.axes
         if candidate.kind is not JointKind.UNIVERSAL:
@@ -386,16 +383,15 @@ def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]
     return ()
 
 
-def order_matters(freedoms: tuple[Freedom, ...]) -> bool:
+def order_matters(unlocked: tuple[int, ...]) -> bool:
     """Whether a joint moves differently when its two bodies change places (plain freedoms)."""
-    free = [f.motion is not Motion.LOCKED for f in freedoms]
-    slides, turns = free[:3], free[3:]
-    if not any(turns):
+    slides, turns = (tuple(i for i in unlocked if (i >= RX) == turning) for turning in (False, True))
+    if not turns:
         return False
-    if turns == [True, False, False]:
-        return slides[TY] != slides[TZ]
-    if all(turns):
-        return any(slides) and not all(slides)
+    if turns == (RX,):
+        return (TY in slides) != (TZ in slides)
+    if len(turns) == 3:
+        return 0 < len(slides) < 3
     return True
 
 

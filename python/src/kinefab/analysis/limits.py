@@ -122,7 +122,7 @@ def _by_block(assembly: Assembly, links: list[Link]) -> dict[int, list[Link]]:
 def _limited(link: Link) -> list[int]:
     """The freedoms with a limit that can be measured while the joint moves: slides, and its only rotation."""
     freedoms = link.joint.freedoms
-    turns = [f for f in freedoms[RX:] if f.motion is not Motion.LOCKED]
+    turns = [i for i in link.joint.unlocked if i >= RX]
     return [
         i
         for i, f in enumerate(freedoms)
@@ -164,4 +164,4 @@ def _single(link: Link) -> int | None:
     """The freedom of a hinge or slide, or None."""
     if link.joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC):
         return None
-    return next(i for i, f in enumerate(link.joint.freedoms) if f.motion is not Motion.LOCKED)
+    return link.joint.unlocked[0]

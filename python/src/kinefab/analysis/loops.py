@@ -103,7 +103,7 @@ def spanning_tree(links: Links) -> Tree:
             seen[body] = True
             parent[body] = index
             depth[body] = depth[from_] + 1
-            slides[body] = slides[from_] + (link.joint.freedoms[RX].motion is Motion.LOCKED)
+            slides[body] = slides[from_] + (RX in link.joint.locked)
             used.add(index)
             order.append(body)
             _offer(heap, links, near, body, depth, slides, used, precedence)
@@ -131,7 +131,7 @@ def _offer(
             continue
         link = links.links[i]
         other = link.b if link.a == body else link.a
-        free = [f for f in link.joint.freedoms if f.motion is not Motion.LOCKED]
+        free = [link.joint.freedoms[f] for f in link.joint.unlocked]
         plain = not any(f.motion is Motion.LIMITED or f.drive is not None for f in free)
         dof = len(free) - (link.joint.kind is JointKind.SCREW)
         shallow = int(depth[body]) + 1, int(slides[body])

@@ -17,14 +17,14 @@ from itertools import combinations
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import FREE, FREEDOM_NAMES, LOCKED, RX, Joint, Motion, Scene, kind_of
+from ..model import FREE, FREEDOM_NAMES, LOCKED, RX, Joint, Scene, kind_of
 from ..spatial import Array, Pose
 from .assembly import Assembly
 from .blocks import Blocks, relative_system
 from .equations import frame_side, joint_rows
 from .freedom import block_freedoms
 from .loops import Link, Tree, replace_link
-from .openings import NONE, Block, BlockTree, Openings, locked_of, moved_by, openings, tree_twists
+from .openings import NONE, Block, BlockTree, Openings, moved_by, openings, tree_twists
 from .rows import Rows
 from .solve import Solver
 from .system import State, System
@@ -64,18 +64,18 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
     reduced = {}
     for i, choice in chosen.items():
         joint = links[i].joint
-        if len(choice.rows) < len(locked_of(joint)):
+        if len(choice.rows) < len(joint.locked):
             reduced[i] = replace_link(
                 links[i],
                 freedoms=_freed(joint, choice.rows),
                 kind=kind_of(tuple(n for n in range(6) if n not in choice.rows)),
-                freed=tuple(n for n in locked_of(joint) if n not in choice.rows),
+                freed=tuple(n for n in joint.locked if n not in choice.rows),
             )
     refused = _refused(assembly, links, reduced, frames)
     mobility = sum(f.mobility for f in assembly.finite) + 6 * assembly.floating
     for i, choice in chosen.items():
         joint = links[i].joint
-        kept, freed = len(choice.rows), len(locked_of(joint)) - len(choice.rows)
+        kept, freed = len(choice.rows), len(joint.locked) - len(choice.rows)
         if i in refused:
             report.add("CLOSURE_KEPT_WHOLE", joint.where, joint=joint.id, freed=freed)
             continue
@@ -93,7 +93,7 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
 
 def _freed(joint: Joint, rows: tuple[int, ...]):
     return tuple(
-        LOCKED if i in rows else (f if f.motion is not Motion.LOCKED else FREE)
+        LOCKED if i in rows else (FREE if i in joint.locked else f)
         for i, f in enumerate(joint.freedoms)
     )
 
@@ -137,7 +137,7 @@ def _chosen(assembly: Assembly, tree: Tree, frames: tuple[Array, Array]) -> dict
         chosen = _choose(block, [here[n]])
         found |= chosen
         for (rows, twist), choice, link in zip(twists[n], chosen.values(), block.closing):
-            left = [k for k, i in enumerate(locked_of(link.joint)) if i not in choice.rows]
+            left = [k for k, i in enumerate(link.joint.locked) if i not in choice.rows]
             if left:
                 freed.append((n, rows[left], twist))
     moved = moved_by([rows for _, rows, _ in freed], [twist for *_, twist in freed])
@@ -153,7 +153,7 @@ def _chosen(assembly: Assembly, tree: Tree, frames: tuple[Array, Array]) -> dict
 def _choose(block: BlockTree, poses: list[Openings]) -> dict[int, _Choice]:
     found = {}
     for k, (i, link) in enumerate(zip(block.block.closures, block.closing)):
-        locked = locked_of(link.joint)
+        locked = link.joint.locked
         choice = _fewest(locked, [pose.span[k] for pose in poses])
         own = poses[0].rows[k]
         kept = own[[n for n, row in enumerate(locked) if row in choice.rows]]
@@ -165,12 +165,12 @@ def _rank(rows: Array) -> int:
     return int(np.linalg.matrix_rank(rows, tol=NONE)) if rows.size else 0
 
 
-def _fewest(locked: list[int], spans: list[Array]) -> _Choice:
+def _fewest(locked: tuple[int, ...], spans: list[Array]) -> _Choice:
     """The fewest rows that see every opening at every pose, of as many those that see it best at its worst."""
     ranks = {span.shape[1] for span in spans}
     by_rank = [np.array([span for span in spans if span.shape[1] == rank]) for rank in sorted(ranks - {0})]
     for count in range(max(ranks), len(locked)):
-        best, worth = tuple(locked), 0.0
+        best, worth = locked, 0.0
         picks = np.array(list(combinations(range(len(locked)), count)), dtype=np.int64)
         seen = np.ones(len(picks))
         for some in by_rank:
@@ -181,7 +181,7 @@ def _fewest(locked: list[int], spans: list[Array]) -> _Choice:
                 best, worth = names, sight
         if worth > HELD:
             return _Choice(best, count - max(ranks))
-    return _Choice(tuple(locked), len(locked) - max(ranks))
+    return _Choice(locked, len(locked) - max(ranks))
 
 
 def _expressible(locked: tuple[int, ...]) -> bool:

@@ -10,7 +10,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ..model import RX, RY, RZ, Joint, Motion
+from ..model import RX, RY, RZ, Joint
 from ..spatial import Array, cross
 from .loops import Tree
 from .rank import rank_of
@@ -90,7 +90,7 @@ class BlockTree:
         """For each closure its locked rows and the twists of its b against its a, see ``tree_twists``.
 
         freedoms, wrenches: of the links' six freedoms, shape (links, 6, 6)."""
-        own = [twists[unlocked_of(link.joint)] for (_, link), twists in zip(self.held, freedoms)]
+        own = [twists[list(link.joint.unlocked)] for (_, link), twists in zip(self.held, freedoms)]
         rest = np.zeros((6, sum(len(twists) for twists in own)))
         carried: dict[int, Array] = {}
         done = 0
@@ -100,7 +100,7 @@ class BlockTree:
             carried[body] = twist
             done += len(twists)
         return [
-            (rows[locked_of(link.joint)], carried.get(link.b, rest) - carried.get(link.a, rest))
+            (rows[list(link.joint.locked)], carried.get(link.b, rest) - carried.get(link.a, rest))
             for link, rows in zip(self.closing, wrenches[len(self.held) :])
         ]
 
@@ -132,14 +132,6 @@ def tree_twists(
     return [tree.closed_by(*own) for tree, *own in zip(trees, np.split(freedoms, ends), np.split(wrenches, ends))]
 
 
-def unlocked_of(joint: Joint) -> list[int]:
-    return [i for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]
-
-
-def locked_of(joint: Joint) -> list[int]:
-    return [i for i, f in enumerate(joint.freedoms) if f.motion is Motion.LOCKED]
-
-
 def _turns(joints: list[Joint], turn: Array) -> Array:
     """Axes of the three rotations, rows, shape (joints, 3, 3): a's, which a lone locked one shares with b.
 
@@ -147,7 +139,7 @@ def _turns(joints: list[Joint], turn: Array) -> Array:
     """
     axes = np.swapaxes(turn[:, 0], 1, 2).copy()
     for n, joint in enumerate(joints):
-        locked = [i for i in (RX, RY, RZ) if joint.freedoms[i].motion is Motion.LOCKED]
+        locked = [i for i in joint.locked if i >= RX]
         if len(locked) == 1:
             one, other = (frame[:, i] for frame, i in zip(turn[n], CARDAN[locked[0]]))
             across = cross(one, other)

@@ -53,6 +53,6 @@ def _freedom(link: Link, scene: Scene, coordinate, bodies: tuple[int, int]) -> t
     first = RX if coordinate.is_angle else TX
     for i in range(3):
         cosine = float(coordinate.axis @ axes[:, i])
-        if abs(cosine) > ALONG and link.joint.freedoms[first + i].motion is not Motion.LOCKED:
+        if abs(cosine) > ALONG and first + i in link.joint.unlocked:
             return first + i, math.copysign(1.0, cosine) * (1.0 if link.b == bodies[1] else -1.0)
     return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Iterable, Sequence
 
-from ..model import FREEDOM_NAMES, Joint, Motion
+from ..model import FREEDOM_NAMES, Joint
 from .reasons import fixings, group_names, reasons
 from .result import Analysis
 
@@ -121,7 +121,7 @@ def _joint(analysis: Analysis, joint: Joint, names: Sequence[str]) -> dict[str, 
         "kind": joint.kind.value,
         "a": "ground" if joint.a is None else names[joint.a],
         "b": "ground" if joint.b is None else names[joint.b],
-        "free": [FREEDOM_NAMES[i] for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED],
+        "free": [FREEDOM_NAMES[i] for i in joint.unlocked],
         "origin": _numbers(frame.translation),
         "x": _numbers(frame.rotation[:, 0]),
         "y": _numbers(frame.rotation[:, 1]),

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import RX, Constraint, ConstraintKind, Coupling, CouplingKind, JointKind, Motion, Scene
+from ..model import RX, Constraint, ConstraintKind, Coupling, CouplingKind, JointKind, Scene
 from ..spatial import Array
 from .assembly import Assembly
 from .freedom import block_freedoms
@@ -174,7 +174,7 @@ class _Block:
 
 def _plain(link: Link, assembly: Assembly) -> list[Coordinate]:
     """The coordinates of a link that Unity's joint reads as the model does: slides, and its only rotation."""
-    free = [f for f, freedom in enumerate(link.joint.freedoms) if freedom.motion is not Motion.LOCKED]
+    free = link.joint.unlocked
     if link.joint.kind is JointKind.SCREW or max(link.a, link.b) >= assembly.system.bodies:
         return []
     return [(link, f) for f in free if f < RX or sum(g >= RX for g in free) == 1]

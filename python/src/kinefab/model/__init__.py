@@ -29,6 +29,7 @@ from .joints import (
     Motion,
     freedoms_of,
     kind_of,
+    unlocked_of,
 )
 from .parts import Body, MassProperties, Material, Mesh, MeshKey, MeshReference, Node, NodeKind
 from .scene import Physics, Scene, Source
@@ -71,4 +72,5 @@ __all__ = [
     "UNLOCKED",
     "freedoms_of",
     "kind_of",
+    "unlocked_of",
 ]

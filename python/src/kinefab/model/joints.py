@@ -131,6 +131,11 @@ def kind_of(free: tuple[int, ...]) -> JointKind:
     return next(named, JointKind.GENERAL)
 
 
+def unlocked_of(freedoms: tuple[Freedom, ...]) -> tuple[int, ...]:
+    """Indices of the freedoms that may move."""
+    return tuple(i for i, f in enumerate(freedoms) if f.motion is not Motion.LOCKED)
+
+
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:
     """Six freedoms with ``kind``'s own unlocked (none of GENERAL); ``given`` (tx=..., rx=...) replaces single ones."""
     if not given:
@@ -177,11 +182,19 @@ class Joint:
     where: str = ""
 
     @property
+    def unlocked(self) -> tuple[int, ...]:
+        """The freedoms TX..RZ that may move."""
+        return unlocked_of(self.freedoms)
+
+    @property
+    def locked(self) -> tuple[int, ...]:
+        """The freedoms TX..RZ that may not."""
+        return tuple(i for i, f in enumerate(self.freedoms) if f.motion is Motion.LOCKED)
+
+    @property
     def whole_kind(self) -> JointKind:
         """The kind with what the loop holds instead of the joint."""
-        if not self.freed:
-            return self.kind
-        return kind_of(tuple(i for i, f in enumerate(self.freedoms) if f.motion is not Motion.LOCKED and i not in self.freed))
+        return kind_of(tuple(i for i in self.unlocked if i not in self.freed)) if self.freed else self.kind
 
 
 class CouplingKind(str, Enum):

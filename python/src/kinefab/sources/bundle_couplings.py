@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..model import LOCKED, RX, Coupling, CouplingKind, Joint
+from ..model import RX, Coupling, CouplingKind, Joint
 from .bundle_joints import GAP_ANGLE, GAP_LENGTH, Joints
 from .joint_frames import freedom_names
 from .record import REQUIRED, Log, Record
@@ -60,7 +60,7 @@ def _end(
     if (
         joint is not None
         and record.sound
-        and (freedom is None or joint.freedoms[freedom].motion is LOCKED.motion)
+        and freedom not in joint.unlocked
     ):
         record.fault("COUPLING_FREEDOM_LOCKED", "dof", feature=feature, joint=name, freedom=word)
     coupling.sound &= record.sound

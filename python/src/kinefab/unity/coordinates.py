@@ -13,7 +13,7 @@ from typing import Iterable
 
 import numpy as np
 
-from ..model import FREE, LOCKED, RX, RY, RZ, Freedom, Joint, Motion
+from ..model import FREE, LOCKED, RX, RY, RZ, Freedom, Joint, Motion, unlocked_of
 from ..spatial import Array, Pose, quaternion_from_matrix, rotation_about
 
 AXES = np.eye(3)
@@ -31,12 +31,12 @@ class CanonicalJoint:
     @property
     def rotations(self) -> tuple[int, ...]:
         """The unlocked rotations, 0 to 2 for X to Z."""
-        return tuple(i for i in range(3) if self.freedoms[RX + i].motion is not Motion.LOCKED)
+        return tuple(i - RX for i in unlocked_of(self.freedoms) if i >= RX)
 
     @property
     def translations(self) -> tuple[int, ...]:
         """The unlocked translations, 0 to 2 for X to Z."""
-        return tuple(i for i in range(3) if self.freedoms[i].motion is not Motion.LOCKED)
+        return tuple(i for i in unlocked_of(self.freedoms) if i < RX)
 
     def plain(self, which: Iterable[int]) -> bool:
         """Whether none of these freedoms has a limit or a drive."""
@@ -60,7 +60,7 @@ class Coordinates:
 
 def canonical(joint: Joint) -> CanonicalJoint:
     """The joint with its single free rotation named X, or the locked one of three not named X."""
-    unlocked = [i for i in range(3) if _plain(joint.freedoms[RX + i]).motion is not Motion.LOCKED]
+    unlocked = unlocked_of(tuple(_plain(f) for f in joint.freedoms[RX:]))
     locked = [i for i in range(3) if i not in unlocked]
     first = unlocked[0] if len(unlocked) == 1 else (locked[0] + 1) % 3 if len(unlocked) == 2 else 0
     if len(unlocked) == 2 and locked[0] != 0:

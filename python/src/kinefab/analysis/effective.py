@@ -11,6 +11,7 @@ from ..spatial import Array
 from .assembly import Assembly
 from .candidates import Geometry, candidates
 from .finite import Candidate
+from .rank import spans
 from .solve import Solver
 from .twists import TwistSpace, twist_space
 
@@ -42,8 +43,7 @@ def effective(assembly: Assembly, body_a: int, body_b: int) -> Effective:
     columns = _relative_twists(assembly, body_a, body_b, origin, length)
     size = np.linalg.norm(columns, axis=0)
     columns = columns[:, size > 1e-9]
-    u, s, _ = np.linalg.svd(columns / np.linalg.norm(columns, axis=0), full_matrices=False)
-    basis = u[:, : int(np.sum(s > 1e-6))]
+    basis = spans([columns / np.linalg.norm(columns, axis=0)], 1e-6)[0]
     axes = assembly.relative.axes
     space = twist_space(basis, origin, length, axes)
     point = space.center if space.center is not None else origin

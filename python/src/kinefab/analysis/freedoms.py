@@ -14,7 +14,7 @@ from ..spatial import Array, cross
 from .assembly import Assembly
 from .finite import Candidate
 from .pairs import Relation
-from .rank import rank_of
+from .rank import spans
 from .stacks import alike
 from .twists import twist_spaces
 
@@ -98,26 +98,18 @@ def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[A
                 v = carried[:, :3] * relative.length[before, None, None] + np.swapaxes(cross(turning, arm), 1, 2)
                 carried = np.concatenate([v / relative.length[here, None, None], carried[:, 3:]], axis=1)
             if k < 6:
-                carried = _orthonormal(np.concatenate([carried, [own[b] for b in here]], axis=2))
+                carried = _moving_spans(np.concatenate([carried, [own[b] for b in here]], axis=2))
             for body, twists in zip(here, carried):
                 found[body] = twists
     return found
 
 
-def _orthonormal(stack: Array) -> list[Array]:
-    """Bases of the spans of columns, shape (n, m, k); columns without length (bodies at rest) are left out first."""
+def _moving_spans(stack: Array) -> list[Array]:
+    """Of columns, shape (n, m, k), by direction; columns without length (bodies at rest) are left out."""
     size = np.linalg.norm(stack, axis=1)
-    found: list = [None] * len(stack)
-    for moving, group in alike(map(tuple, (size > TOO_FEW).tolist())):
-        kept = np.flatnonzero(moving)
-        columns = stack[group][:, :, kept] / size[group][:, None, kept]
-        rank = np.full(len(group), len(kept))
-        if len(kept) > 1:
-            columns, s, _ = np.linalg.svd(columns, full_matrices=False)
-            rank = rank_of(s)[0]
-        for i, basis, count in zip(group, columns, rank):
-            found[i] = basis[:, :count]
-    return found
+    moving = size > TOO_FEW
+    directions = stack / np.where(moving, size, 1.0)[:, None]
+    return spans([own[:, kept] for own, kept in zip(directions, moving)])
 
 
 def node_freedoms(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[NodeFreedom]:
@@ -170,7 +162,7 @@ def _angle_between(a: Array, b: Array) -> float:
     """
     if not len(a):
         return 0.0
-    u, v = (_orthonormal(rows.T[None])[0] for rows in (a, b))
+    u, v = (_moving_spans(rows.T[None])[0] for rows in (a, b))
     outside = max(np.linalg.norm(p - q @ (q.T @ p), 2) for p, q in ((u, v), (v, u)))
     return math.asin(min(1.0, outside))
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..spatial import Array, cross
+from ..spatial import cross
 from .assembly import Assembly
 from .freedom import BlockFreedom, block_freedoms
 from .motion import walked
+from .rank import spans
 from .solve import Solver
 
 ALONE = 1e-12
@@ -95,7 +96,7 @@ def _turning_in_a_loop(
         v = own[:3] * relative.length[body] / length - cross(own[3:].T, arm).T
         twists.append(np.concatenate([v, own[3:]]))
     twists.append(twists[0])
-    joints = [_span(after - before) for before, after in zip(twists, twists[1:])]
+    joints = spans([after - before for before, after in zip(twists, twists[1:])], MOVING)
     found: list[tuple[list[int], int]] = []
     known = np.zeros((6 * len(ring), 0))
     for size in range(1, len(ring)):
@@ -114,12 +115,6 @@ def _turning_in_a_loop(
                 known = np.concatenate([known, u[:, :count]], axis=1)
                 found.append((ring[first : first + size], count))
     return found
-
-
-def _span(columns: Array) -> Array:
-    """Orthonormal columns with the same span."""
-    u, s, _ = np.linalg.svd(columns, full_matrices=False)
-    return u[:, s > MOVING * s[0]]
 
 
 def _ring(root: int, neighbours: dict[int, set[int]], bodies: list[int]) -> list[int]:

@@ -13,7 +13,7 @@ import numpy as np
 from ..model import RX, RY, RZ, Joint
 from ..spatial import Array, cross
 from .loops import Tree
-from .rank import rank_of
+from .rank import rank_of, spans
 from .stacks import alike
 
 CARDAN = {RX: (1, 2), RY: (2, 0), RZ: (1, 0)}
@@ -172,7 +172,7 @@ def openings(
         least = np.where(rank > 0, s[at, rank - 1], 0.0)
         border = np.sqrt(least * np.maximum(s[at, rank], REPEATED * s[:, 0]))
         seen = np.zeros((len(group), 0, rows[0].shape[2]))
-        spans = []
+        come_to = []
         for own in rows:
             fresh = own - own @ np.swapaxes(seen, 1, 2) @ seen
             u, size, vt = np.linalg.svd(fresh, full_matrices=False)
@@ -183,10 +183,10 @@ def openings(
                 count = np.sum(size > border[:, None], axis=1)
             most = int(count.max())
             seen = np.concatenate([seen, vt[:, :most] * (np.arange(most) < count[:, None])[..., None]], axis=1)
-            spans.append([basis[:, :c] for basis, c in zip(u, count)])
+            come_to.append([basis[:, :c] for basis, c in zip(u, count)])
         for n, i in enumerate(group):
             if like is None or least[n] >= NEARLY_SINGULAR * like[i].least:
-                found[i] = Openings([own[n] for own in rows], [own[n] for own in spans], float(least[n]))
+                found[i] = Openings([own[n] for own in rows], [own[n] for own in come_to], float(least[n]))
     return found
 
 
@@ -196,10 +196,10 @@ def moved_by(wrenches: Sequence[Array], twists: Sequence[Array]) -> list[np.ndar
     All motions of b against a are products of exponentials of the twists, hence of the algebra that the twists
     generate (planar, spherical, ...); a row that vanishes on the algebra vanishes at every pose.
     """
-    algebra = _orthonormal(list(twists))
+    algebra = spans(twists, NONE)
     growing = list(range(len(algebra)))
     while growing:
-        larger = _orthonormal([_with_brackets(algebra[i]) for i in growing])
+        larger = spans([_with_brackets(algebra[i]) for i in growing], NONE)
         grown = [i for i, more in zip(growing, larger) if more.shape[1] > algebra[i].shape[1]]
         for i, more in zip(growing, larger):
             algebra[i] = more if i in grown else algebra[i]
@@ -213,13 +213,3 @@ def _with_brackets(algebra: Array) -> Array:
     across = cross(w[:, None], v[None]) - cross(w[None], v[:, None])
     brackets = np.concatenate([across, cross(w[:, None], w[None])], axis=2).reshape(-1, 6).T
     return np.concatenate([algebra, brackets], axis=1)
-
-
-def _orthonormal(vectors: list[Array]) -> list[Array]:
-    found: list = [None] * len(vectors)
-    for _, group in alike(own.shape for own in vectors):
-        u, s, _ = np.linalg.svd(np.array([vectors[i] for i in group]), full_matrices=False)
-        kept = s > NONE * np.maximum(s.max(axis=1, keepdims=True, initial=0.0), 1e-300)
-        for i, basis, mask in zip(group, u, kept):
-            found[i] = basis[:, mask]
-    return found

@@ -1,4 +1,4 @@
-"""Rank and null space of rows, with the tolerance placed in the largest gap of the singular values.
+"""Rank, null space and span, with the tolerance placed in the largest gap of the singular values.
 
 A rank is a statement about noise: exported poses carry errors of 1e-7..1e-5, and an over-constrained
 mechanism exists only inside them.  So the border between "constrains" and "repeats" is put where the
@@ -7,9 +7,12 @@ singular values leave the widest gap, within a window; how wide it is says how s
 
 from __future__ import annotations
 
+from typing import Sequence
+
 import numpy as np
 
 from ..spatial import Array
+from .stacks import alike
 
 WINDOW = (1e-7, 1e-3)
 """Relative singular values between which the border may lie."""
@@ -56,3 +59,17 @@ def null_space(rows: Array) -> tuple[int, Array, float]:
     """Rank, orthonormal null space (columns, shape (n, n - rank)) and gap of rows (m, n)."""
     rank, gap, vt = factored(rows)
     return int(rank), vt[int(rank) :].T, float(gap)
+
+
+def spans(columns: Sequence[Array], cut: float | None = None) -> list[Array]:
+    """Orthonormal bases, shape (m, rank), of the spans of columns, shape (m, n) each.
+
+    cut: share of the largest singular value up to which one counts as a rounding; None puts it in the largest gap.
+    """
+    found: list = [None] * len(columns)
+    for _, group in alike(own.shape for own in columns):
+        u, s, _ = np.linalg.svd(np.array([columns[i] for i in group]), full_matrices=False)
+        rank = rank_of(s)[0] if cut is None and s.size else np.sum(s > (cut or 0.0) * s[:, :1], axis=1)
+        for i, basis, count in zip(group, u, rank):
+            found[i] = basis[:, :count]
+    return found

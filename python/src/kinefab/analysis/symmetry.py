@@ -20,6 +20,7 @@ from .freedom import block_freedoms
 from .jointing import Link
 from .loops import Tree
 from .measured import CLOSED, Measured
+from .rank import spans
 from .solve import Solver
 from .system import State, System, joined
 
@@ -204,8 +205,7 @@ def _span(rows: Array) -> Array:
     """Orthonormal rows with the same span."""
     if not rows.size or np.abs(rows).max() < NONE:
         return np.zeros((0, rows.shape[1]))
-    _, s, vt = np.linalg.svd(rows, full_matrices=False)
-    return vt[: int(np.sum(s > NONE * s[0]))]
+    return spans([rows.T], NONE)[0].T
 
 
 def _kept(system: System, symmetry: System) -> bool:

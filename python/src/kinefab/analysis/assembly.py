@@ -54,6 +54,10 @@ class Assembly:
     freedoms: list[BlockFreedom]
     finite: list[FiniteFreedom]
 
+    def body_of(self, node: int | None) -> int:
+        """The body of a node, 0 for ground."""
+        return int(self.body[0 if node is None else node + 1])
+
     @cached_property
     def nodes(self) -> list[list[int]]:
         """The nodes of each body, in scene order (of ground: those that stand on it)."""
@@ -95,8 +99,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
         edges = edges_of(system)
         blocks = blocks_of(system.bodies, edges)
         relative = relative_system(system, blocks)
-        solver = Solver(relative)
-        relative.fit(solver.row_part, solver.part, equations.length)
+        solver = Solver.fitted(relative, equations.length)
         start = relative.start()
         freedoms = block_freedoms(solver, start)
         finite = finite_freedoms(solver, freedoms, start)

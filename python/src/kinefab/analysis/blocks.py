@@ -8,10 +8,11 @@ against its block's root, an assembly falls into small independent systems (Hopc
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Iterator
+from typing import Iterable, Iterator
 
 import numpy as np
 
+from ..spatial import Array
 from .system import System
 
 
@@ -53,6 +54,17 @@ class Blocks:
         starts = np.searchsorted(depth[order], np.arange(1, int(depth.max(initial=0)) + 2))
         for at, end in zip(starts.tolist(), starts[1:].tolist()):
             yield order[at:end]
+
+    def carry(self, rotation: Array, translation: Array, bodies: Iterable[int]) -> None:
+        """Turn displacements against each block's root into displacements, in place.
+
+        bodies: those to do, roots first.  rotation, translation: of all bodies, shapes (bodies, 3, 3) and (bodies, 3).
+        """
+        for body in bodies:
+            if self.block[body] >= 0:
+                root = self.root[self.block[body]]
+                translation[body] = rotation[root] @ translation[body] + translation[root]
+                rotation[body] = rotation[root] @ rotation[body]
 
 
 def edges_of(system: System) -> np.ndarray:

@@ -68,8 +68,7 @@ def closed(equations: Equations, body: np.ndarray, report: Report) -> Closing:
         return Closing(system, [], (0.0, 0.0), body, rotation, translation, contradictory)
     blocks = blocks_of(n, edges_of(system))
     relative = relative_system(system, blocks)
-    solver = Solver(relative)
-    relative.fit(solver.row_part, solver.part, equations.length)
+    solver = Solver.fitted(relative, equations.length)
     start = relative.start()
     residual = relative.residual(start)
     gaps, worst = _gaps(relative, residual, equations)
@@ -90,11 +89,7 @@ def closed(equations: Equations, body: np.ndarray, report: Report) -> Closing:
                 relative, solver, part, relative.residual(state), equations, report
             )
         rotation, translation = relative.displacement(state)
-        for i in blocks.order:
-            if blocks.block[i] >= 0:
-                root = blocks.root[blocks.block[i]]
-                translation[i] = rotation[root] @ translation[i] + translation[root]
-                rotation[i] = rotation[root] @ rotation[i]
+        blocks.carry(rotation, translation, blocks.order)
         system = _displaced(system, rotation, translation)
     return Closing(system, gaps, worst, body, rotation, translation, contradictory)
 

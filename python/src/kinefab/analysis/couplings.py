@@ -31,7 +31,7 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
         if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
             continue
         kind, *freedoms = _KINDS[statement.kind]
-        carrier = _body(assembly, statement.features[2].node) if len(statement.features) > 2 else 0
+        carrier = assembly.body_of(statement.features[2].node) if len(statement.features) > 2 else 0
         ends = []
         for feature, first in zip(statement.features, freedoms):
             end = _coordinate(assembly, by_pair, scene, feature, carrier, first)
@@ -64,13 +64,9 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
     return found[:first] + sorted(found[first:], key=lambda c: assembly.equations.places[c.id])
 
 
-def _body(assembly: Assembly, node: int | None) -> int:
-    return int(assembly.body[0 if node is None else node + 1])
-
-
 def _coordinate(assembly: Assembly, by_pair: dict, scene: Scene, feature, carrier: int, first: int):
     """(joint id, freedom, sign) of the joint coordinate along or about a feature's direction, or None."""
-    body = _body(assembly, feature.node)
+    body = assembly.body_of(feature.node)
     link: Link | None = by_pair.get((min(body, carrier), max(body, carrier)))
     if link is None:
         return None

@@ -11,6 +11,7 @@ from ..spatial import Array
 from .assembly import Assembly
 from .candidates import Geometry, candidates
 from .finite import Candidate
+from .motion import stepped
 from .rank import spans
 from .solve import Solver
 from .twists import TwistSpace, twist_space
@@ -105,16 +106,7 @@ def _stays(assembly: Assembly, body_a: int, body_b: int, candidate: Candidate, l
     draw = np.random.default_rng(17)
     solver: Solver = assembly.solver
     for _ in range(POSES):
-        bodies, twists = [], []
-        for freedom in assembly.freedoms:
-            if freedom.mobility:
-                direction = freedom.basis @ draw.standard_normal(freedom.mobility)
-                bodies.append(freedom.bodies)
-                twists.append(WALK * direction.reshape(-1, 6) / np.abs(direction).max())
-        if not bodies:
-            return True
-        state = solver.system.moved(assembly.start, np.concatenate(bodies), np.concatenate(twists))
-        state, _ = solver.project(state)
+        state = stepped(solver, assembly.freedoms, assembly.start, WALK, draw)
         rotation, translation = solver.system.displacement(state)
         turn_a, shift_a = _absolute(assembly, rotation, translation, body_a)
         turn_b, shift_b = _absolute(assembly, rotation, translation, body_b)

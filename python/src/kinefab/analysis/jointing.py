@@ -71,7 +71,6 @@ class _Jointing:
         self.assembly, self.report = assembly, report
         self.depth = np.empty(assembly.system.bodies, dtype=np.int64)
         self.depth[assembly.blocks.order] = np.arange(assembly.system.bodies)
-        self.body = assembly.body.tolist()
         self.links: list[Link] = []
         self.nodes: list[Node] = []
         self.names: set[str] = set()
@@ -145,7 +144,7 @@ class _Jointing:
         return same is not None
 
     def _link_explicit(self, joint: Joint) -> None:
-        a, b = (self.body[0 if n is None else n + 1] for n in (joint.a, joint.b))
+        a, b = (self.assembly.body_of(n) for n in (joint.a, joint.b))
         self.names.add(joint.id)
         self.links.append(Link(a, b, joint if joint.because else replace(joint, because=(joint.id,))))
 
@@ -229,8 +228,7 @@ class _Jointing:
         label = np.zeros(system.bodies, dtype=np.int64)
         label[relation.second] = 1
         alone = system.relabel(label)
-        solver = Solver(alone)
-        alone.fit(solver.row_part, solver.part, relation.length)
+        solver = Solver.fitted(alone, relation.length)
         start = alone.start()
         finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
         if not finite.singular:
@@ -343,7 +341,7 @@ class _Jointing:
             for feature in getattr(self.assembly.equations.statements[owner], "features", ())
             if feature.direction is not None
         ]
-        mine = [self.body[0 if f.node is None else f.node + 1] == body for f in named]
+        mine = [self.assembly.body_of(f.node) == body for f in named]
         for whose in (True, False):
             for feature in compress(named, (own == whose for own in mine)):
                 yield self._pose(feature.node).direction(feature.direction)
@@ -357,7 +355,7 @@ class _Jointing:
             return len(self.assembly.scene.nodes) + body - self.assembly.system.bodies
         for owner in relation.owners:
             for node in nodes_of(self.assembly.equations.statements[owner]):
-                if node is not None and self.body[node + 1] == body:
+                if node is not None and self.assembly.body_of(node) == body:
                     return node
         return None
 

@@ -20,10 +20,11 @@ from ..diagnostics import Report
 from ..model import FREE, FREEDOM_NAMES, LOCKED, RX, Joint, Scene, kind_of
 from ..spatial import Array, Pose
 from .assembly import Assembly
-from .blocks import Blocks, relative_system
+from .blocks import relative_system
 from .equations import frame_side, joint_rows
 from .freedom import block_freedoms
 from .loops import Link, Tree, replace_link
+from .motion import stepped
 from .openings import NONE, Block, BlockTree, Openings, moved_by, openings, tree_twists
 from .rows import Rows
 from .solve import Solver
@@ -202,8 +203,7 @@ def _travel(
     blocks = assembly.blocks_with([(l.a, l.b) for l in tree.links], bodies)
     indices = [i for block, _ in doubtful for i in block.indices]
     system = relative_system(_system({i: tree.links[i] for i in indices}, world, bodies), blocks)
-    solver = Solver(system)
-    system.fit(solver.row_part, solver.part, assembly.equations.length)
+    solver = Solver.fitted(system, assembly.equations.length)
     frames = np.broadcast_to(np.eye(3), (bodies, 3, 3)).copy()
     parts = []
     for block, _ in doubtful:
@@ -214,22 +214,12 @@ def _travel(
     order = [body for body in blocks.order.tolist() if body in moving]
     for state, there in poses_along(solver, frames):
         come = [n for n, own in enumerate(parts) if there[own[own >= 0]].any()]
-        rotation, translation = _in_world(system, state, blocks, order)
+        rotation, translation = (values.copy() for values in system.displacement(state))
+        blocks.carry(rotation, translation, order)
         twists = tree_twists([doubtful[n][0] for n in come], rotation, translation)
         for n, found in zip(come, openings(twists, [doubtful[n][1][0] for n in come])):
             if found is not None:
                 doubtful[n][1].append(found)
-
-
-def _in_world(system: System, state: State, blocks: Blocks, order: list[int]) -> tuple[Array, Array]:
-    """Displacements of all bodies from a state in which every block moves against its root."""
-    rotation, translation = (values.copy() for values in system.displacement(state))
-    for body in order:
-        if blocks.block[body] >= 0:
-            root = blocks.root[blocks.block[body]]
-            translation[body] = rotation[root] @ translation[body] + translation[root]
-            rotation[body] = rotation[root] @ rotation[body]
-    return rotation, translation
 
 
 def _refused(
@@ -245,11 +235,10 @@ def _refused(
     own = np.flatnonzero(np.isin(of_link, of_link[list(reduced)])).tolist()
     kept = relative_system(_system({i: reduced.get(i, links[i]) for i in own}, frames, bodies), blocks)
     whole = relative_system(_system({i: links[i] for i in own}, frames, bodies), blocks)
-    solver, check = Solver(kept), Solver(whole)
-    kept.fit(solver.row_part, solver.part, assembly.equations.length)
-    whole.fit(check.row_part, check.part, assembly.equations.length)
+    solver, check = (Solver.fitted(system, assembly.equations.length) for system in (kept, whole))
     whole.center, whole.length = kept.center, kept.length
-    state = _walked(solver, kept.start())
+    start = kept.start()
+    state = stepped(solver, block_freedoms(solver, start), start, WALK, np.random.default_rng(23))
     start = whole.start()
     residual = np.abs(whole.residual(State(state.rotation, state.shift, start.angle)))
     bad = residual > np.maximum(IMPLIED, 100.0 * np.abs(whole.residual(start)))
@@ -257,20 +246,6 @@ def _refused(
     owners, first = np.unique(whole.owner, return_index=True)
     part_of = dict(zip(owners.tolist(), check.row_part[first].tolist()))
     return {i for i in reduced if part_of.get(i) in parts}
-
-
-def _walked(solver: Solver, start: State) -> State:
-    draw = np.random.default_rng(23)
-    bodies, twists = [], []
-    for freedom in block_freedoms(solver, start):
-        if freedom.mobility:
-            direction = freedom.basis @ draw.standard_normal(freedom.mobility)
-            bodies.append(freedom.bodies)
-            twists.append(WALK * direction.reshape(-1, 6) / np.abs(direction).max())
-    if not bodies:
-        return start
-    state = solver.system.moved(start, np.concatenate(bodies), np.concatenate(twists))
-    return solver.project(state)[0]
 
 
 def _world_frames(links: list[Link], scene: Scene) -> tuple[Array, Array]:

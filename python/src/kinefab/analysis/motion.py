@@ -79,6 +79,17 @@ def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: St
     return _trial(solver, first_order, start, directions) if directions else {}
 
 
+def stepped(
+    solver: Solver, first_order: list[BlockFreedom], start: State, size: float, draw: np.random.Generator
+) -> State:
+    """A pose of all parts after a random step of ``size``, radians or fractions of the length, and back onto the rows."""
+    moving = [f for f in first_order if f.mobility]
+    if not moving:
+        return start
+    twists = [size * _random_direction(f.basis, draw).reshape(-1, 6) for f in moving]
+    return solver.project(solver.system.moved(start, np.concatenate([f.bodies for f in moving]), np.concatenate(twists)))[0]
+
+
 def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
     direction = basis @ draw.standard_normal(basis.shape[1])
     return direction / np.abs(direction).max()

@@ -60,8 +60,8 @@ def _inside_groups(analysis: Analysis) -> Iterator[tuple[str, list[int | None]]]
     """Id and nodes of the constraints and joints between parts that never move against each other, in the
     source's order."""
     assembly = analysis.assembly
-    places, body = assembly.equations.places, assembly.body
+    places = assembly.equations.places
     for statement in sorted(assembly.equations.statements, key=lambda s: places[s.id]):
         ends = list(dict.fromkeys(nodes_of(statement)))
-        if len(ends) > 1 and len({int(body[0 if node is None else node + 1]) for node in ends}) == 1:
+        if len(ends) > 1 and len({assembly.body_of(node) for node in ends}) == 1:
             yield statement.id, ends

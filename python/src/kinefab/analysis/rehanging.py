@@ -44,7 +44,7 @@ def _counted_from(assembly: Assembly) -> set[frozenset[int]]:
     pairs = set()
     for statement in assembly.equations.statements:
         if isinstance(statement, Constraint) and statement.kind in COUPLED:
-            bodies = [int(assembly.body[0 if f.node is None else f.node + 1]) for f in statement.features]
+            bodies = [assembly.body_of(f.node) for f in statement.features]
             carrier = bodies[2] if len(bodies) > 2 else 0
             pairs |= {frozenset((body, carrier)) for body in bodies[:2]}
     return pairs
@@ -60,7 +60,7 @@ def _hang(
     carrier: int,
     counted: set[frozenset[int]],
 ) -> None:
-    body, onto = int(assembly.body[part + 1]), int(assembly.body[carrier + 1])
+    body, onto = assembly.body_of(part), assembly.body_of(carrier)
     if any({link.a, link.b} == {body, onto} for link in links) or body == onto:
         return
     for i, own in enumerate(links):

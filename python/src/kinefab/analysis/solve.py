@@ -74,6 +74,13 @@ class Solver:
         self.parts = len(used)
         self.groups = self._grouped()
 
+    @classmethod
+    def fitted(cls, system: System, length: float) -> "Solver":
+        """Sets the system's own points and lengths too.  length: see ``System.fit``."""
+        solver = cls(system)
+        system.fit(solver.row_part, solver.part, length)
+        return solver
+
     def _grouped(self) -> list[_Group]:
         s, n = self.system, self.parts
         if not n:

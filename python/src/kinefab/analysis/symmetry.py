@@ -107,7 +107,7 @@ class _Block:
     def _way(self, owner: int, tree: Tree, links: list[Link]) -> _Way | None:
         """None where a part does not hang on the plane's body."""
         features = self.assembly.equations.statements[owner].features[:3]
-        a, b, plane = (int(self.assembly.body[0 if f.node is None else f.node + 1]) for f in features)
+        a, b, plane = (self.assembly.body_of(f.node) for f in features)
         ways = [tree.way(plane, body) for body in (a, b)]
         if None in ways:
             return None

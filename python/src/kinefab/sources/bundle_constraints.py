@@ -65,10 +65,7 @@ def read_constraints(
     drafts: list[FeatureDraft] = []
     found: list[tuple[Record, dict[str, object], slice]] = []
     for record in bundle.records("constraints", CONSTRAINT):
-        name = record.text("id")
-        if name and name in seen:
-            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
-        seen[name] = log.place(record.pointer)
+        name = record.identity(seen)
         start = len(drafts)
         fields = _fields(record, name, components, frame, drafts, log)
         if record.sound:

@@ -23,11 +23,8 @@ def read_couplings(bundle: Record, joints: Joints, frame: SourceFrame, log: Log)
     seen: dict[str, str] = {}
     found = []
     for record in bundle.records("couplings", COUPLING):
-        name = record.text("id")
+        name = record.identity(seen)
         feature = f"coupling {name}"
-        if name and name in seen:
-            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
-        seen[name] = log.place(record.pointer)
         kind = record.choice("kind", KINDS)
         ends = [_end(record, key, feature, by_id, joints) for key in "ab"]
         backwards = record.flag("reversed")

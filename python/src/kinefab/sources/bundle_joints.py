@@ -48,10 +48,7 @@ def read_joints(bundle: Record, components: Components, frame: SourceFrame, log:
     drafts: list[JointDraft] = []
     seen: dict[str, str] = {}
     for record in bundle.records("joints", JOINT):
-        name = record.text("id")
-        if name and name in seen:
-            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
-        seen[name] = log.place(record.pointer)
+        name = record.identity(seen)
         if (draft := read_draft(record, name, components, frame, found.inactive)) is not None:
             drafts.append(draft)
     if drafts:

@@ -136,6 +136,14 @@ class Record:
             self.fault("BUNDLE_FIELD_MISSING", "", field=key)
         return value
 
+    def identity(self, seen: dict[str, str]) -> str:
+        """The record's own ``id``; a fault where one of ``seen``, ids and places of its kind so far, has it too."""
+        name = self.text("id")
+        if name and name in seen:
+            self.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=seen[name])
+        seen[name] = self.log.place(self.pointer)
+        return name
+
     def texts(self, key: str) -> tuple[str, ...]:
         """An array of texts; empty when absent."""
         values = self._value(key, ())

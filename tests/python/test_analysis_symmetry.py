@@ -8,19 +8,17 @@ import math
 import numpy as np
 import pytest
 from derivatives import check_derivative
-from exported_components import components
 from hypothesis import given, settings
 from mechanism_cases import ROOT, analysed, node, scene
 from scenes import exported
 from source_bundles import read
-from strategies import random_pose, seeds
-from test_analysis_components import worst_violation
+from strategies import random_direction, random_pose, seeds
 from test_sources_left_handed import by_the_other_hand
 
 from kinefab.analysis import analyse
 from kinefab.analysis.equations import equations_of
 from kinefab.diagnostics import Report
-from kinefab.model import RX, TX, Constraint, ConstraintKind as C, Feature, FeatureKind as F, Motion, Node, Scene
+from kinefab.model import RX, TX, Constraint, ConstraintKind as C, Feature, FeatureKind as F, Node, Scene
 from kinefab.spatial import Pose, rotation_about, rotation_exp
 
 
@@ -137,7 +135,7 @@ def turned_jaws(rng, feature, carried, mirrored=True):
     def image(point):
         return middle + flip @ (point - middle)
 
-    axis, pivot, point, along = unit(rng), *(middle + rng.uniform(-0.5, 0.5, 3) for _ in range(2)), unit(rng)
+    axis, pivot, point, along = random_direction(rng), *(middle + rng.uniform(-0.5, 0.5, 3) for _ in range(2)), random_direction(rng)
     other_axis = flip @ axis * rng.choice([-1.0, 1.0])
     if not mirrored:
         other_axis = rotation_exp(np.array([0.3, -0.2, 0.25])) @ other_axis
@@ -162,13 +160,8 @@ def turned_jaws(rng, feature, carried, mirrored=True):
         Constraint("mirror", C.SYMMETRY, (*named, on(hub, F.PLANE, middle, normal))),
     ]
     if carried:
-        constraints.insert(0, hinge("wrist", 0, hub, middle + rng.uniform(-0.5, 0.5, 3), unit(rng)))
+        constraints.insert(0, hinge("wrist", 0, hub, middle + rng.uniform(-0.5, 0.5, 3), random_direction(rng)))
     return Scene(nodes=nodes, constraints=constraints)
-
-
-def unit(rng):
-    v = rng.normal(size=3)
-    return v / np.linalg.norm(v)
 
 
 @pytest.mark.parametrize("carried", [False, True])
@@ -298,70 +291,3 @@ def test_a_symmetry_that_the_joints_keep_already_needs_no_coupling():
     found = analyse(Scene(nodes=nodes, constraints=[*slides, Constraint("mirror", C.SYMMETRY, planes)]))
     assert found.mobility == 2 and found.couplings == []
     assert {o.outcome.value for o in found.report.outcomes} == {"kept"}
-
-
-def width(rng, sides, feature, grounded):
-    """A slot centred on a tab, or a part mirrored in a plane of the other or of itself, at any pose.
-
-    sides: parts of the two sides and of the plane; part 3 is fixed to part 2.  grounded: parts on the ground.
-    """
-    nodes = [Node("base", "base", grounded=True)]
-    nodes += [Node(n, n, pose=random_pose(rng), grounded=i in grounded) for i, n in enumerate("abc", 1)]
-    middle, (normal, *_) = rng.uniform(-1, 1, 3), np.linalg.qr(rng.normal(size=(3, 3)))[0].T
-    aside, along = 0.3 * normal, np.cross(normal, unit(rng)) if feature is F.LINE else normal
-
-    def on(node, kind, at, direction=None):
-        inwards = nodes[node].pose.inverse()
-        return Feature(node, kind, inwards.point(at), None if direction is None else inwards.direction(direction))
-
-    direction = None if feature is F.POINT else along / np.linalg.norm(along)
-    points = (middle + aside, middle - aside)
-    named = (on(node, feature, at, direction) for node, at in zip(sides, points))
-    fixed = Constraint("fixed", C.LOCK, (Feature(2, F.BODY, np.zeros(3)), Feature(3, F.BODY, np.zeros(3))))
-    mate = Constraint("width", C.SYMMETRY, (*named, on(sides[2], F.PLANE, middle, normal)))
-    return Scene(nodes=nodes, constraints=[mate, fixed])
-
-
-@pytest.mark.parametrize("grounded", [(), (1,), (2,)])
-@pytest.mark.parametrize(
-    ("sides", "feature", "kind"),
-    [
-        ((2, 2, 1), F.PLANE, "planar"),
-        *(((2, 1, plane), F.PLANE, "planar") for plane in (1, 2)),
-        *(((2, 1, plane), F.LINE, "cylindrical") for plane in (1, 2)),
-        *(((2, 1, plane), F.POINT, "spherical") for plane in (1, 2)),
-        ((2, 1, 3), F.PLANE, "planar"),
-        ((3, 2, 1), F.PLANE, "planar"),
-    ],
-)
-@settings(max_examples=3, deadline=None)
-@given(seeds)
-def test_a_symmetry_of_two_bodies_is_a_joint(sides, feature, kind, grounded, seed):
-    """A width mate, and a plane that moves as one with a side, by the source's word or by a lock: one joint, exactly."""
-    rng = np.random.default_rng(seed)
-    found = analyse(width(rng, sides, feature, grounded))
-    (joint,) = (j for j in found.joints if "width" in j.because)
-    assert joint.kind.value == kind and found.couplings == [] and found.gaps == []
-    assert {o.outcome.value for o in found.report.outcomes} == {"kept"}
-    assert found.mobility == sum(f.motion is not Motion.LOCKED for f in joint.freedoms) + 6 * (not grounded)
-    if grounded:
-        moved, parts = components(found)
-        assert worst_violation(found, parts, moved, rng) < 1e-9
-
-
-def test_a_symmetry_between_grounded_parts_is_one_with_the_ground():
-    """Plane and one side on two grounded parts: the other side's part slides on the plane of both."""
-    x = np.eye(3)[0]
-    nodes = [Node("tab", "tab", grounded=True), Node("wall", "wall", grounded=True), Node("slot", "slot")]
-    features = (Feature(n, F.PLANE, at * x, x) for n, at in ((1, 0.3), (2, -0.3), (0, 0.0)))
-    found = analyse(Scene(nodes=nodes, constraints=[Constraint("width", C.SYMMETRY, tuple(features))]))
-    (joint,) = found.joints
-    assert (joint.kind.value, joint.because, found.mobility) == ("planar", ("width",), 3)
-
-
-def test_a_symmetry_within_one_part_is_with_itself():
-    x = np.eye(3)[0]
-    features = (Feature(1, F.PLANE, at * x, x) for at in (0.3, -0.3, 0.0))
-    nodes = [Node("base", "base", grounded=True), Node("a", "a")]
-    found = analyse(Scene(nodes=nodes, constraints=[Constraint("width", C.SYMMETRY, tuple(features))]))
-    assert [o.code for o in found.report.outcomes] == ["CONSTRAINT_WITH_ITSELF"]

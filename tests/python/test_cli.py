@@ -3,38 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
 
-import jsonschema
 import pytest
+from command_line import LEVER, checked_report, lid, run  # noqa: F401 (a fixture)
 
 import kinefab
-from kinefab.diagnostics import schema_directory
 from scenes import BOX, lid_scene, read
-from source_bundles import bundle as bundle_of
-from source_bundles import part
 
-LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
 HEAVY = ("trimesh", "scipy", "numpy", "jsonschema")
-
-
-def run(*arguments, cwd=None, **environment):
-    return subprocess.run(
-        [sys.executable, "-m", "kinefab", *map(str, arguments)],
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        env={**os.environ, **environment},
-    )
-
-
-@pytest.fixture()
-def lid(tmp_path) -> Path:
-    return kinefab.export(lid_scene(), tmp_path / "lid.kinefab").path
 
 
 def test_version_goes_to_stdout():
@@ -142,26 +121,6 @@ def test_inspect_of_no_scene_exits_1_without_a_traceback(tmp_path, text):
     assert ("SOURCE_NOT_FOUND" if text is None else "SCENE_UNREADABLE") in done.stderr
 
 
-def test_missing_source_exits_1_and_writes_nothing(tmp_path):
-    """A source that is not there is a diagnostic; so it is in the report file."""
-    done = run(
-        "export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", tmp_path / "r.json"
-    )
-    assert done.returncode == 1 and "Traceback" not in done.stderr
-    assert [p.name for p in tmp_path.iterdir()] == ["r.json"]
-    report = checked_report(tmp_path / "r.json")
-    assert report["diagnostics"][0]["severity"] == "error"
-    assert report["written"] is False and report["errors"] == 1
-
-
-def checked_report(path: Path) -> dict:
-    schema = json.loads((schema_directory() / "export_report.schema.json").read_text(encoding="utf-8"))
-    report = json.loads(path.read_text(encoding="utf-8"))
-    jsonschema.Draft202012Validator(schema).validate(report)
-    return report
-
-
-@pytest.mark.skipif(not LEVER.exists(), reason="the lever's fixture is not here")
 def lever_joints(path: Path) -> list[dict]:
     return [
         {**c, "object": o["id"]}
@@ -242,42 +201,6 @@ def test_draw_tells_of_an_unsound_scene(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "output, report",
-    [("a.bundle.json", "r.json"), ("a.kinefab", "a.bundle.json"), ("a.kinefab", "../{folder}/a.kinefab")],
-)
-def test_no_file_of_the_call_overwrites_another(tmp_path, output, report):
-    """The source as target, or the report in the place of either, is wrong usage, and the files stay."""
-    (tmp_path / "a.bundle.json").write_bytes(LEVER.read_bytes())
-    report = tmp_path / report.format(folder=tmp_path.name)
-    done = run("export", tmp_path / "a.bundle.json", "-o", tmp_path / output, "--report", report)
-    assert done.returncode == 2
-    assert [path.name for path in tmp_path.iterdir()] == ["a.bundle.json"]
-    assert (tmp_path / "a.bundle.json").read_bytes() == LEVER.read_bytes()
-
-
-@pytest.mark.parametrize("output", ["a" * 300 + ".kinefab", "no/folder.kinefab"])
-def test_target_that_cannot_be_made_is_a_finding(tmp_path, output):
-    """The reason is told, also where the file system refuses even to look."""
-    done = run("export", LEVER, "-o", tmp_path / output)
-    assert done.returncode == 1 and "TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="file names of any bytes are Linux's")
-@pytest.mark.parametrize(
-    "source, output", [("a\udcff.bundle.json", "a.kinefab"), ("a.bundle.json", "a\udcff.kinefab")]
-)
-def test_file_name_that_is_not_utf8_is_a_finding(tmp_path, source, output):
-    """A name that no JSON file can hold is refused, and the report of that is JSON all the same."""
-    (tmp_path / source).write_bytes(b'{"meta": 1}' if source != "a.bundle.json" else LEVER.read_bytes())
-    for mesh in LEVER.parent.glob("*.obj"):
-        (tmp_path / mesh.name).write_bytes(mesh.read_bytes())
-    done = run("export", tmp_path / source, "-o", tmp_path / output, "--report", tmp_path / "r.json")
-    assert done.returncode == 1 and "Traceback" not in done.stderr
-    found = json.loads((tmp_path / "r.json").read_bytes())["diagnostics"]
-    assert {"SOURCE_UNREADABLE", "TARGET_UNWRITABLE"} & {entry["code"] for entry in found}
-
-
-@pytest.mark.parametrize(
     "content",
     [
         {"gameObjects": [{"id": "a", "name": "a", "components": [{}]}]},
@@ -321,52 +244,3 @@ def test_h_is_help(command):
     short, long = (run(*command, word, NO_COLOR="1") for word in ("-h", "--help"))
     assert short.returncode == long.returncode == 0
     assert short.stdout == long.stdout and "Usage:" in short.stdout
-
-
-def limited_run(blocks: int, *arguments):
-    """As ``run``, with files cut off at so many KiB, as a full disk does."""
-    command = f"ulimit -f {blocks}; exec \"$@\""
-    return subprocess.run(
-        ["bash", "-c", command, "bash", sys.executable, "-m", "kinefab", *map(str, arguments)],
-        capture_output=True, text=True, timeout=60,
-    )  # fmt: skip
-
-
-@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
-@pytest.mark.parametrize("old", [None, "the old picture"])
-def test_a_picture_is_written_whole_or_not_at_all(lid, tmp_path, old):
-    """A full disk leaves the old picture, or none, and a finding with its code."""
-    picture = tmp_path / "lid.svg"
-    if old is not None:
-        picture.write_text(old)
-    before = sorted(tmp_path.iterdir())
-    done = limited_run(1, "draw", lid, "-o", picture)
-    assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
-    assert sorted(tmp_path.iterdir()) == before and (old is None or picture.read_text() == old)
-    assert run("draw", lid, "-o", picture).returncode == 0 and picture.read_text().rstrip().endswith("</svg>")
-
-
-@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
-def test_a_report_is_written_whole_or_not_at_all(tmp_path):
-    """A full disk leaves the report of the last run, not the first half of this one."""
-    bundle, report = tmp_path / "a.bundle.json", tmp_path / "r.json"
-    orphans = [part(f"p{i}", parent="none") for i in range(50)]
-    bundle.write_text(json.dumps(bundle_of(*orphans)))
-    assert run("export", bundle, "-o", tmp_path / "a.kinefab", "--report", report).returncode == 1
-    old = report.read_bytes()
-    assert len(old) > 2048
-    done = limited_run(1, "export", bundle, "-o", tmp_path / "a.kinefab", "--report", report)
-    assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr
-    assert report.read_bytes() == old and sorted(p.name for p in tmp_path.iterdir()) == ["a.bundle.json", "r.json"]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="needs links and pipes")
-def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
-    """A link stays a link, and what is no regular file is not replaced by one."""
-    (tmp_path / "there").mkdir()
-    link = tmp_path / "lid.svg"
-    link.symlink_to(tmp_path / "there" / "picture.svg")
-    assert run("draw", lid, "-o", link).returncode == 0
-    assert link.is_symlink() and (tmp_path / "there" / "picture.svg").is_file()
-    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", "/dev/stdout")
-    assert json.loads(done.stdout)["written"] is False

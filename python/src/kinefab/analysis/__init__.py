@@ -10,8 +10,8 @@
 * Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``drive`` (to stated coordinates).
 * Freedoms: ``rank``, ``freedom`` (first order, block by ``blocks``), ``motion`` (finite), ``idle``, ``freedoms``
   (of each part against ground).
-* Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to what Unity
-  can have, with ``middle`` bodies and ``rehanging`` where one joint is not enough.
+* Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to the
+  ``links`` that Unity can have; ``resolving`` what is no one joint's twists, with ``middle`` bodies; ``rehanging``.
 * The mechanism: ``bodies`` and ``assembly`` (rigid groups), ``loops``, ``minimal`` closures, ``couplings``.
 * How far it goes: ``ranges`` that the source states; ``limits`` found along the ``curve`` of one freedom or, of several,
   by each joint's ``reach``, both over ``measured`` coordinates.

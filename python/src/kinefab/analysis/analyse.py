@@ -15,8 +15,9 @@ from .assembly import Assembly, assemble
 from .couplings import couplings_of
 from .freedoms import check_records, singular_joints
 from .idle import idle_freedoms
-from .jointing import Link, Links, links_of
+from .jointing import links_of
 from .limits import found_ranges, with_found_ranges
+from .links import Link, Links
 from .loops import Tree, spanning_tree
 from .minimal import minimal_closures
 from .ranges import with_ranges

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..diagnostics import Report
 from ..model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Scene
 from .assembly import Assembly
-from .jointing import Link
+from .links import Link
 
 _KINDS = {
     ConstraintKind.GEAR: (CouplingKind.GEAR, RX, RX),

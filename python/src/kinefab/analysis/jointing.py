@@ -3,62 +3,25 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import compress
 from typing import Iterable, Iterator
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import (
-    RX,
-    TY,
-    TZ,
-    Constraint,
-    Coupling,
-    Joint,
-    JointKind,
-    MassProperties,
-    Node,
-)
+from ..model import RX, TY, TZ, Constraint, Coupling, Joint, JointKind, MassProperties, Node
 from ..spatial import Array, Pose
 from .assembly import Assembly
-from .finite import EXACT, Candidate, chain_misfit, misfits
-from .freedom import block_freedoms
-from .middle import middle_body
-from .motion import finite_freedoms
-from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
-from .solve import Solver
-from .twists import NAMED, snapped, twist_space
+from .finite import Candidate
+from .links import Link, Links
+from .pairs import Relation, find_joints, relations_of
+from .resolving import find_by_finite_motions, joints_of_each, missed
 
 MIDDLE_SHARE = 0.1
 """Mass of a middle body against the lighter of its neighbours."""
-MISSED_SAMPLES = 1000
-"""Motions among which the largest misfit of an approximated joint is looked for: the few that tell whether a joint fits
-find half of it."""
 MANY = 200
 """Constraints between one pair from which the report mentions their number."""
-
-
-@dataclass(slots=True, eq=False)
-class Link:
-    """A joint and the bodies it joins (numbers of the assembly; middle bodies come after them)."""
-
-    a: int
-    b: int
-    joint: Joint
-
-
-@dataclass(slots=True, eq=False)
-class Links:
-    """All joints of an assembly.  nodes: added middle bodies.  bodies: number of bodies with them.
-    aside: explicit joints inside one body or without equations, which the export reports."""
-
-    links: list[Link]
-    aside: list[Joint]
-    nodes: list[Node]
-    bodies: int
-    relations: list[Relation]
 
 
 def links_of(assembly: Assembly, report: Report) -> Links:
@@ -162,100 +125,28 @@ class _Jointing:
 
     def _resolve(self, relation: Relation) -> None:
         """What no candidate of the twists expresses: finite motions, middle bodies, or a report."""
-        self._by_finite_motions(relation)
+        find_by_finite_motions(self.assembly.system, relation)
         if relation.joint is not None:
             return
-        parts = self._parts(relation)
-        if parts is None:
+        stands = joints_of_each(self.assembly, relation)
+        if stands is None:
             self._approximate(relation)
             return
-        for part, names in parts:
-            if isinstance(part, Relation):
-                self._add(relation.first, relation.second, part.joint, part, names)
+        for stand, names in stands:
+            if isinstance(stand, Relation):
+                self._add(relation.first, relation.second, stand.joint, stand, names)
                 continue
-            near, far = part
+            near, far = stand
             body = self._middle_node(near.origin, far.origin, names[0], relation)
             self.report.add("RELATION_BY_MIDDLE_BODY", names=", ".join(names[:12]), body=self.nodes[-1].id)
             self._add(relation.first, body, near, relation, names)
             self._add(body, relation.second, far, relation, names)
 
-    def _parts(self, relation: Relation) -> list[tuple[Relation | tuple[Candidate, Candidate], list[str]]] | None:
-        """A joint, or two with a middle body, for each of the pair's constraints that says something new, and
-        the names of those that it stands for; None where there is no such joint.
-
-        A relation that is stated twice must not become two rods side by side: they would make a loop of their own.
-        """
-        system = self.assembly.system
-        owners = relation.owners
-        found = []
-        for owner in owners:
-            rows = relation.rows[system.owner[relation.rows] == owner]
-            single = self._single(rows) if len(owners) > 1 else relation
-            part = single if single.joint is not None else middle_body(system, rows, relation)
-            if part is None:
-                return None
-            found.append((single.rank, part, rows, self.assembly.equations.statements[owner].id))
-        parts: list[tuple[Relation | tuple[Candidate, Candidate], list[str]]] = []
-        for _, part, rows, name in sorted(found, key=lambda f: -f[0]):
-            by = next((names for earlier, names in parts if self._implied(rows, earlier, relation)), None)
-            if by is None:
-                parts.append((part, [name]))
-            else:
-                by.append(name)
-        return parts
-
-    def _implied(
-        self, rows: np.ndarray, part: Relation | tuple[Candidate, Candidate], relation: Relation
-    ) -> bool:
-        """Whether all motions that two joints with a middle body allow keep these rows too."""
-        if isinstance(part, Relation):
-            return False
-        return chain_misfit(self.assembly.system.select(rows), relation.second, *part, relation.length) <= EXACT
-
-    def _single(self, rows: np.ndarray) -> Relation:
-        """The relation that some of a pair's rows make by themselves."""
-        system = self.assembly.system.select(rows)
-        pairs = pairs_of(system)
-        relation = relations_of(system, pairs, system.start())[0]
-        find_joints(system, pairs, [relation], system.residual(system.start()))
-        return replace(relation, rows=np.sort(rows))
-
-    def _by_finite_motions(self, relation: Relation) -> None:
-        """At a singular pose the twists promise too much: classify what really moves."""
-        if len(relation.rows) == relation.rank:
-            return
-        system = self.assembly.system.select(relation.rows)
-        label = np.zeros(system.bodies, dtype=np.int64)
-        label[relation.second] = 1
-        alone = system.relabel(label)
-        solver = Solver.fitted(alone, relation.length)
-        start = alone.start()
-        finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
-        if not finite.singular:
-            return
-        relation.finite = finite.mobility
-        arm = (relation.origin - alone.center[1]) / relation.length
-        v = finite.tangent[:3] * alone.length[1] / relation.length + np.cross(finite.tangent[3:].T, arm).T
-        basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
-        space = twist_space(basis, relation.origin, relation.length, system.axes, NAMED)
-        named = relation.geometry
-        directions = np.concatenate([named.first, named.second])
-        relation.space = snapped(space, named.points, directions, relation.length)
-        pairs = Pairs(
-            np.array([0]),
-            np.array([1]),
-            np.zeros(alone.rows, dtype=np.int64),
-            np.zeros(len(alone.kind), dtype=np.int64),
-        )
-        local = replace(relation, first=0, second=1, rows=np.arange(alone.rows))
-        find_joints(alone, pairs, [local], alone.residual(start))
-        relation.joint, relation.misfit, relation.tried = local.joint, local.misfit, local.tried
-
     def _approximate(self, relation: Relation) -> None:
         names = ", ".join(self._names(relation)[:12])
         if relation.tried:
             relation.joint = relation.tried[-1]
-            relation.missed = self._missed(relation)
+            relation.missed = missed(self.assembly.system, relation)
             self.report.approximated(
                 f"constraint {names}",
                 "RELATION_APPROXIMATED",
@@ -266,17 +157,6 @@ class _Jointing:
             )
         else:
             self.report.dropped(f"constraint {names}", "RELATION_DROPPED", names=names)
-
-    def _missed(self, relation: Relation) -> tuple[float, float]:
-        """By how much the relation's joint violates its rows as it moves: metres, radians (or cosines)."""
-        system, pair = self.assembly.system, (np.array([relation.first]), np.array([relation.second]))
-        worst = []
-        for lengths in (True, False):
-            some = system.select(relation.rows[system.is_length[relation.rows] == lengths])
-            one = np.zeros(len(some.kind), dtype=np.int64)
-            length = np.array([relation.length])
-            worst.append(float(misfits(some, *pair, one, [relation.joint], length, MISSED_SAMPLES)[0]))
-        return worst[0] * relation.length, worst[1]
 
     def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:
         """A body without geometry; a tenth of the lighter neighbour's mass keeps the solver's mass ratios low."""

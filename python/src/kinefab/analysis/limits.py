@@ -14,8 +14,7 @@ from ..diagnostics import Report
 from ..model import RX, JointKind, Motion, Scene
 from .assembly import Assembly
 from .curve import ranges_of_curve
-from .jointing import Link
-from .loops import replace_link
+from .links import Link
 from .measured import Measured
 from .reach import Reach
 
@@ -156,7 +155,7 @@ def with_found_ranges(
         old = freedoms[freedom]
         lower, upper = max(found.lower, old.lower), min(found.upper, old.upper)
         freedoms[freedom] = replace(old, motion=Motion.LIMITED, lower=lower, upper=upper)
-        result.append(replace_link(link, freedoms=tuple(freedoms)))
+        result.append(link.changed(freedoms=tuple(freedoms)))
     return result
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import heapq
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..model import RX, JointKind, Motion
-from .jointing import Link, Links
+from .links import Link, Links
 
 
 @dataclass(eq=False)
@@ -112,7 +112,7 @@ def spanning_tree(links: Links) -> Tree:
     for i, link in enumerate(links.links):
         if link.joint.closure or i not in used:
             loop = () if i in used else tree.loop(i)
-            tree.links[i] = replace_link(link, closure=i not in used, loop=loop)
+            tree.links[i] = link.changed(closure=i not in used, loop=loop)
     return tree
 
 
@@ -136,8 +136,3 @@ def _offer(
         dof = len(free) - (link.joint.kind is JointKind.SCREW)
         shallow = int(depth[body]) + 1, int(slides[body])
         heapq.heappush(heap, (plain, dof, *shallow, int(precedence[i]), i, other))
-
-
-def replace_link(link: Link, **changes) -> Link:
-    """The link with another joint, changed so."""
-    return Link(link.a, link.b, replace(link.joint, **changes))

@@ -11,7 +11,7 @@ from ..model import RX, Motion, Scene
 from ..spatial import Array
 from .assembly import Assembly
 from .equations import coordinate, joint_sides
-from .jointing import Link
+from .links import Link
 from .rows import Rows
 from .solve import Solver
 from .system import State, System, joined

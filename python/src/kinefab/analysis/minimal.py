@@ -23,7 +23,8 @@ from .assembly import Assembly
 from .blocks import relative_system
 from .equations import frame_side, joint_rows
 from .freedom import block_freedoms
-from .loops import Link, Tree, replace_link
+from .links import Link
+from .loops import Tree
 from .motion import stepped
 from .openings import NONE, Block, BlockTree, Openings, moved_by, openings, tree_twists
 from .rows import Rows
@@ -66,8 +67,7 @@ def minimal_closures(assembly: Assembly, tree: Tree, scene: Scene, report: Repor
     for i, choice in chosen.items():
         joint = links[i].joint
         if len(choice.rows) < len(joint.locked):
-            reduced[i] = replace_link(
-                links[i],
+            reduced[i] = links[i].changed(
                 freedoms=_freed(joint, choice.rows),
                 kind=kind_of(tuple(n for n in range(6) if n not in choice.rows)),
                 freed=tuple(n for n in joint.locked if n not in choice.rows),

@@ -8,8 +8,7 @@ from dataclasses import replace
 from ..diagnostics import Report
 from ..model import RX, TX, Motion, Scene
 from .assembly import Assembly
-from .jointing import Link
-from .loops import replace_link
+from .links import Link
 
 ALONG = 1.0 - 1e-6
 
@@ -40,9 +39,7 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         freedoms = list(joint.freedoms)
         low, high = max(old.lower, low), min(old.upper, high)
         freedoms[freedom] = replace(old, motion=Motion.LIMITED, lower=low, upper=high)
-        links[index] = replace_link(
-            links[index], freedoms=tuple(freedoms), because=(*joint.because, constraint.id)
-        )
+        links[index] = links[index].changed(freedoms=tuple(freedoms), because=(*joint.because, constraint.id))
         report.add("CONSTRAINT_RANGE_KEPT", constraint.where, id=constraint.id, joint=joint.id)
     return links
 

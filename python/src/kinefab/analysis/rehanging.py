@@ -16,7 +16,7 @@ from ..diagnostics import Report
 from ..model import FREE, RX, Constraint, ConstraintKind, JointKind, Scene, freedoms_of
 from .assembly import Assembly
 from .couplings import COUPLED
-from .jointing import Link
+from .links import Link
 
 ON_AXIS = 1e-6
 """Distance between two axes, and sine between them, up to which they are one."""
@@ -112,5 +112,4 @@ def _moved(link: Link, part: int, carrier: int, body: int, onto: int, scene: Sce
 def _removing_nothing(link: Link, coupling: str) -> Link:
     """The same place as a joint with all six freedoms, there for the coupling ``coupling`` alone."""
     free = freedoms_of(JointKind.FREE)
-    joint = replace(link.joint, kind=JointKind.FREE, freedoms=free, closure=True, because=(coupling,))
-    return Link(link.a, link.b, joint)
+    return link.changed(kind=JointKind.FREE, freedoms=free, closure=True, because=(coupling,))

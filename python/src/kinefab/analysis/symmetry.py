@@ -17,7 +17,7 @@ from ..model import RX, Constraint, ConstraintKind, Coupling, CouplingKind, Join
 from ..spatial import Array
 from .assembly import Assembly
 from .freedom import block_freedoms
-from .jointing import Link
+from .links import Link
 from .loops import Tree
 from .measured import CLOSED, Measured
 from .rank import spans

@@ -1,0 +1,113 @@
+"""What stands for a pair whose twists at the closed pose are those of no joint.
+
+Its finite motions may be a joint's where the pose is singular; each of its constraints may be one by itself, or two
+with a body between; else a joint that comes near them is measured by how far it misses.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..spatial import cross
+from .assembly import Assembly
+from .finite import EXACT, Candidate, chain_misfit, misfits
+from .freedom import block_freedoms
+from .middle import middle_body
+from .motion import finite_freedoms
+from .pairs import Pairs, Relation, find_joints, pairs_of, relations_of
+from .solve import Solver
+from .system import System
+from .twists import NAMED, snapped, twist_space
+
+MISSED_SAMPLES = 1000
+"""Motions among which the largest misfit of an approximated joint is looked for: the few that tell whether a joint fits
+find half of it."""
+
+Stand = Relation | tuple[Candidate, Candidate]
+"""What stands for some rows of a pair: a relation with its joint, or the joints to a middle body and on from it."""
+
+
+def find_by_finite_motions(system: System, relation: Relation) -> None:
+    """At a singular pose the twists promise too much: classify what really moves."""
+    if len(relation.rows) == relation.rank:
+        return
+    label = np.zeros(system.bodies, dtype=np.int64)
+    label[relation.second] = 1
+    alone = system.select(relation.rows).relabel(label)
+    solver = Solver.fitted(alone, relation.length)
+    start = alone.start()
+    finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
+    if not finite.singular:
+        return
+    relation.finite = finite.mobility
+    arm = (relation.origin - alone.center[1]) / relation.length
+    v = finite.tangent[:3] * alone.length[1] / relation.length + cross(finite.tangent[3:].T, arm).T
+    basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
+    space = twist_space(basis, relation.origin, relation.length, system.axes, NAMED)
+    named = relation.geometry
+    directions = np.concatenate([named.first, named.second])
+    relation.space = snapped(space, named.points, directions, relation.length)
+    pairs = Pairs(
+        np.array([0]),
+        np.array([1]),
+        np.zeros(alone.rows, dtype=np.int64),
+        np.zeros(len(alone.kind), dtype=np.int64),
+    )
+    local = replace(relation, first=0, second=1, rows=np.arange(alone.rows))
+    find_joints(alone, pairs, [local], alone.residual(start))
+    relation.joint, relation.misfit, relation.tried = local.joint, local.misfit, local.tried
+
+
+def joints_of_each(assembly: Assembly, relation: Relation) -> list[tuple[Stand, list[str]]] | None:
+    """A joint, or two with a middle body, for each of the pair's constraints that says something new, and
+    the names of those that it stands for; None where there is no such joint.
+
+    A relation that is stated twice must not become two rods side by side: they would make a loop of their own.
+    """
+    system, statements = assembly.system, assembly.equations.statements
+    found = []
+    for owner in relation.owners:
+        rows = relation.rows[system.owner[relation.rows] == owner]
+        single = _single(system, rows) if len(relation.owners) > 1 else relation
+        stand = single if single.joint is not None else middle_body(system, rows, relation)
+        if stand is None:
+            return None
+        found.append((single.rank, stand, rows, statements[owner].id))
+    stands: list[tuple[Stand, list[str]]] = []
+    for _, stand, rows, name in sorted(found, key=lambda f: -f[0]):
+        by = next((names for earlier, names in stands if _implied(system, rows, earlier, relation)), None)
+        if by is None:
+            stands.append((stand, [name]))
+        else:
+            by.append(name)
+    return stands
+
+
+def _single(system: System, rows: np.ndarray) -> Relation:
+    """The relation that some of a pair's rows make by themselves."""
+    some = system.select(rows)
+    pairs = pairs_of(some)
+    relation = relations_of(some, pairs, some.start())[0]
+    find_joints(some, pairs, [relation], some.residual(some.start()))
+    return replace(relation, rows=np.sort(rows))
+
+
+def _implied(system: System, rows: np.ndarray, stand: Stand, relation: Relation) -> bool:
+    """Whether all motions that two joints with a middle body allow keep these rows too."""
+    if isinstance(stand, Relation):
+        return False
+    return chain_misfit(system.select(rows), relation.second, *stand, relation.length) <= EXACT
+
+
+def missed(system: System, relation: Relation) -> tuple[float, float]:
+    """By how much the relation's joint violates its rows as it moves: metres, radians (or cosines)."""
+    pair = np.array([relation.first]), np.array([relation.second])
+    worst = []
+    for lengths in (True, False):
+        some = system.select(relation.rows[system.is_length[relation.rows] == lengths])
+        one = np.zeros(len(some.kind), dtype=np.int64)
+        length = np.array([relation.length])
+        worst.append(float(misfits(some, *pair, one, [relation.joint], length, MISSED_SAMPLES)[0]))
+    return worst[0] * relation.length, worst[1]

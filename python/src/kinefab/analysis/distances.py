@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ..spatial import cross
 from .atoms import Atom
 from .rows import Rows, Side
 
@@ -28,7 +29,7 @@ def off_line(rows: Rows, line: Side, point: Side, d: float) -> None:
 
 
 def lines_apart(rows: Rows, a: Side, b: Side, d: float, reading: str | None) -> None:
-    normal = np.cross(a.z, b.z)
+    normal = cross(a.z, b.z)
     if reading is None:
         reading = "parallel" if np.linalg.norm(normal) < PARALLEL_SINE else "skew"
     if reading == "parallel":

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model import RX, JointKind
-from ..spatial import Array
+from ..spatial import Array, cross
 from .assembly import Assembly
 from .candidates import Geometry, candidates
 from .finite import Candidate
@@ -92,7 +92,7 @@ def _relative_twists(assembly: Assembly, body_a: int, body_b: int, origin: Array
             at = 6 * int(np.flatnonzero(freedom.bodies == step)[0])
             twist = freedom.basis[at : at + 6]
             arm = origin - relative.center[step]
-            v = twist[:3] * relative.length[step] + np.cross(twist[3:].T, arm).T
+            v = twist[:3] * relative.length[step] + cross(twist[3:].T, arm).T
             moved = sign * np.concatenate([v / length, twist[3:]])
             sides[block] = sides.get(block, 0.0) + moved
     columns = list(sides.values())

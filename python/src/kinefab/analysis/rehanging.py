@@ -14,6 +14,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import FREE, RX, Constraint, ConstraintKind, JointKind, Scene, freedoms_of
+from ..spatial import cross
 from .assembly import Assembly
 from .couplings import COUPLED
 from .links import Link
@@ -98,7 +99,7 @@ def _same_axis(one: Link, other: Link, scene: Scene) -> bool:
     axis = first.rotation[:, 0]
     offset = second.translation - first.translation
     across = np.linalg.norm(offset - axis * (axis @ offset))
-    return across < ON_AXIS and np.linalg.norm(np.cross(axis, second.rotation[:, 0])) < ON_AXIS
+    return across < ON_AXIS and np.linalg.norm(cross(axis, second.rotation[:, 0])) < ON_AXIS
 
 
 def _moved(link: Link, part: int, carrier: int, body: int, onto: int, scene: Scene) -> Link:

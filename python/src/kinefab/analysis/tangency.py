@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..model import Constraint, FeatureKind, Side as Surface
+from ..spatial import cross
 from .atoms import Atom
 from .distances import PARALLEL_SINE, apart, lines_apart, off_line
 from .features import UnknownPairing, plain_family
@@ -56,7 +57,7 @@ def tangent(rows: Rows, c: Constraint, a: Side, b: Side, *, context: object) -> 
         measured = float(np.linalg.norm(offset - first.z * (offset @ first.z)))
         off_line(rows, first, second, _radii(c, first.radius, second.radius, measured))
     elif {first.kind, second.kind} <= {FeatureKind.CYLINDER, FeatureKind.LINE}:
-        normal = np.cross(first.z, second.z)
+        normal = cross(first.z, second.z)
         size = float(np.linalg.norm(normal))
         offset = second.p - first.p
         reading = c.reading.get("tangent_cylinders") or ("parallel" if size < PARALLEL_SINE else "skew")

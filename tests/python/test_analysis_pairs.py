@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from mechanism_cases import analysed
+from mechanism_cases import analysed, scene
 
 from kinefab.analysis import analyse
 from kinefab.model import Constraint, Feature, Node, Scene
@@ -117,6 +119,20 @@ def test_a_part_at_a_singular_pose_keeps_the_freedoms_of_its_joint(id, left):
     """The twists promise two translations, one, or three freedoms that no motion has."""
     part = analysed(id).freedoms[1]
     assert (len(part.translations), len(part.rotations)) == left
+
+
+@pytest.mark.parametrize("hung", [0, 1])
+@pytest.mark.parametrize(("id", "kind", "left"), [("P28", K.SPHERICAL, 3), ("P29", K.SPHERICAL, 3), ("P36", K.FIXED, 0)])
+def test_a_pair_at_a_singular_pose_is_the_same_from_either_part(id, kind, left, hung):
+    """Its motions are known from the search of its block, in which either part may be the one at rest."""
+    alone = scene(id)
+    nodes = [*(replace(n, grounded=False) for n in alone.nodes), Node("wall", "wall", grounded=True)]
+    world = alone.nodes[hung].pose.inverse()
+    own = Feature(hung, F.LINE, world.point(np.array([1.5, 0.2, -0.7])), world.direction(X))
+    hinge = Constraint("pin", C.INSERT, (own, Feature(2, F.LINE, np.array([1.5, 0.2, -0.7]), X)))
+    found = analyse(Scene(nodes=nodes, constraints=[*alone.constraints, hinge]))
+    assert sorted(j.kind for j in found.joints) == sorted([kind, K.REVOLUTE])
+    assert found.mobility == left + 1
 
 
 def test_screw_keeps_its_lead_and_hand():

@@ -125,7 +125,7 @@ class _Jointing:
 
     def _resolve(self, relation: Relation) -> None:
         """What no candidate of the twists expresses: finite motions, middle bodies, or a report."""
-        find_by_finite_motions(self.assembly.system, relation)
+        find_by_finite_motions(self.assembly, relation)
         if relation.joint is not None:
             return
         stands = joints_of_each(self.assembly, relation)

@@ -29,23 +29,31 @@ Stand = Relation | tuple[Candidate, Candidate]
 """What stands for some rows of a pair: a relation with its joint, or the joints to a middle body and on from it."""
 
 
-def find_by_finite_motions(system: System, relation: Relation) -> None:
+def find_by_finite_motions(assembly: Assembly, relation: Relation) -> None:
     """At a singular pose the twists promise too much: classify what really moves."""
     if len(relation.rows) == relation.rank:
         return
-    label = np.zeros(system.bodies, dtype=np.int64)
+    label = np.zeros(assembly.system.bodies, dtype=np.int64)
     label[relation.second] = 1
-    alone = system.select(relation.rows).relabel(label)
+    alone = assembly.system.select(relation.rows).relabel(label)
     solver = Solver.fitted(alone, relation.length)
     start = alone.start()
-    finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
+    part = int(assembly.solver.row_part[relation.rows[0]])
+    block, relative = assembly.freedoms[part], assembly.relative
+    if len(block.bodies) == 1 and len(block.rows) == len(relation.rows):
+        # the pair is a block: it was searched, whichever of the two is its root
+        body, finite = int(block.bodies[0]), assembly.finite[part]
+        center, length = relative.center[body], relative.length[body]
+    else:
+        finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
+        center, length = alone.center[1], alone.length[1]
     if not finite.singular:
         return
     relation.finite = finite.mobility
-    arm = (relation.origin - alone.center[1]) / relation.length
-    v = finite.tangent[:3] * alone.length[1] / relation.length + cross(finite.tangent[3:].T, arm).T
+    arm = (relation.origin - center) / relation.length
+    v = finite.tangent[:3] * length / relation.length + cross(finite.tangent[3:].T, arm).T
     basis = np.linalg.qr(np.concatenate([v, finite.tangent[3:]]))[0]
-    space = twist_space(basis, relation.origin, relation.length, system.axes, NAMED)
+    space = twist_space(basis, relation.origin, relation.length, alone.axes, NAMED)
     named = relation.geometry
     directions = np.concatenate([named.first, named.second])
     relation.space = snapped(space, named.points, directions, relation.length)

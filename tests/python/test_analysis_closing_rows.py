@@ -112,11 +112,16 @@ def coaxial() -> Scene:
     return Scene(nodes=nodes, constraints=[insert("i", 0, 1), insert("j", 1, 2), insert("k", 0, 2)])
 
 
-def test_a_closing_joint_that_the_loop_holds_whole_is_told_so(tmp_path):
-    """It has no component, and the report says that the loop is why."""
+def test_a_closing_joint_that_the_loop_holds_whole_still_keeps_its_parts_from_colliding(tmp_path):
+    """Unity lets no two bodies collide that a joint connects: it is there, removes nothing, and is counted as a loop."""
     found = analyse(coaxial())
     (joint,) = closing(found)
     assert (joint.kind, joint.whole_kind, joint.freed) == (K.FREE, K.REVOLUTE, (0, 1, 2, 4, 5))
     content, _ = exported(coaxial(), tmp_path)
-    assert len(joints_of(content)) == 2
-    assert [e["outcome"] for e in content["report"] if e.get("code") == "CLOSURE_NOT_NEEDED"] == ["kept"]
+    (part,) = (c for c in joints_of(content) if c.get("closure"))
+    assert part["type"] == "ConfigurableJoint" and part["because"] == ["j"] and not part.get("enableCollision")
+    assert all(part.get(field, "Free") == "Free" for field in FIELDS)
+    assert [(i.mobility, i.loops) for i in found.islands] == [(2, 1)]
+    assert content["analysis"]["islands"][0]["loops"] == 1
+    (remark,) = (e["message"] for e in content["report"] if e.get("code") == "CLOSURE_AXES_FREE")
+    assert remark.startswith("X Motion, Y Motion, Z Motion, Angular Y Motion, Angular Z Motion of the ")

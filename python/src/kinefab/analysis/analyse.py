@@ -163,7 +163,9 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
     loops = dict.fromkeys(nodes_of, 0)
     counted = {id for c in couplings for id in (c.joint_a, c.joint_b)}
     for link in links:
-        if link.joint.closure and (link.joint.locked or link.joint.id in counted):
+        # where the loop holds all of it, Unity has a joint only between two bodies, which must not collide
+        written = link.joint.locked or link.joint.id in counted or (link.joint.freed and link.a and link.b)
+        if link.joint.closure and written:
             ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
             if ends and ends[0] in loops:
                 loops[ends[0]] += 1

@@ -89,7 +89,9 @@ def map_joint(
             report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
         return None
     free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
-    if free and not any(joint.id in (c.joint_a, c.joint_b) for c in scene.couplings):
+    counted = any(joint.id in (c.joint_a, c.joint_b) for c in scene.couplings)
+    apart = joint.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
+    if free and not (counted or apart):  # between two bodies it still keeps Unity from letting them collide
         if joint.freed:
             remark = {"joint": joint.id, "loop": scene.loop(joint)}
             report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)

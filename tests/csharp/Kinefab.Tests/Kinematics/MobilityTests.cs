@@ -89,6 +89,24 @@ public class MobilityTests
         Assert.That((redundant.GameObject, redundant.Component, redundant.Rows, redundant.Redundant), Is.EqualTo((1, 2, 5, 3)));
     }
 
+    // What a minimal closure leaves where the rest of the loop holds everything: it keeps two parts from colliding.
+    [Test]
+    public void Mobility_FreeJointBetweenTwoParts_IsALoopWithoutRows()
+    {
+        var scene = new MechanismScene();
+        int a = scene.Body("a", Vector3d.Zero);
+        int b = scene.Body("b", Vector3d.UnitZ);
+        scene.Hinge(a, null, Vector3d.Zero, Vector3d.UnitZ);
+        scene.Hinge(b, null, Vector3d.UnitZ, Vector3d.UnitZ);
+        scene.Configurable(b, a, Vector3d.Zero, Vector3d.UnitZ, Vector3d.UnitX, "FFFFFF", closure: true);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((report.Mobility, report.FirstOrder, report.Rows, report.Redundant), Is.EqualTo((2, 2, 10, 0)));
+            Assert.That(report.Islands.Select(i => (i.Mobility, i.Redundant, i.Loops)), Is.EqualTo([(2, 0, 1)]));
+        }
+    }
+
     [Test]
     public void Mobility_TwoMechanismsAndALooseBody_AreThreeIslands()
     {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -125,3 +126,15 @@ def test_a_closing_joint_that_the_loop_holds_whole_still_keeps_its_parts_from_co
     assert content["analysis"]["islands"][0]["loops"] == 1
     (remark,) = (e["message"] for e in content["report"] if e.get("code") == "CLOSURE_AXES_FREE")
     assert remark.startswith("X Motion, Y Motion, Z Motion, Angular Y Motion, Angular Z Motion of the ")
+
+
+def test_a_closing_joint_to_the_ground_that_the_loop_holds_whole_has_no_component(tmp_path):
+    """It keeps nothing from colliding, since only two bodies are told apart; the report says that the loop is why."""
+    source = coaxial()
+    source.constraints[2] = replace(source.constraints[2], kind=C.CONCENTRIC)  # looser, so the tree goes by the others
+    found = analyse(source)
+    (joint,) = closing(found)
+    assert (joint.a, joint.kind, joint.whole_kind) == (0, K.FREE, K.CYLINDRICAL)
+    content, _ = exported(source, tmp_path)
+    assert len(joints_of(content)) == 2 and [i.loops for i in found.islands] == [0]
+    assert [e["outcome"] for e in content["report"] if e.get("code") == "CLOSURE_NOT_NEEDED"] == ["kept"]

@@ -178,7 +178,7 @@ def openings(
             u, size, vt = np.linalg.svd(fresh, full_matrices=False)
             if like is None:  # the exported pose is closed only as well as its data
                 left, all_ = (np.abs(values).max(axis=(1, 2), initial=0.0) for values in (fresh, own))
-                count = np.where(left > 1e-7 * np.maximum(all_, 1e-300), rank_of(size)[0] if size.size else 0, 0)
+                count = np.where(left > np.maximum(1e-7 * all_, NONE), rank_of(size)[0] if size.size else 0, 0)
             else:
                 count = np.sum(size > border[:, None], axis=1)
             most = int(count.max())

@@ -123,12 +123,7 @@ def map_joint(
     if not lossless or any(joint.misfit) or len(report.outcomes) > before:
         component["exact"] = False
     elif joint.freed:
-        axes = _axes_freed(joint, shape, component)
-        report.kept(
-            feature, joint.where, "CLOSURE_AXES_FREE", joint=joint.id, loop=scene.loop(joint),
-            axes=", ".join(axes), are="is" if len(axes) == 1 else "are",
-            type=component["type"], object=scene.nodes[owner].id,
-        )  # fmt: skip
+        _report_freed(joint, shape, component, scene.nodes[owner].id, scene.loop(joint), report)
     else:
         report.kept(feature, joint.where)
     return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
@@ -148,11 +143,21 @@ def _frame_fields(frame_a: Pose, frame_b: Pose, placement: Placement, coordinate
     }
 
 
-def _axes_freed(joint: Joint, shape: CanonicalJoint, component: Component) -> list[str]:
+def _report_freed(
+    joint: Joint, shape: CanonicalJoint, component: Component, owner: str, loop: str, report: Report
+) -> None:
     """What the loop holds instead of the joint, by the names that Unity's inspector shows."""
+    feature, names = f"joint {joint.id}", {"joint": joint.id, "loop": loop, "object": owner}
+    if not joint.locked:
+        report.kept(feature, joint.where, "CLOSURE_ALL_FREE", **names)
+        return
+    axes = [MOTION_TITLES[i] for i, freedom in enumerate(shape.name_of) if freedom in joint.freed]
     if component["type"] == "HingeJoint":
-        return ["the turning"]
-    return [MOTION_TITLES[i] for i, freedom in enumerate(shape.name_of) if freedom in joint.freed]
+        axes = ["The turning"]
+    one = len(axes) == 1
+    names |= {"axes": ", ".join(axes), "type": component["type"]}
+    names |= {"are": "is" if one else "are", "motions": "this motion" if one else "these motions"}
+    report.kept(feature, joint.where, "CLOSURE_AXES_FREE", **names)
 
 
 def _common_fields(joint: Joint) -> Component:

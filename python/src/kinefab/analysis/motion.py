@@ -34,6 +34,8 @@ MOST_SAMPLES = 30
 SPARE = 3
 LONG_STEP = 3e-2
 """Size of their trial steps: what obstructs a long chain shows at the root of its closing error, far above STEP's."""
+FURTHER = 0.1
+"""Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
 WALK = 3
 WALK_STEP = 0.05
 
@@ -153,9 +155,13 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
+        away, there = _further(solver, part, there[part], away)
         sampled = _sampled(solver, part, there[part], away)
-        tangent = there[part].basis if sampled is None else sampled
-        return FiniteFreedom(tangent.shape[1], tangent, True)
+        if sampled is None:
+            return FiniteFreedom(there[part].mobility, there[part].basis, True)
+        if sampled.shape[1] > 1:  # what an obstructed velocity left of itself is no motion, and does not go on
+            sampled = _survivors(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
+        return FiniteFreedom(sampled.shape[1], sampled, True)
     tangent = _survivors(solver, part, there[part], away)
     if tangent.shape[1] == 0:
         return FiniteFreedom(0, tangent, True)
@@ -165,9 +171,21 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
-def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
+def _further(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State
+) -> tuple[State, list[BlockFreedom]]:
+    """A pose further away, and the first order there: of many random velocities the obstructed ones take the others
+    along, so that the pose has hardly moved; what a trial step leaves of one is a motion that goes on."""
+    way = _left_of(solver, part, freedom, state, _random_direction(freedom.basis, np.random.default_rng(29)), LONG_STEP)
+    if (size := np.abs(way).max()) > 0.0:
+        twist = FURTHER * (way / size).reshape(-1, 6)
+        state, _ = solver.project(solver.system.moved(state, freedom.bodies, twist), None, _floor(solver, state))
+    return state, block_freedoms(solver, state)
+
+
+def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float = STEP) -> Array:
     """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
-    kept = [_left_of(solver, part, freedom, state, direction, STEP) for direction in freedom.basis.T]
+    kept = [_left_of(solver, part, freedom, state, direction, step) for direction in freedom.basis.T]
     if not kept:
         return np.zeros((len(freedom.bodies) * 6, 0))
     u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)

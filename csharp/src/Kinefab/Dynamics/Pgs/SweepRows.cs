@@ -85,11 +85,12 @@ internal sealed class SweepRows
             impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
             double delta = impulse - Impulses[i];
             Impulses[i] = impulse;
-            Apply(row.Linear * delta, row.Sqrt0 * delta, row.Sqrt1 * delta, mass, ref body0, ref body1);
+            Apply(delta * row.Linear, delta * row.Sqrt0, delta * row.Sqrt1, mass, ref body0, ref body1);
         }
     }
 
     /// <summary>Equalities that are mass-orthogonal: none changes another's Cdot, so all see the velocities from before.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void SolveTogether(int start, int end, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
     {
         Double4 relative = body0.Linear - body1.Linear;
@@ -120,9 +121,9 @@ internal sealed class SweepRows
             ref RowVectors row = ref Vectors[i];
             double delta = VelocityMultipliers[i] * Products(row, relative, before0, before1).Sum3 + Constants[i];
             Impulses[i] += delta;
-            linear += row.Linear * delta;
-            angular0 += row.Sqrt0 * delta;
-            angular1 += row.Sqrt1 * delta;
+            linear += delta * row.Linear;
+            angular0 += delta * row.Sqrt0;
+            angular1 += delta * row.Sqrt1;
         }
 
         Apply(linear, angular0, angular1, mass, ref body0, ref body1);
@@ -131,14 +132,14 @@ internal sealed class SweepRows
     /// <summary>What adds up to Cdot.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Double4 Products(in RowVectors row, Double4 relative, Double4 angular0, Double4 angular1) =>
-        row.Linear * relative + row.Sqrt0 * angular0 - row.Sqrt1 * angular1;
+        relative * row.Linear + angular0 * row.Sqrt0 - angular1 * row.Sqrt1;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static void Add(in RowVectors row, Double4 delta, ref Double4 linear, ref Double4 angular0, ref Double4 angular1)
     {
-        linear += row.Linear * delta;
-        angular0 += row.Sqrt0 * delta;
-        angular1 += row.Sqrt1 * delta;
+        linear += delta * row.Linear;
+        angular0 += delta * row.Sqrt0;
+        angular1 += delta * row.Sqrt1;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -57,8 +57,6 @@ internal struct BodyDefinition
 /// <summary>The bodies of a world, one array a quantity. Velocities are those of the centre of mass, in the world frame.</summary>
 internal sealed class Bodies
 {
-    private static readonly Pose[] World = { Pose.Identity };
-
     public readonly int Count;
 
     /// <summary>Centre of mass and principal axes in the world.</summary>
@@ -116,9 +114,6 @@ internal sealed class Bodies
 
     /// <summary>A body's pose; the identity for Joint.World.</summary>
     public Pose PoseOf(int body) => body < 0 ? Pose.Identity : Poses[body];
-
-    /// <summary>The same in place.</summary>
-    public ref readonly Pose PoseAt(int body) => ref body < 0 ? ref World[0] : ref Poses[body];
 
     /// <summary>Translation and rotation, J; a frozen rotation and a kinematic body count for nothing.</summary>
     public double KineticEnergy(int body)

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -7,6 +8,8 @@ namespace Kinefab.Dynamics;
 /// <summary>Bodies, joints and couplings in PhysX's terms: all that a solver needs. The arrays never change length.</summary>
 internal sealed class MultibodySystem
 {
+    private readonly JointReaction[] _reactions;
+
     public readonly Bodies Bodies;
 
     /// <summary>In the order of their creation, which decides the order in which PGS solves them.</summary>
@@ -16,8 +19,8 @@ internal sealed class MultibodySystem
     /// <summary>m/s^2.</summary>
     public Vector3d Gravity = new(0, -9.81, 0);
 
-    /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
-    public readonly JointReaction[] Reactions;
+    /// <summary>Writes the last step's reactions; set by a solver that leaves this until they are read.</summary>
+    public Action<JointReaction[]>? UnreadReactions;
 
     /// <summary>Times that motion was stopped: a body's that left the range of numbers, or an island's in a part of a step without solution; counted by the solver.</summary>
     public int Overflows;
@@ -33,8 +36,22 @@ internal sealed class MultibodySystem
         Bodies = bodies;
         Joints = joints;
         Couplings = couplings;
-        Reactions = new JointReaction[joints.Length];
+        _reactions = new JointReaction[joints.Length];
     }
+
+    /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
+    public JointReaction[] Reactions
+    {
+        get
+        {
+            UnreadReactions?.Invoke(_reactions);
+            UnreadReactions = null;
+            return _reactions;
+        }
+    }
+
+    /// <summary>Before a step that does not write this one any more.</summary>
+    public void ClearReaction(int joint) => _reactions[joint] = default;
 }
 
 /// <summary>Force and torque of a joint's constraint on actor 0, world frame; the torque is about the joint's anchor in actor 1.</summary>

@@ -128,7 +128,7 @@ public sealed class World
         {
             if (_broken[i])
             {
-                _mechanism.Reactions[i] = default;
+                _mechanism.ClearReaction(i);
             }
         }
 

@@ -33,6 +33,9 @@ internal abstract class Joint
     /// <summary>Largest constraint torque at actor 1's anchor before the joint breaks, N m.</summary>
     public double BreakTorque = double.PositiveInfinity;
 
+    /// <summary>Whether either limit is a finite one.</summary>
+    public bool CanBreak => BreakForce < double.PositiveInfinity || BreakTorque < double.PositiveInfinity;
+
     /// <summary>Factors on the inverse masses as this joint sees them.</summary>
     public double InverseMassScale0 = 1;
     public double InverseMassScale1 = 1;

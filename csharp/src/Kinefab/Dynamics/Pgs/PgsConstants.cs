@@ -10,7 +10,6 @@ internal static class PgsConstants
     /// <param name="i">Which of them.</param>
     /// <param name="response">J M^-1 J^T.</param>
     /// <param name="row">The row as the joint gave it; its error, target and velocity are taken from the vectors, which preprocessing may have changed.</param>
-    /// <param name="keptError">The row's own error before preprocessing when it keeps its bias, else 0.</param>
     /// <param name="driveScale">What makes a drive limit an impulse.</param>
     /// <param name="dt">Step, s.</param>
     /// <param name="inverseDt">1/dt.</param>
@@ -20,7 +19,7 @@ internal static class PgsConstants
     /// force mode x = 1/(1 + a response), lambda = x b - x a Cdot + (1 - x) lambda;
     /// acceleration mode x = 1/(1 + a), lambda = (x b - x a Cdot)/response + (1 - x) lambda.
     /// </remarks>
-    public static void Set(SweepRows rows, int i, double response, in ConstraintRow row, double keptError, double driveScale, double dt, double inverseDt)
+    public static void Set(SweepRows rows, int i, double response, in ConstraintRow row, double driveScale, double dt, double inverseDt)
     {
         ref RowBounds bounds = ref rows.Bounds[i];
         ref RowVectors vectors = ref rows.Vectors[i];
@@ -65,6 +64,7 @@ internal static class PgsConstants
             else
             {
                 constant = inverseResponse * (target - error * inverseDt);
+                double keptError = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
                 unbiased = inverseResponse * (target - keptError * inverseDt);
             }
         }
@@ -76,5 +76,22 @@ internal static class PgsConstants
         rows.Impulses[i] = 0;
         bounds.Minimum = row.Minimum * driveScale;
         bounds.Maximum = row.Maximum * driveScale;
+    }
+
+    /// <summary>The same for an equality that is solved together with others: rigid, without bounds, without bias in the velocity iterations.</summary>
+    /// <param name="rows">All rows.</param>
+    /// <param name="i">Which of them.</param>
+    /// <param name="response">J M^-1 J^T.</param>
+    /// <param name="inverseDt">1/dt.</param>
+    public static void SetEquality(SweepRows rows, int i, double response, double inverseDt)
+    {
+        ref RowVectors vectors = ref rows.Vectors[i];
+        double target = vectors.Sqrt0.W;
+        double inverse = response > 0 ? 1 / response : 0;
+        double start = vectors.Sqrt1.W * -inverse;
+        rows.Constants[i] = inverse * (target - vectors.Linear.W * inverseDt) + start;
+        rows.UnbiasedConstants[i] = inverse * target + start;
+        rows.VelocityMultipliers[i] = -inverse;
+        rows.Impulses[i] = 0;
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Pgs;
 
@@ -9,6 +10,9 @@ namespace Kinefab.Dynamics.Pgs;
 /// </summary>
 internal static class Preprocessing
 {
+    /// <summary>No joint needs more factors than this: at most six equalities, each taken from all rows after it.</summary>
+    public const int MaxFactors = 6 * Joint.MaxRows;
+
     private const double LeastShare = 1e-12;
 
     /// <summary>Stable insertion sort of row indices by hint: drives and soft limits, slerp, equalities, inequalities.</summary>
@@ -32,18 +36,17 @@ internal static class Preprocessing
     /// A row that the ones before it leave next to nothing of gets the response 0 and so does nothing, where PhysX would divide by its rounding.
     /// </summary>
     /// <param name="rows">All rows.</param>
-    /// <param name="responses">Of the joint's rigid rows.</param>
+    /// <param name="block">Which of them; its factors are written.</param>
+    /// <param name="responses">Of the rigid rows.</param>
     /// <param name="least">As many places to work in.</param>
-    /// <param name="start">The first of them, an equality if there is one.</param>
-    /// <param name="inequalities">The first inequality.</param>
-    /// <param name="end">One past the last row.</param>
-    /// <param name="mass">Mass properties of the pair.</param>
-    public static void Orthogonalize(SweepRows rows, Span<double> responses, Span<double> least, int start, int inequalities, int end, in PairMass mass)
+    /// <returns>The number of factors.</returns>
+    public static int Orthogonalize(SweepRows rows, in JointBlock block, Span<double> responses, Span<double> least)
     {
-        Span<RowVectors> vectors = rows.Vectors.AsSpan(start, end - start);
-        Span<Double4> angulars = rows.Angular0.AsSpan(start, end - start);
+        Span<RowVectors> vectors = rows.Vectors.AsSpan(block.Equalities, block.End - block.Equalities);
+        PairMass mass = block.Mass;
         double inverseMass = mass.InverseMass0 + mass.InverseMass1;
-        int equalities = inequalities - start;
+        int equalities = block.Inequalities - block.Equalities;
+        int factors = block.Factors;
         for (int i = 0; i < vectors.Length; i++)
         {
             least[i] = responses[i] * LeastShare;
@@ -62,7 +65,6 @@ internal static class Preprocessing
             Double4 linear = vectors[j].Linear;
             Double4 sqrt0 = vectors[j].Sqrt0;
             Double4 sqrt1 = vectors[j].Sqrt1;
-            Double4 angular0 = angulars[j];
             Double4 byMass = linear * inverseMass;
             Double4 byInertia0 = sqrt0 * mass.InertiaScale0;
             Double4 byInertia1 = sqrt1 * mass.InertiaScale1;
@@ -74,8 +76,23 @@ internal static class Preprocessing
                 row.Linear -= linear * factor;
                 row.Sqrt0 -= sqrt0 * factor;
                 row.Sqrt1 -= sqrt1 * factor;
-                angulars[i] -= angular0 * factor;
                 responses[i] -= product * factor;
+                rows.Factors[factors++] = factor;
+            }
+        }
+
+        return factors - block.Factors;
+    }
+
+    /// <summary>Takes the rigid rows' other vectors from each other by the same factors.</summary>
+    public static void Repeat(SweepRows rows, in JointBlock block, Span<Vector3d> vectors)
+    {
+        int factors = block.Factors;
+        for (int j = 0; j < block.Inequalities - block.Equalities; j++)
+        {
+            for (int i = j + 1; i < vectors.Length; i++)
+            {
+                vectors[i] -= vectors[j] * rows.Factors[factors++];
             }
         }
     }

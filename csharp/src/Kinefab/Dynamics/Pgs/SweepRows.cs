@@ -1,5 +1,7 @@
 using System;
 using System.Runtime.CompilerServices;
+using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Pgs;
 
@@ -44,8 +46,11 @@ internal sealed class SweepRows
 {
     public readonly RowVectors[] Vectors;
 
-    /// <summary>Angular0 itself, for the reported torque.</summary>
-    public readonly Double4[] Angular0;
+    /// <summary>Angular0 as the joint gave it, for the reported torque.</summary>
+    public readonly Vector3d[] Angular0;
+
+    /// <summary>By which preprocessing took rows from each other, in its order; with them the reported torque does the same.</summary>
+    public readonly double[] Factors;
 
     /// <summary>Whether the impulse counts for breaking and for the reported force.</summary>
     public readonly bool[] Counts;
@@ -61,10 +66,12 @@ internal sealed class SweepRows
     /// <summary>Accumulated.</summary>
     public readonly double[] Impulses;
 
-    public SweepRows(int capacity)
+    public SweepRows(int joints)
     {
+        int capacity = joints * Joint.MaxRows;
         Vectors = new RowVectors[capacity];
-        Angular0 = new Double4[capacity];
+        Angular0 = new Vector3d[capacity];
+        Factors = new double[joints * Preprocessing.MaxFactors];
         Counts = new bool[capacity];
         Bounds = new RowBounds[capacity];
         Constants = new double[capacity];

@@ -19,6 +19,7 @@ internal sealed class UnitySolver : ISolver
     private readonly CouplingRows _couplings;
 
     // One more than there are bodies: the last stands for the world and never moves.
+    private readonly Pose[] _startPoses;
     private readonly Vector3d[] _startLinear;
     private readonly Vector3d[] _startAngular;
     private readonly BodyDelta[] _deltas;
@@ -28,27 +29,13 @@ internal sealed class UnitySolver : ISolver
 
     private readonly JointBlock[] _blocks;
     private readonly SweepRows _rows;
+    private readonly StepReactions _reactions;
 
     // One joint's rows on their way into the sweeps.
     private readonly ConstraintRow[] _given = new ConstraintRow[Joint.MaxRows];
     private readonly int[] _sorted = new int[Joint.MaxRows];
-    private readonly double[] _kept = new double[Joint.MaxRows];
     private readonly double[] _responses = new double[Joint.MaxRows];
     private readonly double[] _least = new double[Joint.MaxRows];
-
-    // A joint's rows: springs and motors from Start, then equalities, then inequalities.
-    private struct JointBlock
-    {
-        public int Joint;
-        public int Body0;
-        public int Body1;
-        public int Start;
-        public int Equalities;
-        public int Inequalities;
-        public int End;
-        public bool IsOrthogonal;
-        public PairMass Mass;
-    }
 
     public UnitySolver(MultibodySystem mechanism)
     {
@@ -58,6 +45,8 @@ internal sealed class UnitySolver : ISolver
         _projection = new ProjectionOrder(mechanism);
         _couplings = new CouplingRows(mechanism);
         int slots = _bodies.Count + 1;
+        _startPoses = new Pose[slots];
+        _startPoses[_bodies.Count] = Pose.Identity;
         _startLinear = new Vector3d[slots];
         _startAngular = new Vector3d[slots];
         _deltas = new BodyDelta[slots];
@@ -65,7 +54,8 @@ internal sealed class UnitySolver : ISolver
         _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
         _sqrtInertia = new SqrtInertia[slots];
         _blocks = new JointBlock[mechanism.Joints.Length];
-        _rows = new SweepRows(mechanism.Joints.Length * Joint.MaxRows);
+        _rows = new SweepRows(mechanism.Joints.Length);
+        _reactions = new StepReactions(mechanism, _blocks, _rows, _startPoses);
     }
 
     /// <inheritdoc/>
@@ -77,6 +67,7 @@ internal sealed class UnitySolver : ISolver
         {
             BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, dt);
             _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
+            _startPoses[i] = _bodies.Poses[i];
             _startLinear[i] = _bodies.LinearVelocities[i];
             _startAngular[i] = _bodies.AngularVelocities[i];
             if (!_bodies.IsKinematic[i])
@@ -104,7 +95,7 @@ internal sealed class UnitySolver : ISolver
             _couplings.Sweep(_deltas);
         }
 
-        bool broken = Report(blocks, dt);
+        bool broken = _reactions.Break(blocks, dt);
         for (int i = 0; i < _bodies.Count; i++)
         {
             Move(i, dt);
@@ -125,32 +116,21 @@ internal sealed class UnitySolver : ISolver
         ReadOnlySpan<int> joints = _order.Joints;
         double inverseDt = 1 / dt;
         int next = 0;
+        int factors = 0;
         for (int b = 0; b < joints.Length; b++)
         {
             Joint joint = _mechanism.Joints[joints[b]];
             ref JointBlock block = ref _blocks[b];
             SetBodies(ref block, joints[b], joint);
-            int count = joint.Prepare(_bodies.PoseAt(joint.Body0), _bodies.PoseAt(joint.Body1), _given);
-            block.Start = next;
-            block.Equalities = next;
-            next += count;
-            block.Inequalities = next;
-            block.End = next;
+            int count = joint.Prepare(_startPoses[block.Body0], _startPoses[block.Body1], _given);
             Span<int> sorted = _sorted.AsSpan(0, count);
             Preprocessing.Sort(_given.AsSpan(0, count), sorted);
-            Load(ref block, sorted);
-            if (joint.Preprocessing)
-            {
-                Preprocessing.Orthogonalize(
-                    _rows, _responses.AsSpan(block.Equalities - block.Start), _least, block.Equalities, block.Inequalities, block.End, block.Mass);
-            }
-
-            for (int i = 0; i < sorted.Length; i++)
-            {
-                ref ConstraintRow row = ref _given[sorted[i]];
-                double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
-                PgsConstants.Set(_rows, block.Start + i, _responses[i], row, _kept[i], driveScale, dt, inverseDt);
-            }
+            SetRange(ref block, next, sorted, joint.Preprocessing);
+            Load(block, sorted);
+            block.Factors = factors;
+            factors += Preprocessing.Orthogonalize(_rows, block, _responses.AsSpan(block.Equalities - block.Start), _least);
+            SetConstants(block, sorted, joint, dt, inverseDt);
+            next = block.End;
         }
 
         return joints.Length;
@@ -166,11 +146,32 @@ internal sealed class UnitySolver : ISolver
         block.Body1 = joint.Body1 < 0 ? world : joint.Body1;
         block.Mass = new PairMass(
             mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1);
-        block.IsOrthogonal = joint.Preprocessing;
+    }
+
+    private void SetRange(ref JointBlock block, int start, ReadOnlySpan<int> sorted, bool isOrthogonal)
+    {
+        block.Start = start;
+        block.End = start + sorted.Length;
+        block.Inequalities = block.End;
+        block.Equalities = block.End;
+        if (isOrthogonal)
+        {
+            int i = sorted.Length;
+            for (; i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Inequality; i--)
+            {
+            }
+
+            block.Inequalities = start + i;
+            for (; i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Equality; i--)
+            {
+            }
+
+            block.Equalities = start + i;
+        }
     }
 
     // Cdot is reckoned with one linear part, as everything after it.
-    private void Load(ref JointBlock block, ReadOnlySpan<int> sorted)
+    private void Load(in JointBlock block, ReadOnlySpan<int> sorted)
     {
         int body0 = block.Body0;
         int body1 = block.Body1;
@@ -191,12 +192,26 @@ internal sealed class UnitySolver : ISolver
                 Sqrt1 = inertia1.Times(row.Angular1).With(velocity),
             };
             _rows.Vectors[index] = vectors;
-            _rows.Angular0[index] = new Double4(row.Angular0, 0);
+            _rows.Angular0[index] = row.Angular0;
             _rows.Counts[index] = row.Has(RowFlags.OutputForce);
             _responses[i] = block.Mass.Product(vectors, vectors);
-            _kept[i] = row.Has(RowFlags.KeepBias) ? row.GeometricError : 0;
-            block.Equalities += row.Hint < SolveHint.Equality ? 1 : 0;
-            block.Inequalities -= row.Hint == SolveHint.Inequality ? 1 : 0;
+        }
+    }
+
+    private void SetConstants(in JointBlock block, ReadOnlySpan<int> sorted, Joint joint, double dt, double inverseDt)
+    {
+        for (int i = 0; i < sorted.Length; i++)
+        {
+            int index = block.Start + i;
+            if (index >= block.Equalities && index < block.Inequalities)
+            {
+                PgsConstants.SetEquality(_rows, index, _responses[i], inverseDt);
+                continue;
+            }
+
+            ref ConstraintRow row = ref _given[sorted[i]];
+            double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
+            PgsConstants.Set(_rows, index, _responses[i], row, driveScale, dt, inverseDt);
         }
     }
 
@@ -207,19 +222,19 @@ internal sealed class UnitySolver : ISolver
             ref JointBlock block = ref _blocks[b];
             ref BodyDelta body0 = ref _deltas[block.Body0];
             ref BodyDelta body1 = ref _deltas[block.Body1];
-            int equalities = block.IsOrthogonal ? block.Equalities : block.End;
-            if (equalities > block.Start)
+            if (block.Equalities > block.Start)
             {
-                _rows.SolveInTurn(block.Start, equalities, block.Mass, ref body0, ref body1);
+                _rows.SolveInTurn(block.Start, block.Equalities, block.Mass, ref body0, ref body1);
             }
 
-            if (block.IsOrthogonal)
+            if (block.Inequalities > block.Equalities)
             {
-                _rows.SolveTogether(equalities, block.Inequalities, block.Mass, ref body0, ref body1);
-                if (block.End > block.Inequalities)
-                {
-                    _rows.SolveInTurn(block.Inequalities, block.End, block.Mass, ref body0, ref body1);
-                }
+                _rows.SolveTogether(block.Equalities, block.Inequalities, block.Mass, ref body0, ref body1);
+            }
+
+            if (block.End > block.Inequalities)
+            {
+                _rows.SolveInTurn(block.Inequalities, block.End, block.Mass, ref body0, ref body1);
             }
         }
     }
@@ -229,44 +244,6 @@ internal sealed class UnitySolver : ISolver
         int end = blocks > 0 ? _blocks[blocks - 1].End : 0;
         Array.Copy(_rows.UnbiasedConstants, _rows.Constants, end);
     }
-
-    // Force and torque of the rows that count, moved to the anchor; a joint that passes its limits acted in full in
-    // this step and is gone in the next. True when one did. Source: DySolverConstraints.cpp, writeBack1D.
-    private bool Report(int blocks, double dt)
-    {
-        double inverseDt = 1 / dt;
-        bool broken = false;
-        for (int b = 0; b < blocks; b++)
-        {
-            ref JointBlock block = ref _blocks[b];
-            Double4 force = default;
-            Double4 torque = default;
-            for (int i = block.Start; i < block.End; i++)
-            {
-                if (_rows.Counts[i])
-                {
-                    force += _rows.Vectors[i].Linear * _rows.Impulses[i];
-                    torque += _rows.Angular0[i] * _rows.Impulses[i];
-                }
-            }
-
-            // The poses are still those at which the rows were made.
-            Joint joint = _mechanism.Joints[block.Joint];
-            Vector3d lever = _bodies.PoseAt(joint.Body1).Point(joint.Frame1.Position) - _bodies.PoseAt(joint.Body0).Position;
-            Vector3d linear = force.Vector;
-            Vector3d angular = torque.Vector - Vector3d.Cross(lever, linear);
-            _mechanism.Reactions[block.Joint] = new JointReaction { Force = linear * inverseDt, Torque = angular * inverseDt };
-            if (Exceeds(linear, joint.BreakForce * dt) || Exceeds(angular, joint.BreakTorque * dt))
-            {
-                joint.IsBroken = true;
-                broken = true;
-            }
-        }
-
-        return broken;
-    }
-
-    private static bool Exceeds(Vector3d impulse, double limit) => impulse.LengthSquared > limit * limit;
 
     private void Move(int i, double dt)
     {

@@ -62,8 +62,10 @@ internal struct ConstraintRow
 {
     public Vector3d Linear0;
     public Vector3d Angular0;
-    public Vector3d Linear1;
     public Vector3d Angular1;
+
+    /// <summary>No joint moves its bodies along different lines.</summary>
+    public readonly Vector3d Linear1 => Linear0;
 
     /// <summary>C, metres or radians (a half or a sine of an angle where the row's comment says so).</summary>
     public double GeometricError;
@@ -77,8 +79,11 @@ internal struct ConstraintRow
     /// <summary>Greatest impulse, as Minimum.</summary>
     public double Maximum;
 
+    /// <summary>Not written unless Spring is set, nor is Damping.</summary>
     public double Stiffness;
     public double Damping;
+
+    /// <summary>Not written unless Restitution is set, nor is BounceThreshold.</summary>
     public double Restitution;
     public double BounceThreshold;
     public RowFlags Flags;
@@ -89,7 +94,7 @@ internal struct ConstraintRow
 
     /// <summary>Whether the other row has the same J, to the bit.</summary>
     public readonly bool HasJacobianOf(in ConstraintRow other) =>
-        Linear0 == other.Linear0 && Angular0 == other.Angular0 && Linear1 == other.Linear1 && Angular1 == other.Angular1;
+        Linear0 == other.Linear0 && Angular0 == other.Angular0 && Angular1 == other.Angular1;
 
     /// <summary>Cdot for the given velocities of the two centres of mass.</summary>
     public readonly double Velocity(Vector3d v0, Vector3d w0, Vector3d v1, Vector3d w1) =>

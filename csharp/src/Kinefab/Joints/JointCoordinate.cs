@@ -52,7 +52,6 @@ internal readonly struct JointCoordinate
             int i = (int)Axis;
             Vector3d a = f.Axis0(i) * -Sign;
             row.Linear0 = a;
-            row.Linear1 = a;
             row.Angular0 = Vector3d.Cross(f.P1 - body0.Position, a);
             row.Angular1 = Vector3d.Cross(f.P1 - body1.Position, a);
             row.GeometricError = Sign * f.Relative.Position[i];

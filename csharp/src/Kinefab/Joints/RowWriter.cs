@@ -191,7 +191,6 @@ internal ref struct RowWriter
     {
         ref ConstraintRow row = ref Next(error, flags, hint);
         row.Linear0 = axis;
-        row.Linear1 = axis;
         row.Angular0 = Vector3d.Cross(lever0, axis);
         row.Angular1 = Vector3d.Cross(lever1, axis);
         return ref row;
@@ -201,13 +200,12 @@ internal ref struct RowWriter
     {
         ref ConstraintRow row = ref Next(error, flags | RowFlags.Angular, hint);
         row.Linear0 = Vector3d.Zero;
-        row.Linear1 = Vector3d.Zero;
         row.Angular0 = axis;
         row.Angular1 = axis;
         return ref row;
     }
 
-    // Everything but the vectors. Field by field: clearing the row first costs more than the rest of it.
+    // Everything but the vectors and what only springs and bouncing limits have. Clearing the row first costs more than the rest of it.
     private ref ConstraintRow Next(double error, RowFlags flags, SolveHint hint)
     {
         ref ConstraintRow row = ref _rows[Count++];
@@ -215,10 +213,6 @@ internal ref struct RowWriter
         row.VelocityTarget = 0;
         row.Minimum = double.NegativeInfinity;
         row.Maximum = double.PositiveInfinity;
-        row.Stiffness = 0;
-        row.Damping = 0;
-        row.Restitution = 0;
-        row.BounceThreshold = 0;
         row.Flags = flags;
         row.Hint = hint;
         return ref row;

@@ -21,7 +21,6 @@ internal sealed class DistanceSpring : Joint
         rows[0] = new ConstraintRow
         {
             Linear0 = along,
-            Linear1 = along,
             Angular0 = Vector3d.Cross(p0 - body0.Position, along),
             Angular1 = Vector3d.Cross(p1 - body1.Position, along),
             GeometricError = Length - distance,

@@ -11,6 +11,10 @@ internal struct JointBlock
     /// <summary>Slot of body 0; that after the last body stands for the world.</summary>
     public int Body0;
     public int Body1;
+
+    /// <summary>Slot that takes what the joint does to body 0; not that of a body that cannot move, or all joints on it would wait for each other.</summary>
+    public int Moved0;
+    public int Moved1;
     public int Start;
     public int Equalities;
     public int Inequalities;

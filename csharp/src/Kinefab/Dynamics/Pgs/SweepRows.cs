@@ -81,8 +81,10 @@ internal sealed class SweepRows
     }
 
     /// <summary>Any rows, one after the other: lambda = clamp(i lambda + m Cdot + constant).</summary>
-    public void SolveInTurn(int start, int end, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
+    public void SolveInTurn(int start, int end, in JointBlock block, BodyDelta[] bodies)
     {
+        BodyDelta body0 = bodies[block.Body0];
+        BodyDelta body1 = bodies[block.Body1];
         for (int i = start; i < end; i++)
         {
             ref RowVectors row = ref Vectors[i];
@@ -92,21 +94,27 @@ internal sealed class SweepRows
             impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
             double delta = impulse - Impulses[i];
             Impulses[i] = impulse;
-            Apply(delta * row.Linear, delta * row.Sqrt0, delta * row.Sqrt1, mass, ref body0, ref body1);
+            Apply(delta * row.Linear, delta * row.Sqrt0, delta * row.Sqrt1, block.Mass, ref body0, ref body1);
         }
+
+        bodies[block.Moved0] = body0;
+        bodies[block.Moved1] = body1;
     }
 
     /// <summary>Equalities that are mass-orthogonal: none changes another's Cdot, so all see the velocities from before.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void SolveTogether(int start, int end, in PairMass mass, ref BodyDelta body0, ref BodyDelta body1)
+    public void SolveTogether(in JointBlock block, BodyDelta[] bodies)
     {
+        BodyDelta body0 = bodies[block.Body0];
+        BodyDelta body1 = bodies[block.Body1];
         Double4 relative = body0.Linear - body1.Linear;
         Double4 before0 = body0.Angular;
         Double4 before1 = body1.Angular;
         Double4 linear = default;
         Double4 angular0 = default;
         Double4 angular1 = default;
-        int i = start;
+        int i = block.Equalities;
+        int end = block.Inequalities;
         for (; i <= end - 4; i += 4)
         {
             Span<RowVectors> rows = Vectors.AsSpan(i, 4);
@@ -133,7 +141,9 @@ internal sealed class SweepRows
             angular1 += delta * row.Sqrt1;
         }
 
-        Apply(linear, angular0, angular1, mass, ref body0, ref body1);
+        Apply(linear, angular0, angular1, block.Mass, ref body0, ref body1);
+        bodies[block.Moved0] = body0;
+        bodies[block.Moved1] = body1;
     }
 
     /// <summary>What adds up to Cdot.</summary>

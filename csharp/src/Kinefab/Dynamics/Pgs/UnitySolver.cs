@@ -49,8 +49,8 @@ internal sealed class UnitySolver : ISolver
         _startPoses[_bodies.Count] = Pose.Identity;
         _startLinear = new Vector3d[slots];
         _startAngular = new Vector3d[slots];
-        _deltas = new BodyDelta[slots];
-        _motions = new BodyDelta[slots];
+        _deltas = new BodyDelta[slots + 1];
+        _motions = new BodyDelta[slots + 1];
         _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
         _sqrtInertia = new SqrtInertia[slots];
         _blocks = new JointBlock[mechanism.Joints.Length];
@@ -144,6 +144,8 @@ internal sealed class UnitySolver : ISolver
         block.Joint = index;
         block.Body0 = joint.Body0 < 0 ? world : joint.Body0;
         block.Body1 = joint.Body1 < 0 ? world : joint.Body1;
+        block.Moved0 = mass0 > 0 ? joint.Body0 : world + 1;
+        block.Moved1 = mass1 > 0 ? joint.Body1 : world + 1;
         block.Mass = new PairMass(
             mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1);
     }
@@ -220,21 +222,19 @@ internal sealed class UnitySolver : ISolver
         for (int b = 0; b < blocks; b++)
         {
             ref JointBlock block = ref _blocks[b];
-            ref BodyDelta body0 = ref _deltas[block.Body0];
-            ref BodyDelta body1 = ref _deltas[block.Body1];
             if (block.Equalities > block.Start)
             {
-                _rows.SolveInTurn(block.Start, block.Equalities, block.Mass, ref body0, ref body1);
+                _rows.SolveInTurn(block.Start, block.Equalities, block, _deltas);
             }
 
             if (block.Inequalities > block.Equalities)
             {
-                _rows.SolveTogether(block.Equalities, block.Inequalities, block.Mass, ref body0, ref body1);
+                _rows.SolveTogether(block, _deltas);
             }
 
             if (block.End > block.Inequalities)
             {
-                _rows.SolveInTurn(block.Inequalities, block.End, block.Mass, ref body0, ref body1);
+                _rows.SolveInTurn(block.Inequalities, block.End, block, _deltas);
             }
         }
     }

@@ -50,7 +50,17 @@ internal readonly struct Double4
 
     /// <summary>One of its numbers, four times.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Double4 Spread(int i) => new(Vector256.Create(_v.GetElement(i)));
+    public Double4 Spread(int i)
+    {
+        if (!Avx.IsSupported)
+        {
+            return new(Vector256.Create(_v.GetElement(i)));
+        }
+
+        // Its half twice, then within the halves: all four are there at the same time, which half by half they are not.
+        Vector256<double> half = i < 2 ? Avx.Permute2x128(_v, _v, 0x00) : Avx.Permute2x128(_v, _v, 0x11);
+        return new(i % 2 == 0 ? Avx.UnpackLow(half, half) : Avx.UnpackHigh(half, half));
+    }
 
     /// <summary>Sum of the first three of each.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

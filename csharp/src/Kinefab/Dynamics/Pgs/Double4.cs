@@ -42,9 +42,11 @@ internal readonly struct Double4
         }
     }
 
+    /// <summary>Four numbers from an index on, which the caller knows to be there: only the first is checked.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Double4 Load(double[] values, int index) => new(Vector256.LoadUnsafe(ref values[index]));
 
+    /// <summary>Likewise.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] values, int index) => _v.StoreUnsafe(ref values[index]);
 

@@ -12,7 +12,10 @@ internal struct JointBlock
     public int Body0;
     public int Body1;
 
-    /// <summary>Slot that takes what the joint does to body 0; not that of a body that cannot move, or all joints on it would wait for each other.</summary>
+    /// <summary>
+    /// Slot that takes body 0's change: its own, or one that nobody reads where the body cannot move. Else every joint on the world
+    /// would have to wait for the one before it to write the same zeros.
+    /// </summary>
     public int Moved0;
     public int Moved1;
     public int Start;
@@ -20,7 +23,7 @@ internal struct JointBlock
     public int Inequalities;
     public int End;
 
-    /// <summary>The first of preprocessing's factors, which are Preprocessing.Factors many.</summary>
+    /// <summary>The first of the factors that preprocessing wrote.</summary>
     public int Factors;
     public PairMass Mass;
 }

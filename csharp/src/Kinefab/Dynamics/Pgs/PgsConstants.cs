@@ -70,7 +70,7 @@ internal static class PgsConstants
         }
 
         double start = velocity * multiplier;
-        rows.Constants[i] = constant + start;
+        rows.BiasedConstants[i] = constant + start;
         rows.UnbiasedConstants[i] = unbiased + start;
         rows.VelocityMultipliers[i] = multiplier;
         rows.Impulses[i] = 0;
@@ -89,7 +89,7 @@ internal static class PgsConstants
         double target = vectors.Sqrt0.W;
         double inverse = response > 0 ? 1 / response : 0;
         double start = vectors.Sqrt1.W * -inverse;
-        rows.Constants[i] = inverse * (target - vectors.Linear.W * inverseDt) + start;
+        rows.BiasedConstants[i] = inverse * (target - vectors.Linear.W * inverseDt) + start;
         rows.UnbiasedConstants[i] = inverse * target + start;
         rows.VelocityMultipliers[i] = -inverse;
         rows.Impulses[i] = 0;

@@ -16,7 +16,6 @@ internal sealed class StepReactions
 
     // At which the rows were made.
     private readonly Pose[] _poses;
-    private readonly Vector3d[] _angulars = new Vector3d[Joint.MaxRows];
     private readonly Action<JointReaction[]> _write;
     private int _count;
     private double _dt;
@@ -69,7 +68,8 @@ internal sealed class StepReactions
     // N s and N m s.
     private JointReaction Impulse(in JointBlock block, Joint joint)
     {
-        Span<Vector3d> angulars = _angulars.AsSpan(0, block.End - block.Start);
+        // On the stack: several threads may read reactions.
+        Span<Vector3d> angulars = stackalloc Vector3d[block.End - block.Start];
         _rows.Angular0.AsSpan(block.Start, angulars.Length).CopyTo(angulars);
         Preprocessing.Repeat(_rows, block, angulars.Slice(block.Equalities - block.Start));
         Vector3d force = Vector3d.Zero;

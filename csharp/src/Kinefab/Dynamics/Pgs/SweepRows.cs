@@ -57,10 +57,13 @@ internal sealed class SweepRows
     public readonly RowBounds[] Bounds;
 
     /// <summary>Impulse that the start velocity and the bias ask for.</summary>
-    public readonly double[] Constants;
+    public readonly double[] BiasedConstants;
 
     /// <summary>The same without bias, for the velocity iterations.</summary>
     public readonly double[] UnbiasedConstants;
+
+    /// <summary>Those of the two that the sweeps are to take.</summary>
+    public double[] Constants;
     public readonly double[] VelocityMultipliers;
 
     /// <summary>Accumulated.</summary>
@@ -74,8 +77,9 @@ internal sealed class SweepRows
         Factors = new double[joints * Preprocessing.MaxFactors];
         Counts = new bool[capacity];
         Bounds = new RowBounds[capacity];
-        Constants = new double[capacity];
+        BiasedConstants = new double[capacity];
         UnbiasedConstants = new double[capacity];
+        Constants = BiasedConstants;
         VelocityMultipliers = new double[capacity];
         Impulses = new double[capacity];
     }

@@ -49,6 +49,8 @@ internal sealed class UnitySolver : ISolver
         _startPoses[_bodies.Count] = Pose.Identity;
         _startLinear = new Vector3d[slots];
         _startAngular = new Vector3d[slots];
+
+        // And one more, which takes the changes of what cannot move.
         _deltas = new BodyDelta[slots + 1];
         _motions = new BodyDelta[slots + 1];
         _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
@@ -80,6 +82,7 @@ internal sealed class UnitySolver : ISolver
         int blocks = Prepare(dt);
         _couplings.Prepare(_sqrtInertia, dt);
         Array.Clear(_deltas, 0, _deltas.Length);
+        _rows.Constants = _rows.BiasedConstants;
         for (int i = 0; i < positionIterations; i++)
         {
             Sweep(blocks);
@@ -87,7 +90,7 @@ internal sealed class UnitySolver : ISolver
         }
 
         Array.Copy(_deltas, _motions, _deltas.Length);
-        RemoveBias(blocks);
+        _rows.Constants = _rows.UnbiasedConstants;
         _couplings.RemoveBias();
         for (int i = 0; i < velocityIterations; i++)
         {
@@ -159,13 +162,15 @@ internal sealed class UnitySolver : ISolver
         if (isOrthogonal)
         {
             int i = sorted.Length;
-            for (; i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Inequality; i--)
+            while (i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Inequality)
             {
+                i--;
             }
 
             block.Inequalities = start + i;
-            for (; i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Equality; i--)
+            while (i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Equality)
             {
+                i--;
             }
 
             block.Equalities = start + i;
@@ -237,12 +242,6 @@ internal sealed class UnitySolver : ISolver
                 _rows.SolveInTurn(block.Inequalities, block.End, block, _deltas);
             }
         }
-    }
-
-    private void RemoveBias(int blocks)
-    {
-        int end = blocks > 0 ? _blocks[blocks - 1].End : 0;
-        Array.Copy(_rows.UnbiasedConstants, _rows.Constants, end);
     }
 
     private void Move(int i, double dt)

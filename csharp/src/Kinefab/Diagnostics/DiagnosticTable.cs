@@ -13,13 +13,42 @@ internal static class DiagnosticTable
 
     internal static IReadOnlyDictionary<string, Entry> Entries => Table.Value;
 
-    /// <summary>Fills {placeholders} of a template with the given values.</summary>
+    /// <summary>
+    /// Fills {placeholders} of a template with the given values, in one pass: what a value holds is data, also where it
+    /// looks like a placeholder.  {{ and }} stand for braces, as in Python's str.format, which fills the same table.
+    /// </summary>
     internal static string Fill(string template, ReadOnlySpan<(string Name, string Value)> values)
     {
-        var text = new StringBuilder(template);
-        foreach ((string name, string value) in values)
-            text.Replace("{" + name + "}", value);
+        var text = new StringBuilder();
+        for (int at = 0; at < template.Length; at++)
+        {
+            char letter = template[at];
+            bool isDoubled = letter is '{' or '}' && at + 1 < template.Length && template[at + 1] == letter;
+            int end = letter == '{' && !isDoubled ? template.IndexOf('}', at) : -1;
+            if (end > 0 && ValueOf(template.AsSpan(at + 1, end - at - 1), values) is string value)
+            {
+                text.Append(value);
+                at = end;
+                continue;
+            }
+
+            text.Append(letter);
+            if (isDoubled)
+                at++;
+        }
+
         return text.ToString();
+    }
+
+    private static string? ValueOf(ReadOnlySpan<char> placeholder, ReadOnlySpan<(string Name, string Value)> values)
+    {
+        foreach ((string name, string value) in values)
+        {
+            if (placeholder.SequenceEqual(name.AsSpan()))
+                return value;
+        }
+
+        return null;
     }
 
     private static Dictionary<string, Entry> Read()

@@ -20,7 +20,21 @@ public class DiagnosticCodesTests
         Assert.That(codes, Is.SubsetOf(OwnCodes.All));
     }
 
+    // What both languages' fillers take alike: names in braces, and braces doubled.
     [Test]
-    public void Fill_TwoPlaceholders_PutsBothValuesIn() =>
-        Assert.That(DiagnosticTable.Fill("{a} of {b}, {a}", [("a", "3"), ("b", "{x}")]), Is.EqualTo("3 of {x}, 3"));
+    public void Table_Templates_HoldOnlyNamesInBracesAndBracesDoubled() =>
+        Assert.That(
+            DiagnosticTable.Entries.Values.SelectMany(entry => new[] { entry.Message, entry.Remedy }),
+            Is.All.Match(@"^([^{}]|\{\{|\}\}|\{[A-Za-z_]+\})*$"));
+
+    [TestCase("{a} of {b}, {a}", "3 of {x}, 3")]
+    [TestCase("Begin with {{\"meta\": ...}}.", "Begin with {\"meta\": ...}.")]
+    [TestCase("{{a}} is {a}", "{a} is 3")]
+    [TestCase("{c} { } {", "{c} { } {")]
+    public void Fill_Template_PutsValuesAndBracesIn(string template, string text) =>
+        Assert.That(DiagnosticTable.Fill(template, [("a", "3"), ("b", "{x}")]), Is.EqualTo(text));
+
+    [Test]
+    public void Fill_ValueLikeAPlaceholderOfTheTemplate_StaysAsItIs() =>
+        Assert.That(DiagnosticTable.Fill("{id} and {first}", [("id", "{first}{{"), ("first", "{id}")]), Is.EqualTo("{first}{{ and {id}"));
 }

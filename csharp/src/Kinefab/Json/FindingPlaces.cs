@@ -56,31 +56,36 @@ internal static class FindingPlaces
         return new Diagnostic(DiagnosticCodes.FindingsOmitted, entry.Severity, message, entry.Remedy, "", null, null);
     }
 
-    /// <summary>Lines and columns of rising offsets, in one pass.</summary>
+    /// <summary>Lines and columns of rising offsets, in one pass: a line that holds many findings is read once, too.</summary>
     private ref struct LineCounter
     {
         private readonly ReadOnlySpan<byte> text;
+        private int at;
         private int line;
-        private int start;
+        private int column;
 
         internal LineCounter(ReadOnlySpan<byte> text)
         {
             this.text = text;
+            at = 0;
             line = 1;
-            start = 0;
+            column = 1;
         }
 
         internal (int? Line, int? Column) At(long offset)
         {
             int end = (int)Math.Min(offset, text.Length);
             int newline;
-            while ((newline = text.Slice(start, end - start).IndexOf((byte)'\n')) >= 0)
+            while ((newline = text.Slice(at, end - at).IndexOf((byte)'\n')) >= 0)
             {
-                start += newline + 1;
+                at += newline + 1;
                 line++;
+                column = 1;
             }
 
-            return (line, Encoding.UTF8.GetCharCount(text.Slice(start, end - start)) + 1);
+            column += Encoding.UTF8.GetCharCount(text.Slice(at, end - at));
+            at = end;
+            return (line, column);
         }
     }
 }

@@ -72,6 +72,18 @@ public class SceneFileTests
         }
     }
 
+    [Test]
+    public void Parse_FindingsOnOneLine_AreCountedInUtf16UnitsFromItsStart()
+    {
+        string text = """
+            {"format": "kinefab.scene", "version": "1.0", "gameObjects":
+            ["é", 1, "𝄞", 2,
+             3]}
+            """.ReplaceLineEndings("\n");
+        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(text));
+        Assert.That(reading.Report.Diagnostics.Select(found => (found.Line, found.Column)), Is.EqualTo(new (int?, int?)[] { (2, 2), (2, 7), (2, 10), (2, 16), (3, 2) }));
+    }
+
     [TestCase(false, Severity.Warning)]
     [TestCase(true, Severity.Error)]
     public void Parse_UnknownField_IsAnErrorOnlyWhenStrict(bool strict, Severity expected)

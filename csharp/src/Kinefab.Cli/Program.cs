@@ -11,7 +11,18 @@ internal static class Program
 
     internal static int Main(string[] args)
     {
-        var root = new RootCommand("Validates, inspects, simulates and sweeps Kinefab scenes, counts their mobility and advises on stability.")
+        ParseResult parsed = Commands().Parse(args);
+        if (parsed.Errors.Count == 0)
+            return parsed.Invoke();
+        foreach (var error in parsed.Errors)
+            Console.Error.WriteLine(error.Message);
+        Console.Error.WriteLine("Run 'dotnet kinefab --help' for the commands and their options.");
+        return WrongUsage;
+    }
+
+    /// <summary>Every command that there is.</summary>
+    internal static RootCommand Commands() =>
+        new("Validates, inspects, simulates and sweeps Kinefab scenes, counts their mobility and advises on stability.")
         {
             ValidateCommand.Create(),
             InspectCommand.Create(),
@@ -20,12 +31,4 @@ internal static class Program
             MobilityCommand.Create(),
             AdviseCommand.Create(),
         };
-        ParseResult parsed = root.Parse(args);
-        if (parsed.Errors.Count == 0)
-            return parsed.Invoke();
-        foreach (var error in parsed.Errors)
-            Console.Error.WriteLine(error.Message);
-        Console.Error.WriteLine("Run 'dotnet kinefab --help' for the commands and their options.");
-        return WrongUsage;
-    }
 }

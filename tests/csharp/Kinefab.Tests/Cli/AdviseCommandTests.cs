@@ -95,11 +95,4 @@ public sealed class AdviseCommandTests
         Assert.That((exit, data), Is.EqualTo((2, "")));
         Assert.That(findings, Does.StartWith(rule));
     }
-
-    [Test]
-    public void Validate_Json_FollowsItsSchema()
-    {
-        Assert.That(JsonSchema.Faults("report.schema.json", CommandLineTests.Run("validate", Invalid, "--json").Data), Is.Empty);
-        Assert.That(JsonSchema.Faults("report.schema.json", CommandLineTests.Run("inspect", AdviceScene.Lever, "--json").Data), Is.Empty);
-    }
 }

@@ -131,5 +131,6 @@ internal static class SweepCommand
 
     private static string Name(Mechanism mechanism, int coordinate) => mechanism.Coordinates[coordinate].Name;
 
-    private static string Number(double value) => Math.Round(value, 9).ToString("0.######", CultureInfo.InvariantCulture);
+    // As it is written, without the sign that the format gives a negative number that comes to 0.
+    private static string Number(double value) => (Math.Round(value, 6) + 0.0).ToString("0.######", CultureInfo.InvariantCulture);
 }

@@ -95,6 +95,14 @@ public sealed class SweepCommandTests
     }
 
     [Test]
+    public void Sweep_CoordinateThatStandsStill_IsZeroWithoutASign()
+    {
+        string lever = Path.Combine(ExportedMechanism.Fixtures, "lever", "lever.kinefab");
+        string data = CommandLineTests.Run("sweep", lever, "--joint", "Lever/Crank:1", "--from", "0", "--to", "90", "--steps", "30").Data;
+        Assert.That(data, Does.Contain("Lever/SliderD:1[5].x 0 to 0 m").And.Not.Match(" -0[^.]"));
+    }
+
+    [Test]
     public void Sweep_OneStep_IsOneStep() =>
         Assert.That(CommandLineTests.Run("sweep", Scene("M07"), "--joint", "crank", "--from", "0", "--to", "5", "--steps", "1").Data, Does.Contain("in 1 step").And.Not.Contain("1 steps"));
 

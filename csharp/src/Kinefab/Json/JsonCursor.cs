@@ -42,9 +42,6 @@ internal ref partial struct JsonCursor
     /// <summary>Containers open around the current token.</summary>
     internal readonly int Depth => reader.CurrentDepth;
 
-    /// <summary>Byte offset behind the last token.</summary>
-    internal readonly long Consumed => reader.BytesConsumed;
-
     /// <summary>Nothing but white space may follow the value that was read last.</summary>
     internal void End() => reader.Read();
 

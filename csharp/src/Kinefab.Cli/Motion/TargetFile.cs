@@ -18,16 +18,19 @@ internal static class TargetFile
     {
         if (Directory.Exists(path))
             return Unwritable(path, "it is a folder");
-        string temporary = path + ".part";
+        string temporary = path;
         try
         {
-            var file = new FileStream(temporary, FileMode.Create, FileAccess.Write);
+            // Behind a link, where it leads: the link stays one.
+            string target = new FileInfo(path).LinkTarget is null ? path : File.ResolveLinkTarget(path, returnFinalTarget: true)!.FullName;
+            temporary = Beside(target);
+            var file = new FileStream(temporary, FileMode.CreateNew, FileAccess.Write);
             try
             {
                 using (file)
                     content(file);
                 if (isKept)
-                    File.Move(temporary, path, overwrite: true);
+                    File.Move(temporary, target, overwrite: true);
             }
             finally
             {
@@ -49,6 +52,10 @@ internal static class TargetFile
             return Unwritable(path, e.Message.Replace(temporary, path, StringComparison.Ordinal).TrimEnd('.'));
         }
     }
+
+    // In the target's folder, as a rename is atomic within one file system only; a name that no file of the user's has.
+    private static string Beside(string target) =>
+        Path.Combine(Path.GetDirectoryName(target) ?? "", $".kinefab.{Path.GetRandomFileName()}.part");
 
     private static Report Unwritable(string path, string detail)
     {

@@ -51,19 +51,21 @@ internal static class SimulateCommand
         World world = World.Create(loaded.Scene, kind);
         int told = world.Findings.Diagnostics.Count;
         ReportWriter.WriteLines(file, world.Findings, Console.Error);
-        Mechanism? mechanism = drives.Length == 0 ? null : Mechanism.Create(loaded.Scene);
+        Mechanism? mechanism = drives.Length == 0 && output is null ? null : Mechanism.Create(loaded.Scene);
         foreach (string text in drives)
         {
             if (DriveSetting.Apply(world, mechanism!, text) is string fault)
                 return Refuse($"--drive {text}: {fault}");
         }
 
+        var steps = (int)count;
+        if (output is not null && TrajectorySize.Fault(steps, world.Bodies.Count, mechanism!.Coordinates.Count) is string excess)
+            return Refuse($"--output {output}: {excess} Give fewer seconds or a longer --step.");
         Report target = output is null ? Report.Empty : TargetFile.Check(output);
         if (target.HasErrors)
             return Fail(file, target);
-        var steps = (int)count;
         var summary = new RunSummary(world, loaded.Scene);
-        Recording? recording = output is null ? null : new Recording(world, loaded.Scene, kind, dt);
+        Recording? recording = output is null ? null : new Recording(world, mechanism!, kind, dt);
         var progress = new Progress(steps);
         for (int i = 1; i <= steps; i++)
         {

@@ -61,6 +61,12 @@ internal static class SweepCommand
             return WrongUsage;
         }
 
+        if (TrajectorySize.Fault(steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)
+        {
+            Console.Error.WriteLine($"--steps {steps}: {excess} Give fewer steps.");
+            return WrongUsage;
+        }
+
         Report target = Targets(output, intoAnimation ? file : null);
         if (target.HasErrors)
         {

@@ -10,7 +10,7 @@ namespace Kinefab.Cli.Commands;
 /// <summary>Options whose values are held to a rule; a wrong value is named in the user's words.</summary>
 internal static class TypedOptions
 {
-    /// <summary>Steps of any run: minutes of work for a mechanism, and as much as a trajectory holds.</summary>
+    /// <summary>Steps of any run: minutes of work for a mechanism.</summary>
     internal const int MostSteps = 1_000_000;
 
     internal static Option<double?> Positive(string name, string description) =>

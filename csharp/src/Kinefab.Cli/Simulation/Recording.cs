@@ -3,7 +3,6 @@ using Kinefab.Cli.Motion;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
-using Kinefab.Validation;
 
 namespace Kinefab.Cli.Simulation;
 
@@ -15,10 +14,9 @@ internal sealed class Recording
     private readonly int[] gameObjects;
     private readonly Pose[] poses;
 
-    internal Recording(World world, ValidScene scene, SolverKind solver, double step)
+    internal Recording(World world, Mechanism mechanism, SolverKind solver, double step)
     {
         this.world = world;
-        Mechanism mechanism = Mechanism.Create(scene);
         state = mechanism.NewState();
         gameObjects = world.Bodies.Select(b => b.GameObject).ToArray();
         poses = new Pose[gameObjects.Length];

@@ -155,6 +155,19 @@ public sealed class SimulateCommandTests
         Assert.That(findings, Does.Contain("at most 1000000 are run"));
     }
 
+    // 10 bodies, 1 + 7 * 10 + 41 numbers a pose: without a trajectory the run is as long as any other.
+    [Test]
+    public void Simulate_TrajectoryThatMemoryDoesNotHold_Exits2BeforeTheRun()
+    {
+        string delta = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "mechanisms", "M19.kinefab");
+
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", delta, "--seconds", "20000", "-o", Path.Combine(_folder, "run.json"));
+
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.Contain("1000000 steps of 10 bodies and ").And.Contain("at most 50000000 are kept. Give fewer seconds or a longer --step."));
+        Assert.That(Directory.GetFiles(_folder), Is.Empty);
+    }
+
     [Test]
     public void Simulate_JointOfASceneWithoutJoints_SaysThatNothingMoves()
     {

@@ -95,6 +95,14 @@ public sealed class SweepCommandTests
     }
 
     [Test]
+    public void Sweep_MotionThatMemoryDoesNotHold_Exits2BeforeTheSweep()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("sweep", Scene("M19"), "--joint", "arm0[1]", "--steps", "1000000");
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.StartWith("--steps 1000000: 1000000 steps of 10 bodies and ").And.Contain("at most 50000000 are kept. Give fewer steps."));
+    }
+
+    [Test]
     public void Sweep_CoordinateThatStandsStill_IsZeroWithoutASign()
     {
         string lever = Path.Combine(ExportedMechanism.Fixtures, "lever", "lever.kinefab");

@@ -14,9 +14,11 @@ internal static class MechanismCoordinates
     public static MechanismCoordinate[] Of(MechanismDefinition definition, Joint[] joints, IReadOnlyList<Coupling> couplings)
     {
         var coordinates = new List<MechanismCoordinate>();
+        var byPlace = new Dictionary<(int GameObject, int Component), int>();
         for (int j = 0; j < definition.Joints.Count; j++)
         {
             JointDefinition source = definition.Joints[j];
+            byPlace.Add((source.GameObject, source.Component), j);
             int locked = FreeTwists.LockedAxes(joints[j]);
             for (int axis = 0; axis < 6; axis++)
             {
@@ -29,6 +31,8 @@ internal static class MechanismCoordinates
             }
         }
 
+        // Several couplings may name one.
+        var added = new HashSet<(int Joint, int Axis)>();
         foreach (Coupling coupling in couplings)
         {
             AddLocked(coupling.A);
@@ -40,14 +44,10 @@ internal static class MechanismCoordinates
         void AddLocked(JointCoordinate place)
         {
             int axis = place.Coordinate == Coordinate.Angle ? (int)CoordinateAxis.AngularX : place.Coordinate - Coordinate.X;
-            for (int j = 0; j < definition.Joints.Count; j++)
+            bool isThere = byPlace.TryGetValue((place.GameObject, place.Component), out int j);
+            if (isThere && (FreeTwists.LockedAxes(joints[j]) & (1 << axis)) != 0 && added.Add((j, axis)))
             {
-                JointDefinition source = definition.Joints[j];
-                bool isMeant = source.GameObject == place.GameObject && source.Component == place.Component;
-                if (isMeant && (FreeTwists.LockedAxes(joints[j]) & (1 << axis)) != 0)
-                {
-                    coordinates.Add(Make(source, joints[j], j, axis, isLocked: true));
-                }
+                coordinates.Add(Make(definition.Joints[j], joints[j], j, axis, isLocked: true));
             }
         }
     }

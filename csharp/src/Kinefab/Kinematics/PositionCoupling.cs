@@ -23,12 +23,16 @@ internal readonly struct PositionCoupling
     /// <summary>The couplings whose joints are both there: those of inactive objects are not.</summary>
     public static PositionCoupling[] Of(IReadOnlyList<Coupling> sources, MechanismCoordinate[] coordinates)
     {
+        var places = new Dictionary<(int GameObject, int Component, Coordinate Coordinate), int>();
+        for (int i = 0; sources.Count > 0 && i < coordinates.Length; i++)
+        {
+            places.TryAdd((coordinates[i].GameObject, coordinates[i].Component, coordinates[i].Coordinate), i);
+        }
+
         var couplings = new List<PositionCoupling>();
         for (int i = 0; i < sources.Count; i++)
         {
-            int a = Find(sources[i].A, coordinates);
-            int b = Find(sources[i].B, coordinates);
-            if (a < 0 || b < 0)
+            if (!places.TryGetValue(Place(sources[i].A), out int a) || !places.TryGetValue(Place(sources[i].B), out int b))
             {
                 continue;
             }
@@ -43,17 +47,6 @@ internal readonly struct PositionCoupling
 
     private static double Unit(MechanismCoordinate coordinate) => coordinate.IsAngle ? Math.PI / 180 : 1;
 
-    private static int Find(JointCoordinate place, MechanismCoordinate[] coordinates)
-    {
-        for (int i = 0; i < coordinates.Length; i++)
-        {
-            MechanismCoordinate c = coordinates[i];
-            if (c.GameObject == place.GameObject && c.Component == place.Component && c.Coordinate == place.Coordinate)
-            {
-                return i;
-            }
-        }
-
-        return -1;
-    }
+    private static (int GameObject, int Component, Coordinate Coordinate) Place(JointCoordinate coordinate) =>
+        (coordinate.GameObject, coordinate.Component, coordinate.Coordinate);
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using Kinefab.Document;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
@@ -89,6 +90,22 @@ public class CouplingTests
         JointPlace second = scene.Hinge(scene.Body("b", Vector3d.UnitX), null, Vector3d.UnitX, Vector3d.UnitZ);
         scene.Couple(first, Coordinate.Angle, second, Coordinate.Angle, 3, 12);
         Assert.That(Driven(scene, first, 20, second, Coordinate.Angle), Is.EqualTo(72).Within(Tolerance));
+    }
+
+    [Test]
+    public void LockedCoordinate_OfTwoCouplings_StandsThereOnceAndHoldsBoth()
+    {
+        var scene = new MechanismScene();
+        JointPlace first = scene.Hinge(scene.Body("a", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace second = scene.Hinge(scene.Body("b", Vector3d.UnitX), null, Vector3d.UnitX, Vector3d.UnitZ);
+        JointPlace slide = scene.Slide(scene.Body("c", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitX);
+        scene.Couple(first, Coordinate.Angle, slide, Coordinate.AngularX, 2);
+        scene.Couple(slide, Coordinate.AngularX, second, Coordinate.Angle, 2);
+
+        Mechanism mechanism = scene.Mechanism();
+
+        Assert.That(string.Join(" ", mechanism.Coordinates.Select(c => c.Name)), Is.EqualTo("a.angle b.angle c.x c.angularX"));
+        Assert.That(MobilityAnalysis.Of(mechanism).Mobility, Is.EqualTo(1), "the slide alone moves");
     }
 
     private static double Driven(MechanismScene scene, JointPlace drive, double value, JointPlace read, Coordinate reading)

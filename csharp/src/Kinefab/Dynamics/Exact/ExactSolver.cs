@@ -91,7 +91,7 @@ internal sealed class ExactSolver : ISolver
         }
 
         List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);
-        rest.RemoveAll(prepared.Contains);
+        rest.RemoveAll(island => island.HasPreparedRows);
         if (prepared.Count > 0)
         {
             _groups.Add(new PreparedIslands(_mechanism, prepared));

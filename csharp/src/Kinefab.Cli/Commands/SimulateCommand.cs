@@ -79,7 +79,7 @@ internal static class SimulateCommand
         ReportWriter.WriteLines(file, new Report(world.Findings.Diagnostics.Skip(told).ToArray()), Console.Error);
         summary.Write(Console.Out, kind, steps, dt);
         Report saved = recording is null ? Report.Empty : TrajectoryFile.Save(recording.Trajectory, output!);
-        return saved.HasErrors ? Fail(file, saved) : world.Overflows == 0 ? 0 : 1;
+        return saved.HasErrors ? Fail(file, saved) : world.Stops == 0 ? 0 : 1;
     }
 
     private static int Refuse(string usage)

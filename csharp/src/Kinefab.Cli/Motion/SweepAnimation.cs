@@ -73,7 +73,7 @@ internal static class SweepAnimation
         if (mechanism.Scene.Document.GameObjects[gameObject].Parent is not int parent)
             return world;
         Pose local = state.Pose(parent).Inverse() * world;
-        Vector3d scale = mechanism.Scene.World(parent).Scale;
+        Vector3d scale = mechanism.Scene.WorldTransform(parent).Scale;
         return new Pose(new Vector3d(local.Position.X / scale.X, local.Position.Y / scale.Y, local.Position.Z / scale.Z), local.Rotation);
     }
 

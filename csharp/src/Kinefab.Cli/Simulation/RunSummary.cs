@@ -40,8 +40,8 @@ internal sealed class RunSummary
         double end = world.KineticEnergy + world.PotentialEnergy;
         target.WriteLine(Text($"{Counted.Of(steps, "step", "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
         target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
-        if (world.Overflows > 0)
-            target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Overflows, "time", "times")}"));
+        if (world.Stops > 0)
+            target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Stops, "time", "times")}"));
         foreach (JointRecord joint in joints)
             joint.Write(target, NameOf(joint.Joint), scene.Document.GameObjects[joint.Joint.GameObject].Name);
     }
@@ -99,7 +99,7 @@ internal sealed class RunSummary
             string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
             string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
             target.WriteLine(Text(
-                $"{joint} ({gameObject}): drift {distance:0.0e+0} m, {angle * 180 / Math.PI:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
+                $"{joint} ({gameObject}): drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
 
         // As it is written, without the sign that the format gives a negative number that comes to 0.

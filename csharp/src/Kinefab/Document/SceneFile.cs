@@ -104,7 +104,7 @@ public static class SceneFile
         var cursor = default(JsonCursor);
         try
         {
-            cursor = new JsonCursor(text, findings, options.Limits, options.Strict);
+            cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict);
             var document = new SceneDocument(ref cursor);
             cursor.End();
             return document;

@@ -1,4 +1,4 @@
-namespace Kinefab.Json;
+namespace Kinefab.Document;
 
 /// <summary>How much of a file is read before it is refused.  Nothing that a CAD program writes comes near the defaults.</summary>
 public sealed class SceneLimits

@@ -1,5 +1,3 @@
-using Kinefab.Json;
-
 namespace Kinefab.Document;
 
 /// <summary>How a scene file is read.</summary>

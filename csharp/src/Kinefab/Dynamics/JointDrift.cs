@@ -19,7 +19,7 @@ public readonly struct JointDrift
     /// <summary>Distance of the anchors along the locked axes, metres.</summary>
     public double Distance { get; }
 
-    /// <summary>Rotation about the locked axes, radians.</summary>
+    /// <summary>Rotation about the locked axes, degrees.</summary>
     public double Angle { get; }
 
     internal static JointDrift Of(Joint joint, in Pose body0, in Pose body1)
@@ -53,7 +53,7 @@ public readonly struct JointDrift
             }
         }
 
-        return new JointDrift(Math.Sqrt(distance), Math.Sqrt(angle));
+        return new JointDrift(Math.Sqrt(distance), Math.Sqrt(angle) * (180 / Math.PI));
     }
 
     internal static bool IsAtLimit(Joint joint, in Pose body0, in Pose body1)

@@ -23,7 +23,7 @@ internal sealed class MultibodySystem
     public Action<JointReaction[]>? UnreadReactions;
 
     /// <summary>Times that motion was stopped: a body's that left the range of numbers, or an island's in a part of a step without solution; counted by the solver.</summary>
-    public int Overflows;
+    public int Stops;
 
     /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>
     public readonly List<UnsolvedStep> Unsolved = new();

@@ -60,7 +60,7 @@ public sealed class World
     /// part of a step that the exact solver could not solve (see <see cref="Findings"/>). 0 unless the solver cannot follow
     /// the scene.
     /// </summary>
-    public int Overflows => _mechanism.Overflows;
+    public int Stops => _mechanism.Stops;
 
     /// <summary>Kinetic energy of all bodies, J.</summary>
     public double KineticEnergy

@@ -86,7 +86,7 @@ internal sealed class WorldBuilder
             {
                 _bodyOf[i] = objects.Count;
                 objects.Add(i);
-                definitions.Add(Define(body, _scene.World(i).Pose));
+                definitions.Add(Define(body, _scene.WorldTransform(i).Pose));
             }
         }
 

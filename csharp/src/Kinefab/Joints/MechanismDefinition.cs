@@ -63,7 +63,7 @@ internal sealed class MechanismDefinition
         int other = settings.ConnectedBody is int body ? bodyOf[body] : Joint.World;
         return SceneJoint.Make(scene, own, settings, bodyOf[own], Start(bodyOf[own]), other, Start(other));
 
-        Pose Start(int place) => place < 0 ? Pose.Identity : scene.World(bodies[place]).Pose;
+        Pose Start(int place) => place < 0 ? Pose.Identity : scene.WorldTransform(bodies[place]).Pose;
     }
 }
 

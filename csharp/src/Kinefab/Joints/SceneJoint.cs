@@ -17,8 +17,8 @@ internal static class SceneJoint
     /// <param name="connectedStart">That body's frame in the world; the identity for the world.</param>
     public static Joint Make(ValidScene scene, int gameObject, Document.Joint settings, int own, in Pose ownStart, int connected, in Pose connectedStart)
     {
-        WorldTransform? other = settings.ConnectedBody is int index ? scene.World(index) : null;
-        Pose world = UnityFrames.Own(settings, scene.World(gameObject));
+        WorldTransform? other = settings.ConnectedBody is int index ? scene.WorldTransform(index) : null;
+        Pose world = UnityFrames.Own(settings, scene.WorldTransform(gameObject));
         Pose ownFrame = ownStart.Inverse() * world;
         Pose connectedFrame = connectedStart.Inverse() * UnityFrames.Connected(settings, world, other);
         bool swap = settings is ConfigurableJoint { SwapBodies: true };

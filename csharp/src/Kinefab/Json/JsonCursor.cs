@@ -22,13 +22,13 @@ internal ref partial struct JsonCursor
     private long typedStart;
 
     /// <summary>On the text's first token.</summary>
-    internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, SceneLimits limits, bool strict)
+    internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, int maxItems, int maxDepth, bool strict)
     {
         this.text = text;
         this.findings = findings;
         unknownFields = strict ? Severity.Error : Severity.Warning;
-        maxItems = limits.MaxItems;
-        reader = new Utf8JsonReader(text, new JsonReaderOptions { MaxDepth = limits.MaxDepth });
+        this.maxItems = maxItems;
+        reader = new Utf8JsonReader(text, new JsonReaderOptions { MaxDepth = maxDepth });
         typedStart = -1;
         reader.Read();
     }

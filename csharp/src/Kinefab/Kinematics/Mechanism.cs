@@ -32,14 +32,14 @@ public sealed class Mechanism
         for (int i = 0; i < GameObjects.Length; i++)
         {
             isFixed[i] = scene.Body(GameObjects[i])!.IsKinematic;
-            _start[i] = scene.World(GameObjects[i]).Pose;
+            _start[i] = scene.WorldTransform(GameObjects[i]).Pose;
         }
 
         int objects = scene.Document.GameObjects.Count;
         _locals = new Pose[objects];
         for (int i = 0; i < objects; i++)
         {
-            Pose world = scene.World(i).Pose;
+            Pose world = scene.WorldTransform(i).Pose;
             _locals[i] = _bodyOf[i] < 0 ? world : _start[_bodyOf[i]].Inverse() * world;
         }
 

@@ -201,7 +201,7 @@ public static class SceneValidator
         for (int i = 0; i < objects.Length; i++)
         {
             if (objects[i].Parent is int parent)
-                TransformRules.Skew(objects[i].Transform, scene.World(parent).Scale, new Place(findings, "gameObjects", i));
+                TransformRules.Skew(objects[i].Transform, scene.WorldTransform(parent).Scale, new Place(findings, "gameObjects", i));
         }
 
         foreach ((int index, int component) in anchored)
@@ -213,7 +213,7 @@ public static class SceneValidator
 
     private static void Anchors(AnchoredJoint joint, ValidScene scene, int index, in Place at)
     {
-        WorldTransform own = scene.World(index);
+        WorldTransform own = scene.WorldTransform(index);
         WorldTransform connected = scene.Connected(joint);
         AnchorRules.ConnectedAnchorRecomputed(joint, own, connected, at);
         if (joint is HingeJoint hinge)

@@ -14,14 +14,14 @@ public sealed class ValidScene
     internal ValidScene(SceneDocument document)
     {
         Document = document;
-        world = WorldTransform.Of(document);
+        world = Validation.WorldTransform.Of(document);
     }
 
     /// <summary>The scene.</summary>
     public SceneDocument Document { get; }
 
     /// <summary>Pose and scale of a GameObject in the world, as exported.</summary>
-    public WorldTransform World(int gameObject) => world[gameObject];
+    public WorldTransform WorldTransform(int gameObject) => world[gameObject];
 
     /// <summary>Reads and validates a file.</summary>
     /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
@@ -43,12 +43,12 @@ public sealed class ValidScene
     public IReadOnlyList<JointFreedom> Freedoms(int gameObject, int component)
     {
         var joint = (Joint)Document.GameObjects[gameObject].Components[component];
-        return JointFreedoms.Of(joint, World(gameObject), Connected(joint));
+        return JointFreedoms.Of(joint, WorldTransform(gameObject), Connected(joint));
     }
 
     /// <summary>Where the connected body of a joint stands; the world's own place when there is none.</summary>
     internal WorldTransform Connected(Joint joint) =>
-        joint.ConnectedBody is int body ? World(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
+        joint.ConnectedBody is int body ? WorldTransform(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
 
     /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
     public Rigidbody? Body(int gameObject) => Document.GameObjects[gameObject].Body;

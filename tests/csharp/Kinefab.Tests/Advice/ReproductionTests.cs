@@ -119,7 +119,7 @@ public sealed class ReproductionTests
             for (int j = 0; j < worst.Length; j++)
             {
                 JointDrift drift = world.Joints[j].Drift;
-                worst[j] = (Math.Max(worst[j].Distance, drift.Distance), Math.Max(worst[j].Angle, drift.Angle * Degrees));
+                worst[j] = (Math.Max(worst[j].Distance, drift.Distance), Math.Max(worst[j].Angle, drift.Angle));
             }
         });
         return worst.Select(w => ((double?)w.Distance, (double?)w.Angle)).ToArray();

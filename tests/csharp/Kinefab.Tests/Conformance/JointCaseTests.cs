@@ -70,8 +70,8 @@ public class JointCaseTests
         var joint = (AnchoredJoint)scene.Document.GameObjects[1].Components[1];
         Pose own = PoseOf(sample.GetProperty("own"));
         Pose connected = sample.TryGetProperty("connected", out JsonElement pose) ? PoseOf(pose) : Pose.Identity;
-        Pose connectedStart = joint.ConnectedBody is null ? Pose.Identity : scene.World(0).Pose;
-        Pose relativeStart = connectedStart.Inverse() * scene.World(1).Pose, relative = connected.Inverse() * own;
+        Pose connectedStart = joint.ConnectedBody is null ? Pose.Identity : scene.WorldTransform(0).Pose;
+        Pose relativeStart = connectedStart.Inverse() * scene.WorldTransform(1).Pose, relative = connected.Inverse() * own;
         Vector3d axis = AxisOf(coordinate, joint);
         if (coordinate is Coordinate.X or Coordinate.Y or Coordinate.Z)
             return Vector3d.Dot(relative.Point(joint.Anchor) - relativeStart.Point(joint.Anchor), relativeStart.Rotation * axis);

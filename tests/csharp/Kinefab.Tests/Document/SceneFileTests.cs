@@ -4,7 +4,6 @@ using System.Linq;
 using System.Text;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
-using Kinefab.Json;
 using Kinefab.Numerics;
 using Kinefab.Tests.Conformance;
 using NUnit.Framework;

@@ -122,7 +122,7 @@ internal sealed class ExtremeSceneTests
         TestContext.Out.WriteLine($"open by {most} m");
         if (_kind == SolverKind.Exact)
         {
-            Assert.That(world.Overflows, Is.Zero);
+            Assert.That(world.Stops, Is.Zero);
             Assert.That(most, Is.LessThanOrEqualTo(1e-8));
             return;
         }

@@ -35,7 +35,7 @@ public sealed class UnitySolverTests
 
         new UnitySolver(mechanism).Step(0.02);
 
-        Assert.That(mechanism.Overflows, Is.EqualTo(1));
+        Assert.That(mechanism.Stops, Is.EqualTo(1));
         Assert.That(bodies.Poses[0].Position, Is.EqualTo(Vector3d.Zero));
     }
 

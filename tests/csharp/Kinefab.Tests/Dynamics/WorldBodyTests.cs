@@ -25,6 +25,18 @@ public sealed class WorldBodyTests
     }
 
     [Test]
+    public void Drift_JointPulledApart_IsInMetresAndDegrees()
+    {
+        World world = SmallScene.Create(new FixedJoint());
+        WorldBody body = world.Bodies[0];
+
+        body.Pose = new Pose(body.Pose.Position + new Vector3d(0, 0.03, 0.04), body.Pose.Rotation * Quaterniond.AxisAngle(Vector3d.UnitY, 2 * Math.PI / 180));
+
+        Assert.That(world.Joints[0].Drift.Distance, Is.EqualTo(0.05).Within(1e-12));
+        Assert.That(world.Joints[0].Drift.Angle, Is.EqualTo(2).Within(1e-3));
+    }
+
+    [Test]
     public void AddForceAtPosition_OneStep_GivesForceAndMoment()
     {
         WorldBody body = Free(new Rigidbody { Mass = 4, AngularDamping = 0, InertiaTensor = new Vector3d(2, 2, 2) }, out World world);

@@ -224,7 +224,7 @@ public sealed class WorldCreationTests
         Diagnostic found = world.Findings.Diagnostics.Single(d => d.Code == DiagnosticCodes.StepUnsolved);
         Assert.That((found.Severity, found.Pointer.StartsWith("/gameObjects/0/components/", StringComparison.Ordinal)), Is.EqualTo((Severity.Warning, true)));
         Assert.That(found.Message, Does.Contain("own").And.Contain("from 0 s"));
-        Assert.That(world.Overflows, Is.Positive);
+        Assert.That(world.Stops, Is.Positive);
     }
 
     [Test]

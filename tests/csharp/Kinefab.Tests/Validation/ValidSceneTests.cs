@@ -20,7 +20,7 @@ public class ValidSceneTests
         ValidScene scene = Validate(
             new GameObject { Id = "a", Transform = new Transform { LocalPosition = new(1, 2, 3), LocalRotation = new(0, Math.Sqrt(0.5), 0, Math.Sqrt(0.5)), LocalScale = new(2, 2, 2) } },
             new GameObject { Id = "b", Parent = 0, Transform = new Transform { LocalPosition = new(0, 0, 0.5), LocalScale = new(1, 3, 1) } });
-        WorldTransform child = scene.World(1);
+        WorldTransform child = scene.WorldTransform(1);
         // Yaw of 90 degrees turns forward to right: 2 * 0.5 along +X.
         using (Assert.EnterMultipleScope())
         {

@@ -9,8 +9,6 @@ namespace Kinefab.Advice.Runs;
 /// <summary>What a joint did in a run.</summary>
 internal sealed class JointRecord
 {
-    private const double Degrees = 180 / Math.PI;
-
     private readonly WorldJoint _joint;
     private readonly ShakeMeter _shake = new();
     private readonly double[] _overshoots;
@@ -53,7 +51,7 @@ internal sealed class JointRecord
     public void Note(bool isLate)
     {
         JointDrift drift = _joint.Drift;
-        Drift = AdviceMeasure.Max(Drift, new AdviceMeasure(drift.Distance, drift.Angle * Degrees));
+        Drift = AdviceMeasure.Max(Drift, new AdviceMeasure(drift.Distance, drift.Angle));
         _shake.Note(_joint.Relative, isLate);
         for (int i = 0; i < _overshoots.Length; i++)
         {

@@ -57,7 +57,7 @@ internal sealed class SceneRun
             run.Sample(world.Bodies, k);
         }
 
-        run.IsSound = world.Overflows == 0;
+        run.IsSound = world.Stops == 0;
         return run;
     }
 

@@ -24,7 +24,7 @@ internal abstract class IslandGroup
 
         if (ladder.Stops > stopsBefore)
         {
-            mechanism.Overflows += ladder.Stops - stopsBefore;
+            mechanism.Stops += ladder.Stops - stopsBefore;
             mechanism.Unsolved.Add(ladder.Unsolved(island));
         }
     }

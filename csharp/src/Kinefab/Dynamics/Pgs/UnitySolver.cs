@@ -272,7 +272,7 @@ internal sealed class UnitySolver : ISolver
         w += _sqrtInertia[i].Times(du).Vector;
         if (!BodyMotion.InRange(pose, v, w))
         {
-            _mechanism.Overflows++;
+            _mechanism.Stops++;
             v = Vector3d.Zero;
             w = Vector3d.Zero;
             pose = _bodies.Poses[i];

@@ -78,7 +78,7 @@ internal sealed class LadderTests
             solver.Step(0.02);
         }
 
-        Assert.That(mechanism.Overflows, Is.Positive);
+        Assert.That(mechanism.Stops, Is.Positive);
         Assert.That(mechanism.Bodies.Poses[0], Is.EqualTo(start));
         Assert.That(mechanism.Bodies.LinearVelocities[0].Length, Is.LessThan(1));
     }

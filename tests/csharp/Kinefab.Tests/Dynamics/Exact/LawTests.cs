@@ -291,7 +291,7 @@ internal sealed class LawTests
         Run(m, 4, before: Note);
         Assert.That(Math.Sin(lowest) / lowest, Is.EqualTo(share).Within(5e-3));
         Assert.That(back, Is.LessThan(0.1));
-        Assert.That(m.Overflows, Is.Zero);
+        Assert.That(m.Stops, Is.Zero);
     }
 
     [Test]
@@ -353,7 +353,7 @@ internal sealed class LawTests
         Run(m, 1, Dt, () => widest = Math.Max(widest, Math.Acos(Math.Min(1, (m.Bodies.Poses[body].Rotation * Vector3d.UnitX).X))));
         Assert.That(widest, Is.LessThanOrEqualTo(1.001 * angle));
         Assert.That(m.Bodies.KineticEnergy(body), Is.LessThanOrEqualTo(energy));
-        Assert.That(m.Overflows, Is.Zero);
+        Assert.That(m.Stops, Is.Zero);
     }
 
     [Test]

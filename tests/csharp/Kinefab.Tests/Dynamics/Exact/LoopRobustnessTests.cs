@@ -27,7 +27,7 @@ internal sealed class LoopRobustnessTests
     private static readonly int[] GainShows = { 628, 745, 1456 };
 
     // Of the loops; some meet limits that contradict each other.
-    private const double MostOverflows = 0.05;
+    private const double MostStops = 0.05;
 
     // A factor on the same sum: what Unity's bias gives by shutting gaps is less than free fall and motors could.
     private const double MostUnityGain = 1;
@@ -37,7 +37,7 @@ internal sealed class LoopRobustnessTests
     {
         var faults = new ConcurrentQueue<string>();
         var gains = new ConcurrentBag<(double Ratio, int Seed)>();
-        int overflows = 0;
+        int stopped = 0;
         Parallel.For(0, Loops, seed =>
         {
             var loop = new RandomLoop(seed);
@@ -45,37 +45,37 @@ internal sealed class LoopRobustnessTests
             var solver = new ExactSolver(m);
             double start = MechanismMeasures.Energy(m);
             double dt = StepOf(seed);
-            for (int i = 1; i <= Steps && m.Overflows == 0; i++)
+            for (int i = 1; i <= Steps && m.Stops == 0; i++)
             {
                 loop.Move(dt);
                 solver.Step(dt);
                 loop.MotorWork();
                 double gain = MechanismMeasures.Energy(m) - start;
-                if (m.Overflows == 0 && loop.Ground == Joint.World && !GainShows.Contains(seed))
+                if (m.Stops == 0 && loop.Ground == Joint.World && !GainShows.Contains(seed))
                 {
                     gains.Add(((gain - loop.Work) / (MechanismMeasures.FallEnergy(m, i * dt) + loop.Work), seed));
                 }
             }
 
-            double open = m.Overflows == 0 ? Open(m) : 0;
+            double open = m.Stops == 0 ? Open(m) : 0;
             if (!MechanismMeasures.IsFinite(m) || !(open <= MostOpen))
             {
                 faults.Enqueue($"seed {seed}, steps of {dt} s: open by {open} m");
             }
 
-            if (m.Overflows > 0)
+            if (m.Stops > 0)
             {
-                Interlocked.Increment(ref overflows);
+                Interlocked.Increment(ref stopped);
                 if (m.Unsolved.Count == 0)
                 {
                     faults.Enqueue($"seed {seed}: stopped without a reason");
                 }
             }
         });
-        TestContext.Out.WriteLine($"{overflows} of {Loops} loops overflow; gains {Most(gains)}");
+        TestContext.Out.WriteLine($"{stopped} of {Loops} loops stopped; gains {Most(gains)}");
         Assert.That(gains.Max(g => g.Ratio), Is.LessThanOrEqualTo(MostGain), Most(gains));
         Assert.That(faults, Is.Empty);
-        Assert.That(overflows, Is.LessThanOrEqualTo(MostOverflows * Loops));
+        Assert.That(stopped, Is.LessThanOrEqualTo(MostStops * Loops));
     }
 
     [Test]
@@ -197,7 +197,7 @@ internal sealed class LoopRobustnessTests
                 solverOther.Step(0.005);
             }
 
-            if (one.Overflows > 0 || other.Overflows > 0)
+            if (one.Stops > 0 || other.Stops > 0)
             {
                 return;
             }

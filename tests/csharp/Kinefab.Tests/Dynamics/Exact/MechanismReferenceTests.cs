@@ -101,7 +101,7 @@ internal sealed class MechanismReferenceTests
             }
         }
 
-        Assert.That(world.Overflows, Is.Zero);
+        Assert.That(world.Stops, Is.Zero);
         return errors;
     }
 

@@ -26,7 +26,7 @@ internal sealed class PoseClosureTests
 
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
         Assert.That(AxesApart(m), Is.LessThanOrEqualTo(1e-8));
-        Assert.That(m.Overflows, Is.Zero);
+        Assert.That(m.Stops, Is.Zero);
         Assert.That(m.Closed, Has.Count.EqualTo(isOpen ? 1 : 0));
 
         // Everything was at rest: what moves now fell for one step at most.
@@ -57,7 +57,7 @@ internal sealed class PoseClosureTests
         // Speeds may only add to what they were what one step of falling gives.
         Assert.That(MechanismMeasures.Kinetic(m), Is.LessThanOrEqualTo(share * share));
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
-        Assert.That(m.Overflows, Is.Zero);
+        Assert.That(m.Stops, Is.Zero);
     }
 
     [Test]

@@ -19,7 +19,7 @@ internal sealed class RobustnessTests
     private const int Steps = 2;
 
     // A tenth of the scenes contradict themselves by construction, and some move farther in a step than any cut follows.
-    private const int MostOverflows = 1500;
+    private const int MostStops = 1500;
     private const double MostOpen = 1e-8;
 
     // Above what is there at the start and what gravity adds.
@@ -29,7 +29,7 @@ internal sealed class RobustnessTests
     public void Step_ExactInRandomScenes_FiniteClosedAndWithoutGain()
     {
         var faults = new ConcurrentDictionary<int, string>();
-        int overflows = 0;
+        int stopped = 0;
         Parallel.For(0, Scenes, seed =>
         {
             var scene = new RandomScene(seed);
@@ -41,7 +41,7 @@ internal sealed class RobustnessTests
 
             // Looking for inexact loops takes most of a small scene's time.
             ExactSolver solver = seed % 10 == 0 ? new ExactSolver(m) : new ExactSolver(m, new List<int[]>());
-            for (int i = 1; i <= Steps && m.Overflows == 0; i++)
+            for (int i = 1; i <= Steps && m.Stops == 0; i++)
             {
                 solver.Step(dt);
                 double gain = MechanismMeasures.Kinetic(m) + MechanismMeasures.Potential(m) - height - start;
@@ -51,15 +51,15 @@ internal sealed class RobustnessTests
                 }
             }
 
-            double open = isWhole && m.Overflows == 0 ? MechanismMeasures.Drift(m) : 0;
+            double open = isWhole && m.Stops == 0 ? MechanismMeasures.Drift(m) : 0;
             if (!MechanismMeasures.IsFinite(m) || !(open <= MostOpen))
             {
                 faults[seed] = $"seed {seed}: open by {open} m";
             }
 
-            if (m.Overflows > 0)
+            if (m.Stops > 0)
             {
-                Interlocked.Increment(ref overflows);
+                Interlocked.Increment(ref stopped);
                 if (m.Unsolved.Count == 0)
                 {
                     faults[seed] = $"seed {seed}: stopped without a reason";
@@ -67,7 +67,7 @@ internal sealed class RobustnessTests
             }
         });
         Assert.That(faults, Is.Empty);
-        Assert.That(overflows, Is.LessThanOrEqualTo(MostOverflows));
+        Assert.That(stopped, Is.LessThanOrEqualTo(MostStops));
     }
 
     [Test]
@@ -116,7 +116,7 @@ internal sealed class RobustnessTests
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
         if (dt < 0.01)
         {
-            Assert.That(m.Overflows, Is.Zero);
+            Assert.That(m.Stops, Is.Zero);
         }
     }
 

@@ -44,7 +44,7 @@ internal sealed class SceneTests
         }
 
         Assert.That(drift, Is.LessThanOrEqualTo(1e-8));
-        Assert.That(mechanism.Overflows, Is.Zero);
+        Assert.That(mechanism.Stops, Is.Zero);
         if (isPassive)
         {
             Assert.That((most - start) / Available(make()), Is.LessThanOrEqualTo(0.005));

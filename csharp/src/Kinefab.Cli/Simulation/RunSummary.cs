@@ -15,7 +15,6 @@ internal sealed class RunSummary
     private readonly World world;
     private readonly ValidScene scene;
     private readonly JointRecord[] joints;
-    private readonly HashSet<int> several;
     private readonly double startEnergy;
 
     internal RunSummary(World world, ValidScene scene)
@@ -23,7 +22,6 @@ internal sealed class RunSummary
         this.world = world;
         this.scene = scene;
         joints = world.Joints.Select(j => new JointRecord(j)).ToArray();
-        several = world.Joints.GroupBy(j => j.GameObject).Where(g => g.Count() > 1).Select(g => g.Key).ToHashSet();
         startEnergy = world.KineticEnergy + world.PotentialEnergy;
         world.JointBroken += (_, e) => joints[IndexOf(e.Joint)].BrokenAt = world.Time;
     }
@@ -43,12 +41,8 @@ internal sealed class RunSummary
         if (world.Stops > 0)
             target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Stops, "time", "times")}"));
         foreach (JointRecord joint in joints)
-            joint.Write(target, NameOf(joint.Joint), scene.Document.GameObjects[joint.Joint.GameObject].Name);
+            joint.Write(target, scene.Document.GameObjects[joint.Joint.GameObject].Name);
     }
-
-    // As a mechanism tells them apart: ID[COMPONENT] where one object carries several.
-    private string NameOf(WorldJoint joint) =>
-        several.Contains(joint.GameObject) ? Text($"{joint.Id}[{joint.Component}]") : joint.Id;
 
     private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
 
@@ -92,14 +86,14 @@ internal sealed class RunSummary
             }
         }
 
-        internal void Write(TextWriter target, string joint, string gameObject)
+        internal void Write(TextWriter target, string gameObject)
         {
             IEnumerable<string> ranges = coordinates.Select((c, i) => Text(
                 $", {c.ToJson()} {Rounded(least[i]):0.#####}..{Rounded(greatest[i]):0.#####}{(c is Coordinate.X or Coordinate.Y or Coordinate.Z ? " m" : " deg")}"));
             string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
             string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
             target.WriteLine(Text(
-                $"{joint} ({gameObject}): drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
+                $"{Joint.Name} ({gameObject}): drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
 
         // As it is written, without the sign that the format gives a negative number that comes to 0.

@@ -18,14 +18,16 @@ public sealed class World
     private readonly ISolver _solver;
     private readonly bool[] _broken;
     private readonly ExactStepFindings _exact = new();
+    private readonly WorldNames _names;
 
-    internal World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, Report findings)
+    private World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, WorldNames names, Report findings)
     {
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
         Bodies = bodies;
         Joints = joints;
+        _names = names;
         Findings = findings;
     }
 
@@ -110,8 +112,22 @@ public sealed class World
         };
         List<Diagnostic> findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : new List<Diagnostic>();
         findings.AddRange(InexactLoopCheck.Of(loops, builder.Joints));
-        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, new Report(findings));
+        var names = new WorldNames(scene.Document.GameObjects, builder.Bodies, builder.Joints);
+        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, names, new Report(findings));
     }
+
+    /// <summary>The body of the GameObject with an id, or with a name that no other has.</summary>
+    /// <param name="idOrName">Such as Lever/Crank:1.</param>
+    /// <exception cref="ArgumentException">There is no such body; the message says which there are.</exception>
+    public WorldBody Body(string idOrName) => _names.Body(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
+
+    /// <summary>
+    /// The joint with a <see cref="WorldJoint.Name"/>; the id or name of its GameObject does where no other joint answers to it,
+    /// and [COMPONENT] may stand behind either.
+    /// </summary>
+    /// <param name="name">Such as Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
+    /// <exception cref="ArgumentException">None or several joints answer to it; the message says which there are.</exception>
+    public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
 
     /// <summary>Moves the world forward.</summary>
     /// <param name="dt">Seconds; Unity's fixed time step is in the scene's physics settings.</param>

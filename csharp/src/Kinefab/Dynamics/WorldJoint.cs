@@ -26,8 +26,14 @@ public abstract class WorldJoint
     /// <summary>Index of the joint in that GameObject's components.</summary>
     public int Component { get; }
 
-    /// <summary>Id of the GameObject that carries the joint.</summary>
+    /// <summary>Id of the GameObject that carries the joint; all joints of an object have it.</summary>
     public string Id { get; }
+
+    /// <summary>
+    /// What it is called in messages, on the command line and by <see cref="World.Joint"/>: the GameObject's id, Lever/Crank:1;
+    /// with the component's index, Arm:2[3], where one object carries several joints.
+    /// </summary>
+    public string Name { get; internal set; } = "";
 
     /// <summary>Whether its constraint force or torque has passed a limit; a broken joint holds nothing any more.</summary>
     public bool IsBroken => Solved.IsBroken;

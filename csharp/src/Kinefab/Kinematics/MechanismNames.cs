@@ -2,51 +2,38 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Document;
+using Kinefab.Joints;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Finds GameObjects and coordinates by what they are called. A coordinate is called ID.COORDINATE, with [COMPONENT] behind
-/// the id where one object carries several joints that move: Lever/Crank:1.angle, Arm:2[3].angularX.
+/// Finds coordinates by what they are called: as their joint among the joints that move, and the coordinate behind it,
+/// Lever/Crank:1.angle, Arm:2[3].angularX.
 /// </summary>
 internal sealed class MechanismNames
 {
     private static readonly string[] Words = { "angle", "x", "y", "z", "angularX", "angularY", "angularZ" };
 
-    private readonly IReadOnlyList<GameObject> _objects;
+    private readonly SceneNames _names;
     private readonly MechanismCoordinate[] _coordinates;
-    private readonly Dictionary<string, int> _objectsById = new(StringComparer.Ordinal);
     private readonly Dictionary<string, int> _found = new(StringComparer.Ordinal);
 
     public MechanismNames(IReadOnlyList<GameObject> objects, MechanismCoordinate[] coordinates)
     {
-        _objects = objects;
         _coordinates = coordinates;
-        for (int i = 0; i < objects.Count; i++)
-        {
-            _objectsById.TryAdd(objects[i].Id, i);
-        }
-
-        var several = new HashSet<int>();
+        _names = new SceneNames(objects, coordinates.Select(Place));
         var freedoms = new Dictionary<int, int>();
-        var components = new Dictionary<int, int>();
         foreach (MechanismCoordinate coordinate in coordinates)
         {
-            int at = coordinate.GameObject;
-            freedoms.TryGetValue(at, out int count);
-            freedoms[at] = count + (coordinate.IsLocked ? 0 : 1);
-            if (!components.TryAdd(at, coordinate.Component) && components[at] != coordinate.Component)
-            {
-                several.Add(at);
-            }
+            freedoms.TryGetValue(coordinate.GameObject, out int count);
+            freedoms[coordinate.GameObject] = count + (coordinate.IsLocked ? 0 : 1);
         }
 
         for (int i = 0; i < coordinates.Length; i++)
         {
             MechanismCoordinate coordinate = coordinates[i];
             string id = objects[coordinate.GameObject].Id;
-            string joint = several.Contains(coordinate.GameObject) ? $"{id}[{coordinate.Component}]" : id;
-            coordinate.Name = $"{joint}.{Words[(int)coordinate.Coordinate]}";
+            coordinate.Name = $"{_names.Joint(coordinate.GameObject, coordinate.Component)}.{Words[(int)coordinate.Coordinate]}";
             _found.TryAdd(coordinate.Name, i);
             if (!coordinate.IsLocked && freedoms[coordinate.GameObject] == 1)
             {
@@ -67,19 +54,13 @@ internal sealed class MechanismNames
     }
 
     /// <summary>By id, else by a name that no other object has; -1: none.</summary>
-    public int GameObject(string name) => _objectsById.TryGetValue(name, out int index) ? index : Named(name);
+    public int GameObject(string name) => _names.GameObject(name);
 
     /// <summary>By its name, or by as much of it as no other coordinate answers to; the object's name does for its id.</summary>
     public bool TryFind(string name, out int coordinate, out string problem)
     {
         problem = "";
         return _found.TryGetValue(name, out coordinate) || TryMatch(name, out coordinate, out problem);
-    }
-
-    private int Named(string name)
-    {
-        int[] named = Enumerable.Range(0, _objects.Count).Where(i => _objects[i].Name == name).ToArray();
-        return named.Length == 1 ? named[0] : -1;
     }
 
     private bool TryMatch(string name, out int coordinate, out string problem)
@@ -119,16 +100,10 @@ internal sealed class MechanismNames
     }
 
     // An id may hold dots itself, so the whole is tried for an object before its last part is taken for a coordinate.
-    private List<int> Called(string name)
-    {
-        List<int> free = Enumerable.Range(0, _coordinates.Length).Where(i => !_coordinates[i].IsLocked).ToList();
-        List<int> byId = free.Where(i => Answers(Object(i).Id, i)).ToList();
-        return byId.Count > 0 ? byId : free.Where(i => Answers(Object(i).Name, i)).ToList();
+    private List<int> Called(string name) =>
+        _names.Called(name, Enumerable.Range(0, _coordinates.Length).Where(i => !_coordinates[i].IsLocked).ToList(), i => Place(_coordinates[i]));
 
-        bool Answers(string called, int i) => called == name || $"{called}[{_coordinates[i].Component}]" == name;
-    }
+    private static (int GameObject, int Component) Place(MechanismCoordinate coordinate) => (coordinate.GameObject, coordinate.Component);
 
-    private GameObject Object(int coordinate) => _objects[_coordinates[coordinate].GameObject];
-
-    private string List(IEnumerable<int> coordinates) => string.Join(", ", coordinates.Select(i => _coordinates[i].Name));
+    private string List(IEnumerable<int> coordinates) => SceneNames.List(coordinates.Select(i => _coordinates[i].Name).ToList());
 }

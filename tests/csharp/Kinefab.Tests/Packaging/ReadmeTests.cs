@@ -53,7 +53,7 @@ public sealed class ReadmeTests
         World world = World.Create(ValidScene.Load(Lever), SolverKind.Unity);
         for (int i = 0; i < 100; i++)
             world.Step(0.02);
-        Console.WriteLine($"the lever stands at {((WorldHingeJoint)world.Joints[0]).Angle} degrees");
+        Console.WriteLine($"the lever stands at {world.Joint("Lever/Crank:1").Coordinate(Coordinate.Angle)} degrees");
         Assert.That(world.Joints, Has.Count.EqualTo(4));
     }
 

@@ -111,3 +111,15 @@ def test_joint_basis_is_what_unity_builds():
     basis = frames.joint_basis(r)
     assert np.allclose(basis[:, 0], M @ r[:, 0]) and np.allclose(basis[:, 1], M @ r[:, 1])
     assert np.linalg.det(basis) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_joint_coordinates_read_on_unitys_axes(axis):
+    """A turn and a slide about and along a CAD axis are, mirrored, those by sign * q about and along Unity's."""
+    r = rotation_exp(np.array([0.3, -1.1, 0.4]))
+    basis, q = frames.joint_basis(r)[:, axis], 0.7
+    for b_in_a, seen in ((True, q), (False, -q)):
+        senses = frames.Senses.of(b_in_a)
+        turn, slide = frames.rotation(rotation_about(r[:, axis], seen)), frames.direction(r[:, axis] * seen)
+        assert np.allclose(rotation_about(basis, senses.angular[axis] * q), turn, atol=1e-14)
+        assert np.allclose(basis * senses.linear[axis] * q, slide, atol=1e-14)

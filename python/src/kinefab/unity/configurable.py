@@ -1,7 +1,7 @@
 """The fields of a ConfigurableJoint: motions, limits, drives and targets.
 
 Everything here is in terms of c, PhysX's "actor1 in actor0" at the component's axes.  A CAD coordinate q
-of axis i reads on c as ``sign * q``: see ``Senses``.
+of axis i reads on c as ``sign * q``: see ``frames.Senses``.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from ..diagnostics import Report
 from ..model import FREEDOM_NAMES, RX, Drive, Freedom, Joint, Motion
 from ..spatial import Array, quaternion_from_matrix, rotation_exp
 from .coordinates import CanonicalJoint, Coordinates
+from .frames import Senses
 from .limits import report_outside
-from .placement import BASIS_SIGNS, Placement
+from .placement import Placement
 
 OPEN_TRAVEL = 100.0
 """Metres of travel written for a slide that ends on one side only: Unity's linear limit has two ends."""
@@ -29,19 +30,6 @@ _MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion",
 MOTION_TITLES = ("X Motion", "Y Motion", "Z Motion", "Angular X Motion", "Angular Y Motion", "Angular Z Motion")
 """The same as Unity's inspector names them."""
 _TITLES = {Motion.LOCKED: "Locked", Motion.LIMITED: "Limited", Motion.FREE: "Free"}
-
-
-@dataclass(frozen=True, slots=True)
-class Senses:
-    """Signs of CAD coordinates on c.  Angles turn the other way than distances: SPEC F8."""
-
-    linear: tuple[float, float, float]
-    angular: tuple[float, float, float]
-
-    @staticmethod
-    def of(placement: Placement) -> "Senses":
-        order = 1.0 if placement.direct else -1.0
-        return Senses(tuple(order * s for s in BASIS_SIGNS), tuple(-order * s for s in BASIS_SIGNS))
 
 
 @dataclass(slots=True, eq=False)
@@ -75,7 +63,7 @@ def configurable_fields(
     zeros = coordinates.values.copy()
     for i in shape.rotations:
         zeros[RX + i] = shape.freedoms[RX + i].nearest_turn(zeros[RX + i])
-    writing = _Writing(joint, shape, zeros, Senses.of(placement), report, {})
+    writing = _Writing(joint, shape, zeros, placement.actors, report, {})
     for i, freedom in enumerate(shape.freedoms):
         if freedom.motion is Motion.LIMITED:
             report_outside(joint, shape.name_of[i], freedom, zeros[i], report)

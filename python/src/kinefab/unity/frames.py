@@ -8,6 +8,8 @@ all take arrays with the quantity along the last axis (or axes) and return float
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..spatial import Array, Pose, cross
@@ -15,6 +17,8 @@ from ..spatial import Array, Pose, cross
 _POLAR = np.array([-1.0, 1.0, 1.0])
 _AXIAL = np.array([1.0, -1.0, -1.0])
 _QUATERNION = np.array([1.0, -1.0, -1.0, 1.0])
+_JOINT_AXES = np.array([1.0, 1.0, -1.0])
+"""The axes of ``joint_basis`` against the mirrored CAD axes: M X, M Y and -M Z."""
 
 
 def point(p) -> Array:
@@ -79,3 +83,20 @@ def joint_basis(r) -> Array:
     product that Unity forms of them, which is -M z."""
     x, y = direction(r[:, 0]), direction(r[:, 1])
     return np.column_stack([x, y, cross(x, y)])
+
+
+@dataclass(frozen=True, slots=True)
+class Senses:
+    """F1, F8. How a joint's CAD coordinates q read along and about the axes of ``joint_basis``: as sign * q.
+
+    linear, angular: the signs for X, Y and Z.
+    """
+
+    linear: tuple[float, float, float]
+    angular: tuple[float, float, float]
+
+    @staticmethod
+    def of(b_in_a: bool) -> "Senses":
+        """b_in_a: whether what is read is b's motion seen from a, as in CAD; a's seen from b is the other way round."""
+        axes = _JOINT_AXES if b_in_a else -_JOINT_AXES
+        return Senses(tuple(distance(axes).tolist()), tuple(angle(axes).tolist()))

@@ -42,10 +42,8 @@ def hinge_fields(
     freedom = shape.freedoms[RX]
     zero = freedom.nearest_turn(coordinates.values[RX])
     frame.pop("secondaryAxis")  # a hinge has none
-    fields: dict[str, object] = {}
-    if not placement.on_a:
-        # own = b: angle about -M X, which is the axis mapped as an axial vector (SPEC F2, F7)
-        fields["axis"] = -np.asarray(frame["axis"])
+    # The axis takes the sense, so that the angle is the CAD angle less that at export.
+    fields: dict[str, object] = {"axis": placement.own.angular[0] * np.asarray(frame["axis"])}
     if freedom.motion is Motion.LIMITED:
         fields |= _limits(joint, shape, zero, report)
     drive = freedom.drive

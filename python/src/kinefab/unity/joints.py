@@ -25,7 +25,7 @@ from . import frames
 from .configurable import MOTION_TITLES, configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from .hinge import fits_hinge, hinge_fields
-from .placement import BASIS_SIGNS, Placement, place
+from .placement import Placement, place
 
 GAP_LENGTH = 1e-5
 """Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
@@ -177,20 +177,19 @@ def _readings(
     shape: CanonicalJoint, coordinates: Coordinates, placement: Placement
 ) -> dict[int, UnityCoordinate]:
     """How each unlocked coordinate is read: the own body's motion against the connected one's."""
-    own = -1.0 if placement.on_a else 1.0
+    own = placement.own
     hinge = fits_hinge(shape)
     readings = {}
     for i in range(6):
         if shape.freedoms[i].motion is Motion.LOCKED:
             continue
         axis = i % 3
-        along = own * BASIS_SIGNS[axis]
         if hinge:
-            name, sign = "angle", 1.0
+            name, sign = "angle", 1.0  # hinge_fields turns the axis to it
         elif i < RX:
-            name, sign = "xyz"[axis], along
+            name, sign = "xyz"[axis], own.linear[axis]
         else:
-            name, sign = "angular" + "XYZ"[axis], -along
+            name, sign = "angular" + "XYZ"[axis], own.angular[axis]
         zero = shape.freedoms[i].nearest_turn(coordinates.values[i]) if i >= RX else coordinates.values[i]
         readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
     return readings

@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 from ..model import RX
 from .coordinates import CanonicalJoint
-
-BASIS_SIGNS = (1.0, 1.0, -1.0)
-"""The component's axes against the mirrored CAD axes: M X, M Y and -M Z."""
+from .frames import Senses
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,9 +17,14 @@ class Placement:
     swap: bool
 
     @property
-    def direct(self) -> bool:
-        """Whether PhysX's "actor1 in actor0" is the model's "b in a", and not the other way round."""
-        return self.on_a != self.swap
+    def actors(self) -> Senses:
+        """Of PhysX's "actor1 in actor0": actor0 is the component's own body, unless the actors are swapped."""
+        return Senses.of(b_in_a=self.on_a != self.swap)
+
+    @property
+    def own(self) -> Senses:
+        """Of the own body's motion against the connected one's."""
+        return Senses.of(b_in_a=not self.on_a)
 
 
 def place(joint: CanonicalJoint, a_is_ground: bool, b_is_ground: bool) -> Placement:

@@ -70,3 +70,12 @@ def test_a_scene_of_too_many_triangles_is_drawn_as_boxes(monkeypatch: pytest.Mon
 def test_the_same_scene_gives_the_same_picture():
     """No clock and no random numbers."""
     assert picture.draw(*document([0, 3, 2])) == picture.draw(*document([0, 3, 2]))
+
+
+def test_only_joints_that_the_legend_lists_are_numbered():
+    """Each number in the drawing stands in the legend too, and the rest is counted there."""
+    scene, buffers = document([0, 3, 2])
+    scene["gameObjects"][0]["components"] += [{"type": "HingeJoint", "anchor": [0.1 * i, 0, 0]} for i in range(25)]
+    texts = [t.strip() for t in ElementTree.fromstring(picture.draw(scene, buffers)).itertext()]
+    assert [texts.count(str(number)) for number in range(1, 26)] == [2] * 18 + [0] * 7
+    assert "and 7 more" in texts

@@ -18,6 +18,8 @@ from .freedoms import Placement, angle_range, freedoms_of_component, world_place
 WIDTH, HEIGHT, LEGEND = 760, 560, 400
 MAX_TRIANGLES = 40_000
 """A picture with more triangles than this draws each body as the box around it."""
+LISTED = 18
+"""Joints that the legend has room for; a number on any other would lead nowhere."""
 
 COLOURS = {"HingeJoint": "#d9480f", "ConfigurableJoint": "#1864ab", "FixedJoint": "#495057"}
 
@@ -57,7 +59,7 @@ def draw(document: Mapping, buffers: Sequence[bytes]) -> str:
         f'<rect width="{WIDTH + LEGEND}" height="{HEIGHT}" fill="#ffffff"/>',
         _surfaces(triangles, colours, view),
         *(_glyph(joint, view, size) for joint in joints),
-        *_badges(joints, view),
+        *_badges(joints[:LISTED], view),
         _legend(document, joints),
         "</svg>",
     ]
@@ -275,11 +277,11 @@ def _legend(document: Mapping, joints: Sequence[DrawnJoint]) -> str:
     mobility = document.get("analysis", {}).get("mobility")
     count = f"{len(document['gameObjects'])} objects, {len(joints)} joints"
     lines.append(f'<text y="22" fill="#495057">{count}{"" if mobility is None else f", mobility {mobility}"}</text>')
-    for number, joint in enumerate(joints[:18], 1):
+    for number, joint in enumerate(joints[:LISTED], 1):
         y = 32 + 27 * number
         lines.append(f'<circle cx="8" cy="{y - 4.5}" r="9" fill="{COLOURS[joint.kind]}"/>')
         lines.append(f'<text x="8" y="{y}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
         lines.append(f'<text x="26" y="{y}">{escape(joint.name)} \u2013 {escape(joint.connected)}: {joint.freedoms}</text>')
-    if len(joints) > 18:
-        lines.append(f'<text y="{59 + 27 * 18}" fill="#495057">and {len(joints) - 18} more</text>')
+    if len(joints) > LISTED:
+        lines.append(f'<text y="{59 + 27 * LISTED}" fill="#495057">and {len(joints) - LISTED} more</text>')
     return "\n".join([*lines, "</g>"])

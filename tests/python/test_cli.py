@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -192,8 +193,8 @@ def test_draw_tells_of_a_missing_buffer(lid, tmp_path):
 
 
 def test_draw_tells_of_an_unsound_scene(tmp_path):
-    """A reference to nowhere is a finding, not a traceback."""
-    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a", "name": "a", "parent": 7}]}
+    """What cannot be drawn is a finding, not a traceback."""
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a"}], "meshes": [3]}
     (tmp_path / "a.kinefab").write_text(json.dumps(scene))
     done = run("draw", tmp_path / "a.kinefab", "-o", tmp_path / "a.svg")
     assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr
@@ -204,10 +205,10 @@ def test_draw_tells_of_an_unsound_scene(tmp_path):
     "content",
     [
         {"gameObjects": [{"id": "a", "name": "a", "components": [{}]}]},
-        {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "HingeJoint", "connectedBody": 7}]}]},
         {"gameObjects": [3]},
         {"gameObjects": [{"name": "a"}]},
-        {"gameObjects": [{"id": "a", "name": "a", "parent": 7}]},
+        {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "Rigidbody", "mass": math.nan}]}]},
+        {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "Rigidbody", "mass": 10**400}]}]},
         {"gameObjects": [], "report": [1]},
     ],
 )

@@ -1,4 +1,5 @@
-"""Every scene case of the manifest against ``scene.schema.json`` alone: what it accepts and what it leaves to C#."""
+"""Every scene case of the manifest against ``scene.schema.json`` alone: what it accepts and what it leaves to C#; and
+against what shows scenes."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from kinefab.diagnostics import schema_directory
+from kinefab.diagnostics import KinefabError, schema_directory
+from kinefab.inspection import overview, picture
 
 ROOT = Path(__file__).parents[1] / "conformance"
 CASES = [case for case in json.loads((ROOT / "manifest.json").read_text(encoding="utf-8"))["cases"] if case["kind"] == "scene"]
@@ -37,3 +39,13 @@ def test_schema_is_stricter_than_the_reader_in_two_things_only():
         "invalid/scene/unknown_field.kinefab",
         "valid/text/byte_order_mark.kinefab",
     }
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case["path"])
+@pytest.mark.parametrize("show", [lambda path: overview(path, True), picture], ids=["inspect", "draw"])
+def test_valid_scenes_are_shown_and_others_at_most_refused(case, show):
+    """A sound scene is shown whatever it holds; of an unsound one a finding is told, if anything."""
+    try:
+        assert show(ROOT / case["path"])
+    except KinefabError as error:
+        assert case["expect"] != "valid" and error.diagnostics

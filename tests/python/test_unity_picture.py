@@ -79,3 +79,13 @@ def test_only_joints_that_the_legend_lists_are_numbered():
     texts = [t.strip() for t in ElementTree.fromstring(picture.draw(scene, buffers)).itertext()]
     assert [texts.count(str(number)) for number in range(1, 26)] == [2] * 18 + [0] * 7
     assert "and 7 more" in texts
+
+
+def test_text_of_the_file_stays_text():
+    """Neither markup nor control characters of a scene become the picture's own."""
+    scene, buffers = document([0, 3, 2], type="HingeJoint")
+    scene["gameObjects"][0]["name"], scene["source"] = "a\x1b\ud800<b>", {"uri": "<c>\0"}
+    scene["analysis"] = {"mobility": "</text><script>"}
+    svg = picture.draw(scene, buffers)
+    text = " ".join(ElementTree.fromstring(svg.encode("utf-8")).itertext())
+    assert all(words in text for words in ("a\\x1b\\ud800<b>", "<c>\\x00", "mobility </text><script>"))

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
-from .diagnostics import KinefabError, diagnostic, printable
+from .diagnostics import KinefabError, Report, diagnostic, printable
+
 
 def read_scene_file(path: Path) -> Mapping[str, Any]:
-    """The JSON of a scene.  Raises KinefabError when it is missing, broken or of another major version."""
+    """The JSON of a scene.  Raises KinefabError when it is missing, broken, of another major version, or when an index
+    in it leads nowhere: Python would count a negative one from the list's end."""
     try:
-        content = json.loads(Path(path).read_bytes())
+        content = json.loads(Path(path).read_bytes(), parse_float=_number, parse_constant=_number)
     except FileNotFoundError:
         raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
     except OSError as error:
@@ -33,7 +36,43 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
         raise KinefabError(
             [diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")]
         )
+    with _unsound_as_finding(path):
+        _demand_references(content, path)
     return content
+
+
+def _number(text: str) -> float:
+    """A number as JSON has it, where 0.0 is an index too, and NaN, Infinity and 1e999 are nothing."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text} is not a finite number")
+    return int(value) if value.is_integer() and abs(value) < 2**31 else value
+
+
+def _demand_references(scene: Mapping[str, Any], path: Path) -> None:
+    """Raises KinefabError with every index that leads nowhere."""
+    found = Report()
+    objects = scene.get("gameObjects", [])
+
+    def demand(index: object, name: str, pointer: str) -> None:
+        count = len(scene.get(name, []))
+        if index is not None and (type(index) is not int or not 0 <= index < count):
+            found.add("REFERENCE_UNRESOLVED", f"{path}#{pointer}", list=name, index=index, count=count)
+
+    for i, entry in enumerate(objects):
+        parent = entry.get("parent")
+        if parent is not None and (type(parent) is not int or not 0 <= parent < i):
+            found.add("PARENT_NOT_EARLIER", f"{path}#/gameObjects/{i}/parent", parent=parent, index=i)
+        for j, component in enumerate(entry.get("components", [])):
+            place = f"/gameObjects/{i}/components/{j}"
+            demand(component.get("connectedBody"), "gameObjects", f"{place}/connectedBody")
+            demand(component.get("mesh"), "meshes", f"{place}/mesh")
+            for k, material in enumerate(component.get("materials", [])):
+                demand(material, "materials", f"{place}/materials/{k}")
+    for i, mesh in enumerate(scene.get("meshes", [])):
+        for name in ("positions", "normals", "uv", "indices"):
+            demand(mesh.get(name, {}).get("buffer"), "buffers", f"/meshes/{i}/{name}/buffer")
+    found.raise_for_errors()
 
 
 def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
@@ -80,7 +119,7 @@ def _unsound_as_finding(path: Path) -> Iterator[None]:
     """A scene that is JSON and yet no scene is refused; where it is wrong is the validator's to say."""
     try:
         yield
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         detail = "it is not a sound scene; dotnet kinefab validate says where"
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=detail)]) from error
 
@@ -133,8 +172,6 @@ def _by_hierarchy(objects: Sequence[Mapping[str, Any]]) -> Iterator[tuple[int, M
     """Objects with their depth, children under their parent; the file only has parents before children."""
     children: dict[int | None, list[int]] = {}
     for index, entry in enumerate(objects):
-        if entry["parent"] is not None and not 0 <= entry["parent"] < index:
-            raise IndexError("a parent stands before its children")
         children.setdefault(entry["parent"], []).append(index)
     waiting = [(0, index) for index in reversed(children.get(None, []))]
     while waiting:

@@ -12,6 +12,7 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
+from ..diagnostics import printable
 from ..spatial import Array, Pose, frame_from_axes, rotation_about
 from .freedoms import Placement, angle_range, freedoms_of_component, world_placements
 
@@ -273,15 +274,20 @@ def _slide_middle(joint: DrawnJoint, place: Array, axis: Array) -> Array:
 def _legend(document: Mapping, joints: Sequence[DrawnJoint]) -> str:
     lines = [f'<g transform="translate({WIDTH + 10} 36)" fill="#212529">']
     title = document.get("source", {}).get("uri", "scene")
-    lines.append(f'<text font-size="16" font-weight="600">{escape(str(title))}</text>')
+    lines.append(f'<text font-size="16" font-weight="600">{_text(title)}</text>')
     mobility = document.get("analysis", {}).get("mobility")
     count = f"{len(document['gameObjects'])} objects, {len(joints)} joints"
-    lines.append(f'<text y="22" fill="#495057">{count}{"" if mobility is None else f", mobility {mobility}"}</text>')
+    lines.append(f'<text y="22" fill="#495057">{count}{"" if mobility is None else f", mobility {_text(mobility)}"}</text>')
     for number, joint in enumerate(joints[:LISTED], 1):
         y = 32 + 27 * number
         lines.append(f'<circle cx="8" cy="{y - 4.5}" r="9" fill="{COLOURS[joint.kind]}"/>')
         lines.append(f'<text x="8" y="{y}" fill="#fff" text-anchor="middle" font-weight="600">{number}</text>')
-        lines.append(f'<text x="26" y="{y}">{escape(joint.name)} \u2013 {escape(joint.connected)}: {joint.freedoms}</text>')
+        lines.append(f'<text x="26" y="{y}">{_text(joint.name)} \u2013 {_text(joint.connected)}: {joint.freedoms}</text>')
     if len(joints) > LISTED:
         lines.append(f'<text y="{59 + 27 * LISTED}" fill="#495057">and {len(joints) - LISTED} more</text>')
     return "\n".join([*lines, "</g>"])
+
+
+def _text(value: object) -> str:
+    """What a file says, as text within XML, which knows no control characters."""
+    return escape(printable(str(value)))

@@ -1,0 +1,47 @@
+"""What the reading of a written scene refuses."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import kinefab
+from kinefab.inspection import overview, picture, read_scene_file
+
+
+@pytest.mark.parametrize("number", ["NaN", "-Infinity", "1e999"])
+@pytest.mark.parametrize("show", [lambda path: overview(path, True), picture], ids=["inspect", "draw"])
+def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
+    """Python's JSON would let them pass, and write them on into what is no JSON."""
+    path = tmp_path / "bad.kinefab"
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "extras": "MARK"}
+    path.write_text(json.dumps(scene).replace('"MARK"', number), encoding="utf-8")
+    with pytest.raises(kinefab.KinefabError, match=f"SCENE_UNREADABLE: The scene cannot be read: {number} is not a finite"):
+        show(path)
+
+
+@pytest.mark.parametrize("index", [-1, 1, True, 0.5, "a"])
+@pytest.mark.parametrize(
+    "fields, place",
+    [
+        ({"gameObjects": [{"id": "a", "name": "a", "parent": "MARK"}]}, "gameObjects/0/parent"),
+        ({"gameObjects": [{"components": [{"type": "HingeJoint", "connectedBody": "MARK"}]}]},
+         "gameObjects/0/components/0/connectedBody"),
+        ({"gameObjects": [{"components": [{"type": "MeshFilter", "mesh": "MARK"}]}], "meshes": [{}]},
+         "gameObjects/0/components/0/mesh"),
+        ({"gameObjects": [{"components": [{"type": "MeshRenderer", "materials": ["MARK"]}]}], "materials": [{}]},
+         "gameObjects/0/components/0/materials/0"),
+        ({"meshes": [{"indices": {"buffer": "MARK"}}], "buffers": [{}]}, "meshes/0/indices/buffer"),
+    ],
+)  # fmt: skip
+def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
+    """Told with its place; also a negative one, which Python would count from the end of the list."""
+    path = tmp_path / "bad.kinefab"
+    scene = {"format": "kinefab.scene", "version": "1.0", **fields}
+    path.write_text(json.dumps(scene).replace('"MARK"', json.dumps(index)), encoding="utf-8")
+    with pytest.raises(kinefab.KinefabError) as raised:
+        read_scene_file(path)
+    (found,) = raised.value.diagnostics
+    assert found.code == ("PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED")
+    assert found.where == f"{path}#/{place}"

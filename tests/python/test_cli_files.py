@@ -46,6 +46,20 @@ def test_target_that_cannot_be_made_is_a_finding(tmp_path, output):
     assert done.returncode == 1 and "TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("report", ["a" * 300 + ".json", "no/folder.json"])
+def test_report_that_cannot_be_made_is_found_before_the_work(tmp_path, report):
+    """A scene whose losses cannot be told is not written; neither is anything else."""
+    done = run("export", LEVER, "-o", tmp_path / "a.kinefab", "--report", tmp_path / report)
+    assert done.returncode == 1 and "TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_report_into_a_folder_is_wrong_usage(tmp_path):
+    """As a scene is."""
+    done = run("export", LEVER, "-o", tmp_path / "a.kinefab", "--report", tmp_path)
+    assert done.returncode == 2 and list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="file names of any bytes are Linux's")
 @pytest.mark.parametrize(
     "source, output", [("a\udcff.bundle.json", "a.kinefab"), ("a.bundle.json", "a\udcff.kinefab")]

@@ -18,7 +18,7 @@ import typer
 from . import __version__
 from .diagnostics import KinefabError, Report, Severity, diagnostic, printable, report_document
 from .options import DEFAULT_DENSITY, Closures, ColliderShape, ExportOptions
-from .replacing import write_whole
+from .replacing import demand_writable, write_whole
 
 if TYPE_CHECKING:
     from .pipeline import ExportResult
@@ -76,11 +76,14 @@ def export(
         options = ExportOptions(colliders, density, strict, closures, solve, limits)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--density") from None
-    if os.path.isdir(output):
-        raise typer.BadParameter(f"{output} is a folder", param_hint="--output")
     for path, hint, others in ((output, "--output", (source,)), (report, "--report", (source, output))):
+        if path is not None and os.path.isdir(path):
+            raise typer.BadParameter(f"{path} is a folder", param_hint=hint)
         if path is not None and any(os.path.realpath(path) == os.path.realpath(other) for other in others):
             raise typer.BadParameter(f"{path} is named twice; it would be overwritten", param_hint=hint)
+    if report is not None:  # before the work: a scene whose losses nobody is told is not to be written
+        with _unwritable_as_finding(report):
+            demand_writable(report)
     from .pipeline import export as run
 
     result: Optional[ExportResult] = None
@@ -92,16 +95,16 @@ def export(
     except KinefabError as error:
         found, reasons = error.report or Report(list(error.diagnostics)), len(error.diagnostics)
     _log(found)
-    failed = result is None
-    if report is not None:
-        text = json.dumps(report_document(found, str(output), not failed), indent=2, ensure_ascii=False) + "\n"
-        _write(report, text.encode("utf-8", "backslashreplace"))  # a path's bytes may be no UTF-8; the escapes are JSON's
-    if failed:
+    if result is None:
         reason = _count(reasons, "loss or error", "losses or errors") if strict else _count(reasons, "error", "errors")
         typer.echo(f"{output} was not written: {reason}.", err=True)
-        raise typer.Exit(1)
-    if _verbosity >= 0:
+    elif _verbosity >= 0:
         typer.echo(_summary(result), err=True)
+    if report is not None:
+        text = json.dumps(report_document(found, str(output), result is not None), indent=2, ensure_ascii=False) + "\n"
+        _write(report, text.encode("utf-8", "backslashreplace"))  # a path's bytes may be no UTF-8; the escapes are JSON's
+    if result is None:
+        raise typer.Exit(1)
 
 
 @app.command()
@@ -192,8 +195,14 @@ def _log(report: Report) -> None:
 
 def _write(path: Path, content: bytes) -> None:
     """The file, whole; where that fails the old one stands, and the program ends."""
-    try:
+    with _unwritable_as_finding(path):
         write_whole(path, content)
+
+
+@contextmanager
+def _unwritable_as_finding(path: Path) -> Iterator[None]:
+    try:
+        yield
     except OSError as error:
         detail = error.strerror or str(error)
         _log(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,8 +34,23 @@ def replacing(target: Path, role: str) -> Iterator[BinaryIO]:
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file at once; behind a link, where it leads.  Raises OSError; then the old file stands as it was."""
-    if path.exists() and not path.is_file():  # a pipe or device has no place that another could take
+    if _takes_no_other(path):
         path.write_bytes(content)
         return
     with replacing(Path(os.path.realpath(path)), "whole") as file:
         file.write(content)
+
+
+def demand_writable(path: Path) -> None:
+    """Raises OSError where ``write_whole`` would, as far as can be told without writing; leaves everything as it is."""
+    if not _takes_no_other(path):
+        temporary = beside(Path(os.path.realpath(path)), "whole")
+        temporary.touch()
+        temporary.unlink()
+    elif not os.access(path, os.W_OK):  # opened to see, a pipe would wait for its reader
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
+def _takes_no_other(path: Path) -> bool:
+    """Whether it is a pipe or device, in whose place no other file can be put."""
+    return path.exists() and not path.is_file()

@@ -21,7 +21,7 @@ from_index() {
     rm -rf "$venv"
     "$python" -m venv "$venv" || return 1
     # The smallest package first: where no index answers, this fails at once.
-    "$venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 --timeout 15 'hatchling>=1.12' >/dev/null 2>&1 || return 1
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 --timeout 15 'hatchling>=1.27' >/dev/null 2>&1 || return 1
     say "installing kinefab and its dependencies from the Python index"
     "$venv/bin/pip" install --quiet --disable-pip-version-check -e 'python[dev]'
 }

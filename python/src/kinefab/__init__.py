@@ -17,7 +17,9 @@ _HOMES = {
     "ExportOptions": "options",
     "ExportResult": "pipeline",
     "ColliderShape": "options",
+    "Closures": "options",
     "Scene": "builder",
+    "Joint": "model",
     "JointKind": "model",
     "Freedom": "model",
     "Motion": "model",
@@ -25,15 +27,32 @@ _HOMES = {
     "MassProperties": "model",
     "KinefabError": "diagnostics",
     "Report": "diagnostics",
+    "Diagnostic": "diagnostics",
+    "Severity": "diagnostics",
+    "FeatureOutcome": "diagnostics",
+    "Outcome": "diagnostics",
 }
 __all__ = [*_HOMES, "__version__"]
 
-if TYPE_CHECKING:
-    from .builder import Scene  # noqa: F401
-    from .diagnostics import KinefabError, Report  # noqa: F401
-    from .model import Drive, Freedom, JointKind, MassProperties, Motion  # noqa: F401
-    from .options import ColliderShape, ExportOptions  # noqa: F401
-    from .pipeline import ExportResult, export  # noqa: F401
+if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
+    from .builder import Scene as Scene
+    from .diagnostics import Diagnostic as Diagnostic
+    from .diagnostics import FeatureOutcome as FeatureOutcome
+    from .diagnostics import KinefabError as KinefabError
+    from .diagnostics import Outcome as Outcome
+    from .diagnostics import Report as Report
+    from .diagnostics import Severity as Severity
+    from .model import Drive as Drive
+    from .model import Freedom as Freedom
+    from .model import Joint as Joint
+    from .model import JointKind as JointKind
+    from .model import MassProperties as MassProperties
+    from .model import Motion as Motion
+    from .options import Closures as Closures
+    from .options import ColliderShape as ColliderShape
+    from .options import ExportOptions as ExportOptions
+    from .pipeline import ExportResult as ExportResult
+    from .pipeline import export as export
 
 
 def __getattr__(name: str) -> Any:

@@ -1,0 +1,51 @@
+"""What ``import kinefab`` offers, and what a package of it says about itself."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import kinefab
+from scenes import lid_scene
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "python" / "src" / "kinefab" / "__init__.py"
+
+
+def test_every_public_name_is_there():
+    """What __all__ promises can be had, by its own name."""
+    for name in kinefab.__all__:
+        value = getattr(kinefab, name)
+        assert name == "__version__" or value.__name__ == name
+
+
+def test_type_checkers_see_the_public_names():
+    """The imports that only type checkers run name what is imported on demand, from the same modules."""
+    (block,) = (s for s in ast.parse(SOURCE.read_text(encoding="utf-8")).body if isinstance(s, ast.If))
+    seen = {(alias.asname, statement.module) for statement in block.body for alias in statement.names}
+    homes = {(name, home) for name, home in kinefab._HOMES.items()}
+    assert seen == homes and {name for name, _ in homes} == set(kinefab.__all__) - {"__version__"}
+    assert SOURCE.with_name("py.typed").is_file()
+
+
+def test_what_the_api_hands_out_is_public(tmp_path):
+    """Whoever gets a thing can name its type without a module of the inside."""
+    options = kinefab.ExportOptions(closures=kinefab.Closures.EXACT)
+    scene = lid_scene()
+    result = kinefab.export(scene, tmp_path / "lid.kinefab", options)
+    (kept,) = result.report.outcomes
+    found = result.report.add("SCENE_WITHOUT_PARTS")
+    for thing in (scene, *scene.joints, result, options.colliders, result.report, kept, kept.outcome, found, found.severity):
+        assert type(thing).__name__ in kinefab.__all__
+
+
+def test_both_languages_have_one_version():
+    """Scenes, exporter and library are released together."""
+    properties = (ROOT / "csharp" / "Directory.Build.props").read_text(encoding="utf-8")
+    assert re.search("<Version>(.*)</Version>", properties).group(1) == kinefab.__version__
+
+
+def test_the_package_carries_the_licence():
+    """A build takes no file from outside its folder, so the licence stands there a second time."""
+    assert (ROOT / "python" / "LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()

@@ -1,8 +1,9 @@
 """Runs every test of both languages and counts them; the last line is ``N passed, N failed, N skipped``.
 
 A toolchain that is missing counts as one skip with its reason.  With KINEFAB_REQUIRE_ALL=1 every skip is
-a failure.  ``--without-mono`` leaves the tests under mono out, for systems that it is not meant for.  Exit
-status 0 only when something passed and nothing failed.
+a failure.  ``--without-mono`` leaves the tests under mono out, for systems that it is not meant for; tests of
+what a system does not have are left out there by themselves.  Exit status 0 only when something passed and
+nothing failed.
 """
 
 from __future__ import annotations

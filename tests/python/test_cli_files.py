@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 
@@ -60,7 +59,7 @@ def test_report_into_a_folder_is_wrong_usage(tmp_path):
     assert done.returncode == 2 and list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="file names of any bytes are Linux's")
+@pytest.mark.linux  # file names of any bytes are Linux's
 @pytest.mark.parametrize(
     "source, output", [("a\udcff.bundle.json", "a.kinefab"), ("a.bundle.json", "a\udcff.kinefab")]
 )
@@ -84,7 +83,7 @@ def limited_run(blocks: int, *arguments):
     )  # fmt: skip
 
 
-@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
+@pytest.mark.posix  # needs ulimit
 @pytest.mark.parametrize("old", [None, "the old picture"])
 def test_a_picture_is_written_whole_or_not_at_all(lid, tmp_path, old):
     """A full disk leaves the old picture, or none, and a finding with its code."""
@@ -98,7 +97,7 @@ def test_a_picture_is_written_whole_or_not_at_all(lid, tmp_path, old):
     assert run("draw", lid, "-o", picture).returncode == 0 and picture.read_text().rstrip().endswith("</svg>")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="needs ulimit")
+@pytest.mark.posix  # needs ulimit
 def test_a_report_is_written_whole_or_not_at_all(tmp_path):
     """A full disk leaves the report of the last run, not the first half of this one."""
     bundle, report = tmp_path / "a.bundle.json", tmp_path / "r.json"
@@ -112,7 +111,7 @@ def test_a_report_is_written_whole_or_not_at_all(tmp_path):
     assert report.read_bytes() == old and sorted(p.name for p in tmp_path.iterdir()) == ["a.bundle.json", "r.json"]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="needs links and pipes")
+@pytest.mark.posix  # needs links and pipes
 def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
     """A link stays a link, and what is no regular file is not replaced by one."""
     (tmp_path / "there").mkdir()

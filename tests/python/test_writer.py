@@ -160,7 +160,7 @@ def test_file_has_one_line_for_each_component(tmp_path):
     assert not re.search(r"-0(\.0*)?[],} ]", text)
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+@pytest.mark.posix  # needs named pipes
 def test_target_that_is_no_regular_file_stays_what_it_is(tmp_path):
     """A rename would put a file in a device's place: /dev/null must survive an export by root."""
     target = tmp_path / "pipe.kinefab"
@@ -171,7 +171,7 @@ def test_target_that_is_no_regular_file_stays_what_it_is(tmp_path):
     assert not target.is_file() and list(tmp_path.iterdir()) == [target]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows cannot lock a folder")
+@pytest.mark.posix  # Windows cannot lock a folder
 def test_two_exports_to_one_target_leave_a_whole_pair(tmp_path, monkeypatch):
     """A second export that comes between the first one's buffer and scene neither takes nor loses a buffer."""
     target = tmp_path / "box.kinefab"

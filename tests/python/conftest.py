@@ -1,0 +1,20 @@
+"""Tests of what only some systems have (links, pipes, locks) are left out on the others, at collection: a skip
+stands for something that is missing and could be there."""
+
+from __future__ import annotations
+
+import sys
+
+ELSEWHERE = {"posix": sys.platform == "win32", "linux": sys.platform != "linux"}
+"""Markers of such tests, and whether this system is another."""
+
+
+def pytest_configure(config):
+    for name in ELSEWHERE:
+        config.addinivalue_line("markers", f"{name}: left out on other systems")
+
+
+def pytest_collection_modifyitems(config, items):
+    left_out = [item for item in items if any(ELSEWHERE.get(mark.name) for mark in item.iter_markers())]
+    config.hook.pytest_deselected(items=left_out)
+    items[:] = [item for item in items if item not in left_out]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import groupby
 from pathlib import Path
 
 from kinefab.diagnostics import diagnostic_table
@@ -22,3 +23,9 @@ def test_every_code_that_python_raises_is_named_in_a_test():
     raised = diagnostic_table().keys() & words(ROOT / "python" / "src", ".py")
     tested = words(ROOT / "tests" / "python", ".py") | words(ROOT / "tests" / "conformance", ".json")
     assert sorted(raised - tested) == []
+
+
+def test_the_table_is_grouped_by_stage():
+    """Each stage's codes stand together, as the table says of itself."""
+    stages = [stage for stage, _ in groupby(entry["stage"] for entry in diagnostic_table().values())]
+    assert len(stages) == len(set(stages))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Callable
 
 from .analysis import AnalysisOptions, analyse
+from .analysis.dof_records import joints_of_dof_records
 from .analysis.reasons import holding
 from .analysis.summary import scene_entry
 from .diagnostics import KinefabError, Outcome, Report, Severity
@@ -19,7 +20,6 @@ from .options import ColliderShape, ExportOptions
 from .rigid import RigidGroups, rigid_groups
 from .unity.colliders import Colliders
 from .unity.document import Document, build_document
-from .unity.dof_records import joints_of_dof_records
 from .unity.writer import write_scene
 
 Progress = Callable[[str, float], None]

@@ -26,10 +26,6 @@ class Tree:
     order: list[int]
     closures: list[int]
 
-    def loops_of(self, bodies: np.ndarray) -> int:
-        inside = set(bodies.tolist())
-        return sum(self.links[i].a in inside or self.links[i].b in inside for i in self.closures)
-
     def way(self, a: int, b: int) -> list[int] | None:
         """Indices of the links that lead from body a to body b, or None where none do."""
         out, back = [], []

@@ -55,12 +55,6 @@ def factored(rows: Array) -> tuple[np.ndarray, Array, Array]:
     return *rank_of(s), vt
 
 
-def null_space(rows: Array) -> tuple[int, Array, float]:
-    """Rank, orthonormal null space (columns, shape (n, n - rank)) and gap of rows (m, n)."""
-    rank, gap, vt = factored(rows)
-    return int(rank), vt[int(rank) :].T, float(gap)
-
-
 def spans(columns: Sequence[Array], cut: float | None = None) -> list[Array]:
     """Orthonormal bases, shape (m, rank), of the spans of columns, shape (m, n) each.
 

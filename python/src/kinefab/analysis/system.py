@@ -248,15 +248,6 @@ class System:
         rotation[body] = exponential(twist[:, 3:]) @ rotation[body]
         return State(rotation, shift, state.angle)
 
-    def rebased(self, state: State) -> "System":
-        """The same equations with ``state`` as the start pose."""
-        values = {}
-        everything = np.arange(len(self.kind))
-        values["p_a"], values["a"], values["k"], values["p_b"], values["b"], _ = self._current(
-            state, everything
-        )
-        return replace(self, center=self.center + state.shift, **values)
-
 
 def joined(first: System, second: System) -> System:
     """The rows of both, over the bodies of the first; owners of the second count on from the first's."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import FREE, LOCKED, DofRecord, Joint, JointKind, Scene, UNLOCKED
+from ..model import FREE, LOCKED, DofRecord, Joint, Scene, kind_of
 from ..rigid import RigidGroups
 from ..spatial import Array, Pose, frame_from_axes
 
@@ -44,12 +44,11 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         center = node.pose.translation if record.center is None else record.center
         world = Pose(axes, center)
         freedoms = tuple(FREE if i in free else LOCKED for i in range(6))
-        kind = next((k for k, unlocked in UNLOCKED.items() if tuple(unlocked) == free), JointKind.GENERAL)
         frame_b = node.pose.inverse() @ world
         joints.append(
             Joint(
                 f"dof:{node.id}",
-                kind,
+                kind_of(free),
                 None,
                 record.node,
                 world,

@@ -68,16 +68,9 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Scale(Vector3d a, Vector3d b) => new(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
-    /// <summary>Some unit vector at right angles to a unit vector, by the rule Unity's Vector3.OrthoNormalize uses.</summary>
-    public static Vector3d Perpendicular(Vector3d unit)
-    {
-        if (Math.Abs(unit.Z) > 0.70710678118654752)
-        {
-            return new Vector3d(0, -unit.Z, unit.Y) * (1 / Math.Sqrt(unit.Y * unit.Y + unit.Z * unit.Z));
-        }
-
-        return new Vector3d(-unit.Y, unit.X, 0) * (1 / Math.Sqrt(unit.X * unit.X + unit.Y * unit.Y));
-    }
+    /// <summary>Some unit vector at right angles to a unit vector: its product with Z, or with X within 45 degrees of Z.</summary>
+    public static Vector3d Perpendicular(Vector3d unit) =>
+        Cross(Math.Abs(unit.Z) > Math.Sqrt(0.5) ? UnitX : UnitZ, unit).Normalized();
 
     /// <summary>Sum.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -27,6 +27,7 @@ internal sealed class Batch<V>
         }
 
         Members = new int[shape.Bodies.Length * w];
+        JointMembers = new int[shape.Nodes.Length * w];
         Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
         Joints = new double[shape.Nodes.Length * JointCount * w];
         RowOffsets = new int[shape.Nodes.Length];
@@ -53,6 +54,9 @@ internal sealed class Batch<V>
 
     /// <summary>Body b of a lane in the mechanism (or Joint.World), at b * Width + lane.</summary>
     public int[] Members { get; }
+
+    /// <summary>Joint of node n of a lane in the mechanism, at n * Width + lane; not set for couplings.</summary>
+    public int[] JointMembers { get; }
 
     /// <summary>Records of <see cref="BodySlot"/>.</summary>
     public double[] Bodies { get; }

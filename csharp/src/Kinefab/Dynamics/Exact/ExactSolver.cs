@@ -22,6 +22,7 @@ internal sealed class ExactSolver : ISolver
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
     private readonly HashSet<int> _inexactJoints = new();
+    private RowWatch _watch;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
@@ -55,7 +56,7 @@ internal sealed class ExactSolver : ISolver
     /// <inheritdoc/>
     public void Step(double dt)
     {
-        if (_groups.Exists(group => group.IsStale()))
+        if (_watch.IsStale())
         {
             Regroup();
         }
@@ -85,6 +86,7 @@ internal sealed class ExactSolver : ISolver
     {
         _groups.Clear();
         List<Island> rest = IslandFinder.Find(_mechanism);
+        _watch = new RowWatch(rest);
         foreach (Island island in rest)
         {
             island.IsInexact = Array.Exists(island.Nodes, node => node.Joint != null && _inexactJoints.Contains(node.Index));

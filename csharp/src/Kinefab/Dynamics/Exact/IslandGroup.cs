@@ -28,25 +28,6 @@ internal abstract class IslandGroup
             mechanism.Unsolved.Add(ladder.Unsolved(island));
         }
     }
-
-    /// <summary>Whether a joint's fields ask for other rows than the islands were made for.</summary>
-    public abstract bool IsStale();
-
-    protected static bool IsStale(Island[] islands)
-    {
-        foreach (Island island in islands)
-        {
-            foreach (Node node in island.Nodes)
-            {
-                if (node.IsStale())
-                {
-                    return true;
-                }
-            }
-        }
-
-        return false;
-    }
 }
 
 /// <summary>
@@ -89,9 +70,6 @@ internal sealed class IslandGroup<V> : IslandGroup
     }
 
     /// <inheritdoc/>
-    public override bool IsStale() => IsStale(_islands);
-
-    /// <inheritdoc/>
     public override void Step(double dt, double tolerance)
     {
         for (int i = 0; i < _batches.Length; i++)
@@ -124,10 +102,9 @@ internal sealed class IslandGroup<V> : IslandGroup
             Stiffness<V>.Measure(batch, batch.Half, dt / 2);
             RattleStep<V>.AddUp(batch);
             Transfer<V>.Finish(batch);
-            int first = i * Lane<V>.Width;
-            int occupied = Math.Min(Lane<V>.Width, _islands.Length - first);
+            int occupied = Math.Min(Lane<V>.Width, _islands.Length - i * Lane<V>.Width);
             Transfer<V>.Store(batch, occupied, _mechanism);
-            Reactions<V>.Report(batch, _islands, first, occupied, _mechanism, dt);
+            Reactions<V>.Report(batch, occupied, _mechanism, dt);
         }
     }
 
@@ -247,9 +224,6 @@ internal sealed class PreparedIslands : IslandGroup
     }
 
     /// <inheritdoc/>
-    public override bool IsStale() => IsStale(_islands);
-
-    /// <inheritdoc/>
     public override void Step(double dt, double tolerance)
     {
         for (int i = 0; i < _islands.Length; i++)
@@ -273,7 +247,7 @@ internal sealed class PreparedIslands : IslandGroup
             Note(_mechanism, _ladders[i], _islands[i], stops);
             Transfer<ScalarLane>.Finish(batch);
             Transfer<ScalarLane>.Store(batch, 1, _mechanism);
-            Reactions<ScalarLane>.Report(batch, _islands, i, 1, _mechanism, dt);
+            Reactions<ScalarLane>.Report(batch, 1, _mechanism, dt);
             foreach (Node node in _islands[i].Nodes)
             {
                 if (node.Coupling != null)

@@ -84,14 +84,11 @@ internal sealed class Node
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
-    private readonly int _signature;
-
     public Node(Joint joint, int index, int[] bodies)
     {
         Joint = joint;
         Index = index;
         Bodies = bodies;
-        _signature = Signature(joint);
         var classes = new List<RowClass>();
         int linearDrives = 0;
         if (joint is RevoluteJoint hinge)
@@ -235,11 +232,8 @@ internal sealed class Node
         return true;
     }
 
-    /// <summary>Whether the joint's fields changed since the node was made, so that it has other rows now.</summary>
-    public bool IsStale() => Joint != null && (Joint.IsBroken || Signature(Joint) != _signature);
-
-    // Everything of a joint that decides which rows it has.
-    private static int Signature(Joint joint)
+    /// <summary>Everything of a joint that decides which rows it has.</summary>
+    public static int Signature(Joint joint)
     {
         if (joint is RevoluteJoint hinge)
         {

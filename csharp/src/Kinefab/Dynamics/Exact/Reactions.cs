@@ -8,14 +8,12 @@ namespace Kinefab.Dynamics.Exact;
 internal static class Reactions<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Writes the mechanism's reactions of the joints of some islands, one a lane; marks those that broke.</summary>
+    /// <summary>Writes the mechanism's reactions of the joints of a batch's islands; marks those that broke.</summary>
     /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
-    /// <param name="islands">The islands, from the first lane's on.</param>
-    /// <param name="first">The first lane's island.</param>
-    /// <param name="count">Lanes with an island.</param>
+    /// <param name="count">Lanes with an island of their own.</param>
     /// <param name="mechanism">Where to.</param>
     /// <param name="dt">Step, s.</param>
-    public static void Report(Batch<V> batch, Island[] islands, int first, int count, MultibodySystem mechanism, double dt)
+    public static void Report(Batch<V> batch, int count, MultibodySystem mechanism, double dt)
     {
         for (int n = 0; n < batch.Shape.Nodes.Length; n++)
         {
@@ -28,7 +26,7 @@ internal static class Reactions<V>
             Sum(batch, n, node, 1 / dt);
             for (int lane = 0; lane < count; lane++)
             {
-                Node own = islands[first + lane].Nodes[n];
+                int index = batch.JointMembers[n * Lane<V>.Width + lane];
                 Vector3d force = Transfer<V>.Vector(batch.Work.Reaction, lane);
                 Vector3d torque = Transfer<V>.Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
                 if (batch.Laws != null)
@@ -36,8 +34,8 @@ internal static class Reactions<V>
                     AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
                 }
 
-                mechanism.Reactions[own.Index] = new JointReaction { Force = force, Torque = torque };
-                Joint joint = own.Joint!;
+                mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
+                Joint joint = mechanism.Joints[index];
                 if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
                 {
                     joint.IsBroken = true;

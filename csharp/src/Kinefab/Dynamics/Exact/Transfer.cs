@@ -47,6 +47,7 @@ internal static class Transfer<V>
             Joint? joint = island.Nodes[n].Joint;
             if (joint != null)
             {
+                batch.JointMembers[n * Lane<V>.Width + lane] = island.Nodes[n].Index;
                 for (int side = 0; side < 2; side++)
                 {
                     Pose frame = side == 0 ? joint.Frame0 : joint.Frame1;

@@ -44,19 +44,10 @@ internal sealed class D6Joint : Joint
     public Vector3d DriveAngularVelocity;
 
     /// <inheritdoc/>
-    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
-    {
-        JointFrames.At(this, body0, body1, out JointFrames f);
-        f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
-        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
+    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 
-        LinearDrives(ref writer, f);
-        AngularDrives(ref writer, f, x1, y1, z1);
-        AngularLimits(ref writer, f, x1);
-        LinearLimits(ref writer, f);
-        LockedAxes(ref writer, f, x1);
-        return writer.Count;
-    }
+    /// <inheritdoc/>
+    public override int PrepareLaws(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
     /// <inheritdoc/>
     public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.D6(this, ref body0, ref body1, moveBody1);
@@ -76,6 +67,24 @@ internal sealed class D6Joint : Joint
             && Math.Max(SwingLimit.Y, SwingLimit.Z) <= NoConeAngle
             ? AxisMotion.Locked
             : motion;
+
+    private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
+    {
+        JointFrames.At(this, body0, body1, out JointFrames f);
+        f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
+
+        LinearDrives(ref writer, f);
+        AngularDrives(ref writer, f, x1, y1, z1);
+        AngularLimits(ref writer, f, x1);
+        LinearLimits(ref writer, f);
+        if (hasLockedAxes)
+        {
+            LockedAxes(ref writer, f, x1);
+        }
+
+        return writer.Count;
+    }
 
     // Spring-damper per axis a of frame 0: C = (target - c.p).a, Cdot = a.(velocity of 0 - velocity of 1).
     // Source: ExtD6Joint.cpp, D6JointSolverPrep (the velocity is actor 1's against 0, hence its sign).

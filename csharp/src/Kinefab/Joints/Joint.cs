@@ -70,6 +70,9 @@ internal abstract class Joint
     /// </summary>
     public abstract int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows);
 
+    /// <summary>As <see cref="Prepare"/>, but locked axes may be left out: for a solver that has their rows already.</summary>
+    public virtual int PrepareLaws(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows);
+
     /// <summary>Moves one body back within the projection tolerances; true when it had to.</summary>
     /// <param name="body0">Pose of body 0; changed when <paramref name="moveBody1"/> is false.</param>
     /// <param name="body1">Pose of body 1; changed when <paramref name="moveBody1"/> is true.</param>

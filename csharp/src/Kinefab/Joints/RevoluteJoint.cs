@@ -32,12 +32,27 @@ internal sealed class RevoluteJoint : Joint
     public double SpringTarget;
 
     /// <inheritdoc/>
-    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows)
+    public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
+
+    /// <inheritdoc/>
+    public override int PrepareLaws(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
+
+    /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
+    public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
+
+    /// <inheritdoc/>
+    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.Revolute(this, ref body0, ref body1, moveBody1);
+
+    private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
         JointFrames.At(this, body0, body1, out JointFrames f);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
         bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
-        writer.Locked(f, 7, isLocked ? 7 : 6);
+        if (hasLockedAxes)
+        {
+            writer.Locked(f, 7, isLocked ? 7 : 6);
+        }
+
         if (isLocked)
         {
             return writer.Count;
@@ -65,12 +80,6 @@ internal sealed class RevoluteJoint : Joint
 
         return writer.Count;
     }
-
-    /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
-    public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
-
-    /// <inheritdoc/>
-    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.Revolute(this, ref body0, ref body1, moveBody1);
 
     private static double Angle(in JointFrames f) => SwingTwist.TwistAngle(f.Relative.Rotation);
 }

@@ -237,11 +237,8 @@ internal sealed class PreparedIslands : IslandGroup
                 Flight<ScalarLane>.Stay(batch);
                 RattleStep<ScalarLane>.Rebuild(batch);
             }
-            else
-            {
-                RattleStep<ScalarLane>.Reread(batch);
-            }
 
+            RattleStep<ScalarLane>.Reread(batch);
             int stops = _ladders[i].Stops;
             _ladders[i].Step(dt, tolerance, ref _cuts[i], false, isMoved);
             Note(_mechanism, _ladders[i], _islands[i], stops);

@@ -61,6 +61,9 @@ internal struct Law
     /// <summary>J and C at the end of the flight.</summary>
     public ConstraintRow End;
 
+    /// <summary>Whether Prepare wrote that row where it was last asked.</summary>
+    public bool HasEnd;
+
     /// <summary>What the factored matrix has of it.</summary>
     public Hold Hold;
 

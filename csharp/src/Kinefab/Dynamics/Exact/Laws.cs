@@ -84,8 +84,41 @@ internal sealed partial class Laws<V>
         return isFactored;
     }
 
+    /// <summary>Before a node's rows at the end of the flight are written.</summary>
+    public void ClearEnds(int node)
+    {
+        int end = _first[node] + _batch.Shape.Nodes[node].Laws;
+        for (int i = _first[node]; i < end; i++)
+        {
+            _laws[i].HasEnd = false;
+        }
+    }
+
     /// <summary>A node's row at the end of the flight.</summary>
-    public void SetEnd(int node, int slot, in ConstraintRow row) => _laws[_first[node] + slot].End = row;
+    public void SetEnd(int node, int slot, in ConstraintRow row)
+    {
+        ref Law law = ref _laws[_first[node] + slot];
+        law.HasEnd = true;
+        law.End = row;
+    }
+
+    /// <summary>A node's rows at the end of the flight as those of the pose that is built.</summary>
+    public void TakeEnds(int node)
+    {
+        int end = _first[node] + _batch.Shape.Nodes[node].Laws;
+        for (int i = _first[node]; i < end; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.IsWritten = law.HasEnd;
+            if (law.HasEnd)
+            {
+                law.Row = law.End;
+            }
+        }
+    }
+
+    /// <summary>Whether a node that has one law has a motor, whose row about an axis that stays is the same wherever it is built.</summary>
+    public bool HasMotorAlone(int node) => _laws[_first[node]].IsWritten && !_laws[_first[node]].Row.Has(RowFlags.Spring);
 
     /// <summary>Forgets impulses and segments.</summary>
     public void ClearHistory()

@@ -27,9 +27,10 @@ internal static class PreparedRows<V>
             return;
         }
 
-        Span<ConstraintRow> rows = stackalloc ConstraintRow[Joint.MaxRows];
-        int count = node.Joint!.Prepare(PoseOf(batch, node.Bodies[0]), PoseOf(batch, node.Bodies[1]), rows);
+        ConstraintRow[] rows = batch.Work.Rows;
+        int count = Prepare(batch, node, rows);
         var slots = new LawSlots(node);
+        batch.Laws?.ClearEnds(n);
         for (int i = 0; i < count; i++)
         {
             int slot = slots.Next(rows[i]);
@@ -44,18 +45,30 @@ internal static class PreparedRows<V>
         }
     }
 
-    /// <summary>J of these rows at the end of the flight, and the laws' constants.</summary>
+    /// <summary>J of these rows where they were last evaluated, and the laws' constants.</summary>
     public static void Build(Batch<V> batch, int n)
     {
         Node node = batch.Shape.Nodes[n];
         if (node.Coupling != null)
         {
             BuildCoupling(batch, n, node);
-            return;
         }
+        else if (node.HasMovingRows && node.Angular != AngularRows.Prepared)
+        {
+            batch.Laws!.TakeEnds(n);
+        }
+        else if (node.HasMovingRows || !batch.Laws!.HasMotorAlone(n))
+        {
+            Read(batch, n);
+        }
+    }
 
-        Span<ConstraintRow> rows = stackalloc ConstraintRow[Joint.MaxRows];
-        int count = node.Joint!.Prepare(PoseOf(batch, node.Bodies[0]), PoseOf(batch, node.Bodies[1]), rows);
+    /// <summary>The same with the joint's fields as they are now.</summary>
+    public static void Read(Batch<V> batch, int n)
+    {
+        Node node = batch.Shape.Nodes[n];
+        ConstraintRow[] rows = batch.Work.Rows;
+        int count = Prepare(batch, node, rows);
         var slots = new LawSlots(node);
         batch.Laws?.Clear(n);
         for (int i = 0; i < count; i++)
@@ -85,6 +98,15 @@ internal static class PreparedRows<V>
         Couple(batch, node, out ConstraintRow a, out ConstraintRow b);
         node.Coupling!.LastA = a.GeometricError;
         node.Coupling.LastB = b.GeometricError;
+    }
+
+    private static int Prepare(Batch<V> batch, Node node, ConstraintRow[] rows)
+    {
+        Pose pose0 = PoseOf(batch, node.Bodies[0]);
+        Pose pose1 = PoseOf(batch, node.Bodies[1]);
+        return node.Angular == AngularRows.Prepared
+            ? node.Joint!.Prepare(pose0, pose1, rows)
+            : node.Joint!.PrepareLaws(pose0, pose1, rows);
     }
 
     private static bool IsLoneAngle(Node node, in ConstraintRow row) =>
@@ -128,11 +150,8 @@ internal static class PreparedRows<V>
 
     private static void Put(Batch<V> batch, int o, Vector3d linear, Vector3d angular, double factor)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            batch.Linear[o + i] = linear[i] * factor;
-            batch.Angular[o + i] = angular[i] * factor;
-        }
+        Transfer<V>.Put(batch.Linear, o, linear * factor);
+        Transfer<V>.Put(batch.Angular, o, angular * factor);
     }
 
     private static Pose PoseOf(Batch<V> batch, int body)

@@ -105,7 +105,7 @@ internal static class RattleStep<V>
     /// <summary>As <see cref="Build"/>, at an end pose that no flight led to.</summary>
     public static void Rebuild(Batch<V> batch)
     {
-        RigidRows<V>.Place(batch);
+        RigidRows<V>.Evaluate(batch);
         Build(batch);
     }
 
@@ -131,7 +131,7 @@ internal static class RattleStep<V>
         {
             if (batch.Shape.Nodes[n].Laws > 0)
             {
-                PreparedRows<V>.Build(batch, n);
+                PreparedRows<V>.Read(batch, n);
             }
         }
     }

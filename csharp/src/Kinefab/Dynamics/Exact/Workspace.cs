@@ -1,3 +1,5 @@
+using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
@@ -34,6 +36,7 @@ internal sealed class Workspace<V>
         FirstMaxError = new double[w];
         Fastest = new double[w];
         Reaction = new double[6 * w];
+        Rows = shape.HasPreparedRows ? new ConstraintRow[Joint.MaxRows] : Array.Empty<ConstraintRow>();
     }
 
     /// <summary>Angular J times the inverse inertia, as <see cref="Batch{V}.Angular"/>.</summary>
@@ -83,4 +86,7 @@ internal sealed class Workspace<V>
 
     /// <summary>Force and torque of one joint.</summary>
     public double[] Reaction { get; }
+
+    /// <summary>What a joint's Prepare wrote last.</summary>
+    public ConstraintRow[] Rows { get; }
 }

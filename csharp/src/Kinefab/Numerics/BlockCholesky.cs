@@ -4,8 +4,8 @@ namespace Kinefab.Numerics;
 
 /// <summary>
 /// A = G G^T in place for symmetric positive definite block-sparse matrices of one pattern, several at a time in lanes.
-/// Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. Rows of five, those
-/// of a hinge, go through registers; the order of operations is the same for all sizes.
+/// Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. The first five rows
+/// of a node, those of a hinge, go through registers; the order of operations is the same for all sizes.
 /// </summary>
 internal static class BlockCholesky<V>
     where V : struct, ILane<V>
@@ -70,15 +70,16 @@ internal static class BlockCholesky<V>
 
     private static void FactorDiagonal(double[] a, int diagonal, int n)
     {
-        if (n == Five)
+        int w = Lane<V>.Width;
+        int first = 0;
+        if (n >= Five)
         {
-            FactorFive(a, diagonal);
-            return;
+            FactorFive(a, diagonal, n * w);
+            first = Five;
         }
 
-        int w = Lane<V>.Width;
-        int row = diagonal;
-        for (int i = 0; i < n; i++, row += n * w)
+        int row = diagonal + first * n * w;
+        for (int i = first; i < n; i++, row += n * w)
         {
             Lane<V> pivot = Lane<V>.Load(a, row + i * w);
             int other = diagonal;
@@ -100,10 +101,10 @@ internal static class BlockCholesky<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void FactorFive(double[] a, int g)
+    private static void FactorFive(double[] a, int g, int stride)
     {
         int w = Lane<V>.Width;
-        int row1 = g + Five * w, row2 = row1 + Five * w, row3 = row2 + Five * w, row4 = row3 + Five * w;
+        int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
         Lane<V> d = InverseRoot(Lane<V>.Load(a, g));
         d.Store(a, g);
         Lane<V> l10 = Lane<V>.Load(a, row1) * d, l20 = Lane<V>.Load(a, row2) * d, l30 = Lane<V>.Load(a, row3) * d, l40 = Lane<V>.Load(a, row4) * d;
@@ -149,15 +150,16 @@ internal static class BlockCholesky<V>
     // Solves G x = b in place.
     private static void Forward(double[] a, int diagonal, double[] b, int at, int n)
     {
-        if (n == Five)
+        int w = Lane<V>.Width;
+        int first = 0;
+        if (n >= Five)
         {
-            ForwardFive(a, diagonal, b, at);
-            return;
+            ForwardFive(a, diagonal, n * w, b, at);
+            first = Five;
         }
 
-        int w = Lane<V>.Width;
-        int row = diagonal;
-        for (int i = 0; i < n; i++, row += n * w)
+        int row = diagonal + first * n * w;
+        for (int i = first; i < n; i++, row += n * w)
         {
             Lane<V> s = Lane<V>.Load(b, at + i * w);
             for (int t = 0; t < i * w; t += w)
@@ -170,22 +172,22 @@ internal static class BlockCholesky<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ForwardFive(double[] a, int g, double[] b, int at)
+    private static void ForwardFive(double[] a, int g, int stride, double[] b, int at)
     {
         int w = Lane<V>.Width;
         Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, g);
         x0.Store(b, at);
-        g += Five * w;
+        g += stride;
         Lane<V> x1 = (Lane<V>.Load(b, at + w) - x0 * Lane<V>.Load(a, g)) * Lane<V>.Load(a, g + w);
         x1.Store(b, at + w);
-        g += Five * w;
+        g += stride;
         Lane<V> x2 = (Lane<V>.Load(b, at + 2 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w)) * Lane<V>.Load(a, g + 2 * w);
         x2.Store(b, at + 2 * w);
-        g += Five * w;
+        g += stride;
         Lane<V> x3 = (Lane<V>.Load(b, at + 3 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w))
             * Lane<V>.Load(a, g + 3 * w);
         x3.Store(b, at + 3 * w);
-        g += Five * w;
+        g += stride;
         Lane<V> x4 = (Lane<V>.Load(b, at + 4 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w)
             - x3 * Lane<V>.Load(a, g + 3 * w)) * Lane<V>.Load(a, g + 4 * w);
         x4.Store(b, at + 4 * w);
@@ -194,14 +196,9 @@ internal static class BlockCholesky<V>
     // Solves G^T x = b in place.
     private static void Backward(double[] a, int diagonal, double[] b, int at, int n)
     {
-        if (n == Five)
-        {
-            BackwardFive(a, diagonal, b, at);
-            return;
-        }
-
         int w = Lane<V>.Width;
-        for (int t = n - 1; t >= 0; t--)
+        int last = n >= Five ? Five : 0;
+        for (int t = n - 1; t >= last; t--)
         {
             int row = diagonal + t * n * w;
             Lane<V> x = Lane<V>.Load(b, at + t * w) * Lane<V>.Load(a, row + t * w);
@@ -211,35 +208,40 @@ internal static class BlockCholesky<V>
                 (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
             }
         }
+
+        if (n >= Five)
+        {
+            BackwardFive(a, diagonal, n * w, b, at);
+        }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BackwardFive(double[] a, int g, double[] b, int at)
+    private static void BackwardFive(double[] a, int g, int stride, double[] b, int at)
     {
         int w = Lane<V>.Width;
-        g += 4 * Five * w;
+        g += 4 * stride;
         Lane<V> x4 = Lane<V>.Load(b, at + 4 * w) * Lane<V>.Load(a, g + 4 * w);
         x4.Store(b, at + 4 * w);
         Lane<V> x3 = Lane<V>.Load(b, at + 3 * w) - x4 * Lane<V>.Load(a, g + 3 * w);
         Lane<V> x2 = Lane<V>.Load(b, at + 2 * w) - x4 * Lane<V>.Load(a, g + 2 * w);
         Lane<V> x1 = Lane<V>.Load(b, at + w) - x4 * Lane<V>.Load(a, g + w);
         Lane<V> x0 = Lane<V>.Load(b, at) - x4 * Lane<V>.Load(a, g);
-        g -= Five * w;
+        g -= stride;
         x3 *= Lane<V>.Load(a, g + 3 * w);
         x3.Store(b, at + 3 * w);
         x2 -= x3 * Lane<V>.Load(a, g + 2 * w);
         x1 -= x3 * Lane<V>.Load(a, g + w);
         x0 -= x3 * Lane<V>.Load(a, g);
-        g -= Five * w;
+        g -= stride;
         x2 *= Lane<V>.Load(a, g + 2 * w);
         x2.Store(b, at + 2 * w);
         x1 -= x2 * Lane<V>.Load(a, g + w);
         x0 -= x2 * Lane<V>.Load(a, g);
-        g -= Five * w;
+        g -= stride;
         x1 *= Lane<V>.Load(a, g + w);
         x1.Store(b, at + w);
         x0 -= x1 * Lane<V>.Load(a, g);
-        (x0 * Lane<V>.Load(a, g - Five * w)).Store(b, at);
+        (x0 * Lane<V>.Load(a, g - stride)).Store(b, at);
     }
 
     // to -= M from, M m x n.

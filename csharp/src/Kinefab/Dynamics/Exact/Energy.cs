@@ -37,17 +37,14 @@ internal readonly struct Energy
         {
             int o = Batch<ScalarLane>.Body(body, 0);
             double mass = 1 / a[o + BodySlot.InverseMass];
-            Vector3d w = Impulses<ScalarLane>.AngularVelocity(batch, body);
-            for (int i = 0; i < 3; i++)
-            {
-                double v = a[o + BodySlot.V + i];
-                double acceleration = a[o + BodySlot.Acceleration + i];
-                double work = mass * acceleration * a[o + BodySlot.EndX + i];
-                _kinetic += (mass * v * v + a[o + BodySlot.L + i] * w[i]) / 2;
-                _work += work;
-                _terms += Math.Abs(work);
-                _forced += mass * acceleration * acceleration * dt * dt / 2;
-            }
+            Vector3d v = Transfer<ScalarLane>.Vector(a, o + BodySlot.V);
+            Vector3d turning = Vector3d.Scale(Transfer<ScalarLane>.Vector(a, o + BodySlot.L), Impulses<ScalarLane>.AngularVelocity(batch, body));
+            Vector3d acceleration = Transfer<ScalarLane>.Vector(a, o + BodySlot.Acceleration);
+            Vector3d work = Vector3d.Scale(mass * acceleration, Transfer<ScalarLane>.Vector(a, o + BodySlot.EndX));
+            _kinetic += (mass * v.LengthSquared + turning.X + turning.Y + turning.Z) / 2;
+            _work += work.X + work.Y + work.Z;
+            _terms += Math.Abs(work.X) + Math.Abs(work.Y) + Math.Abs(work.Z);
+            _forced += mass * acceleration.LengthSquared * dt * dt / 2;
         }
     }
 

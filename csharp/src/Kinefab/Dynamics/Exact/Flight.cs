@@ -28,9 +28,9 @@ internal static class Flight<V>
             Turn(a, o, h, batch.Shape.Spins[body]);
         }
 
-        if (batch.Laws != null)
+        foreach (int body in batch.Shape.RatedBodies)
         {
-            MeanRates(batch, h);
+            TakeMeanRate(a, Batch<V>.Body(body, 0), h);
         }
     }
 
@@ -74,16 +74,12 @@ internal static class Flight<V>
         }
     }
 
-    private static void MeanRates(Batch<V> batch, double h)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void TakeMeanRate(double[] a, int o, double h)
     {
-        double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
-        {
-            int o = Batch<V>.Body(body, 0);
-            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w) * LaneQuaternion<V>.Load(a, o + BodySlot.Q * w).Conjugate();
-            (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o + BodySlot.W * w);
-        }
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w) * LaneQuaternion<V>.Load(a, o + BodySlot.Q * w).Conjugate();
+        (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o + BodySlot.W * w);
     }
 
     /// <summary>

@@ -206,12 +206,16 @@ internal static class Impulses<V>
             Vector(batch, bodies[0], BodySlot.V), AngularVelocity(batch, bodies[0]), Vector(batch, bodies[1], BodySlot.V), AngularVelocity(batch, bodies[1]));
     }
 
-    /// <summary>Speed of such a row in the last flight.</summary>
-    public static double FlightSpeed(Batch<V> batch, int node, in ConstraintRow row)
+    /// <summary>
+    /// Speed of such a row in the last flight. J turns with the bodies: the mean of the start's and the end's gives the mean
+    /// speed to second order.
+    /// </summary>
+    public static double FlightSpeed(Batch<V> batch, int node, in ConstraintRow start, in ConstraintRow end)
     {
         int[] bodies = batch.Shape.Nodes[node].Bodies;
-        return row.Velocity(
-            Vector(batch, bodies[0], BodySlot.V), Vector(batch, bodies[0], BodySlot.W), Vector(batch, bodies[1], BodySlot.V), Vector(batch, bodies[1], BodySlot.W));
+        Vector3d v0 = Vector(batch, bodies[0], BodySlot.V), w0 = Vector(batch, bodies[0], BodySlot.W);
+        Vector3d v1 = Vector(batch, bodies[1], BodySlot.V), w1 = Vector(batch, bodies[1], BodySlot.W);
+        return (start.Velocity(v0, w0, v1, w1) + end.Velocity(v0, w0, v1, w1)) / 2;
     }
 
     /// <summary>J M^-1 J^T of such a row.</summary>
@@ -237,11 +241,8 @@ internal static class Impulses<V>
         double inverseMass = a[Batch<V>.Body(body, BodySlot.InverseMass)];
         int v = Batch<V>.Body(body, BodySlot.V);
         int l = Batch<V>.Body(body, BodySlot.L);
-        for (int i = 0; i < 3; i++)
-        {
-            a[v + i] += inverseMass * impulse * linear[i];
-            a[l + i] += impulse * angular[i];
-        }
+        Transfer<V>.Put(a, v, Transfer<V>.Vector(a, v) + inverseMass * impulse * linear);
+        Transfer<V>.Put(a, l, Transfer<V>.Vector(a, l) + impulse * angular);
     }
 
     /// <summary>Angular velocity by the momentum and the built inverse inertia, on the only lane.</summary>

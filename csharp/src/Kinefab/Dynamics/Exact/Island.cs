@@ -73,6 +73,7 @@ internal sealed class Island
         }
 
         FrozenBodies = FindFrozen(bodies, movingBodies, inverseInertias);
+        RatedBodies = FindRated(nodes, movingBodies);
         Pattern = new BlockPattern(sizes, Couplings(touching));
         Links = MakeLinks(touching, Pattern);
         IsAngular = new bool[Pattern.RowCount];
@@ -113,6 +114,9 @@ internal sealed class Island
 
     /// <summary>Moving bodies with an infinite moment of inertia.</summary>
     public int[] FrozenBodies { get; }
+
+    /// <summary>Moving bodies of joints with a law, whose mean rates in the flight the laws ask for.</summary>
+    public int[] RatedBodies { get; }
 
     /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
     public bool IsInexact { get; set; }
@@ -173,6 +177,21 @@ internal sealed class Island
         }
 
         return true;
+    }
+
+    private static int[] FindRated(Node[] nodes, int movingBodies)
+    {
+        var rated = new SortedSet<int>();
+        foreach (Node node in nodes)
+        {
+            if (node.Laws > 0)
+            {
+                rated.UnionWith(node.Bodies);
+            }
+        }
+
+        rated.RemoveWhere(body => body >= movingBodies);
+        return new List<int>(rated).ToArray();
     }
 
     private static int[] FindFrozen(int[] bodies, int movingBodies, Vector3d[] inverseInertias)

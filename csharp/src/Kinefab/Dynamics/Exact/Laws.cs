@@ -321,9 +321,7 @@ internal sealed partial class Laws<V>
 
     private double StartSpeed(in Law law) => Impulses<V>.Speed(_batch, law.Node, law.Row);
 
-    // J turns with the bodies: the mean of the start's and the end's gives the mean speed to second order.
-    private double FlightSpeed(in Law law) =>
-        (Impulses<V>.FlightSpeed(_batch, law.Node, law.Row) + Impulses<V>.FlightSpeed(_batch, law.Node, law.End)) / 2;
+    private double FlightSpeed(in Law law) => Impulses<V>.FlightSpeed(_batch, law.Node, law.Row, law.End);
 
     private double Response(in Law law) => Impulses<V>.ResponseOf(_batch, law.Node, law.Row);
 }

@@ -12,6 +12,11 @@ internal static class Impulses<V>
     public static void Apply(Batch<V> batch, double[] impulses)
     {
         int w = Lane<V>.Width;
+        if (w == 1 && batch.Work.Active[0] == 0)
+        {
+            return;
+        }
+
         Node[] nodes = batch.Shape.Nodes;
         for (int n = 0; n < nodes.Length; n++)
         {
@@ -70,8 +75,12 @@ internal static class Impulses<V>
         int at = Batch<V>.Body(body, 0);
         LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
         LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
-        LaneVector<V>.Select(active, v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force, v).Store(a, at + BodySlot.V * w);
-        LaneVector<V>.Select(active, momentum + torque, momentum).Store(a, at + BodySlot.L * w);
+        LaneVector<V> faster = v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force;
+        LaneVector<V> turned = momentum + torque;
+
+        // The only lane is active, or nothing is applied at all.
+        (w == 1 ? faster : LaneVector<V>.Select(active, faster, v)).Store(a, at + BodySlot.V * w);
+        (w == 1 ? turned : LaneVector<V>.Select(active, turned, momentum)).Store(a, at + BodySlot.L * w);
     }
 
     // The same of any rows.
@@ -122,6 +131,12 @@ internal static class Impulses<V>
             Node node = nodes[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
             int stride = 3 * node.Bodies.Length * w;
+            if (node.IsAnchor)
+            {
+                NegativeAnchorSpeeds(batch, n, node, row, areFixedMoving);
+                continue;
+            }
+
             for (int i = 0; i < node.Rows; i++)
             {
                 zero.Store(batch.Work.Solution, row + i * w);
@@ -163,6 +178,48 @@ internal static class Impulses<V>
                 }
             }
         }
+    }
+
+    // The same with the sums over both sides in registers.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void NegativeAnchorSpeeds(Batch<V> batch, int n, Node node, int row, bool areFixedMoving)
+    {
+        int w = Lane<V>.Width;
+        double[] solution = batch.Work.Solution;
+        Lane<V> zero = Lane<V>.Splat(0);
+        var sum = new LaneVector<V>(zero, zero, zero);
+        for (int i = 3; i < node.Rows; i++)
+        {
+            zero.Store(solution, row + i * w);
+        }
+
+        for (int side = 0; side < 2; side++)
+        {
+            int body = node.Bodies[side];
+            bool isMoving = body < batch.Shape.MovingBodies;
+            if (!isMoving && (!areFixedMoving || batch.Shape.IsStatic[body]))
+            {
+                continue;
+            }
+
+            int at = Batch<V>.Body(body, 0);
+            LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at + BodySlot.V * w);
+            LaneVector<V> turn = LaneVector<V>.Load(batch.Bodies, at + (isMoving ? BodySlot.L : BodySlot.W) * w);
+            double[] rows = isMoving ? batch.Work.Response : batch.Angular;
+            int o = batch.Row(n, 0, side);
+            var speed = new LaneVector<V>(
+                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o), turn),
+                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 6 * w), turn),
+                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 12 * w), turn));
+            sum -= side == 0 ? speed + v : speed - v;
+            for (int i = 3; i < node.Rows; i++)
+            {
+                Lane<V> turning = LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 6 * i * w), turn);
+                (Lane<V>.Load(solution, row + i * w) - turning).Store(solution, row + i * w);
+            }
+        }
+
+        sum.Store(solution, row);
     }
 
     /// <summary>The impulse of one row that a joint wrote, on the only lane.</summary>

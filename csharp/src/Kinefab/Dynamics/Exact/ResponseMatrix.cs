@@ -17,6 +17,8 @@ internal static class ResponseMatrix<V>
     private const double LinearShare = 1e-6;
     public const double AngularShare = 1e-3;
 
+    private const int HingeRows = 5;
+
     // Against rounding alone.
     private const double TreeShare = 1e-12;
 
@@ -188,11 +190,36 @@ internal static class ResponseMatrix<V>
         }
     }
 
-    // The same for all rows of the first node where the second is an anchor: the products of q with r x e for e = x, y, z are
-    // q x r. Of a node with itself the lower triangle (above it only what the factor does not read).
+    // The same for all rows of the first node where the second is a hinge or other anchor with two turns and nothing else. Of a
+    // node with itself what stands above the triangle is not read by the factor.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AddHingeTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, int cell)
+    {
+        double[] matrix = batch.Matrix;
+        int w = Lane<V>.Width;
+        int strideI = 3 * nodeI.Bodies.Length * w;
+        LaneVector<V> r = RigidRows<V>.BuiltLever(batch.Angular, firstJ);
+        LaneVector<V> turn3 = LaneVector<V>.Load(batch.Angular, firstJ + 18 * w);
+        LaneVector<V> turn4 = LaneVector<V>.Load(batch.Angular, firstJ + 24 * w);
+        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI, cell += HingeRows * w)
+        {
+            LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
+            (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, r)).Store(matrix, cell);
+            (Lane<V>.Load(matrix, cell + 3 * w) + LaneVector<V>.Dot(q, turn3)).Store(matrix, cell + 3 * w);
+            (Lane<V>.Load(matrix, cell + 4 * w) + LaneVector<V>.Dot(q, turn4)).Store(matrix, cell + 4 * w);
+        }
+    }
+
+    // The same for any anchor: the products of q with r x e for e = x, y, z are q x r. Of a node with itself the lower triangle.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void AddAnchorTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, Node nodeJ, int cell, bool isTriangle)
     {
+        if (nodeJ.Rows == HingeRows)
+        {
+            AddHingeTurns(batch, firstI, nodeI, firstJ, cell);
+            return;
+        }
+
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;

@@ -29,14 +29,10 @@ internal static class BlockCholesky<V>
             for (int i = 0; i < below.Length; i++)
             {
                 int x = below[i].Offset * w;
-                for (int row = 0; row < below[i].Size; row++)
-                {
-                    Forward(a, diagonal, a, x + row * n * w, n);
-                }
-
+                Forward(a, diagonal, a, x, n, below[i].Size);
                 for (int k = 0; k <= i; k++)
                 {
-                    SubtractProduct(a, column.Products[product++] * w, x, below[k].Offset * w, below[i].Size, k < i ? below[k].Size : 0, n);
+                    SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, a, below[k].Offset * w, k < i ? below[k].Size : 0, n);
                 }
             }
         }
@@ -49,10 +45,10 @@ internal static class BlockCholesky<V>
         BlockPattern.Column[] columns = pattern.Columns;
         foreach (BlockPattern.Column column in columns)
         {
-            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size);
+            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
             foreach (BlockPattern.Block block in column.Below)
             {
-                Subtract(a, block.Offset * w, block.Size, column.Size, b, column.Row * w, b, block.Row * w);
+                SubtractProduct(b, block.Row * w, column.Row * w, 1, a, block.Offset * w, block.Size, column.Size);
             }
         }
 
@@ -136,61 +132,53 @@ internal static class BlockCholesky<V>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Lane<V> InverseRoot(Lane<V> pivot) => Lane<V>.Splat(1) / Lane<V>.Sqrt(Lane<V>.Max(pivot, Lane<V>.Splat(LeastPivot)));
 
-    // C -= X Y^T, X m x n, Y k x n; with k = 0 the lower triangle of C -= X X^T.
-    private static void SubtractProduct(double[] a, int c, int x, int y, int m, int k, int n)
-    {
-        int w = Lane<V>.Width;
-        int columns = k > 0 ? k : m;
-        for (int i = 0; i < m; i++)
-        {
-            Subtract(a, y, k > 0 ? k : i + 1, n, a, x + i * n * w, a, c + i * columns * w);
-        }
-    }
-
-    // Solves G x = b in place.
-    private static void Forward(double[] a, int diagonal, double[] b, int at, int n)
+    // Solves G x = b in place, for so many b one after the other.
+    private static void Forward(double[] a, int diagonal, double[] b, int at, int n, int count)
     {
         int w = Lane<V>.Width;
         int first = 0;
         if (n >= Five)
         {
-            ForwardFive(a, diagonal, n * w, b, at);
+            ForwardFive(a, diagonal, n * w, b, at, count);
             first = Five;
         }
 
-        int row = diagonal + first * n * w;
-        for (int i = first; i < n; i++, row += n * w)
+        for (int end = at + count * n * w; first < n && at < end; at += n * w)
         {
-            Lane<V> s = Lane<V>.Load(b, at + i * w);
-            for (int t = 0; t < i * w; t += w)
+            int row = diagonal + first * n * w;
+            for (int i = first; i < n; i++, row += n * w)
             {
-                s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(b, at + t);
-            }
+                Lane<V> s = Lane<V>.Load(b, at + i * w);
+                for (int t = 0; t < i * w; t += w)
+                {
+                    s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(b, at + t);
+                }
 
-            (s * Lane<V>.Load(a, row + i * w)).Store(b, at + i * w);
+                (s * Lane<V>.Load(a, row + i * w)).Store(b, at + i * w);
+            }
         }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ForwardFive(double[] a, int g, int stride, double[] b, int at)
+    private static void ForwardFive(double[] a, int row0, int stride, double[] b, int at, int count)
     {
         int w = Lane<V>.Width;
-        Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, g);
-        x0.Store(b, at);
-        g += stride;
-        Lane<V> x1 = (Lane<V>.Load(b, at + w) - x0 * Lane<V>.Load(a, g)) * Lane<V>.Load(a, g + w);
-        x1.Store(b, at + w);
-        g += stride;
-        Lane<V> x2 = (Lane<V>.Load(b, at + 2 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w)) * Lane<V>.Load(a, g + 2 * w);
-        x2.Store(b, at + 2 * w);
-        g += stride;
-        Lane<V> x3 = (Lane<V>.Load(b, at + 3 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w))
-            * Lane<V>.Load(a, g + 3 * w);
-        x3.Store(b, at + 3 * w);
-        g += stride;
-        Lane<V> x4 = (Lane<V>.Load(b, at + 4 * w) - x0 * Lane<V>.Load(a, g) - x1 * Lane<V>.Load(a, g + w) - x2 * Lane<V>.Load(a, g + 2 * w)
-            - x3 * Lane<V>.Load(a, g + 3 * w)) * Lane<V>.Load(a, g + 4 * w);
-        x4.Store(b, at + 4 * w);
+        int row1 = row0 + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
+        for (; count > 0; count--, at += stride)
+        {
+            Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, row0);
+            x0.Store(b, at);
+            Lane<V> x1 = (Lane<V>.Load(b, at + w) - x0 * Lane<V>.Load(a, row1)) * Lane<V>.Load(a, row1 + w);
+            x1.Store(b, at + w);
+            Lane<V> x2 = (Lane<V>.Load(b, at + 2 * w) - x0 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row2 + w)) * Lane<V>.Load(a, row2 + 2 * w);
+            x2.Store(b, at + 2 * w);
+            Lane<V> x3 = (Lane<V>.Load(b, at + 3 * w) - x0 * Lane<V>.Load(a, row3) - x1 * Lane<V>.Load(a, row3 + w)
+                - x2 * Lane<V>.Load(a, row3 + 2 * w)) * Lane<V>.Load(a, row3 + 3 * w);
+            x3.Store(b, at + 3 * w);
+            Lane<V> x4 = (Lane<V>.Load(b, at + 4 * w) - x0 * Lane<V>.Load(a, row4) - x1 * Lane<V>.Load(a, row4 + w)
+                - x2 * Lane<V>.Load(a, row4 + 2 * w) - x3 * Lane<V>.Load(a, row4 + 3 * w)) * Lane<V>.Load(a, row4 + 4 * w);
+            x4.Store(b, at + 4 * w);
+        }
     }
 
     // Solves G^T x = b in place.
@@ -244,35 +232,40 @@ internal static class BlockCholesky<V>
         (x0 * Lane<V>.Load(a, g - stride)).Store(b, at);
     }
 
-    // to -= M from, M m x n.
+    // C -= X Y^T, X m x n, Y k x n; with k = 0 the lower triangle of C -= X X^T.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Subtract(double[] a, int matrix, int m, int n, double[] b, int from, double[] c, int to)
+    private static void SubtractProduct(double[] b, int c, int x, int m, double[] a, int y, int k, int n)
     {
         int w = Lane<V>.Width;
-        int t = 0;
-        if (n >= Five)
+        int columns = k > 0 ? k : m;
+        for (int i = 0; i < m; i++, x += n * w, c += columns * w)
         {
-            Lane<V> x0 = Lane<V>.Load(b, from), x1 = Lane<V>.Load(b, from + w), x2 = Lane<V>.Load(b, from + 2 * w);
-            Lane<V> x3 = Lane<V>.Load(b, from + 3 * w), x4 = Lane<V>.Load(b, from + 4 * w);
-            int row = matrix;
-            for (int i = 0; i < m * w; i += w, row += n * w)
+            int end = c + (k > 0 ? k : i + 1) * w;
+            int t = 0;
+            if (n >= Five)
             {
-                Lane<V> s = Lane<V>.Load(c, to + i);
-                s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row + w) - x2 * Lane<V>.Load(a, row + 2 * w)
-                    - x3 * Lane<V>.Load(a, row + 3 * w) - x4 * Lane<V>.Load(a, row + 4 * w);
-                s.Store(c, to + i);
+                Lane<V> x0 = Lane<V>.Load(b, x), x1 = Lane<V>.Load(b, x + w), x2 = Lane<V>.Load(b, x + 2 * w);
+                Lane<V> x3 = Lane<V>.Load(b, x + 3 * w), x4 = Lane<V>.Load(b, x + 4 * w);
+                int row = y;
+                for (int to = c; to < end; to += w, row += n * w)
+                {
+                    Lane<V> s = Lane<V>.Load(b, to);
+                    s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row + w) - x2 * Lane<V>.Load(a, row + 2 * w)
+                        - x3 * Lane<V>.Load(a, row + 3 * w) - x4 * Lane<V>.Load(a, row + 4 * w);
+                    s.Store(b, to);
+                }
+
+                t = Five;
             }
 
-            t = Five;
-        }
-
-        for (; t < n; t++)
-        {
-            Lane<V> x = Lane<V>.Load(b, from + t * w);
-            int cell = matrix + t * w;
-            for (int i = 0; i < m * w; i += w, cell += n * w)
+            for (; t < n; t++)
             {
-                (Lane<V>.Load(c, to + i) - x * Lane<V>.Load(a, cell)).Store(c, to + i);
+                Lane<V> xt = Lane<V>.Load(b, x + t * w);
+                int cell = y + t * w;
+                for (int to = c; to < end; to += w, cell += n * w)
+                {
+                    (Lane<V>.Load(b, to) - xt * Lane<V>.Load(a, cell)).Store(b, to);
+                }
             }
         }
     }

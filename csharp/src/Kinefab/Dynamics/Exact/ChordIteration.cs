@@ -85,9 +85,10 @@ internal static class ChordIteration<V>
         double[] move = batch.Work.Move;
         Lane<V> rate = Lane<V>.Splat(-1 / h);
         int length = batch.Shape.Pattern.RowCount * w;
+        double[] errors = batch.Work.Error;
         for (int i = 0; i < length; i += w)
         {
-            (rate * Lane<V>.Load(batch.Work.Error, i)).Store(d, i);
+            (rate * Lane<V>.Load(errors, i)).Store(d, i);
         }
 
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
@@ -106,14 +107,15 @@ internal static class ChordIteration<V>
         Lane<V> most = Lane<V>.Splat(MostMixing);
         Lane<V> share = Lane<V>.Min(most, Lane<V>.Max(Lane<V>.Splat(-MostMixing), product / square));
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        double[] impulses = batch.Work.First;
         for (int i = 0; i < length; i += w)
         {
             Lane<V> now = Lane<V>.Load(d, i);
             Lane<V> step = isFirst ? now : now - share * (Lane<V>.Load(move, i) + (now - Lane<V>.Load(last, i)));
             now.Store(last, i);
             step.Store(move, i);
-            Lane<V> first = Lane<V>.Load(batch.Work.First, i);
-            Lane<V>.Select(active, first + step, first).Store(batch.Work.First, i);
+            Lane<V> first = Lane<V>.Load(impulses, i);
+            Lane<V>.Select(active, first + step, first).Store(impulses, i);
         }
 
         Impulses<V>.Apply(batch, move);

@@ -140,7 +140,7 @@ internal static class ResponseMatrix<V>
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
         if (node.IsAnchor)
         {
-            AddAnchorTurns(batch, first, node, first, node, cell, true);
+            AddAnchorTurns(batch, first, node, first, node, cell);
         }
         else
         {
@@ -162,7 +162,7 @@ internal static class ResponseMatrix<V>
         int cell = link.Block * Lane<V>.Width;
         if (earlier.IsAnchor)
         {
-            AddAnchorTurns(batch, firstI, later, firstJ, earlier, cell, false);
+            AddAnchorTurns(batch, firstI, later, firstJ, earlier, cell);
         }
         else
         {
@@ -190,53 +190,36 @@ internal static class ResponseMatrix<V>
         }
     }
 
-    // The same for all rows of the first node where the second is a hinge or other anchor with two turns and nothing else. Of a
-    // node with itself what stands above the triangle is not read by the factor.
+    // The same for all rows of the first node where the second is an anchor: the products of q with r x e for e = x, y, z are
+    // q x r; the two turns of a hinge stay in registers. Of a node with itself the factor does not read what stands above the
+    // triangle.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddHingeTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, int cell)
+    private static void AddAnchorTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, Node nodeJ, int cell)
     {
-        double[] matrix = batch.Matrix;
-        int w = Lane<V>.Width;
-        int strideI = 3 * nodeI.Bodies.Length * w;
-        LaneVector<V> r = RigidRows<V>.BuiltLever(batch.Angular, firstJ);
-        LaneVector<V> turn3 = LaneVector<V>.Load(batch.Angular, firstJ + 18 * w);
-        LaneVector<V> turn4 = LaneVector<V>.Load(batch.Angular, firstJ + 24 * w);
-        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI, cell += HingeRows * w)
-        {
-            LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
-            (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, r)).Store(matrix, cell);
-            (Lane<V>.Load(matrix, cell + 3 * w) + LaneVector<V>.Dot(q, turn3)).Store(matrix, cell + 3 * w);
-            (Lane<V>.Load(matrix, cell + 4 * w) + LaneVector<V>.Dot(q, turn4)).Store(matrix, cell + 4 * w);
-        }
-    }
-
-    // The same for any anchor: the products of q with r x e for e = x, y, z are q x r. Of a node with itself the lower triangle.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddAnchorTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, Node nodeJ, int cell, bool isTriangle)
-    {
-        if (nodeJ.Rows == HingeRows)
-        {
-            AddHingeTurns(batch, firstI, nodeI, firstJ, cell);
-            return;
-        }
-
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
         int strideI = 3 * nodeI.Bodies.Length * w;
+        bool isHinge = nodeJ.Rows >= HingeRows;
         LaneVector<V> r = RigidRows<V>.BuiltLever(rows, firstJ);
-        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI)
+        LaneVector<V> turn3 = isHinge ? LaneVector<V>.Load(rows, firstJ + 18 * w) : r;
+        LaneVector<V> turn4 = isHinge ? LaneVector<V>.Load(rows, firstJ + 24 * w) : r;
+        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI, cell += nodeJ.Rows * w)
         {
             LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
             (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, r)).Store(matrix, cell);
-            cell += 3 * w;
-            int end = isTriangle ? i + 1 : nodeJ.Rows;
-            for (int j = 3; j < nodeJ.Rows; j++, cell += w)
+            int j = 3;
+            if (isHinge)
             {
-                if (j < end)
-                {
-                    (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(q, LaneVector<V>.Load(rows, firstJ + 6 * j * w))).Store(matrix, cell);
-                }
+                (Lane<V>.Load(matrix, cell + 3 * w) + LaneVector<V>.Dot(q, turn3)).Store(matrix, cell + 3 * w);
+                (Lane<V>.Load(matrix, cell + 4 * w) + LaneVector<V>.Dot(q, turn4)).Store(matrix, cell + 4 * w);
+                j = HingeRows;
+            }
+
+            for (; j < nodeJ.Rows; j++)
+            {
+                Lane<V> product = LaneVector<V>.Dot(q, LaneVector<V>.Load(rows, firstJ + 6 * j * w));
+                (Lane<V>.Load(matrix, cell + j * w) + product).Store(matrix, cell + j * w);
             }
         }
     }

@@ -24,15 +24,16 @@ internal static class StepDemand
     {
         double stiffest = 0;
         double fastest = 0;
+        double square = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = Batch<ScalarLane>.Body(body, 0);
             stiffest = Math.Max(stiffest, batch.Bodies[o + BodySlot.Stiffness]);
-            fastest = Math.Max(fastest, Impulses<ScalarLane>.AngularVelocity(batch, body).Length);
+            square = Math.Max(square, Impulses<ScalarLane>.AngularVelocity(batch, body).LengthSquared);
             Flight<ScalarLane>.SphereRate(batch.Bodies, o, batch.Shape.Spins[body]).Store(batch.Work.Fastest, 0);
             fastest = Math.Max(fastest, batch.Work.Fastest[0]);
         }
 
-        return Of(stiffest, fastest, dt);
+        return Of(stiffest, Math.Max(fastest, Math.Sqrt(square)), dt);
     }
 }

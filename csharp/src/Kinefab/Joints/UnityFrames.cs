@@ -46,7 +46,7 @@ internal static class UnityFrames
     /// <summary>
     /// x = axis, y = secondary less its part along x (Gram-Schmidt), z = x cross y: Unity takes its axes neither as of unit
     /// length nor as at right angles. A zero axis stands for the field's default, (1, 0, 0); a secondary axis that is zero or
-    /// along the axis for any perpendicular, as a HingeJoint has it: both frames start as one, so its angle starts at 0.
+    /// along the axis for <see cref="Vector3d.Perpendicular"/>, as a HingeJoint has it: both frames start as one, so its angle starts at 0.
     /// </summary>
     public static Quaterniond Axes(Vector3d axis, Vector3d secondary)
     {

@@ -68,7 +68,10 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Scale(Vector3d a, Vector3d b) => new(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
-    /// <summary>Some unit vector at right angles to a unit vector: its product with Z, or with X within 45 degrees of Z.</summary>
+    /// <summary>
+    /// A unit vector at right angles to a unit vector: the product of Z with it, or of X within 45 degrees of Z, which is the one
+    /// that Unity's Vector3.OrthoNormalize gives.
+    /// </summary>
     public static Vector3d Perpendicular(Vector3d unit) =>
         Cross(Math.Abs(unit.Z) > Math.Sqrt(0.5) ? UnitX : UnitZ, unit).Normalized();
 

@@ -1,21 +1,27 @@
 using System.Collections.Generic;
 using System.Globalization;
 using Kinefab.Diagnostics;
+using Kinefab.Dynamics.Exact;
 
 namespace Kinefab.Dynamics;
 
 /// <summary>Names the loops whose axes are a little off.</summary>
 internal static class InexactLoopCheck
 {
-    /// <param name="loops">Indices of the joints of each, see <see cref="Exact.LoopProbe"/>.</param>
+    /// <param name="loops">See <see cref="LoopProbe"/>.</param>
     /// <param name="joints">The world's.</param>
-    public static IEnumerable<Diagnostic> Of(IEnumerable<int[]> loops, WorldJoint[] joints)
+    public static IEnumerable<Diagnostic> Of(IEnumerable<InexactLoop> loops, WorldJoint[] joints)
     {
-        foreach (int[] loop in loops)
+        foreach (InexactLoop loop in loops)
         {
+            if (loop.Fit != LoopFit.Inexact)
+            {
+                continue;
+            }
+
             // Behind the scene's joints stand those that freeze positions.
             var ids = new List<string>();
-            foreach (int joint in loop)
+            foreach (int joint in loop.Joints)
             {
                 if (joint < joints.Length && !ids.Contains(joints[joint].Id))
                 {
@@ -26,7 +32,7 @@ internal static class InexactLoopCheck
             const string code = DiagnosticCodes.LoopInconsistent;
             (string Name, string Value)[] values = { ("joints", string.Join(", ", ids)) };
             DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
-            WorldJoint first = joints[loop[0]];
+            WorldJoint first = joints[loop.Joints[0]];
             string pointer = $"/gameObjects/{Text(first.GameObject)}/components/{Text(first.Component)}";
             yield return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), entry.Remedy, pointer, null, null);
         }

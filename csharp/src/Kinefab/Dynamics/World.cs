@@ -103,7 +103,7 @@ public sealed class World
         }
 
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
-        List<int[]> loops = LoopProbe.Find(builder.MultibodySystem);
+        List<InexactLoop> loops = LoopProbe.Find(builder.MultibodySystem);
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new UnitySolver(builder.MultibodySystem),

@@ -20,12 +20,13 @@ internal sealed class Batch<V>
         Shape = shape;
         Work = workspace;
         int w = Width;
-        AngularShare = shape.IsInexact ? ResponseMatrix<V>.InexactShare : ResponseMatrix<V>.AngularShare;
-        if (shape.IsInexact)
+        AngularShare = shape.Fit switch
         {
-            Compliance = new double[shape.Pattern.RowCount * w];
-        }
-
+            LoopFit.Inexact => ResponseMatrix<V>.InexactShare,
+            LoopFit.Loose => ResponseMatrix<V>.LooseShare,
+            _ => ResponseMatrix<V>.AngularShare,
+        };
+        Compliance = new double[shape.Pattern.RowCount * w];
         Members = new int[shape.Bodies.Length * w];
         JointMembers = new int[shape.Nodes.Length * w];
         Bodies = new double[shape.Bodies.Length * BodySlot.Count * w];
@@ -102,8 +103,8 @@ internal sealed class Batch<V>
     /// <summary>Share added to the diagonal of angular rows in RATTLE steps.</summary>
     public double AngularShare { get; }
 
-    /// <summary>Share times response of the rows of an inexact island.</summary>
-    public double[] Compliance { get; } = Array.Empty<double>();
+    /// <summary>What the matrix has on the diagonal above J M^-1 J^T, of rigid rows.</summary>
+    public double[] Compliance { get; }
 
     /// <summary>Step for which its angles are springs, see <see cref="SoftAngles{V}"/>; 0 where they are rigid.</summary>
     public double SoftStep { get; set; }

@@ -59,5 +59,8 @@ internal static class BodySlot
     /// <summary>Largest angular speed, rad/s.</summary>
     public const int MaxSpeed = 58;
 
-    public const int Count = 59;
+    /// <summary>Least inverse principal moment but for those of frozen axes; 0 of a body that does not turn.</summary>
+    public const int LeastInverseInertia = 59;
+
+    public const int Count = 60;
 }

@@ -15,7 +15,7 @@ internal static class ChordIteration<V>
     private const double MostMixing = 4;
 
     // An error that does not fall below this share of itself in an iteration gets no better.
-    private const double StillShare = 0.25;
+    private const double StillShare = 0.9;
 
     // Tolerances that anchors may be apart then: with the speed of a short step little changes in an iteration, closed or not.
     private const double MostGaps = 4;
@@ -77,7 +77,8 @@ internal static class ChordIteration<V>
     /// <param name="batch">Factored at the start pose, with the errors at the end pose.</param>
     /// <param name="h">Step, s.</param>
     /// <param name="isFirst">Whether no correction of the same matrix went before.</param>
-    public static void Correct(Batch<V> batch, double h, bool isFirst)
+    /// <param name="impulses">To which the move is added.</param>
+    public static void Correct(Batch<V> batch, double h, bool isFirst, double[] impulses)
     {
         int w = Lane<V>.Width;
         double[] d = batch.Work.Solution;
@@ -107,15 +108,14 @@ internal static class ChordIteration<V>
         Lane<V> most = Lane<V>.Splat(MostMixing);
         Lane<V> share = Lane<V>.Min(most, Lane<V>.Max(Lane<V>.Splat(-MostMixing), product / square));
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        double[] impulses = batch.Work.First;
         for (int i = 0; i < length; i += w)
         {
             Lane<V> now = Lane<V>.Load(d, i);
             Lane<V> step = isFirst ? now : now - share * (Lane<V>.Load(move, i) + (now - Lane<V>.Load(last, i)));
             now.Store(last, i);
             step.Store(move, i);
-            Lane<V> first = Lane<V>.Load(impulses, i);
-            Lane<V>.Select(active, first + step, first).Store(impulses, i);
+            Lane<V> sum = Lane<V>.Load(impulses, i);
+            Lane<V>.Select(active, sum + step, sum).Store(impulses, i);
         }
 
         Impulses<V>.Apply(batch, move);

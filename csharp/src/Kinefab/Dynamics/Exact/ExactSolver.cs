@@ -21,7 +21,7 @@ internal sealed class ExactSolver : ISolver
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
-    private readonly HashSet<int> _inexactJoints = new();
+    private readonly List<InexactLoop> _loops;
     private RowWatch _watch;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
@@ -34,20 +34,16 @@ internal sealed class ExactSolver : ISolver
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
-    /// <param name="inexactLoops">What <see cref="LoopProbe"/> found in it.</param>
+    /// <param name="loops">What <see cref="LoopProbe"/> found in it.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
-    public ExactSolver(MultibodySystem mechanism, List<int[]> inexactLoops, int maxWidth = int.MaxValue)
+    public ExactSolver(MultibodySystem mechanism, List<InexactLoop> loops, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
+        _loops = loops;
         _maxWidth = maxWidth;
         foreach (Joint joint in mechanism.Joints)
         {
             joint.EveryLimit = true;
-        }
-
-        foreach (int[] joints in inexactLoops)
-        {
-            _inexactJoints.UnionWith(joints);
         }
 
         Regroup();
@@ -89,7 +85,12 @@ internal sealed class ExactSolver : ISolver
         _watch = new RowWatch(rest);
         foreach (Island island in rest)
         {
-            island.IsInexact = Array.Exists(island.Nodes, node => node.Joint != null && _inexactJoints.Contains(node.Index));
+            foreach (InexactLoop loop in _loops)
+            {
+                // An island that a break has left of the one that was probed.
+                bool isPart = Array.Exists(island.Nodes, node => node.Joint != null && Array.IndexOf(loop.Joints, node.Index) >= 0);
+                island.Fit = isPart ? loop.Fit : island.Fit;
+            }
         }
 
         List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);

@@ -118,8 +118,10 @@ internal sealed class Island
     /// <summary>Moving bodies of joints with a law, whose mean rates in the flight the laws ask for.</summary>
     public int[] RatedBodies { get; }
 
-    /// <summary>Whether its loops' axes are off, so that closing them to the letter would lock it: see <see cref="LoopProbe"/>.</summary>
-    public bool IsInexact { get; set; }
+    /// <summary>How well its loops close: see <see cref="LoopProbe"/>.</summary>
+    public LoopFit Fit { get; set; }
+
+    public bool IsInexact => Fit == LoopFit.Inexact;
 
     /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
     public bool[] IsAngular { get; }
@@ -134,7 +136,7 @@ internal sealed class Island
     public bool HasShapeOf(Island other)
     {
         if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Nodes.Length != other.Nodes.Length
-            || IsInexact != other.IsInexact)
+            || Fit != other.Fit)
         {
             return false;
         }

@@ -97,7 +97,7 @@ internal sealed class IslandGroup<V> : IslandGroup
             }
 
             RattleStep<V>.Build(batch);
-            RattleStep<V>.Project(batch, dt, tolerance);
+            VelocityProjection<V>.Run(batch, dt, tolerance);
             RattleStep<V>.Accept(batch);
             Stiffness<V>.Measure(batch, batch.Half, dt / 2);
             RattleStep<V>.AddUp(batch);

@@ -265,7 +265,7 @@ internal sealed class Ladder
         _batch.Laws?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.Project(_batch, h, tolerance);
+        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance);
         Finish();
         Stiffness<ScalarLane>.Measure(_batch, _batch.Half, h / 2);
         return IsFinite();
@@ -282,7 +282,7 @@ internal sealed class Ladder
         RattleStep<ScalarLane>.Build(_batch);
         Stiffness<ScalarLane>.Measure(_batch, _batch.Work.First, h);
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.Project(_batch, 0, tolerance);
+        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance);
         Finish();
 
         // What implicit Euler leaves behind is no guess for RATTLE.

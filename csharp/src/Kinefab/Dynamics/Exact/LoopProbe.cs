@@ -25,14 +25,21 @@ internal sealed class LoopProbe
     // How far a velocity is followed, radians of the fastest body.
     private const double Way = 0.15;
 
-    // Speed of the axes against the fastest body's: below the least, files' rounding and a loop that closes as far as motion
-    // shows; above the most, a frame.
-    private const double LeastSpeed = 1e-4;
+    // Speed of the axes against the fastest body's: below the least a loop closes as far as motion shows; below the next what
+    // is off may be files' rounding, and angles held a little softer suffice; above the most it is a frame.
+    private const double LeastSpeed = 5e-8;
+    private const double LeastNamedSpeed = 1e-4;
     private const double MostSpeed = 0.04;
 
     // Share of the axes' speed that further projections leave of one that is slow by itself. Of a freedom with a rest of a
     // stiffer motion they leave less: the rest goes, and nothing but its smallness made it look slow.
     private const double LeastKept = 0.5;
+
+    // Share by which rows are taken to the letter, so that the slowest that is named is gone after so many projections, and
+    // the speed of a joint, of what it was, that is none.
+    private const double LetterShare = 1e-11;
+    private const int LetterProjections = 4;
+    private const double LeastRate = 0.01;
 
     // Error at the end of the way against that of a constant speed.
     private const double MostGrowth = 3;
@@ -58,6 +65,8 @@ internal sealed class LoopProbe
             {
                 a[o + BodySlot.InverseInertia + i] = a[o + BodySlot.InverseInertia + i] > 0 ? 1 : 0;
             }
+
+            a[o + BodySlot.LeastInverseInertia] = a[o + BodySlot.LeastInverseInertia] > 0 ? 1 : 0;
         }
 
         for (int body = island.MovingBodies; body < island.Bodies.Length; body++)
@@ -69,14 +78,17 @@ internal sealed class LoopProbe
         _batch.Work.Active[0] = 1;
     }
 
-    /// <summary>The joints of each island with such a loop, as indices into the mechanism's.</summary>
-    public static List<int[]> Find(MultibodySystem mechanism)
+    /// <summary>Each island with such a loop.</summary>
+    public static List<InexactLoop> Find(MultibodySystem mechanism)
     {
-        var found = new List<int[]>();
+        var found = new List<InexactLoop>();
         foreach (Island island in IslandFinder.Find(mechanism))
         {
-            island.IsInexact = true;
-            if (island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None) && new LoopProbe(island, mechanism).IsInexact())
+            island.Fit = LoopFit.Inexact;
+            LoopFit fit = island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None)
+                ? new LoopProbe(island, mechanism).Fit()
+                : LoopFit.Exact;
+            if (fit != LoopFit.Exact)
             {
                 var joints = new List<int>();
                 foreach (Node node in island.Nodes)
@@ -87,7 +99,7 @@ internal sealed class LoopProbe
                     }
                 }
 
-                found.Add(joints.ToArray());
+                found.Add(new InexactLoop(joints.ToArray(), fit));
             }
         }
 
@@ -113,20 +125,85 @@ internal sealed class LoopProbe
         return sum > 0 ? sum / count : 1;
     }
 
-    private bool IsInexact()
+    private LoopFit Fit()
     {
-        for (int mixture = 1; mixture <= Mixtures; mixture++)
+        var fit = LoopFit.Exact;
+        for (int mixture = 1; mixture <= Mixtures && fit != LoopFit.Inexact; mixture++)
         {
-            Flight<ScalarLane>.Stay(_batch);
-            Rebuild();
-            Start(mixture);
-            if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out _))
+            Restart(mixture);
+            if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first
+                && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
+            {
+                bool isNamed = Math.Min(first, Math.Min(speed, last)) >= LeastNamedSpeed;
+                fit = isNamed && IsHeld(mixture) ? LoopFit.Inexact : isNamed ? fit : LoopFit.Loose;
+            }
+        }
+
+        return fit;
+    }
+
+    private void Restart(int mixture)
+    {
+        Flight<ScalarLane>.Stay(_batch);
+        Rebuild();
+        Start(mixture);
+    }
+
+    // Whether the rows, taken to the letter, hold a joint that their softness lets move. In a loop that is only near a
+    // singular pose there is a slow velocity too, far along its way, but its joints move without it.
+    private bool IsHeld(int mixture)
+    {
+        Restart(mixture);
+        Allowed();
+        Allowed();
+        double[] before = Rates();
+        ResponseMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
+        _batch.Laws?.Condition(true);
+        BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
+        for (int i = 0; i < LetterProjections; i++)
+        {
+            Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+
+        double[] after = Rates();
+        for (int n = 0; n < before.Length; n++)
+        {
+            if (before[n] > LeastRate && after[n] < LeastRate * before[n])
             {
                 return true;
             }
         }
 
         return false;
+    }
+
+    // Speed of each joint: of its bodies' turn and of its anchors, against the levers' length.
+    private double[] Rates()
+    {
+        var rates = new double[_batch.Shape.Nodes.Length];
+        for (int n = 0; n < rates.Length; n++)
+        {
+            Node node = _batch.Shape.Nodes[n];
+            if (node.Joint != null)
+            {
+                Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[1]) - Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[0]);
+                rates[n] = Math.Max(turn.Length, (AnchorSpeed(n, 1) - AnchorSpeed(n, 0)).Length / _length);
+            }
+        }
+
+        return rates;
+    }
+
+    private Vector3d AnchorSpeed(int n, int side)
+    {
+        int body = _batch.Shape.Nodes[n].Bodies[side];
+        int v = Batch<ScalarLane>.Body(body, BodySlot.V);
+        int r = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
+        Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, body);
+        Vector3d speed = new(_batch.Bodies[v], _batch.Bodies[v + 1], _batch.Bodies[v + 2]);
+        return speed + Vector3d.Cross(turn, new Vector3d(_batch.Joints[r], _batch.Joints[r + 1], _batch.Joints[r + 2]));
     }
 
     private static bool IsSlow(double speed, out double same)

@@ -16,9 +16,6 @@ internal static class RattleStep<V>
     /// <summary>Iterations after which a step counts as failed.</summary>
     public const int MaxIterations = 12;
 
-    // A limit this many tolerances away counts as reached.
-    private const double LimitReach = 10;
-
     /// <summary>Kick, impulses and flight, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
     /// <param name="h">Step, s.</param>
@@ -90,13 +87,13 @@ internal static class RattleStep<V>
                 return;
             }
 
-            ChordIteration<V>.Correct(batch, h, iteration == restart);
+            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.First);
             while (isEager && batch.Laws != null && batch.Laws.ClampOutside())
             {
                 Array.Clear(batch.Work.Error, 0, batch.Work.Error.Length);
                 Factor(batch, true);
                 LetGo(batch, h, batch.Laws);
-                ChordIteration<V>.Correct(batch, h, true);
+                ChordIteration<V>.Correct(batch, h, true, batch.Work.First);
                 restart = iteration;
             }
         }
@@ -134,27 +131,6 @@ internal static class RattleStep<V>
                 PreparedRows<V>.Read(batch, n);
             }
         }
-    }
-
-    /// <summary>Second kick and projection of the momenta in the active lanes; needs the rows at the end pose.</summary>
-    public static void Project(Batch<V> batch, double h, double tolerance)
-    {
-        Kick(batch, h / 2);
-        if (batch.Laws != null)
-        {
-            ProjectWithLaws(batch, tolerance, batch.Laws);
-            return;
-        }
-
-        if (batch.Shape.IsInexact)
-        {
-            Factor(batch, false);
-        }
-
-        Impulses<V>.NegativeSpeeds(batch);
-        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
-        Copy(batch, batch.Work.Solution, batch.Half);
-        Impulses<V>.Apply(batch, batch.Half);
     }
 
     /// <summary>The end pose becomes the start pose, in all lanes.</summary>
@@ -238,44 +214,5 @@ internal static class RattleStep<V>
         }
 
         laws.ClearClamped(batch.Work.Error);
-    }
-
-    private static void ProjectWithLaws(Batch<V> batch, double tolerance, Laws<V> laws)
-    {
-        laws.BeginProjection(tolerance * LimitReach);
-        int length = batch.Shape.Pattern.RowCount;
-        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
-        {
-            Array.Clear(batch.Half, batch.Shape.Pattern.Rows[n], batch.Shape.Nodes[n].RigidRows);
-        }
-
-        for (int pass = 0; ; pass++)
-        {
-            Factor(batch, false);
-            Impulses<V>.NegativeSpeeds(batch);
-            laws.AddTargets();
-            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
-            for (int i = 0; i < length; i++)
-            {
-                batch.Half[i] += batch.Work.Solution[i];
-            }
-
-            Impulses<V>.Apply(batch, batch.Work.Solution);
-            if (!laws.UpdateProjection(pass, tolerance * LimitReach))
-            {
-                return;
-            }
-        }
-    }
-
-    private static void Copy(Batch<V> batch, double[] from, double[] to)
-    {
-        int w = Lane<V>.Width;
-        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        int length = batch.Shape.Pattern.RowCount * w;
-        for (int i = 0; i < length; i += w)
-        {
-            Lane<V>.Select(active, Lane<V>.Load(from, i), Lane<V>.Load(to, i)).Store(to, i);
-        }
     }
 }

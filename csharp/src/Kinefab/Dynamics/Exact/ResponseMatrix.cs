@@ -5,22 +5,28 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Exact;
 
 /// <summary>
-/// A = J M^-1 J^T of the built rows, regularised: a share of each diagonal is added to it, 1e-6 for rows with a linear
-/// part and 1e-3 for angular ones, so that redundant rows share their load evenly (least norm) instead of making A
-/// singular. What they are solved for is the true residual, so consistent loops still close to the tolerance. Without loops
-/// no row is redundant, and the share would only hide the slow modes of long chains.
+/// A = J M^-1 J^T of the built rows, regularised: a compliance is added to each diagonal, so that redundant rows share their
+/// load evenly (least norm) instead of making A singular: 1e-6 of it for rows with a linear part; for angular ones 1e-4 of
+/// what their bodies' largest moments would answer. 1e-3 of the diagonal, where a slender body may turn about its length,
+/// is as soft as the body's other turns are free: the iteration closes them slowly, and the projection leaves them speed.
+/// Only loops that are not exact need that softness. What the rows are solved for is the true residual, so consistent loops still
+/// close to the tolerance. Without loops no row is redundant, and the share would only hide the slow modes of long chains.
 /// </summary>
 internal static class ResponseMatrix<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps.</summary>
+    /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps: of exact loops, and of loose ones.</summary>
     private const double LinearShare = 1e-6;
-    public const double AngularShare = 1e-3;
+    public const double AngularShare = 1e-4;
+    public const double LooseShare = 1e-3;
 
     private const int HingeRows = 5;
 
     // Against rounding alone.
     private const double TreeShare = 1e-12;
+
+    // Least part of the diagonal of which an angular row gets its share: keeps the pivots of needles above rounding.
+    private const double LeastPart = 1e-5;
 
     /// <summary>The same in loops whose axes are off: softer than a misalignment, harder than a freedom.</summary>
     public const double InexactShare = 0.1;
@@ -59,7 +65,7 @@ internal static class ResponseMatrix<V>
     }
 
     /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
-    public static void Assemble(Batch<V> batch, double angularShare)
+    public static void Assemble(Batch<V> batch, double angularShare, double linearShare = LinearShare)
     {
         Array.Clear(batch.Matrix, 0, batch.Matrix.Length);
         for (int n = 0; n < batch.Shape.Nodes.Length; n++)
@@ -74,7 +80,7 @@ internal static class ResponseMatrix<V>
                 }
             }
 
-            Regularise(batch, n, node, angularShare);
+            Regularise(batch, n, node, angularShare, linearShare);
         }
 
         foreach (Island.Link link in batch.Shape.Links)
@@ -286,21 +292,28 @@ internal static class ResponseMatrix<V>
         (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
     }
 
-    private static void Regularise(Batch<V> batch, int n, Node node, double angularShare)
+    private static void Regularise(Batch<V> batch, int n, Node node, double angularShare, double linearShare)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
         int block = batch.Shape.Pattern.Diagonal(n);
+        bool isByMoment = batch.Shape.IsRedundant && batch.Shape.Fit == LoopFit.Exact;
+        Lane<V> least = Lane<V>.Splat(0);
+        for (int side = 0; side < node.Bodies.Length; side++)
+        {
+            least += Lane<V>.Load(batch.Bodies, Batch<V>.Body(node.Bodies[side], BodySlot.LeastInverseInertia));
+        }
+
         for (int i = 0; i < node.RigidRows; i++)
         {
             int cell = (block + i * (node.Rows + 1)) * w;
-            double share = !batch.Shape.IsRedundant ? TreeShare : node.Classes[i] == RowClass.Angular ? angularShare : LinearShare;
-            if (batch.Shape.IsInexact)
-            {
-                (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(share)).Store(batch.Compliance, (batch.Shape.Pattern.Rows[n] + i) * w);
-            }
-
-            (Lane<V>.Load(matrix, cell) * Lane<V>.Splat(1 + share)).Store(matrix, cell);
+            bool isAngular = node.Classes[i] == RowClass.Angular;
+            Lane<V> response = Lane<V>.Load(matrix, cell);
+            Lane<V> slow = isByMoment && isAngular ? Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response) : response;
+            double share = !batch.Shape.IsRedundant ? TreeShare : isAngular ? angularShare : linearShare;
+            Lane<V> compliance = Lane<V>.Splat(share) * slow;
+            compliance.Store(batch.Compliance, (batch.Shape.Pattern.Rows[n] + i) * w);
+            (response + compliance).Store(matrix, cell);
         }
     }
 }

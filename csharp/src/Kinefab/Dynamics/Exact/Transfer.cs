@@ -33,6 +33,7 @@ internal static class Transfer<V>
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
             batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
+            batch.Bodies[Batch<V>.Body(b, BodySlot.LeastInverseInertia) + lane] = Least(inverse, most);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
             Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);
             if (isMoving)
@@ -271,6 +272,17 @@ internal static class Transfer<V>
         LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
         LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodySlot.W * w));
         q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodySlot.Inertia * w), inBody)).Store(a, o + BodySlot.L * w);
+    }
+
+    private static double Least(Vector3d inverse, double most)
+    {
+        double least = most;
+        for (int i = 0; i < 3; i++)
+        {
+            least = inverse[i] > 0 ? Math.Min(least, inverse[i]) : least;
+        }
+
+        return least;
     }
 
     private static double OrNone(double inverse) => inverse > 0 ? 1 / inverse : 0;

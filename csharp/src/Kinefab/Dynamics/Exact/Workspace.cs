@@ -35,6 +35,7 @@ internal sealed class Workspace<V>
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
         Fastest = new double[w];
+        Left = new double[w];
         Reaction = new double[6 * w];
         Rows = shape.HasPreparedRows ? new ConstraintRow[Joint.MaxRows] : Array.Empty<ConstraintRow>();
     }
@@ -83,6 +84,9 @@ internal sealed class Workspace<V>
 
     /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
     public double[] Fastest { get; }
+
+    /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
+    public double[] Left { get; }
 
     /// <summary>Force and torque of one joint.</summary>
     public double[] Reaction { get; }

@@ -19,12 +19,12 @@ internal sealed class LoopRobustnessTests
     private const int Steps = 25;
     private const double MostOpen = 1e-8;
 
-    // Of what is there at the start, what gravity can add and what the motors can do.
-    // A light body on a short lever turns far within one step from rest: the error of the rule, which goes with the step.
-    private const double MostGain = 0.3;
+    // Speed across its axis that a step may leave a hinge, by the step, rad/s^2: gravity gives some ten.
+    private const double MostAcross = 1;
 
-    // Where Exact gains more, once to three times the sum. To be emptied.
-    private static readonly int[] GainShows = { 628, 745, 1456 };
+    // Of what is there at the start, what gravity can add and what the motors can do. Above 0.006 in four loops, in the first
+    // step: a spring too stiff for it is spent before the flight, and what the other forces give after it shows as speed.
+    private const double MostGain = 0.08;
 
     // Of the loops; some meet limits that contradict each other.
     private const double MostStops = 0.05;
@@ -51,7 +51,13 @@ internal sealed class LoopRobustnessTests
                 solver.Step(dt);
                 loop.MotorWork();
                 double gain = MechanismMeasures.Energy(m) - start;
-                if (m.Stops == 0 && loop.Ground == Joint.World && !GainShows.Contains(seed))
+                double across = Across(m) / dt;
+                if (m.Stops == 0 && !(across <= MostAcross))
+                {
+                    faults.Enqueue($"seed {seed}: hinges turn across their axes, {across} rad/s^2");
+                }
+
+                if (m.Stops == 0 && loop.Ground == Joint.World)
                 {
                     gains.Add(((gain - loop.Work) / (MechanismMeasures.FallEnergy(m, i * dt) + loop.Work), seed));
                 }
@@ -173,9 +179,6 @@ internal sealed class LoopRobustnessTests
         Assert.That(faults, Is.Empty);
     }
 
-    // Where the order still shows: a motor, a spring or a gear meets a cut step, 1e-7 to 1e-5 m. To be emptied.
-    private static readonly int[] OrderShows = { 27, 99, 139, 273 };
-
     [Test]
     public void Step_ExactInRandomLoopsInAnotherOrder_SameMotion()
     {
@@ -209,7 +212,7 @@ internal sealed class LoopRobustnessTests
                 most = Math.Max(most, (one.Bodies.Poses[i].Position - other.Bodies.Poses[places[i]].Position).Length);
             }
 
-            if (!(most <= 1e-9) && !OrderShows.Contains(seed))
+            if (!(most <= 1e-9))
             {
                 faults.Enqueue($"seed {seed}: {most} m");
             }
@@ -240,4 +243,23 @@ internal sealed class LoopRobustnessTests
     // Largest gap of the joints that hold.
     private static double Open(MultibodySystem m) =>
         MechanismMeasures.Drift(new MultibodySystem(m.Bodies, m.Joints.Where(j => !j.IsBroken).ToArray(), Array.Empty<Coupling>()));
+
+    // Largest speed of a hinge's bodies against each other but about its axis, rad/s.
+    private static double Across(MultibodySystem m)
+    {
+        double most = 0;
+        foreach (Joint joint in m.Joints)
+        {
+            if (joint is RevoluteJoint && !joint.IsBroken)
+            {
+                Vector3d turn = Turn(joint.Body1) - Turn(joint.Body0);
+                Vector3d axis = m.Bodies.PoseOf(joint.Body0).Rotation * (joint.Frame0.Rotation * Vector3d.UnitX);
+                most = Math.Max(most, Vector3d.Cross(axis, turn).Length);
+            }
+        }
+
+        return most;
+
+        Vector3d Turn(int body) => body == Joint.World ? Vector3d.Zero : m.Bodies.AngularVelocities[body];
+    }
 }

@@ -79,6 +79,12 @@ internal struct Law
     /// <summary>Impulse of a spring at v = 0.</summary>
     public double Rest;
 
+    /// <summary>By how much a spring that the step is too long to follow holds its speed at the flight's, see <see cref="SpringAnswer"/>.</summary>
+    public double Grip;
+
+    /// <summary>That speed, by the impulse that the spring gave at it; NaN of one at its limit.</summary>
+    public double Held;
+
     /// <summary>Bounds of the whole step's impulse.</summary>
     public double Low;
     public double High;
@@ -115,10 +121,10 @@ internal struct Law
         return Row.Has(RowFlags.Limit) ? LawKind.HardLimit : LawKind.Motor;
     }
 
-    /// <summary>What the matrix is to have of it; springs act in the flight, not in the projection.</summary>
-    public readonly Hold HoldIn(bool isFlight) =>
+    /// <summary>What the matrix is to have of it.</summary>
+    public readonly Hold HoldIn() =>
         Segment == Segment.Clamped || !IsWritten ? Hold.None
-        : Kind == LawKind.Spring && isFlight ? Hold.Compliant
+        : Kind == LawKind.Spring ? Hold.Compliant
         : Hold.Rigid;
 
     /// <param name="h">Step, s.</param>
@@ -143,6 +149,7 @@ internal struct Law
         // follow the spring, its share goes from the midpoint's towards implicit Euler's, so that it decays and does not ring.
         double z = h * (d + h * k) * response;
         Theta = isImplicit ? 1 : z < 1 ? 0.5 : 1 - 0.5 / z;
+        Grip = isImplicit || z <= 1 ? 0 : (z * z - 1) / response;
         Gamma = h * (d + Theta * h * k);
         Rest = h * (d * Row.VelocityTarget - k * C0);
     }

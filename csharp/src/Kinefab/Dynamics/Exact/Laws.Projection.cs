@@ -25,6 +25,7 @@ internal sealed partial class Laws<V>
             {
                 case LawKind.Spring:
                     SetSecond(ref law, law.First * (1 - law.Theta) / law.Theta);
+                    law.Held = law.Segment == Segment.Sloped ? (law.Rest - law.First / law.Theta) / law.Gamma : double.NaN;
                     law.Segment = Segment.Clamped;
                     break;
                 case LawKind.Motor:
@@ -104,9 +105,52 @@ internal sealed partial class Laws<V>
         return isChanged;
     }
 
-    // Newton's law of impact: the speed after a stop against the speed before the step, above the threshold alone.
+    /// <summary>Lets springs answer in the projected momenta; false when none has to.</summary>
+    public bool BeginAnswer()
+    {
+        bool isAny = false;
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            if (law.IsWritten && law.Kind == LawKind.Spring && law.Grip > 0 && !double.IsNaN(law.Held))
+            {
+                law.Segment = Segment.Sloped;
+                isAny = true;
+            }
+        }
+
+        return isAny;
+    }
+
+    /// <summary>Takes from the right-hand side what the springs have answered so far.</summary>
+    public void TakeAnswers(double[] answers)
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            bool isAnswer = law.Kind == LawKind.Spring && law.Segment == Segment.Sloped;
+            _batch.Work.Solution[law.Index] -= isAnswer ? answers[law.Index] / law.Grip : 0;
+        }
+    }
+
+    /// <summary>Takes the springs out again, as a projection leaves them.</summary>
+    public void EndAnswer()
+    {
+        for (int i = 0; i < _laws.Length; i++)
+        {
+            ref Law law = ref _laws[i];
+            law.Segment = law.Kind == LawKind.Spring ? Segment.Clamped : law.Segment;
+        }
+    }
+
+    // A spring that answers holds the flight's speed. Newton's law of impact: the speed after a stop against the speed before the step, above the threshold alone.
     private static double Target(in Law law)
     {
+        if (law.Kind == LawKind.Spring)
+        {
+            return law.Held;
+        }
+
         if (law.Kind != LawKind.HardLimit)
         {
             return law.Row.VelocityTarget;

@@ -78,7 +78,7 @@ internal sealed partial class Laws<V>
         bool isFactored = _isFactored;
         for (int i = 0; i < _laws.Length && isFactored; i++)
         {
-            isFactored = _laws[i].Hold != Hold.Compliant && _laws[i].HoldIn(true) == _laws[i].Hold;
+            isFactored = _laws[i].Hold != Hold.Compliant && _laws[i].HoldIn() == _laws[i].Hold;
         }
 
         return isFactored;
@@ -293,7 +293,7 @@ internal sealed partial class Laws<V>
     }
 
     /// <summary>The laws' part of the diagonal of the assembled matrix.</summary>
-    /// <param name="isFlight">Springs act in the flight, not in the projection.</param>
+    /// <param name="isFlight">Springs act in the flight; after it they answer alone.</param>
     public void Condition(bool isFlight)
     {
         for (int i = 0; i < _laws.Length; i++)
@@ -301,7 +301,7 @@ internal sealed partial class Laws<V>
             ref Law law = ref _laws[i];
             Node node = _batch.Shape.Nodes[law.Node];
             int cell = _batch.Shape.Pattern.Diagonal(law.Node) + law.NodeRow * (node.Rows + 1);
-            law.Hold = law.HoldIn(isFlight);
+            law.Hold = law.HoldIn();
             switch (law.Hold)
             {
                 case Hold.None:
@@ -311,7 +311,7 @@ internal sealed partial class Laws<V>
                     _batch.Matrix[cell] *= 1 + HeldShare;
                     break;
                 default:
-                    _batch.Matrix[cell] += 1 / (law.Theta * law.Gamma);
+                    _batch.Matrix[cell] += 1 / (isFlight ? law.Theta * law.Gamma : law.Grip);
                     break;
             }
         }

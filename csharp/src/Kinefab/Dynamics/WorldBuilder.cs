@@ -15,11 +15,8 @@ internal sealed class WorldBuilder
 
     private readonly ValidScene _scene;
 
-    // Body of each GameObject; -1 for one without a Rigidbody or inactive.
-    private readonly int[] _bodyOf;
-    private readonly List<Kinefab.Joints.Joint> _joints = new();
-    private readonly List<Document.Joint> _settings = new();
-    private readonly List<JointPlace> _places = new();
+    private readonly MechanismDefinition _definition;
+    private readonly List<Kinefab.Joints.Joint> _joints;
 
     /// <summary>Bodies and joints of a scene.</summary>
     /// <param name="scene">What to make them from.</param>
@@ -27,17 +24,17 @@ internal sealed class WorldBuilder
     public WorldBuilder(ValidScene scene, bool locksAsJoints)
     {
         _scene = scene;
-        _bodyOf = new int[scene.Document.GameObjects.Count];
-        bool[] active = Active();
-        List<int> objects = MakeBodies(active, out Bodies bodies);
-        MakeJoints(active, bodies);
+        _definition = MechanismDefinition.From(scene);
+        int[] objects = _definition.GameObjects;
+        var bodies = new Bodies(Array.ConvertAll(objects, i => Define(scene.Body(i)!, scene.WorldTransform(i).Pose)));
+        _joints = new List<Kinefab.Joints.Joint>(_definition.MakeJoints(scene, bodies.Poses));
         if (locksAsJoints)
         {
             MakeLocks(bodies);
         }
 
         MultibodySystem = new MultibodySystem(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
-        Bodies = new WorldBody[objects.Count];
+        Bodies = new WorldBody[objects.Length];
         for (int i = 0; i < Bodies.Length; i++)
         {
             int gameObject = objects[i];
@@ -45,14 +42,16 @@ internal sealed class WorldBuilder
             Bodies[i] = new WorldBody(bodies, i, gameObject, scene.Document.GameObjects[gameObject], body, MassFrame(body));
         }
 
-        Joints = new WorldJoint[_settings.Count];
+        Joints = new WorldJoint[_definition.Joints.Count];
         for (int i = 0; i < Joints.Length; i++)
         {
-            Joints[i] = _settings[i] switch
+            JointDefinition joint = _definition.Joints[i];
+            var place = new JointPlace(joint.GameObject, joint.Component, scene.Document.GameObjects[joint.GameObject].Id);
+            Joints[i] = joint.Source switch
             {
-                HingeJoint hinge => new WorldHingeJoint(MultibodySystem, i, _places[i], hinge),
-                ConfigurableJoint configurable => new WorldConfigurableJoint(MultibodySystem, i, _places[i], configurable),
-                _ => new WorldFixedJoint(MultibodySystem, i, _places[i]),
+                HingeJoint hinge => new WorldHingeJoint(MultibodySystem, i, place, hinge),
+                ConfigurableJoint configurable => new WorldConfigurableJoint(MultibodySystem, i, place, configurable),
+                _ => new WorldFixedJoint(MultibodySystem, i, place),
             };
         }
     }
@@ -62,37 +61,6 @@ internal sealed class WorldBuilder
     public WorldBody[] Bodies { get; }
 
     public WorldJoint[] Joints { get; }
-
-    private bool[] Active()
-    {
-        IReadOnlyList<GameObject> objects = _scene.Document.GameObjects;
-        var active = new bool[objects.Count];
-        for (int i = 0; i < active.Length; i++)
-        {
-            active[i] = objects[i].Active && (objects[i].Parent is not int parent || active[parent]);
-        }
-
-        return active;
-    }
-
-    private List<int> MakeBodies(bool[] active, out Bodies bodies)
-    {
-        var objects = new List<int>();
-        var definitions = new List<BodyDefinition>();
-        for (int i = 0; i < active.Length; i++)
-        {
-            _bodyOf[i] = -1;
-            if (active[i] && _scene.Body(i) is Rigidbody body)
-            {
-                _bodyOf[i] = objects.Count;
-                objects.Add(i);
-                definitions.Add(Define(body, _scene.WorldTransform(i).Pose));
-            }
-        }
-
-        bodies = new Bodies(definitions.ToArray());
-        return objects;
-    }
 
     // The centre of mass is given in metres along the object's axes, whatever its scale (ScriptReference, Rigidbody.centerOfMass).
     private static Pose MassFrame(Rigidbody body) => new(body.CenterOfMass, body.InertiaTensorRotation.Normalized());
@@ -130,23 +98,6 @@ internal sealed class WorldBuilder
 
     private static bool Frozen(RigidbodyConstraints constraints, RigidbodyConstraints one) => (constraints & one) != 0;
 
-    private void MakeJoints(bool[] active, Bodies bodies)
-    {
-        IReadOnlyList<GameObject> objects = _scene.Document.GameObjects;
-        for (int i = 0; i < objects.Count; i++)
-        {
-            for (int c = 0; active[i] && c < objects[i].Components.Count; c++)
-            {
-                if (objects[i].Components[c] is Document.Joint settings)
-                {
-                    _joints.Add(MakeJoint(settings, i, bodies));
-                    _settings.Add(settings);
-                    _places.Add(new JointPlace(i, c, objects[i].Id));
-                }
-            }
-        }
-    }
-
     // They stand behind the scene's joints, so that those keep their indices. Actor 0 is the world: its axes do not turn.
     private void MakeLocks(Bodies bodies)
     {
@@ -172,14 +123,6 @@ internal sealed class WorldBuilder
 
     private static AxisMotion Locked(BodyLocks locks, BodyLocks one) => (locks & one) != 0 ? AxisMotion.Locked : AxisMotion.Free;
 
-    // An inactive connected body has left the simulation: the joint holds to the world where it stands.
-    private Kinefab.Joints.Joint MakeJoint(Document.Joint settings, int gameObject, Bodies bodies)
-    {
-        int own = _bodyOf[gameObject];
-        int other = settings.ConnectedBody is int body ? _bodyOf[body] : Kinefab.Joints.Joint.World;
-        return SceneJoint.Make(_scene, gameObject, settings, own, bodies.PoseOf(own), other, bodies.PoseOf(other));
-    }
-
     private Kinefab.Joints.Coupling[] MakeCouplings(Bodies bodies)
     {
         var couplings = new List<Kinefab.Joints.Coupling>();
@@ -203,7 +146,7 @@ internal sealed class WorldBuilder
     /// <summary>Null when the joint's object is inactive.</summary>
     private Kinefab.Joints.JointCoordinate? Find(Document.JointCoordinate coordinate)
     {
-        int index = _places.FindIndex(p => p.GameObject == coordinate.GameObject && p.Component == coordinate.Component);
+        int index = _definition.IndexOf(coordinate.GameObject, coordinate.Component);
         if (index < 0)
         {
             return null;
@@ -212,6 +155,6 @@ internal sealed class WorldBuilder
         CoordinateAxis axis = coordinate.Coordinate == Coordinate.Angle
             ? CoordinateAxis.AngularX
             : (CoordinateAxis)(coordinate.Coordinate - Coordinate.X);
-        return new Kinefab.Joints.JointCoordinate(_joints[index], axis, UnityJoints.CoordinateSign(_settings[index]));
+        return new Kinefab.Joints.JointCoordinate(_joints[index], axis, UnityJoints.CoordinateSign(_definition.Joints[index].Source));
     }
 }

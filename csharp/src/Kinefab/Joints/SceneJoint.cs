@@ -9,24 +9,23 @@ internal static class SceneJoint
 {
     /// <summary>The joint with its bodies and frames.</summary>
     /// <param name="scene">At its start-up poses.</param>
-    /// <param name="gameObject">The object that carries the component.</param>
-    /// <param name="settings">The component.</param>
-    /// <param name="own">The body it stands on.</param>
-    /// <param name="ownStart">That body's frame in the world.</param>
-    /// <param name="connected">The connected body, or Joint.World.</param>
-    /// <param name="connectedStart">That body's frame in the world; the identity for the world.</param>
-    public static Joint Make(ValidScene scene, int gameObject, Document.Joint settings, int own, in Pose ownStart, int connected, in Pose connectedStart)
+    /// <param name="definition">The component and the bodies at its ends.</param>
+    /// <param name="starts">For each body its frame in the world at start-up.</param>
+    public static Joint Make(ValidScene scene, in JointDefinition definition, Pose[] starts)
     {
+        Document.Joint settings = definition.Source;
         WorldTransform? other = settings.ConnectedBody is int index ? scene.WorldTransform(index) : null;
-        Pose world = UnityFrames.Own(settings, scene.WorldTransform(gameObject));
-        Pose ownFrame = ownStart.Inverse() * world;
-        Pose connectedFrame = connectedStart.Inverse() * UnityFrames.Connected(settings, world, other);
+        Pose world = UnityFrames.Own(settings, scene.WorldTransform(definition.GameObject));
+        Pose ownFrame = Start(definition.Own, starts).Inverse() * world;
+        Pose connectedFrame = Start(definition.Connected, starts).Inverse() * UnityFrames.Connected(settings, world, other);
         bool swap = settings is ConfigurableJoint { SwapBodies: true };
         Joint joint = UnityJoints.Create(settings);
-        joint.Body0 = swap ? connected : own;
-        joint.Body1 = swap ? own : connected;
+        joint.Body0 = swap ? definition.Connected : definition.Own;
+        joint.Body1 = swap ? definition.Own : definition.Connected;
         joint.Frame0 = swap ? connectedFrame : ownFrame;
         joint.Frame1 = swap ? ownFrame : connectedFrame;
         return joint;
     }
+
+    private static Pose Start(int body, Pose[] starts) => body < 0 ? Pose.Identity : starts[body];
 }

@@ -45,10 +45,10 @@ public sealed class Mechanism
 
         var isClosure = new List<bool>();
         var joints = new List<Joint>();
-        foreach (JointDefinition joint in definition.Joints)
+        foreach (Joint joint in definition.MakeJoints(scene, _start))
         {
-            isClosure.Add(joint.Source.Closure);
-            joints.Add(PositionJoint.From(joint.Joint));
+            isClosure.Add(definition.Joints[joints.Count].Source.Closure);
+            joints.Add(PositionJoint.From(joint));
         }
 
         for (int i = 0; i < GameObjects.Length; i++)

@@ -14,11 +14,9 @@ internal static class MechanismCoordinates
     public static MechanismCoordinate[] Of(MechanismDefinition definition, Joint[] joints, IReadOnlyList<Coupling> couplings)
     {
         var coordinates = new List<MechanismCoordinate>();
-        var byPlace = new Dictionary<(int GameObject, int Component), int>();
         for (int j = 0; j < definition.Joints.Count; j++)
         {
             JointDefinition source = definition.Joints[j];
-            byPlace.Add((source.GameObject, source.Component), j);
             int locked = FreeTwists.LockedAxes(joints[j]);
             for (int axis = 0; axis < 6; axis++)
             {
@@ -44,8 +42,8 @@ internal static class MechanismCoordinates
         void AddLocked(JointCoordinate place)
         {
             int axis = place.Coordinate == Coordinate.Angle ? (int)CoordinateAxis.AngularX : place.Coordinate - Coordinate.X;
-            bool isThere = byPlace.TryGetValue((place.GameObject, place.Component), out int j);
-            if (isThere && (FreeTwists.LockedAxes(joints[j]) & (1 << axis)) != 0 && added.Add((j, axis)))
+            int j = definition.IndexOf(place.GameObject, place.Component);
+            if (j >= 0 && (FreeTwists.LockedAxes(joints[j]) & (1 << axis)) != 0 && added.Add((j, axis)))
             {
                 coordinates.Add(Make(definition.Joints[j], joints[j], j, axis, isLocked: true));
             }

@@ -35,6 +35,7 @@ bench: setup tool ## the measured figures of the README
 	$(PYTHON) python/bench/analyse_bench.py
 	dotnet run -c Release --project csharp/bench -- load
 	dotnet run -c Release --project csharp/bench -- drive
+	dotnet run -c Release --project csharp/bench -- mobility
 
 golden: setup ## write the golden scenes of fixtures anew; read the difference before you commit it
 	$(PYTHON) tests/python/golden.py

@@ -82,7 +82,7 @@ internal static class DriveScenes
         }
     }
 
-    private static SceneDocument Chain(int bars)
+    internal static SceneDocument Chain(int bars)
     {
         var scene = new PlanarScene();
         int? previous = null;
@@ -94,30 +94,5 @@ internal static class DriveScenes
         }
 
         return scene.Document();
-    }
-
-    /// <summary>Bodies at the origin, so that anchors are world points.</summary>
-    private sealed class PlanarScene
-    {
-        private readonly List<List<Component>> bodies = [];
-
-        internal int Body()
-        {
-            bodies.Add([new Rigidbody()]);
-            return bodies.Count - 1;
-        }
-
-        internal void Hinge(int own, int? connected, Vector3d point, bool closure = false) =>
-            Add(own, new HingeJoint { ConnectedBody = connected, Anchor = point, Axis = Vector3d.UnitZ, Closure = closure });
-
-        internal void Add(int own, Component joint) => bodies[own].Add(joint);
-
-        internal SceneDocument Document()
-        {
-            var objects = new List<GameObject>();
-            for (int i = 0; i < bodies.Count; i++)
-                objects.Add(new GameObject { Id = $"b{i}", Name = $"b{i}", Components = bodies[i].ToArray() });
-            return new SceneDocument { GameObjects = objects };
-        }
     }
 }

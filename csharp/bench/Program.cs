@@ -4,13 +4,14 @@ using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|solver|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|mobility|solver|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
     {
         ["drive"] = Tables.Drive,
         ["load"] = Tables.Load,
+        ["mobility"] = Tables.Mobility,
         ["solver"] = Tables.Solver,
     };
 

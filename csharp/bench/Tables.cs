@@ -25,6 +25,18 @@ internal static class Tables
         return Table(summary) + $"\nGrowth of a chain's time from 10 to 1000 bars: exponent {exponent}.\n";
     }
 
+    /// <summary>With the growth of each kind's time from the smaller scene to the larger one.</summary>
+    internal static string Mobility()
+    {
+        Summary summary = Run<MobilityBenchmark>(Job.Dry.WithWarmupCount(5).WithIterationCount(5));
+        string exponents = string.Join(", ", MobilityScenes.Kinds.Keys.Select(kind =>
+        {
+            double[] least = summary.Reports.Where(r => (string)r.BenchmarkCase.Parameters["Scene"] == kind).Select(r => r.ResultStatistics!.Min).Order().ToArray();
+            return string.Create(CultureInfo.InvariantCulture, $"{kind} {Math.Log(least[1] / least[0]) / Math.Log(MobilityScenes.Growth):F2}");
+        }));
+        return Table(summary) + $"\nGrowth of the least time with the number of joints, exponents: {exponents}.\n";
+    }
+
     internal static string Load()
     {
         // One call takes a third of a second: enough for a measurement, too long for many.

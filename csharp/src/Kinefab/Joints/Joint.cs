@@ -64,6 +64,15 @@ internal abstract class Joint
     /// <summary>A broken joint has no rows.</summary>
     public bool IsBroken;
 
+    /// <summary>A copy of the joint between other bodies.</summary>
+    public Joint Between(int body0, int body1)
+    {
+        var copy = (Joint)MemberwiseClone();
+        copy.Body0 = body0;
+        copy.Body1 = body1;
+        return copy;
+    }
+
     /// <summary>
     /// Writes the joint's rows at the given poses of its bodies' centres of mass and returns their number; a pure
     /// function of its arguments and the joint's fields. Rows come in PhysX's order of emission. World's pose is the identity.

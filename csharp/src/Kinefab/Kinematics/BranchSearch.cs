@@ -35,7 +35,7 @@ internal sealed class BranchSearch
         _mechanism = mechanism;
         _newton = newton;
         _singular = singular;
-        _blocks = new LoopBlocks(mechanism, newton.Firsts, newton.Motion.Linear.Length);
+        _blocks = new LoopBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
     }
 
     /// <summary>All branches found, the straightest first, then those on which most joints move, then those that change least.</summary>
@@ -119,7 +119,7 @@ internal sealed class BranchSearch
     // Mixtures of the velocities of all blocks that a driven coordinate stands in, as long as the driven step asks for.
     private List<double[]> Starts(MechanismState at, ReadOnlySpan<int> driven, ReadOnlySpan<double> step)
     {
-        var space = new VelocitySpace(_mechanism, _newton, _blocks, at);
+        var space = new VelocitySpace(_mechanism.Linkage, _newton, _blocks, at);
         int first = 0;
         for (int i = 1; i < driven.Length; i++)
         {
@@ -131,13 +131,10 @@ internal sealed class BranchSearch
         var rates = new List<double>();
         _newton.Equations.Evaluate(driven[first], at.Poses, at.Values, out ConstraintRow row);
         int joint = _mechanism.Coordinates[driven[first]].Joint;
-        foreach ((int block, double[] vector) in space.Basis)
+        foreach (double[] vector in space.Basis)
         {
-            if (block >= 0)
-            {
-                vectors.Add(vector);
-                rates.Add(_newton.Equations.Rate(joint, row, at.Poses, vector));
-            }
+            vectors.Add(vector);
+            rates.Add(_newton.Equations.Rate(joint, row, at.Poses, vector));
         }
 
         var starts = new List<double[]>();

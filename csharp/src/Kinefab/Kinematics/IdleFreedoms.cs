@@ -5,67 +5,66 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else: a rod's spin between its balls. In a
+/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else: a rod's spin between its two balls. In a
 /// single loop: of bodies that turn in it as one.
 /// </summary>
-internal static class IdleFreedoms
+internal sealed class IdleFreedoms
 {
     private const double LeastMotion = 1e-6;
 
-    /// <summary>
-    /// Of the velocities at one pose, loop by loop; a free end of a chain is no loop, and not idle. Where these are more than
-    /// the <paramref name="finite"/> motions, those some steps away are looked at: there no part seems to move alone that cannot.
-    /// </summary>
-    public static List<IdleFreedom> Of(Mechanism mechanism, VelocitySpace here, VelocitySpace away, int[] finite)
+    private readonly Mechanism _mechanism;
+    private readonly DisjointSets _rigid;
+    private readonly Dictionary<int, SortedSet<int>> _neighbours;
+    private readonly Dictionary<int, List<int>> _members = new();
+
+    /// <summary>Finds which bodies of a mechanism stand beside which.</summary>
+    public IdleFreedoms(Mechanism mechanism)
     {
-        var idle = new List<IdleFreedom>();
-        DisjointSets rigid = RigidGroups(mechanism);
-        Dictionary<int, SortedSet<int>> neighbours = Neighbours(mechanism, rigid);
-        for (int block = 0; block < finite.Length; block++)
+        _mechanism = mechanism;
+        _rigid = RigidGroups(mechanism);
+        _neighbours = Neighbours(mechanism, _rigid);
+        foreach (int body in mechanism.Tree.Order)
         {
-            VelocitySpace space = here.Blocks.Columns[block].Count - here.Ranks[block] == finite[block] ? here : away;
-            if (space.Blocks.Columns[block].Count - space.Ranks[block] != finite[block])
+            int group = _rigid.Find(body);
+            if (!_members.TryGetValue(group, out List<int>? members))
             {
-                continue;
+                _members.Add(group, members = new List<int>());
             }
 
-            var motions = new List<double[]>();
-            foreach ((int of, double[] vector) in space.Basis)
-            {
-                if (of == block)
-                {
-                    motions.Add(vector);
-                }
-            }
+            members.Add(mechanism.GameObjects[body]);
+        }
+    }
 
-            List<int> groups = GroupsOf(mechanism, space, rigid, block);
-            if (motions.Count < 2 || groups.Count < 2)
-            {
-                continue;
-            }
-
-            List<List<int>> legs = Legs(groups, neighbours);
-            if (legs.Count == 1)
-            {
-                foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(mechanism, groups, neighbours, motions, space))
-                {
-                    idle.Add(new IdleFreedom(GameObjects(mechanism, rigid, turning), count));
-                }
-
-                continue;
-            }
-
-            foreach (List<int> leg in legs)
-            {
-                int count = motions.Count - RankWithout(leg, groups, motions, space);
-                if (count > 0)
-                {
-                    idle.Add(new IdleFreedom(GameObjects(mechanism, rigid, leg), count));
-                }
-            }
+    /// <summary>Of one block's velocities; a free end of a chain is no loop, and not idle.</summary>
+    /// <param name="loop">What the block can do.</param>
+    /// <param name="movers">The bodies that have freedoms in it.</param>
+    public IEnumerable<IdleFreedom> Of(LoopMobility loop, IReadOnlyList<int> movers)
+    {
+        if (loop.Motions is null || loop.Finite < 2 || movers.Count < 2)
+        {
+            yield break;
         }
 
-        return idle;
+        var motions = new LoopMotions(loop, loop.Motions, movers, _rigid);
+        List<List<int>> legs = Legs(motions.Groups, _neighbours);
+        if (legs.Count == 1)
+        {
+            foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(motions, _neighbours))
+            {
+                yield return new IdleFreedom(GameObjects(turning), count);
+            }
+
+            yield break;
+        }
+
+        foreach (List<int> leg in legs)
+        {
+            int count = motions.Count - RankWithout(leg, motions);
+            if (count > 0)
+            {
+                yield return new IdleFreedom(GameObjects(leg), count);
+            }
+        }
     }
 
     // Bodies that a tree joint without freedoms holds to their parent are one.
@@ -112,21 +111,6 @@ internal static class IdleFreedoms
         }
     }
 
-    private static List<int> GroupsOf(Mechanism mechanism, VelocitySpace space, DisjointSets rigid, int block)
-    {
-        var groups = new List<int>();
-        foreach (int body in mechanism.Tree.Order)
-        {
-            if (mechanism.Tree.Freedoms[body] > 0 && space.BlockOf(body) == block)
-            {
-                groups.Add(rigid.Find(body));
-            }
-        }
-
-        groups.Sort();
-        return groups;
-    }
-
     // Chains of groups with two neighbours each, as long as they go; other groups by themselves.
     private static List<List<int>> Legs(List<int> groups, Dictionary<int, SortedSet<int>> neighbours)
     {
@@ -161,11 +145,11 @@ internal static class IdleFreedoms
     }
 
     // Rank of the motions as all groups but the leg's show them.
-    private static int RankWithout(List<int> leg, List<int> groups, List<double[]> motions, VelocitySpace space)
+    private static int RankWithout(List<int> leg, LoopMotions motions)
     {
-        var twists = new double[6 * (groups.Count - leg.Count), motions.Count];
+        var twists = new double[6 * (motions.Groups.Count - leg.Count), motions.Count];
         int row = 0;
-        foreach (int group in groups)
+        foreach (int group in motions.Groups)
         {
             if (leg.Contains(group))
             {
@@ -174,7 +158,7 @@ internal static class IdleFreedoms
 
             for (int m = 0; m < motions.Count; m++)
             {
-                space.Twist(group, motions[m], out Vector3d linear, out Vector3d angular);
+                motions.Twist(group, m, out Vector3d linear, out Vector3d angular);
                 for (int i = 0; i < 3; i++)
                 {
                     twists[row + i, m] = linear[i];
@@ -194,15 +178,12 @@ internal static class IdleFreedoms
         return rank;
     }
 
-    private static List<int> GameObjects(Mechanism mechanism, DisjointSets rigid, List<int> leg)
+    private List<int> GameObjects(List<int> leg)
     {
         var objects = new List<int>();
-        foreach (int body in mechanism.Tree.Order)
+        foreach (int group in leg)
         {
-            if (leg.Contains(rigid.Find(body)))
-            {
-                objects.Add(mechanism.GameObjects[body]);
-            }
+            objects.AddRange(_members[group]);
         }
 
         objects.Sort();

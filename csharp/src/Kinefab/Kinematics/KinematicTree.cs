@@ -25,6 +25,9 @@ internal sealed class KinematicTree
     /// <summary>For each body whether its tree joint's body 0 is the child.</summary>
     public readonly bool[] ChildIsBody0;
 
+    /// <summary>For each body the number of bodies between it and the ground.</summary>
+    public readonly int[] Depths;
+
     /// <summary>For each body its freedoms against its parent.</summary>
     public readonly int[] Freedoms;
 
@@ -34,7 +37,6 @@ internal sealed class KinematicTree
     /// <summary>Joints that close loops.</summary>
     public readonly int[] Closures;
 
-    private readonly int[] _depths;
     private readonly bool[] _isFixed;
 
     /// <summary>Builds the tree: joints that are not marked as closures first, then those near the ground, then the stiffer ones.</summary>
@@ -45,7 +47,7 @@ internal sealed class KinematicTree
     {
         int n = isFixed.Length;
         _isFixed = isFixed;
-        _depths = new int[n];
+        Depths = new int[n];
         Parents = new int[n];
         TreeJoints = new int[n];
         ChildIsBody0 = new bool[n];
@@ -131,7 +133,7 @@ internal sealed class KinematicTree
             Parents[body] = parent;
             TreeJoints[body] = joint;
             Freedoms[body] = freedoms;
-            _depths[body] = parent < 0 ? 0 : _depths[parent] + 1;
+            Depths[body] = parent < 0 ? 0 : Depths[parent] + 1;
             if (joint >= 0)
             {
                 ChildOf[joint] = body;
@@ -142,7 +144,7 @@ internal sealed class KinematicTree
             {
                 if (ChildOf[j] < 0)
                 {
-                    queue.Add((isClosure[j], _depths[body] + 1, FreeTwists.Count(FreeTwists.LockedAxes(joints[j])), j));
+                    queue.Add((isClosure[j], Depths[body] + 1, FreeTwists.Count(FreeTwists.LockedAxes(joints[j])), j));
                 }
             }
         }
@@ -161,7 +163,7 @@ internal sealed class KinematicTree
         b = Moving(b);
         while (a != b)
         {
-            if (b < 0 || (a >= 0 && _depths[a] >= _depths[b]))
+            if (b < 0 || (a >= 0 && Depths[a] >= Depths[b]))
             {
                 Add(a, 1);
                 a = Parents[a];

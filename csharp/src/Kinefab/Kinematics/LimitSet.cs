@@ -22,18 +22,18 @@ internal sealed class LimitSet
     /// <summary>Sides of a joint.</summary>
     public const int Sides = 5;
 
-    private readonly Mechanism _mechanism;
+    private readonly Linkage _linkage;
     private readonly int[] _joints;
     private readonly double[] _slack;
     private readonly ConstraintRow[] _rows = new ConstraintRow[Joint.MaxRows];
 
-    public LimitSet(Mechanism mechanism)
+    public LimitSet(Linkage linkage)
     {
-        _mechanism = mechanism;
+        _linkage = linkage;
         var joints = new List<int>();
-        for (int j = 0; j < mechanism.Joints.Length; j++)
+        for (int j = 0; j < linkage.Joints.Length; j++)
         {
-            if (IsLimited(mechanism.Joints[j]))
+            if (IsLimited(linkage.Joints[j]))
             {
                 joints.Add(j);
             }
@@ -80,7 +80,7 @@ internal sealed class LimitSet
         for (int i = 0; i < _joints.Length; i++)
         {
             int count = Prepare(_joints[i], poses);
-            int swings = AngularLimits(count) - (HasTwist(_mechanism.Joints[_joints[i]]) ? 2 : 0);
+            int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[_joints[i]]) ? 2 : 0);
             for (int side = 0; side < Sides; side++)
             {
                 Distances[i * Sides + side] = double.PositiveInfinity;
@@ -92,7 +92,7 @@ internal sealed class LimitSet
                 if (_rows[r].Has(RowFlags.Limit))
                 {
                     int limit = i * Sides + (int)Side(_rows[r], swings, ref angular);
-                    double distance = _rows[r].Has(RowFlags.Angular) ? _rows[r].GeometricError : _rows[r].GeometricError / _mechanism.Length;
+                    double distance = _rows[r].Has(RowFlags.Angular) ? _rows[r].GeometricError : _rows[r].GeometricError / _linkage.Length;
                     Distances[limit] = distance - _slack[limit];
                 }
             }
@@ -121,14 +121,14 @@ internal sealed class LimitSet
     {
         int joint = JointOf(limit);
         int count = Prepare(joint, poses);
-        int swings = AngularLimits(count) - (HasTwist(_mechanism.Joints[joint]) ? 2 : 0);
+        int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[joint]) ? 2 : 0);
         int angular = 0;
         for (int r = 0; r < count; r++)
         {
             if (_rows[r].Has(RowFlags.Limit) && Side(_rows[r], swings, ref angular) == SideOf(limit))
             {
                 row = _rows[r];
-                row.GeometricError -= row.Has(RowFlags.Angular) ? _slack[limit] : _slack[limit] * _mechanism.Length;
+                row.GeometricError -= row.Has(RowFlags.Angular) ? _slack[limit] : _slack[limit] * _linkage.Length;
                 return true;
             }
         }
@@ -139,7 +139,7 @@ internal sealed class LimitSet
 
     private int Prepare(int joint, Pose[] poses)
     {
-        Joint rows = _mechanism.Joints[joint];
+        Joint rows = _linkage.Joints[joint];
         return rows.Prepare(Mechanism.PoseOf(rows.Body0, poses), Mechanism.PoseOf(rows.Body1, poses), _rows);
     }
 

@@ -8,20 +8,20 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class LoopBlocks
 {
-    /// <summary>Splits the freedoms of a mechanism.</summary>
-    /// <param name="mechanism">Whose.</param>
+    /// <summary>Splits the freedoms of a linkage.</summary>
+    /// <param name="linkage">Whose.</param>
     /// <param name="firsts">For each body the column of its first freedom.</param>
     /// <param name="freedoms">Number of freedoms.</param>
-    public LoopBlocks(Mechanism mechanism, int[] firsts, int freedoms)
+    public LoopBlocks(Linkage linkage, int[] firsts, int freedoms)
     {
-        var sets = new DisjointSets(mechanism.BodyCount);
-        var touched = new bool[mechanism.BodyCount];
-        foreach (int joint in mechanism.Tree.Closures)
+        var sets = new DisjointSets(linkage.BodyCount);
+        var touched = new bool[linkage.BodyCount];
+        foreach (int joint in linkage.Tree.Closures)
         {
-            Tie(mechanism.Rows.Joints[joint]);
+            Tie(linkage.Rows.Joints[joint]);
         }
 
-        foreach (RowPath path in mechanism.Rows.Couplings)
+        foreach (RowPath path in linkage.Rows.Couplings)
         {
             Tie(path);
         }
@@ -29,9 +29,9 @@ internal sealed class LoopBlocks
         BlockOf = new int[freedoms];
         var blocks = new List<List<int>>();
         var blockOfSet = new Dictionary<int, int>();
-        foreach (int body in mechanism.Tree.Order)
+        foreach (int body in linkage.Tree.Order)
         {
-            for (int i = 0; i < mechanism.Tree.Freedoms[body]; i++)
+            for (int i = 0; i < linkage.Tree.Freedoms[body]; i++)
             {
                 int column = firsts[body] + i;
                 BlockOf[column] = -1;

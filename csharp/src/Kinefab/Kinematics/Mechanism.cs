@@ -66,9 +66,8 @@ public sealed class Mechanism
             JointPlaces[j] = (definition.Joints[j].GameObject, definition.Joints[j].Component);
         }
 
-        Joints = joints.ToArray();
-        Tree = new KinematicTree(isFixed, Joints, isClosure.ToArray());
-        _coordinates = MechanismCoordinates.Of(definition, Joints, scene.Document.Couplings);
+        Joint[] all = joints.ToArray();
+        _coordinates = MechanismCoordinates.Of(definition, all, scene.Document.Couplings);
         foreach (MechanismCoordinate coordinate in _coordinates)
         {
             Joint rows = coordinate.JointRows;
@@ -76,10 +75,10 @@ public sealed class Mechanism
         }
 
         _names = new MechanismNames(scene.Document.GameObjects, _coordinates);
-        Couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
-        Origin = MechanismScale.Center(this, _start);
-        Length = MechanismScale.LinkLength(this, _start);
-        Rows = new MechanismRows(this);
+        PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
+        Vector3d origin = MechanismScale.Center(all, _start);
+        double length = MechanismScale.LinkLength(all, _start);
+        Linkage = new Linkage(isFixed, all, isClosure.ToArray(), _coordinates, couplings, origin, length);
     }
 
     /// <summary>The scene it was made from.</summary>
@@ -91,29 +90,27 @@ public sealed class Mechanism
     /// <summary>The GameObjects that carry Rigidbodies, by index: what has to be placed to show a state.</summary>
     public IReadOnlyList<int> Bodies => GameObjects;
 
+    /// <summary>What the solvers work on.</summary>
+    internal Linkage Linkage { get; }
+
     internal int BodyCount => GameObjects.Length;
 
     /// <summary>For each body the GameObject with its Rigidbody.</summary>
     internal int[] GameObjects { get; }
 
     /// <summary>The components' joints, then those that frozen motions amount to.</summary>
-    internal Joint[] Joints { get; }
+    internal Joint[] Joints => Linkage.Joints;
 
     /// <summary>For each joint of a component where it stands.</summary>
     internal (int GameObject, int Component)[] JointPlaces { get; }
 
-    internal PositionCoupling[] Couplings { get; }
+    internal PositionCoupling[] Couplings => Linkage.Couplings;
 
-    internal KinematicTree Tree { get; }
+    internal KinematicTree Tree => Linkage.Tree;
 
-    /// <summary>Which bodies each joint, coupling and coordinate depends on.</summary>
-    internal MechanismRows Rows { get; }
+    internal MechanismRows Rows => Linkage.Rows;
 
-    /// <summary>Point that twists are referred to, world.</summary>
-    internal Vector3d Origin { get; }
-
-    /// <summary>Typical distance of a body's joints, metres: what a radian weighs against.</summary>
-    internal double Length { get; }
+    internal double Length => Linkage.Length;
 
     /// <summary>The mechanism of a scene.</summary>
     public static Mechanism Create(ValidScene scene)
@@ -126,7 +123,7 @@ public sealed class Mechanism
     /// <summary>A state at the exported pose.</summary>
     public MechanismState NewState()
     {
-        var state = new MechanismState(this);
+        var state = new MechanismState(this, _start.Length, _coordinates.Length);
         Array.Copy(_start, state.Poses, _start.Length);
         for (int i = 0; i < _coordinates.Length; i++)
         {

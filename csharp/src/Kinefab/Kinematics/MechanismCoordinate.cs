@@ -53,6 +53,10 @@ public sealed class MechanismCoordinate
     /// <summary>The joint's own value at the exported pose: a slide's anchors may stand apart there.</summary>
     internal double Zero { get; set; }
 
+    /// <summary>The same coordinate of a copy of its joint in another list of joints.</summary>
+    internal MechanismCoordinate On(int joint, Joints.Joint rows) =>
+        new(GameObject, Component, Coordinate, joint, new Joints.JointCoordinate(rows, _coordinate.Axis, _coordinate.Sign), IsLocked) { Zero = Zero };
+
     internal double Evaluate(in Pose body0, in Pose body1, double near, out Joints.ConstraintRow row) =>
         _coordinate.Evaluate(body0, body1, near, out row);
 

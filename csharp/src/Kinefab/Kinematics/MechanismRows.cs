@@ -5,21 +5,21 @@ namespace Kinefab.Kinematics;
 /// <summary>Which tree freedoms each joint, coordinate and coupling of a mechanism depends on.</summary>
 internal sealed class MechanismRows
 {
-    public MechanismRows(Mechanism mechanism)
+    public MechanismRows(Linkage linkage)
     {
-        KinematicTree tree = mechanism.Tree;
-        Joints = new RowPath[mechanism.Joints.Length];
+        KinematicTree tree = linkage.Tree;
+        Joints = new RowPath[linkage.Joints.Length];
         for (int j = 0; j < Joints.Length; j++)
         {
-            Joints[j] = RowPath.Between(tree, mechanism.Joints[j].Body0, mechanism.Joints[j].Body1);
+            Joints[j] = RowPath.Between(tree, linkage.Joints[j].Body0, linkage.Joints[j].Body1);
         }
 
-        Couplings = new RowPath[mechanism.Couplings.Length];
+        Couplings = new RowPath[linkage.Couplings.Length];
         for (int i = 0; i < Couplings.Length; i++)
         {
-            PositionCoupling coupling = mechanism.Couplings[i];
-            RowPath a = Joints[mechanism.Coordinates[coupling.A].Joint];
-            RowPath b = Joints[mechanism.Coordinates[coupling.B].Joint];
+            PositionCoupling coupling = linkage.Couplings[i];
+            RowPath a = Joints[linkage.Coordinates[coupling.A].Joint];
+            RowPath b = Joints[linkage.Coordinates[coupling.B].Joint];
             Couplings[i] = RowPath.Union(b, a, tree.Freedoms);
         }
 

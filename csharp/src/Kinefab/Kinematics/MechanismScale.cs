@@ -11,24 +11,24 @@ internal static class MechanismScale
     private const double SamePlace = 1e-9;
 
     /// <summary>Mean of the joints' places, world.</summary>
-    public static Vector3d Center(Mechanism mechanism, Pose[] poses)
+    public static Vector3d Center(Joint[] joints, Pose[] poses)
     {
         Vector3d sum = Vector3d.Zero;
-        foreach (Joint joint in mechanism.Joints)
+        foreach (Joint joint in joints)
         {
             sum += Anchor(joint, poses);
         }
 
-        return mechanism.Joints.Length == 0 ? sum : sum * (1.0 / mechanism.Joints.Length);
+        return joints.Length == 0 ? sum : sum * (1.0 / joints.Length);
     }
 
     /// <summary>
     /// Root mean square distance of the joints from the middle of the joints of each of their bodies, times 2: about the
     /// length of a link. 1 where no body has two joints at different places.
     /// </summary>
-    public static double LinkLength(Mechanism mechanism, Pose[] poses)
+    public static double LinkLength(Joint[] joints, Pose[] poses)
     {
-        int n = mechanism.BodyCount;
+        int n = poses.Length;
         var count = new int[n];
         var sum = new Vector3d[n];
         Each((body, anchor) =>
@@ -52,7 +52,7 @@ internal static class MechanismScale
 
         void Each(Action<int, Vector3d> visit)
         {
-            foreach (Joint joint in mechanism.Joints)
+            foreach (Joint joint in joints)
             {
                 Vector3d anchor = Anchor(joint, poses);
                 if (joint.Body0 >= 0)

@@ -6,12 +6,13 @@ namespace Kinefab.Kinematics;
 /// <summary>Poses of a mechanism's bodies and its joint coordinates, angles unwrapped over turns. Copying allocates nothing.</summary>
 public sealed class MechanismState
 {
-    internal MechanismState(Mechanism mechanism)
+    /// <summary>Of a mechanism, or of a part of it: the latter stays within the library.</summary>
+    internal MechanismState(Mechanism mechanism, int bodies, int coordinates)
     {
         Mechanism = mechanism;
-        Poses = new Pose[mechanism.BodyCount];
-        Values = new double[mechanism.Coordinates.Count];
-        Trail = new double[mechanism.Coordinates.Count];
+        Poses = new Pose[bodies];
+        Values = new double[coordinates];
+        Trail = new double[coordinates];
     }
 
     /// <summary>Whose state this is.</summary>
@@ -103,7 +104,7 @@ public sealed class MechanismState
     /// <summary>A state of its own with the same poses.</summary>
     public MechanismState Clone()
     {
-        var copy = new MechanismState(Mechanism);
+        var copy = new MechanismState(Mechanism, Poses.Length, Values.Length);
         copy.CopyFrom(this);
         return copy;
     }

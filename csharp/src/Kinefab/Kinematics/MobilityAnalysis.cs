@@ -6,32 +6,36 @@ namespace Kinefab.Kinematics;
 /// <summary>Counts what a mechanism's joints leave free: velocities at the exported pose, finite motions, by island and body.</summary>
 public static class MobilityAnalysis
 {
-    // Length of a row, of about 1 at the start, that has to be left beside the rows before it for it to count.
-    private const double IndependentRow = 1e-6;
-
-    /// <summary>Analyses a mechanism at its exported pose, closed as well as it can be. Limits are not looked at.</summary>
+    /// <summary>
+    /// Analyses a mechanism at its exported pose, closed as well as it can be. Limits are not looked at. Freedoms that no loop and
+    /// no coupling ties to others are their own; what is tied is analysed block by block, each alone.
+    /// </summary>
     public static MobilityReport Of(Mechanism mechanism)
     {
         if (mechanism is null)
             throw new ArgumentNullException(nameof(mechanism));
-        var newton = new NewtonSolver(mechanism);
+        var newton = new NewtonSolver(mechanism.Linkage);
         MechanismState state = mechanism.NewState();
         newton.Close(state);
-        newton.Accepted = Math.Max(newton.Accepted, 4 * newton.Equations.Worst);
-        int freedoms = newton.Motion.Linear.Length;
-        var blocks = new LoopBlocks(mechanism, newton.Firsts, freedoms);
-        var space = new VelocitySpace(mechanism, newton, blocks, state);
-        var finiteMobility = new FiniteMobility(mechanism, newton, blocks);
-        int[] finite = finiteMobility.Count(state);
+        newton.Motion.Start(state.Poses);
+        var blocks = new LoopBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        var parts = new LoopParts(mechanism.Linkage, blocks, newton.Firsts);
+        var idleFreedoms = new IdleFreedoms(mechanism);
+        var loops = new LoopMobility[parts.Count];
+        var idle = new List<IdleFreedom>();
+        int[] redundant = RowsThatTieNothing(mechanism);
+        double gap = double.PositiveInfinity;
         int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
-        foreach (int freedom in finiteMobility.AtGeneralPose)
+        for (int b = 0; b < loops.Length; b++)
         {
-            general += freedom;
+            loops[b] = new LoopMobility(parts.Make(b, state.Poses), state);
+            loops[b].CountRedundant(redundant);
+            idle.AddRange(idleFreedoms.Of(loops[b], parts.Movers(b)));
+            gap = Math.Min(gap, loops[b].Here.Gap);
+            general += loops[b].AtGeneralPose;
         }
 
-        Dictionary<int, int> redundant = RedundantOf(mechanism, space);
-
-        var islands = Islands(mechanism, newton, space, finite);
+        var islands = Islands(mechanism, parts, loops);
         int mobility = 0;
         int firstOrder = 0;
         int redundantRows = 0;
@@ -42,18 +46,27 @@ public static class MobilityAnalysis
             redundantRows += island.Redundant;
         }
 
-        var bodies = new List<BodyMobility>();
-        foreach (int body in mechanism.Tree.Order)
-        {
-            bodies.Add(space.Of(body));
-        }
-
+        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, parts, loops);
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
-        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, space.Gap, islands, bodies, Named(mechanism, redundant), IdleFreedoms.Of(mechanism, space, finiteMobility.Away ?? space, finite));
+        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, islands, bodies, Named(mechanism, redundant), idle);
     }
 
-    private static List<IslandMobility> Islands(Mechanism mechanism, NewtonSolver newton, VelocitySpace space, int[] finite)
+    // For each joint the rows that repeat others: at first those of joints between bodies that the tree holds already.
+    private static int[] RowsThatTieNothing(Mechanism mechanism)
+    {
+        var redundant = new int[mechanism.Joints.Length];
+        foreach (int joint in mechanism.Tree.Closures)
+        {
+            redundant[joint] = mechanism.Rows.Joints[joint].Bodies.Length == 0 ? RowsOf(mechanism.Joints[joint]) : 0;
+        }
+
+        return redundant;
+    }
+
+    private static int RowsOf(Joints.Joint joint) => 6 - FreeTwists.Count(FreeTwists.LockedAxes(joint));
+
+    private static List<IslandMobility> Islands(Mechanism mechanism, LoopParts parts, LoopMobility[] loops)
     {
         KinematicTree tree = mechanism.Tree;
         var sets = new DisjointSets(mechanism.BodyCount);
@@ -84,14 +97,13 @@ public static class MobilityAnalysis
             }
 
             tally.GameObjects.Add(mechanism.GameObjects[body]);
-            for (int i = 0; i < tree.Freedoms[body]; i++)
+            if (parts.BlockOf(body) >= 0)
             {
-                int block = space.Blocks.BlockOf[newton.Firsts[body] + i];
-                tally.Free += block < 0 ? 1 : 0;
-                if (block >= 0)
-                {
-                    tally.Blocks.Add(block);
-                }
+                tally.Blocks.Add(parts.BlockOf(body));
+            }
+            else
+            {
+                tally.Free += tree.Freedoms[body];
             }
         }
 
@@ -99,13 +111,17 @@ public static class MobilityAnalysis
         {
             int body = Math.Max(tree.Moving(mechanism.Joints[joint].Body0), tree.Moving(mechanism.Joints[joint].Body1));
             Tally tally = tallies[sets.Find(body)];
-            tally.Rows += 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[joint]));
+            tally.Rows += RowsOf(mechanism.Joints[joint]);
             tally.Loops++;
         }
 
-        foreach (RowPath path in mechanism.Rows.Couplings)
+        for (int i = 0; i < mechanism.Couplings.Length; i++)
         {
-            tallies[sets.Find(path.Bodies[0])].Rows++;
+            int body = BodyOf(mechanism, i);
+            if (body >= 0)
+            {
+                tallies[sets.Find(body)].Rows++;
+            }
         }
 
         var islands = new List<IslandMobility>();
@@ -116,9 +132,9 @@ public static class MobilityAnalysis
             int rank = 0;
             foreach (int block in tally.Blocks)
             {
-                mobility += finite[block];
-                firstOrder += space.Blocks.Columns[block].Count - space.Ranks[block];
-                rank += space.Ranks[block];
+                mobility += loops[block].Finite;
+                firstOrder += loops[block].FirstOrder;
+                rank += loops[block].Rank;
             }
 
             tally.GameObjects.Sort();
@@ -129,103 +145,34 @@ public static class MobilityAnalysis
         return islands;
     }
 
-    // A row is redundant when nothing of it is left after the rows before it are taken out (Gram-Schmidt, twice).
-    private static Dictionary<int, int> RedundantOf(Mechanism mechanism, VelocitySpace space)
+    // A body of a coupling's island; -1 when it counts from joints of bodies at rest alone.
+    private static int BodyOf(Mechanism mechanism, int coupling)
     {
-        var redundant = new Dictionary<int, int>();
-        var kept = new List<double[]>[space.Blocks.Columns.Count];
-        for (int b = 0; b < kept.Length; b++)
+        int[] path = mechanism.Rows.Couplings[coupling].Bodies;
+        if (path.Length > 0)
         {
-            kept[b] = new List<double[]>();
+            return path[0];
         }
 
-        int row = 0;
-        foreach (int joint in mechanism.Tree.Closures)
-        {
-            int rows = 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[joint]));
-            for (int i = 0; i < rows; i++)
-            {
-                double[] left = (double[])space.Rows.Row(row++).Clone();
-                int block = BlockOf(left, space.Blocks.BlockOf);
-                for (int pass = 0; pass < 2 && block >= 0; pass++)
-                {
-                    foreach (double[] other in kept[block])
-                    {
-                        Subtract(left, other);
-                    }
-                }
-
-                double rest = Length(left);
-                if (block < 0 || rest <= IndependentRow)
-                {
-                    redundant[joint] = redundant.TryGetValue(joint, out int count) ? count + 1 : 1;
-                    continue;
-                }
-
-                for (int k = 0; k < left.Length; k++)
-                {
-                    left[k] /= rest;
-                }
-
-                kept[block].Add(left);
-            }
-        }
-
-        return redundant;
+        Joints.Joint a = mechanism.Joints[mechanism.Coordinates[mechanism.Couplings[coupling].A].Joint];
+        Joints.Joint b = mechanism.Joints[mechanism.Coordinates[mechanism.Couplings[coupling].B].Joint];
+        KinematicTree tree = mechanism.Tree;
+        return Math.Max(Math.Max(tree.Moving(a.Body0), tree.Moving(a.Body1)), Math.Max(tree.Moving(b.Body0), tree.Moving(b.Body1)));
     }
 
-    private static List<RedundantRows> Named(Mechanism mechanism, Dictionary<int, int> redundant)
+    private static List<RedundantRows> Named(Mechanism mechanism, int[] redundant)
     {
         var named = new List<RedundantRows>();
         for (int j = 0; j < mechanism.JointPlaces.Length; j++)
         {
-            if (redundant.TryGetValue(j, out int count))
+            if (redundant[j] > 0)
             {
                 (int gameObject, int component) = mechanism.JointPlaces[j];
-                int rows = 6 - FreeTwists.Count(FreeTwists.LockedAxes(mechanism.Joints[j]));
-                named.Add(new RedundantRows(gameObject, component, rows, count));
+                named.Add(new RedundantRows(gameObject, component, RowsOf(mechanism.Joints[j]), redundant[j]));
             }
         }
 
         return named;
-    }
-
-    private static int BlockOf(double[] row, int[] blockOf)
-    {
-        for (int i = 0; i < row.Length; i++)
-        {
-            if (row[i] != 0)
-            {
-                return blockOf[i];
-            }
-        }
-
-        return -1;
-    }
-
-    private static double Length(double[] row)
-    {
-        double sum = 0;
-        foreach (double entry in row)
-        {
-            sum += entry * entry;
-        }
-
-        return Math.Sqrt(sum);
-    }
-
-    private static void Subtract(double[] row, double[] unit)
-    {
-        double dot = 0;
-        for (int i = 0; i < row.Length; i++)
-        {
-            dot += row[i] * unit[i];
-        }
-
-        for (int i = 0; i < row.Length; i++)
-        {
-            row[i] -= dot * unit[i];
-        }
     }
 
     private sealed class Tally

@@ -27,6 +27,8 @@ public static class MobilityCheck
             return Report.Empty;
         }
 
+        Dictionary<int, IslandMobility> islandOf = counted.Islands.SelectMany(i => i.GameObjects, (i, o) => (Island: i, Object: o)).ToDictionary(p => p.Object, p => p.Island);
+        Dictionary<int, BodyMobility> bodyOf = counted.Bodies.ToDictionary(b => b.GameObject);
         Expect("/analysis/mobility", "The mechanism's mobility", stated.Mobility, counted.Mobility);
         if (stated.FirstOrderMobility is int firstOrder && firstOrder != counted.FirstOrder)
         {
@@ -45,7 +47,7 @@ public static class MobilityCheck
             Island island = stated.Islands[i];
             string pointer = $"/analysis/islands/{Text(i)}";
             string name = $"the island of {Name(scene, island.GameObjects)}";
-            IslandMobility[] same = counted.Islands.Where(c => c.GameObjects.Any(island.GameObjects.Contains)).ToArray();
+            IslandMobility[] same = island.GameObjects.Where(islandOf.ContainsKey).Select(o => islandOf[o]).Distinct().ToArray();
             Expect($"{pointer}/mobility", $"The mobility of {name}", island.Mobility, same.Sum(c => c.Mobility));
             AtMost($"{pointer}/redundant", name, island.Redundant, same.Sum(c => c.Redundant));
             if (island.Loops is int loops)
@@ -58,7 +60,7 @@ public static class MobilityCheck
         {
             BodyFreedom body = stated.Bodies[i];
             int? moved = scene.BodyOf(body.GameObject);
-            BodyMobility? same = counted.Bodies.FirstOrDefault(b => b.GameObject == moved);
+            BodyMobility? same = moved is int mover && bodyOf.TryGetValue(mover, out BodyMobility? its) ? its : null;
             string name = scene.Document.GameObjects[body.GameObject].Name;
             Expect($"/analysis/bodies/{Text(i)}/translations", $"The number of translations of {name}", body.Translations, same?.Translations ?? 0);
             Expect($"/analysis/bodies/{Text(i)}/rotations", $"The number of rotations of {name}", body.Rotations, same?.Rotations ?? 0);

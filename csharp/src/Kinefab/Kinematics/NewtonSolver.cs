@@ -28,7 +28,7 @@ internal sealed class NewtonSolver
     private const int MaxCloseIterations = 200;
     private const int MaxTrackIterations = 12;
 
-    private readonly Mechanism _mechanism;
+    private readonly Linkage _linkage;
     private readonly NormalEquations _normal;
     private readonly Pose[] _before;
     private readonly double[] _step;
@@ -37,18 +37,18 @@ internal sealed class NewtonSolver
     private double _lastStep;
     private int _firstVanished;
 
-    public NewtonSolver(Mechanism mechanism)
+    public NewtonSolver(Linkage linkage)
     {
-        _mechanism = mechanism;
-        _normal = new NormalEquations(mechanism.Tree, mechanism.Rows.All);
-        Motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
-        Equations = new PositionEquations(mechanism, Motion, _normal);
-        Limits = new LimitSet(mechanism);
+        _linkage = linkage;
+        _normal = new NormalEquations(linkage.Tree, linkage.Rows.All);
+        Motion = new TreeMotion(linkage, _normal.Firsts, _normal.Step.Length);
+        Equations = new PositionEquations(linkage, Motion, _normal);
+        Limits = new LimitSet(linkage);
         Closing = new double[_normal.Step.Length];
         _step = new double[_normal.Step.Length];
-        _before = new Pose[mechanism.BodyCount];
-        _driven = new int[mechanism.Coordinates.Count];
-        _targets = new double[mechanism.Coordinates.Count];
+        _before = new Pose[linkage.BodyCount];
+        _driven = new int[linkage.Coordinates.Length];
+        _targets = new double[linkage.Coordinates.Length];
     }
 
     public TreeMotion Motion { get; }
@@ -64,7 +64,7 @@ internal sealed class NewtonSolver
     public int Iterations { get; set; }
 
     /// <summary>Worst error of joints and couplings at the last evaluation, metres.</summary>
-    public double ErrorMetres => Equations.WorstLinear * _mechanism.Length;
+    public double ErrorMetres => Equations.WorstLinear * _linkage.Length;
 
     /// <summary>Worst error of joints and couplings at the last evaluation, degrees.</summary>
     public double ErrorDegrees => Math.Max(Equations.WorstAngular, Motion.WorstError) * (180 / Math.PI);

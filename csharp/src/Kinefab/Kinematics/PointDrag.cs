@@ -44,8 +44,8 @@ internal sealed class PointDrag
         _path = RowPath.Between(mechanism.Tree, body, KinematicTree.Ground);
         var paths = new List<RowPath>(mechanism.Rows.All) { _path };
         _normal = new NormalEquations(mechanism.Tree, paths);
-        _motion = new TreeMotion(mechanism, _normal.Firsts, _normal.Step.Length);
-        _equations = new PositionEquations(mechanism, _motion, _normal);
+        _motion = new TreeMotion(mechanism.Linkage, _normal.Firsts, _normal.Step.Length);
+        _equations = new PositionEquations(mechanism.Linkage, _motion, _normal);
         _good = mechanism.NewState();
         _curvature = new double[_path.Width * _path.Width];
     }

@@ -45,6 +45,9 @@ internal readonly struct PositionCoupling
         return couplings.ToArray();
     }
 
+    /// <summary>The same coupling in another list of coordinates.</summary>
+    public PositionCoupling Between(int a, int b) => new(a, b, Ratio, Offset);
+
     private static double Unit(MechanismCoordinate coordinate) => coordinate.IsAngle ? Math.PI / 180 : 1;
 
     private static (int GameObject, int Component, Coordinate Coordinate) Place(JointCoordinate coordinate) =>

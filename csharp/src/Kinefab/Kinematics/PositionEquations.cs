@@ -12,15 +12,15 @@ internal sealed class PositionEquations
 {
     private const double LeastEntry = 1e-12;
 
-    private readonly Mechanism _mechanism;
+    private readonly Linkage _linkage;
     private readonly TreeMotion _motion;
     private readonly NormalEquations _normal;
     private readonly ConstraintRow[] _rows = new ConstraintRow[Joint.MaxRows];
     private readonly double[] _row;
 
-    public PositionEquations(Mechanism mechanism, TreeMotion motion, NormalEquations normal)
+    public PositionEquations(Linkage linkage, TreeMotion motion, NormalEquations normal)
     {
-        _mechanism = mechanism;
+        _linkage = linkage;
         _motion = motion;
         _normal = normal;
         _row = new double[Math.Max(1, normal.Step.Length)];
@@ -54,9 +54,9 @@ internal sealed class PositionEquations
     /// <summary>The locked rows of the loop-closing joints and the couplings.</summary>
     public void AddClosures(Pose[] poses, double[] values)
     {
-        foreach (int j in _mechanism.Tree.Closures)
+        foreach (int j in _linkage.Tree.Closures)
         {
-            Joint joint = _mechanism.Joints[j];
+            Joint joint = _linkage.Joints[j];
             int count = joint.Prepare(Mechanism.PoseOf(joint.Body0, poses), Mechanism.PoseOf(joint.Body1, poses), _rows);
             for (int i = 0; i < count; i++)
             {
@@ -67,7 +67,7 @@ internal sealed class PositionEquations
             }
         }
 
-        for (int i = 0; i < _mechanism.Couplings.Length; i++)
+        for (int i = 0; i < _linkage.Couplings.Length; i++)
         {
             AddCoupling(i, poses, values);
         }
@@ -76,10 +76,10 @@ internal sealed class PositionEquations
     /// <summary>A coordinate held at a value. C = q - target.</summary>
     public void AddCoordinate(int coordinate, double target, Pose[] poses, double[] values)
     {
-        MechanismCoordinate source = _mechanism.Coordinates[coordinate];
+        MechanismCoordinate source = _linkage.Coordinates[coordinate];
         double q = Evaluate(coordinate, poses, values, out ConstraintRow row);
-        RowPath path = _mechanism.Rows.Joints[source.Joint];
-        double unit = source.IsAngle ? 1 : _mechanism.Length;
+        RowPath path = _linkage.Rows.Joints[source.Joint];
+        double unit = source.IsAngle ? 1 : _linkage.Length;
         Pack(path, row, source.JointRows, poses, 1 / unit);
         Add(path, (q - target) / unit);
     }
@@ -87,16 +87,16 @@ internal sealed class PositionEquations
     /// <summary>One row of a joint, as it stands.</summary>
     public void AddLimit(int joint, in ConstraintRow row, Pose[] poses)
     {
-        RowPath path = _mechanism.Rows.Joints[joint];
-        double unit = row.Has(RowFlags.Angular) ? 1 : _mechanism.Length;
-        Pack(path, row, _mechanism.Joints[joint], poses, 1 / unit);
+        RowPath path = _linkage.Rows.Joints[joint];
+        double unit = row.Has(RowFlags.Angular) ? 1 : _linkage.Length;
+        Pack(path, row, _linkage.Joints[joint], poses, 1 / unit);
         Add(path, row.GeometricError / unit);
     }
 
     /// <summary>One freedom of a tree joint's child as an unknown of its own. C as given.</summary>
     public void AddFreedom(int joint, int place, double c)
     {
-        RowPath path = _mechanism.Rows.Joints[joint];
+        RowPath path = _linkage.Rows.Joints[joint];
         Array.Clear(_row, 0, path.Width);
         _row[place] = 1;
         Add(path, c);
@@ -105,8 +105,8 @@ internal sealed class PositionEquations
     /// <summary>The rate that the last step gives a row of a joint.</summary>
     public double Rate(int joint, in ConstraintRow row, Pose[] poses, double[] step)
     {
-        RowPath path = _mechanism.Rows.Joints[joint];
-        Pack(path, row, _mechanism.Joints[joint], poses, row.Has(RowFlags.Angular) ? 1 : 1 / _mechanism.Length);
+        RowPath path = _linkage.Rows.Joints[joint];
+        Pack(path, row, _linkage.Joints[joint], poses, row.Has(RowFlags.Angular) ? 1 : 1 / _linkage.Length);
         double rate = 0;
         for (int k = 0; k < path.Bodies.Length; k++)
         {
@@ -130,9 +130,9 @@ internal sealed class PositionEquations
         for (int axis = 0; axis < 3; axis++)
         {
             Vector3d force = (axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ) * weight;
-            Vector3d moment = Vector3d.Cross((point - _mechanism.Origin) * (1 / _mechanism.Length), force);
+            Vector3d moment = Vector3d.Cross((point - _linkage.Origin) * (1 / _linkage.Length), force);
             Pack(path, force, moment);
-            Add(path, weight * (point - target)[axis] / _mechanism.Length);
+            Add(path, weight * (point - target)[axis] / _linkage.Length);
         }
     }
 
@@ -142,8 +142,8 @@ internal sealed class PositionEquations
     /// </summary>
     public void AddPointCurvature(RowPath path, Vector3d point, Vector3d target, double weight, double[] matrix)
     {
-        Vector3d lever = (point - _mechanism.Origin) * (1 / _mechanism.Length);
-        Vector3d error = (point - target) * (weight * weight / _mechanism.Length);
+        Vector3d lever = (point - _linkage.Origin) * (1 / _linkage.Length);
+        Vector3d error = (point - target) * (weight * weight / _linkage.Length);
         int width = path.Width;
         for (int k = 0; k < path.Bodies.Length; k++)
         {
@@ -170,7 +170,7 @@ internal sealed class PositionEquations
     /// <summary>A coordinate's value, unwrapped against the last one, which it replaces.</summary>
     public double Evaluate(int coordinate, Pose[] poses, double[] values, out ConstraintRow row)
     {
-        MechanismCoordinate source = _mechanism.Coordinates[coordinate];
+        MechanismCoordinate source = _linkage.Coordinates[coordinate];
         Joint joint = source.JointRows;
         values[coordinate] = source.Evaluate(Mechanism.PoseOf(joint.Body0, poses), Mechanism.PoseOf(joint.Body1, poses), values[coordinate], out row);
         return values[coordinate];
@@ -178,21 +178,21 @@ internal sealed class PositionEquations
 
     private void AddJointRow(int joint, in ConstraintRow row, Pose[] poses)
     {
-        RowPath path = _mechanism.Rows.Joints[joint];
+        RowPath path = _linkage.Rows.Joints[joint];
         if (row.Has(RowFlags.Angular))
         {
             // PhysX's locked angles are half angles, the row's length tells by how much.
             double scale = 1 / row.Angular1.Length;
             double c = row.GeometricError * scale;
             WorstAngular = Math.Max(WorstAngular, Math.Abs(c));
-            Pack(path, row, _mechanism.Joints[joint], poses, scale);
+            Pack(path, row, _linkage.Joints[joint], poses, scale);
             Add(path, c);
         }
         else
         {
-            double c = row.GeometricError / _mechanism.Length;
+            double c = row.GeometricError / _linkage.Length;
             WorstLinear = Math.Max(WorstLinear, Math.Abs(c));
-            Pack(path, row, _mechanism.Joints[joint], poses, 1 / _mechanism.Length);
+            Pack(path, row, _linkage.Joints[joint], poses, 1 / _linkage.Length);
             Add(path, c);
         }
     }
@@ -201,10 +201,10 @@ internal sealed class PositionEquations
     // ratio weighs no more than a joint.
     private void AddCoupling(int index, Pose[] poses, double[] values)
     {
-        PositionCoupling coupling = _mechanism.Couplings[index];
-        RowPath path = _mechanism.Rows.Couplings[index];
-        double unitA = _mechanism.Coordinates[coupling.A].IsAngle ? 1 : _mechanism.Length;
-        double unitB = _mechanism.Coordinates[coupling.B].IsAngle ? 1 : _mechanism.Length;
+        PositionCoupling coupling = _linkage.Couplings[index];
+        RowPath path = _linkage.Rows.Couplings[index];
+        double unitA = _linkage.Coordinates[coupling.A].IsAngle ? 1 : _linkage.Length;
+        double unitB = _linkage.Coordinates[coupling.B].IsAngle ? 1 : _linkage.Length;
         double scale = 1 / (unitB * Math.Max(1, Math.Abs(coupling.Ratio) * unitA / unitB));
         double qA = Evaluate(coupling.A, poses, values, out ConstraintRow rowA);
         double qB = Evaluate(coupling.B, poses, values, out ConstraintRow rowB);
@@ -212,7 +212,7 @@ internal sealed class PositionEquations
         Scatter(path, coupling.B, rowB, poses, scale);
         Scatter(path, coupling.A, rowA, poses, -coupling.Ratio * scale);
         double c = (qB - coupling.Ratio * qA - coupling.Offset) * scale;
-        if (_mechanism.Coordinates[coupling.B].IsAngle)
+        if (_linkage.Coordinates[coupling.B].IsAngle)
         {
             WorstAngular = Math.Max(WorstAngular, Math.Abs(c));
         }
@@ -226,8 +226,8 @@ internal sealed class PositionEquations
 
     private void Scatter(RowPath union, int coordinate, in ConstraintRow row, Pose[] poses, double scale)
     {
-        MechanismCoordinate source = _mechanism.Coordinates[coordinate];
-        RowPath path = _mechanism.Rows.Joints[source.Joint];
+        MechanismCoordinate source = _linkage.Coordinates[coordinate];
+        RowPath path = _linkage.Rows.Joints[source.Joint];
         Wrench(row, source.JointRows, poses, scale, out Vector3d force, out Vector3d moment);
         for (int k = 0; k < path.Bodies.Length; k++)
         {
@@ -250,11 +250,11 @@ internal sealed class PositionEquations
     // PhysX shortens body 0's lever by the error.
     private void Wrench(in ConstraintRow row, Joint joint, Pose[] poses, double scale, out Vector3d force, out Vector3d moment)
     {
-        force = row.Linear1 * (scale * _mechanism.Length);
+        force = row.Linear1 * (scale * _linkage.Length);
         moment = row.Angular1 * scale;
         if (!row.Has(RowFlags.Angular))
         {
-            moment += Vector3d.Cross((Mechanism.PoseOf(joint.Body1, poses).Position - _mechanism.Origin) * scale, row.Linear1);
+            moment += Vector3d.Cross((Mechanism.PoseOf(joint.Body1, poses).Position - _linkage.Origin) * scale, row.Linear1);
         }
     }
 

@@ -18,7 +18,7 @@ public sealed class PositionSolver
     public PositionSolver(Mechanism mechanism)
     {
         Mechanism = mechanism ?? throw new ArgumentNullException(nameof(mechanism));
-        _newton = new NewtonSolver(mechanism);
+        _newton = new NewtonSolver(mechanism.Linkage);
         _drive = new CoordinateDrive(mechanism, _newton);
         MechanismState start = mechanism.NewState();
         _newton.Close(start);

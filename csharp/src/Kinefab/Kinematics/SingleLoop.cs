@@ -20,22 +20,18 @@ internal static class SingleLoop
     /// Neighbours that move as one and alone, and in how many ways; none where a coupling joins joints of the loop, whose motions
     /// are then not their own.
     /// </summary>
-    /// <param name="mechanism">The whole.</param>
-    /// <param name="groups">The loop's moving bodies, each by one of its rigid group.</param>
+    /// <param name="motions">Velocities of the loop that keep it closed.</param>
     /// <param name="neighbours">Bodies that joints connect with each, the one at rest included.</param>
-    /// <param name="motions">Velocities of the loop's coordinates that keep it closed.</param>
-    /// <param name="space">What tells the bodies' twists of them.</param>
-    public static List<(List<int> Groups, int Count)> TurningAlone(
-        Mechanism mechanism, List<int> groups, Dictionary<int, SortedSet<int>> neighbours, List<double[]> motions, VelocitySpace space)
+    public static List<(List<int> Groups, int Count)> TurningAlone(LoopMotions motions, Dictionary<int, SortedSet<int>> neighbours)
     {
         var found = new List<(List<int> Groups, int Count)>();
-        if (IsCoupled(mechanism, groups, space))
+        if (motions.IsCoupled)
         {
             return found;
         }
 
-        List<int> ring = Ring(groups, neighbours);
-        List<double[]>[] joints = JointTwists(ring, motions, space);
+        List<int> ring = Ring(motions.Groups, neighbours);
+        List<double[]>[] joints = JointTwists(ring, motions);
         var known = new List<double[]>();
         for (int size = 1; size < ring.Count; size++)
         {
@@ -61,30 +57,6 @@ internal static class SingleLoop
         }
 
         return found;
-    }
-
-    private static bool IsCoupled(Mechanism mechanism, List<int> groups, VelocitySpace space)
-    {
-        int block = space.BlockOf(groups[0]);
-        for (int i = 0; i < mechanism.Couplings.Length; i++)
-        {
-            // A screw's is within one joint.
-            PositionCoupling coupling = mechanism.Couplings[i];
-            if (mechanism.Coordinates[coupling.A].Joint == mechanism.Coordinates[coupling.B].Joint)
-            {
-                continue;
-            }
-
-            foreach (int body in mechanism.Rows.Couplings[i].Bodies)
-            {
-                if (mechanism.Tree.Freedoms[body] > 0 && space.BlockOf(body) == block)
-                {
-                    return true;
-                }
-            }
-        }
-
-        return false;
     }
 
     // The bodies in the order in which their loop joins them, from the one at rest and back to it.
@@ -117,7 +89,7 @@ internal static class SingleLoop
     }
 
     // For each joint of the loop an orthonormal basis of its twists in the motions, the joint before the first body first.
-    private static List<double[]>[] JointTwists(List<int> ring, List<double[]> motions, VelocitySpace space)
+    private static List<double[]>[] JointTwists(List<int> ring, LoopMotions motions)
     {
         var joints = new List<double[]>[ring.Count + 1];
         var before = new double[motions.Count, 6];
@@ -129,7 +101,7 @@ internal static class SingleLoop
             {
                 if (k < ring.Count)
                 {
-                    space.Twist(ring[k], motions[m], out Vector3d linear, out Vector3d angular);
+                    motions.Twist(ring[k], m, out Vector3d linear, out Vector3d angular);
                     for (int i = 0; i < 3; i++)
                     {
                         after[m, i] = linear[i];

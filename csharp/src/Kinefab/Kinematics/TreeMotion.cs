@@ -15,7 +15,7 @@ internal sealed class TreeMotion
     private const int MaxCorrections = 6;
     private const double Closed = 1e-15;
 
-    private readonly Mechanism _mechanism;
+    private readonly Linkage _linkage;
     private readonly KinematicTree _tree;
     private readonly int[] _firsts;
     private readonly int[] _locked;
@@ -26,12 +26,12 @@ internal sealed class TreeMotion
     private readonly bool[] _moved;
     private readonly ConstraintRow[] _rows = new ConstraintRow[Joint.MaxRows];
 
-    public TreeMotion(Mechanism mechanism, int[] firsts, int freedoms)
+    public TreeMotion(Linkage linkage, int[] firsts, int freedoms)
     {
-        _mechanism = mechanism;
-        _tree = mechanism.Tree;
+        _linkage = linkage;
+        _tree = linkage.Tree;
         _firsts = firsts;
-        int n = mechanism.BodyCount;
+        int n = linkage.BodyCount;
         _locked = new int[n];
         foreach (int body in _tree.Order)
         {
@@ -93,7 +93,7 @@ internal sealed class TreeMotion
         }
     }
 
-    private Joint? JointOf(int body) => _tree.TreeJoints[body] < 0 ? null : _mechanism.Joints[_tree.TreeJoints[body]];
+    private Joint? JointOf(int body) => _tree.TreeJoints[body] < 0 ? null : _linkage.Joints[_tree.TreeJoints[body]];
 
     // The parent stands still here: rotation about the anchor first, then translation along the axes, which turn with the
     // child where they are its own.
@@ -108,7 +108,7 @@ internal sealed class TreeMotion
         {
             if (i < translations)
             {
-                slide += _axes[first + i] * (step[first + i] * _mechanism.Length);
+                slide += _axes[first + i] * (step[first + i] * _linkage.Length);
             }
             else
             {
@@ -158,7 +158,7 @@ internal sealed class TreeMotion
                 else
                 {
                     slide += row.Linear1 * row.GeometricError;
-                    worst = Math.Max(worst, Math.Abs(row.GeometricError) / _mechanism.Length);
+                    worst = Math.Max(worst, Math.Abs(row.GeometricError) / _linkage.Length);
                 }
             }
 
@@ -192,7 +192,7 @@ internal sealed class TreeMotion
         int translations = FreeTwists.Directions(joint, _locked[body], pose0, pose1, _axes, first, out Vector3d anchor);
         _anchors[body] = anchor;
         _translations[body] = translations;
-        Vector3d lever = (anchor - _mechanism.Origin) * (1 / _mechanism.Length);
+        Vector3d lever = (anchor - _linkage.Origin) * (1 / _linkage.Length);
         for (int i = 0; i < count; i++)
         {
             Vector3d axis = _axes[first + i];

@@ -4,23 +4,22 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
-/// <summary>All velocities that a mechanism's joints allow at one pose: the null space of its rows, block by block.</summary>
+/// <summary>All velocities that loops and couplings allow at one pose: the null space of their rows, block by block.</summary>
 internal sealed class VelocitySpace
 {
     // The rank stands in the widest gap between singular values, looked for in this window of their share of the largest.
     private const double LeastShare = 1e-7;
     private const double LargestShare = 1e-3;
 
-    private readonly NewtonSolver _newton;
-    private readonly Mechanism _mechanism;
-    private readonly List<(int Block, double[] Vector)> _basis = new();
+    private readonly int[] _firsts;
+    private readonly Linkage _linkage;
+    private readonly List<double[]> _basis = new();
 
     /// <summary>Of a closed state.</summary>
-    public VelocitySpace(Mechanism mechanism, NewtonSolver newton, LoopBlocks blocks, MechanismState state)
+    public VelocitySpace(Linkage linkage, NewtonSolver newton, LoopBlocks blocks, MechanismState state)
     {
-        _mechanism = mechanism;
-        _newton = newton;
-        Blocks = blocks;
+        _linkage = linkage;
+        _firsts = newton.Firsts;
         int n = newton.Motion.Linear.Length;
         Rows = new DenseRows(newton.Firsts, n);
         newton.ClearDriven();
@@ -31,13 +30,12 @@ internal sealed class VelocitySpace
         Linear = (Vector3d[])newton.Motion.Linear.Clone();
         Angular = (Vector3d[])newton.Motion.Angular.Clone();
 
-        Ranks = new int[blocks.Columns.Count];
-        for (int b = 0; b < Ranks.Length; b++)
+        for (int b = 0; b < blocks.Columns.Count; b++)
         {
             IReadOnlyList<int> columns = blocks.Columns[b];
             var values = new SingularValues(Rows.Matrix(columns, b, blocks.BlockOf));
-            Ranks[b] = Rank(values.Values);
-            for (int k = Ranks[b]; k < columns.Count; k++)
+            int rank = Rank(values.Values);
+            for (int k = rank; k < columns.Count; k++)
             {
                 var vector = new double[n];
                 for (int i = 0; i < columns.Count; i++)
@@ -45,90 +43,48 @@ internal sealed class VelocitySpace
                     vector[columns[i]] = values.Vector(i, k);
                 }
 
-                _basis.Add((b, vector));
-            }
-        }
-
-        for (int i = 0; i < n; i++)
-        {
-            if (blocks.BlockOf[i] < 0)
-            {
-                var vector = new double[n];
-                vector[i] = 1;
-                _basis.Add((-1, vector));
+                _basis.Add(vector);
             }
         }
     }
 
-    public LoopBlocks Blocks { get; }
-
     /// <summary>The rows of the loop-closing joints and couplings, in their order.</summary>
     public DenseRows Rows { get; }
-
-    /// <summary>For each block its rank.</summary>
-    public int[] Ranks { get; }
 
     /// <summary>Least ratio across the gap of any block.</summary>
     public double Gap { get; private set; } = double.PositiveInfinity;
 
-    /// <summary>Orthonormal velocities, each of one block (or -1: of a freedom that no loop holds).</summary>
-    public IReadOnlyList<(int Block, double[] Vector)> Basis => _basis;
+    /// <summary>Orthonormal velocities, each of one block. A freedom that no loop holds has its own, which stands in none.</summary>
+    public IReadOnlyList<double[]> Basis => _basis;
+
+    /// <summary>Number of independent velocities.</summary>
+    public int Freedoms => _basis.Count;
 
     /// <summary>For each freedom the velocity at the mechanism's origin, in its lengths.</summary>
     private Vector3d[] Linear { get; }
 
     private Vector3d[] Angular { get; }
 
-    /// <summary>Independent translations and rotations of a body.</summary>
-    public BodyMobility Of(int body)
-    {
-        var twists = new double[_basis.Count, 6];
-        var turns = new double[_basis.Count, 3];
-        for (int v = 0; v < _basis.Count; v++)
-        {
-            Twist(body, _basis[v].Vector, out Vector3d linear, out Vector3d angular);
-            for (int i = 0; i < 3; i++)
-            {
-                twists[v, i] = linear[i];
-                twists[v, 3 + i] = angular[i];
-                turns[v, i] = angular[i];
-            }
-        }
-
-        int rotations = RankOf(turns);
-        return new BodyMobility(_mechanism.GameObjects[body], RankOf(twists) - rotations, rotations);
-    }
-
     /// <summary>A body's velocity at the mechanism's origin, in its lengths, and its angular velocity under one motion of all freedoms.</summary>
     public void Twist(int body, double[] motion, out Vector3d linear, out Vector3d angular)
     {
         linear = Vector3d.Zero;
         angular = Vector3d.Zero;
-        for (int at = body; at >= 0; at = _mechanism.Tree.Parents[at])
+        for (int at = body; at >= 0; at = _linkage.Tree.Parents[at])
         {
-            for (int i = 0; i < _mechanism.Tree.Freedoms[at]; i++)
-            {
-                int column = _newton.Firsts[at] + i;
-                linear += Linear[column] * motion[column];
-                angular += Angular[column] * motion[column];
-            }
+            AddOwnTwist(at, motion, ref linear, ref angular);
         }
     }
 
-    /// <summary>The block of a body's tree freedoms, of which it must have any, or -1.</summary>
-    public int BlockOf(int body) => Blocks.BlockOf[_newton.Firsts[body]];
-
-    // Velocities are of length 1 altogether, so what is small in one body is small in itself, not only beside the rest.
-    private static int RankOf(double[,] matrix)
+    /// <summary>Adds the part of a body's twist that its own freedoms make, against its parent's.</summary>
+    public void AddOwnTwist(int body, double[] motion, ref Vector3d linear, ref Vector3d angular)
     {
-        const double least = 1e-6;
-        int rank = 0;
-        foreach (double value in new SingularValues(matrix).Values)
+        for (int i = 0; i < _linkage.Tree.Freedoms[body]; i++)
         {
-            rank += value > least ? 1 : 0;
+            int column = _firsts[body] + i;
+            linear += Linear[column] * motion[column];
+            angular += Angular[column] * motion[column];
         }
-
-        return rank;
     }
 
     private int Rank(double[] values)

@@ -135,6 +135,32 @@ public class MobilityTests
         Assert.That((report.Mobility, report.Rows, report.Redundant, report.Islands.Count), Is.EqualTo((1, 17, 0, 1)));
     }
 
+    [Test]
+    public void Mobility_CouplingBetweenBodiesAtRest_HoldsNothing()
+    {
+        var scene = new MechanismScene();
+        JointPlace a = scene.Hinge(scene.Body("a", Vector3d.Zero, isKinematic: true), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace b = scene.Hinge(scene.Body("b", Vector3d.UnitX, isKinematic: true), null, Vector3d.UnitX, Vector3d.UnitZ);
+        scene.Hinge(scene.Body("c", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitZ);
+        scene.Couple(a, Coordinate.Angle, b, Coordinate.Angle, 2);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.Mobility, report.Rows, report.Redundant), Is.EqualTo((1, 5, 0)));
+    }
+
+    // The second hinge closes no loop: b is fixed to the world. A gear counts from it all the same.
+    [Test]
+    public void Mobility_CouplingFromAJointThatTheTreeHolds_CountsItsRowsOnce()
+    {
+        var scene = new MechanismScene();
+        int b = scene.Body("b", Vector3d.UnitX);
+        scene.Fixed(b, null);
+        JointPlace held = scene.Hinge(b, null, Vector3d.UnitX, Vector3d.UnitZ);
+        JointPlace free = scene.Hinge(scene.Body("c", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitZ);
+        scene.Couple(free, Coordinate.Angle, held, Coordinate.Angle, 2);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.Mobility, report.Joints.Single().Rows, report.Joints.Single().Redundant), Is.EqualTo((0, 5, 5)));
+    }
+
     // Crank and rocker turn about skew axes; the rod between their balls spins, and moves nothing else.
     [Test]
     public void Mobility_RodOfASingleLoop_SpinsIdly()

@@ -34,7 +34,6 @@ internal sealed class Ladder
     private readonly Batch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _floor;
     private readonly PoseClosure _closure;
-    private readonly SpringAnswer? _answer;
     private readonly Snapshot _start;
     private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
@@ -53,7 +52,6 @@ internal sealed class Ladder
         _batch = batch;
         _floor = new ImplicitEulerStep(batch);
         _closure = new PoseClosure(batch);
-        _answer = batch.Laws != null ? new SpringAnswer(batch) : null;
         _start = new Snapshot(batch);
         for (int i = 0; i < _parts.Length; i++)
         {
@@ -96,7 +94,6 @@ internal sealed class Ladder
     /// <param name="isMoved">Whether the start pose is not the one that the last step left.</param>
     public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed, bool isMoved)
     {
-        _answer?.TakeBack(isMoved);
         Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
         _batch.Laws?.ClearWork();
         _part = dt;
@@ -145,10 +142,6 @@ internal sealed class Ladder
 
         cut.Note(halvings, demand);
         SetPart(dt);
-        if (_answer != null && _stops == 0)
-        {
-            _answer.Give(_batch.Laws!);
-        }
     }
 
     // Closing what stands open does work on springs.

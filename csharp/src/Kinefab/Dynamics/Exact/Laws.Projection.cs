@@ -143,7 +143,8 @@ internal sealed partial class Laws<V>
         }
     }
 
-    // A spring that answers holds the flight's speed. Newton's law of impact: the speed after a stop against the speed before the step, above the threshold alone.
+    // A spring that answers holds the flight's speed. Newton's law of impact: the speed after a stop against the speed before
+    // the step, above the threshold alone.
     private static double Target(in Law law)
     {
         if (law.Kind == LawKind.Spring)

@@ -15,27 +15,36 @@ internal sealed class SpringAnswer
     private const int Passes = 3;
 
     private readonly Batch<ScalarLane> _batch;
+    private readonly Bodies _bodies;
 
-    // Velocities and angular momenta of each moving body: without the answer, then what it changed.
-    private readonly double[] _change;
+    // Of each moving body, without the answer.
+    private readonly Vector3d[] _linear;
+    private readonly Vector3d[] _angular;
     private bool _isGiven;
 
-    public SpringAnswer(Batch<ScalarLane> batch)
+    /// <param name="batch">Of an island with laws.</param>
+    /// <param name="bodies">The world's.</param>
+    public SpringAnswer(Batch<ScalarLane> batch, Bodies bodies)
     {
         _batch = batch;
-        _change = new double[6 * batch.Shape.MovingBodies];
+        _bodies = bodies;
+        _linear = new Vector3d[batch.Shape.MovingBodies];
+        _angular = new Vector3d[batch.Shape.MovingBodies];
     }
 
-    /// <summary>Where a step begins, its momenta damped; with a pose that was moved since, the answer is none.</summary>
-    public void TakeBack(bool isMoved)
+    /// <summary>Before a step is loaded. Velocities that were written since are those of the program that wrote them.</summary>
+    public void TakeBack()
     {
         double[] a = _batch.Bodies;
-        for (int body = 0; body < _batch.Shape.MovingBodies && _isGiven && !isMoved; body++)
+        for (int body = 0; body < _linear.Length && _isGiven; body++)
         {
             int o = Batch<ScalarLane>.Body(body, 0);
-            for (int i = 0; i < 6; i++)
+            int member = _batch.Members[body];
+            if (_bodies.LinearVelocities[member] == Transfer<ScalarLane>.Vector(a, o + BodySlot.V)
+                && _bodies.AngularVelocities[member] == Transfer<ScalarLane>.Vector(a, o + BodySlot.W))
             {
-                a[o + BodySlot.V + i] -= a[o + BodySlot.Kept + i / 3] * _change[6 * body + i];
+                _bodies.LinearVelocities[member] = _linear[body];
+                _bodies.AngularVelocities[member] = _angular[body];
             }
         }
 
@@ -43,17 +52,25 @@ internal sealed class SpringAnswer
     }
 
     /// <summary>Where a step ends, with the rows built there.</summary>
-    public void Give(Laws<ScalarLane> laws)
+    public void Give()
     {
+        Laws<ScalarLane> laws = _batch.Laws!;
         _isGiven = laws.BeginAnswer();
         if (!_isGiven)
         {
             return;
         }
 
+        Transfer<ScalarLane>.Finish(_batch);
+        for (int body = 0; body < _linear.Length; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            _linear[body] = Transfer<ScalarLane>.Vector(_batch.Bodies, o + BodySlot.V);
+            _angular[body] = Transfer<ScalarLane>.Vector(_batch.Bodies, o + BodySlot.W);
+        }
+
         double[] solution = _batch.Work.Solution;
         double[] sum = _batch.Work.Move;
-        Read(true);
         RattleStep<ScalarLane>.Factor(_batch, false);
         _batch.Work.Active[0] = 1;
         Array.Clear(sum, 0, sum.Length);
@@ -70,21 +87,6 @@ internal sealed class SpringAnswer
             }
         }
 
-        Read(false);
         laws.EndAnswer();
-    }
-
-    // The momenta, or what became of them since.
-    private void Read(bool isBefore)
-    {
-        double[] a = _batch.Bodies;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
-            for (int i = 0; i < 6; i++)
-            {
-                _change[6 * body + i] = a[o + i] - (isBefore ? 0 : _change[6 * body + i]);
-            }
-        }
     }
 }

@@ -235,17 +235,6 @@ internal sealed class LawTests
         Assert.That(m.Bodies.LinearVelocities[0].X, Is.EqualTo(2).Within(1e-9));
     }
 
-    // Far too stiff for the step: without its answer to the torque's second half it would show h T / (2 I) for ever.
-    [Test]
-    public void HingeSpring_StiffUnderTorque_SagsByTorqueOverStiffnessAndShowsNoSpeed()
-    {
-        const double torque = 5;
-        MultibodySystem m = Wheel(h => h.Spring = new JointDrive { Stiffness = 1e5, Damping = 1e3, ForceLimit = double.PositiveInfinity });
-        Run(m, 3, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, torque));
-        Assert.That(Angle(m), Is.EqualTo(torque / 1e5).Within(1e-9));
-        Assert.That(Speed(m), Is.EqualTo(0).Within(0.01 * Dt * torque / (2 * 2)));
-    }
-
     [Test]
     public void Drive_UnderGravity_SagsByWeightOverStiffness()
     {

@@ -11,7 +11,7 @@ internal static class DriveScenes
     /// <summary>By the name that the table gives them.</summary>
     internal static readonly IReadOnlyDictionary<string, Func<SceneDocument>> All = new Dictionary<string, Func<SceneDocument>>
     {
-        ["lever, 5 joints, 1 loop"] = Lever,
+        ["planar lever of 5 joints, 1 loop"] = Lever,
         ["ladder of parallelograms, 100 bars"] = () => Ladder(50),
         ["closed ring, 100 bars"] = () => Ring(100),
         ["chain, 10 bars"] = () => Chain(10),

@@ -294,25 +294,54 @@ internal static class ResponseMatrix<V>
 
     private static void Regularise(Batch<V> batch, int n, Node node, double angularShare, double linearShare)
     {
-        double[] matrix = batch.Matrix;
-        int w = Lane<V>.Width;
-        int block = batch.Shape.Pattern.Diagonal(n);
-        bool isByMoment = batch.Shape.IsRedundant && batch.Shape.Fit == LoopFit.Exact;
-        Lane<V> least = Lane<V>.Splat(0);
-        for (int side = 0; side < node.Bodies.Length; side++)
+        int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
+        if (batch.Shape.IsRedundant)
         {
-            least += Lane<V>.Load(batch.Bodies, Batch<V>.Body(node.Bodies[side], BodySlot.LeastInverseInertia));
+            int row = batch.Shape.Pattern.Rows[n] * Lane<V>.Width;
+            Lane<V> least = batch.Shape.Fit == LoopFit.Exact ? LeastResponse(batch, node) : Lane<V>.Splat(double.PositiveInfinity);
+            RegulariseLoop(batch, node, row, cell, least, angularShare, linearShare);
+        }
+        else
+        {
+            RegulariseTree(batch.Matrix, node, cell);
+        }
+    }
+
+    private static void RegulariseTree(double[] matrix, Node node, int cell)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> share = Lane<V>.Splat(TreeShare);
+        for (int i = 0; i < node.RigidRows; i++, cell += (node.Rows + 1) * w)
+        {
+            Lane<V> response = Lane<V>.Load(matrix, cell);
+            (response + share * response).Store(matrix, cell);
+        }
+    }
+
+    // What the largest moments of a node's bodies would answer.
+    private static Lane<V> LeastResponse(Batch<V> batch, Node node)
+    {
+        Lane<V> least = Lane<V>.Splat(0);
+        foreach (int body in node.Bodies)
+        {
+            least += Lane<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.LeastInverseInertia));
         }
 
-        for (int i = 0; i < node.RigidRows; i++)
+        return least;
+    }
+
+    // Least is infinite where angular rows get their share of the whole diagonal.
+    private static void RegulariseLoop(Batch<V> batch, Node node, int row, int cell, Lane<V> least, double angularShare, double linearShare)
+    {
+        double[] matrix = batch.Matrix;
+        int w = Lane<V>.Width;
+        for (int i = 0; i < node.RigidRows; i++, row += w, cell += (node.Rows + 1) * w)
         {
-            int cell = (block + i * (node.Rows + 1)) * w;
             bool isAngular = node.Classes[i] == RowClass.Angular;
             Lane<V> response = Lane<V>.Load(matrix, cell);
-            Lane<V> slow = isByMoment && isAngular ? Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response) : response;
-            double share = !batch.Shape.IsRedundant ? TreeShare : isAngular ? angularShare : linearShare;
-            Lane<V> compliance = Lane<V>.Splat(share) * slow;
-            compliance.Store(batch.Compliance, (batch.Shape.Pattern.Rows[n] + i) * w);
+            Lane<V> slow = isAngular ? Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response)) : response;
+            Lane<V> compliance = Lane<V>.Splat(isAngular ? angularShare : linearShare) * slow;
+            compliance.Store(batch.Compliance, row);
             (response + compliance).Store(matrix, cell);
         }
     }

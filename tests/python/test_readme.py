@@ -35,3 +35,21 @@ def test_readme_code_runs(readme, tmp_path):
 def test_python_readme_has_code():
     """The check above does not pass for want of anything to check."""
     assert ROOT / "python" / "README.md" in READMES
+
+
+SCENES = {"100 four-bars": "fourbar100", "1000 double pendulums": "dpend1000"}
+TOLD = re.compile(rf"^\| ({'|'.join(SCENES)}), `(\w+)`(?:, ([\d /]+) lanes)?[^|]*\| ([\d /]+) \|", re.MULTILINE)
+MEASURED = re.compile(r"^\| (\w+) \| (\w+)(?:, (\d) lanes)? \| [\d.]+ \| (\d+) \|", re.MULTILINE)
+
+
+def test_solver_figures_are_those_of_the_results():
+    """What the README tells of the solvers' speed is what the benchmark wrote last."""
+    results = (ROOT / "csharp" / "bench" / "RESULTS.md").read_text("utf-8")
+    measured = {(scene, solver, lanes): ns for scene, solver, lanes, ns in MEASURED.findall(results)}
+    rows = TOLD.findall((ROOT / "README.md").read_text("utf-8"))
+    told = {
+        (SCENES[scene], solver, width): ns
+        for scene, solver, lanes, figures in rows
+        for width, ns in zip(lanes.split(" / "), figures.split(" / "))
+    }
+    assert len(told) == 7 and told.items() <= measured.items()

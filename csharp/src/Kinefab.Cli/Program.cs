@@ -7,8 +7,6 @@ namespace Kinefab.Cli;
 /// <summary>dotnet kinefab: exit 0 ok, 1 errors found, 2 wrong usage.</summary>
 internal static class Program
 {
-    private const int WrongUsage = 2;
-
     internal static int Main(string[] args)
     {
         ParseResult parsed = Commands().Parse(args);
@@ -16,8 +14,7 @@ internal static class Program
             return parsed.Invoke();
         foreach (var error in parsed.Errors)
             Console.Error.WriteLine(error.Message);
-        Console.Error.WriteLine("Run 'dotnet kinefab --help' for the commands and their options.");
-        return WrongUsage;
+        return WrongUsage.Refuse("Run 'dotnet kinefab --help' for the commands and their options.");
     }
 
     /// <summary>Every command that there is.</summary>

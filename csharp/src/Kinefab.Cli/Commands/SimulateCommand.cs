@@ -13,8 +13,6 @@ namespace Kinefab.Cli.Commands;
 /// <summary>dotnet kinefab simulate FILE --seconds S [--step DT] [--solver unity|exact] [-o traj.json|csv] [--drive JOINT=VALUE...].</summary>
 internal static class SimulateCommand
 {
-    private const int WrongUsage = 2;
-
     internal static Command Create()
     {
         Argument<string> file = SceneArguments.File();
@@ -47,7 +45,7 @@ internal static class SimulateCommand
         double dt = step ?? loaded.Scene.Document.Physics.FixedTimestep;
         double count = Math.Max(1, Math.Round(seconds / dt));
         if (count > TypedOptions.MostSteps)
-            return Refuse(string.Create(CultureInfo.InvariantCulture, $"--seconds {seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
+            return WrongUsage.Refuse(string.Create(CultureInfo.InvariantCulture, $"--seconds {seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
         World world = World.Create(loaded.Scene, kind);
         int told = world.Findings.Diagnostics.Count;
         ReportWriter.WriteLines(file, world.Findings, Console.Error);
@@ -55,12 +53,12 @@ internal static class SimulateCommand
         foreach (string text in drives)
         {
             if (DriveSetting.Apply(world, mechanism!, text) is string fault)
-                return Refuse($"--drive {text}: {fault}");
+                return WrongUsage.Refuse($"--drive {text}: {fault}");
         }
 
         var steps = (int)count;
         if (output is not null && TrajectorySize.Fault(steps, world.Bodies.Count, mechanism!.Coordinates.Count) is string excess)
-            return Refuse($"--output {output}: {excess} Give fewer seconds or a longer --step.");
+            return WrongUsage.Refuse($"--output {output}: {excess} Give fewer seconds or a longer --step.");
         Report target = output is null ? Report.Empty : TargetFile.Check(output);
         if (target.HasErrors)
             return Fail(file, target);
@@ -80,12 +78,6 @@ internal static class SimulateCommand
         summary.Write(Console.Out, kind, steps, dt);
         Report saved = recording is null ? Report.Empty : TrajectoryFile.Save(recording.Trajectory, output!);
         return saved.HasErrors ? Fail(file, saved) : world.Stops == 0 ? 0 : 1;
-    }
-
-    private static int Refuse(string usage)
-    {
-        Console.Error.WriteLine(usage);
-        return WrongUsage;
     }
 
     private static int Fail(string file, Report report)

@@ -13,8 +13,6 @@ namespace Kinefab.Cli.Commands;
 /// <summary>dotnet kinefab sweep FILE --joint ID --from A --to B --steps N [-o traj.json|csv] [--into-animation].</summary>
 internal static class SweepCommand
 {
-    private const int WrongUsage = 2;
-
     // The solver walks all of the way, in steps of a fraction of a radian or of the mechanism's length.
     private const double FarthestDegrees = 360_000;
     private const double FarthestMetres = 1000;
@@ -48,24 +46,15 @@ internal static class SweepCommand
             return loaded.ExitCode;
         Mechanism mechanism = Mechanism.Create(loaded.Scene);
         if (!mechanism.TryFindCoordinate(joint, out int coordinate, out string fault))
-        {
-            Console.Error.WriteLine($"--joint {joint}: {fault}");
-            return WrongUsage;
-        }
+            return WrongUsage.Refuse($"--joint {joint}: {fault}");
 
         bool isAngle = mechanism.Coordinates[coordinate].IsAngle;
         double farthest = isAngle ? FarthestDegrees : FarthestMetres;
         if (Math.Max(Math.Abs(from ?? 0), Math.Abs(to ?? 0)) > farthest)
-        {
-            Console.Error.WriteLine($"--from and --to must lie between -{Number(farthest)} and {Number(farthest)} {(isAngle ? "deg" : "m")} for {joint}.");
-            return WrongUsage;
-        }
+            return WrongUsage.Refuse($"--from and --to must lie between -{Number(farthest)} and {Number(farthest)} {(isAngle ? "deg" : "m")} for {joint}.");
 
         if (TrajectorySize.Fault(steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)
-        {
-            Console.Error.WriteLine($"--steps {steps}: {excess} Give fewer steps.");
-            return WrongUsage;
-        }
+            return WrongUsage.Refuse($"--steps {steps}: {excess} Give fewer steps.");
 
         Report target = Targets(output, intoAnimation ? file : null);
         if (target.HasErrors)

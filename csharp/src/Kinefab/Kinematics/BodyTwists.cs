@@ -226,12 +226,6 @@ internal sealed class BodyTwists
             }
         }
 
-        int rank = 0;
-        foreach (double value in new SingularValues(matrix).Values)
-        {
-            rank += value > LeastMotion ? 1 : 0;
-        }
-
-        return rank;
+        return new SingularValues(matrix).Rank(LeastMotion);
     }
 }

@@ -149,12 +149,6 @@ internal sealed class FiniteMobility
             }
         }
 
-        int rank = 0;
-        foreach (double value in new SingularValues(matrix).Values)
-        {
-            rank += value > Survives ? 1 : 0;
-        }
-
-        return rank;
+        return new SingularValues(matrix).Rank(Survives);
     }
 }

@@ -17,6 +17,9 @@ internal static class FreeTwists
         _ => 0,
     };
 
+    /// <summary>Rows of a joint's locked axes.</summary>
+    public static int Rows(Joint joint) => 6 - Count(LockedAxes(joint));
+
     /// <summary>Number of freedoms.</summary>
     public static int Count(int lockedAxes)
     {

@@ -169,13 +169,7 @@ internal sealed class IdleFreedoms
             row += 6;
         }
 
-        int rank = 0;
-        foreach (double value in new SingularValues(twists).Values)
-        {
-            rank += value > LeastMotion ? 1 : 0;
-        }
-
-        return rank;
+        return new SingularValues(twists).Rank(LeastMotion);
     }
 
     private List<int> GameObjects(List<int> leg)

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 

@@ -64,7 +64,7 @@ internal sealed class LoopMobility
         foreach (int joint in Part.Linkage.Tree.Closures)
         {
             int repeated = 0;
-            int rows = 6 - FreeTwists.Count(FreeTwists.LockedAxes(Part.Linkage.Joints[joint]));
+            int rows = FreeTwists.Rows(Part.Linkage.Joints[joint]);
             for (int i = 0; i < rows; i++)
             {
                 double[] left = (double[])Here.Rows.Row(row++).Clone();

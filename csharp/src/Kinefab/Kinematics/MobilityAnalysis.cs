@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -58,13 +59,11 @@ public static class MobilityAnalysis
         var redundant = new int[mechanism.Joints.Length];
         foreach (int joint in mechanism.Tree.Closures)
         {
-            redundant[joint] = mechanism.Rows.Joints[joint].Bodies.Length == 0 ? RowsOf(mechanism.Joints[joint]) : 0;
+            redundant[joint] = mechanism.Rows.Joints[joint].Bodies.Length == 0 ? FreeTwists.Rows(mechanism.Joints[joint]) : 0;
         }
 
         return redundant;
     }
-
-    private static int RowsOf(Joints.Joint joint) => 6 - FreeTwists.Count(FreeTwists.LockedAxes(joint));
 
     private static List<IslandMobility> Islands(Mechanism mechanism, LoopParts parts, LoopMobility[] loops)
     {
@@ -111,7 +110,7 @@ public static class MobilityAnalysis
         {
             int body = Math.Max(tree.Moving(mechanism.Joints[joint].Body0), tree.Moving(mechanism.Joints[joint].Body1));
             Tally tally = tallies[sets.Find(body)];
-            tally.Rows += RowsOf(mechanism.Joints[joint]);
+            tally.Rows += FreeTwists.Rows(mechanism.Joints[joint]);
             tally.Loops++;
         }
 
@@ -168,7 +167,7 @@ public static class MobilityAnalysis
             if (redundant[j] > 0)
             {
                 (int gameObject, int component) = mechanism.JointPlaces[j];
-                named.Add(new RedundantRows(gameObject, component, RowsOf(mechanism.Joints[j]), redundant[j]));
+                named.Add(new RedundantRows(gameObject, component, FreeTwists.Rows(mechanism.Joints[j]), redundant[j]));
             }
         }
 

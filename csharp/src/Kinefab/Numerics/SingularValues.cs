@@ -57,20 +57,11 @@ internal sealed class SingularValues
     /// <summary>One for each column, falling.</summary>
     public double[] Values { get; }
 
+    /// <summary>Number of the values above a bound.</summary>
+    public int Rank(double bound) => Array.FindAll(Values, value => value > bound).Length;
+
     /// <summary>Entry of the right singular vector that belongs to a value.</summary>
     public double Vector(int entry, int value) => _vectors[entry, value];
-
-    /// <summary>Number of values above a share of the largest; 0 for a matrix of zeros.</summary>
-    public int Rank(double tolerance)
-    {
-        int rank = 0;
-        while (rank < Values.Length && Values[rank] > tolerance * Math.Max(Values[0], 1e-300))
-        {
-            rank++;
-        }
-
-        return rank;
-    }
 
     private static double[][] Columns(double[,] matrix, int columns)
     {

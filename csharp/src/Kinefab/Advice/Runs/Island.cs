@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Document;
 using Kinefab.Dynamics;
-using Kinefab.Kinematics;
+using Kinefab.Numerics;
 
 namespace Kinefab.Advice.Runs;
 

@@ -21,7 +21,7 @@ internal sealed class ExactSolver : ISolver
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
-    private readonly List<InexactLoop> _loops;
+    private readonly Dictionary<int, LoopFit> _fits = new();
     private RowWatch _watch;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
@@ -39,11 +39,18 @@ internal sealed class ExactSolver : ISolver
     public ExactSolver(MultibodySystem mechanism, List<InexactLoop> loops, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
-        _loops = loops;
         _maxWidth = maxWidth;
         foreach (Joint joint in mechanism.Joints)
         {
             joint.EveryLimit = true;
+        }
+
+        foreach (InexactLoop loop in loops)
+        {
+            foreach (int joint in loop.Joints)
+            {
+                _fits[joint] = loop.Fit;
+            }
         }
 
         Regroup();
@@ -85,12 +92,9 @@ internal sealed class ExactSolver : ISolver
         _watch = new RowWatch(rest);
         foreach (Island island in rest)
         {
-            foreach (InexactLoop loop in _loops)
-            {
-                // An island that a break has left of the one that was probed.
-                bool isPart = Array.Exists(island.Nodes, node => node.Joint != null && Array.IndexOf(loop.Joints, node.Index) >= 0);
-                island.Fit = isPart ? loop.Fit : island.Fit;
-            }
+            // What a break has left of an island that was probed is still as it was found.
+            Node? probed = Array.Find(island.Nodes, node => node.Joint != null && _fits.ContainsKey(node.Index));
+            island.Fit = probed is null ? LoopFit.Exact : _fits[probed.Index];
         }
 
         List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);

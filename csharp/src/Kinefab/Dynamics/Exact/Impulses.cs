@@ -316,9 +316,5 @@ internal static class Impulses<V>
             a[o + 4] * v.X + a[o + 5] * v.Y + a[o + 2] * v.Z);
     }
 
-    private static Vector3d Vector(Batch<V> batch, int body, int slot)
-    {
-        int o = Batch<V>.Body(body, slot);
-        return new Vector3d(batch.Bodies[o], batch.Bodies[o + 1], batch.Bodies[o + 2]);
-    }
+    private static Vector3d Vector(Batch<V> batch, int body, int slot) => Transfer<V>.Vector(batch.Bodies, Batch<V>.Body(body, slot));
 }

@@ -1,10 +1,11 @@
 using System;
 using System.Collections.Generic;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Exact;
 
-/// <summary>Which bodies hang together: union-find over unbroken joints and couplings; fixed bodies join nothing.</summary>
+/// <summary>Which bodies hang together: by unbroken joints and couplings; fixed bodies join nothing.</summary>
 internal static class IslandFinder
 {
     /// <summary>The islands of a mechanism's unbroken joints, by the lowest index of their bodies.</summary>
@@ -12,12 +13,7 @@ internal static class IslandFinder
     {
         Joint[] joints = mechanism.Joints;
         Bodies bodies = mechanism.Bodies;
-        var parent = new int[bodies.Count];
-        for (int i = 0; i < parent.Length; i++)
-        {
-            parent[i] = i;
-        }
-
+        var sets = new DisjointSets(bodies.Count);
         foreach (Joint joint in joints)
         {
             if (!joint.IsBroken)
@@ -37,11 +33,11 @@ internal static class IslandFinder
         }
 
         var members = new SortedDictionary<int, Builder>();
-        for (int i = 0; i < parent.Length; i++)
+        for (int i = 0; i < bodies.Count; i++)
         {
             if (Moves(i))
             {
-                int root = Root(i);
+                int root = sets.Find(i);
                 if (!members.TryGetValue(root, out Builder? builder))
                 {
                     members.Add(root, builder = new Builder(bodies));
@@ -56,7 +52,7 @@ internal static class IslandFinder
             int body = AnyMoving(joints[j]);
             if (body >= 0 && !joints[j].IsBroken)
             {
-                members[Root(body)].Add(joints[j], j);
+                members[sets.Find(body)].Add(joints[j], j);
             }
         }
 
@@ -66,7 +62,7 @@ internal static class IslandFinder
             int body = Math.Max(AnyMoving(coupling.A.Joint), AnyMoving(coupling.B.Joint));
             if (body >= 0 && IsWhole(coupling))
             {
-                members[Root(body)].Add(coupling, c);
+                members[sets.Find(body)].Add(coupling, c);
             }
         }
 
@@ -82,23 +78,11 @@ internal static class IslandFinder
 
         int AnyMoving(Joint joint) => Moves(joint.Body0) ? joint.Body0 : Moves(joint.Body1) ? joint.Body1 : -1;
 
-        int Root(int body)
-        {
-            while (parent[body] != body)
-            {
-                body = parent[body] = parent[parent[body]];
-            }
-
-            return body;
-        }
-
         void Unite(int a, int b)
         {
             if (Moves(a) && Moves(b))
             {
-                int ra = Root(a);
-                int rb = Root(b);
-                parent[Math.Max(ra, rb)] = Math.Min(ra, rb);
+                sets.Join(a, b);
             }
         }
     }

@@ -122,7 +122,7 @@ internal struct Law
     }
 
     /// <summary>What the matrix is to have of it.</summary>
-    public readonly Hold HoldIn() =>
+    public readonly Hold FindHold() =>
         Segment == Segment.Clamped || !IsWritten ? Hold.None
         : Kind == LawKind.Spring ? Hold.Compliant
         : Hold.Rigid;

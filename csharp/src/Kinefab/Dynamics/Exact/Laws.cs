@@ -78,7 +78,7 @@ internal sealed partial class Laws<V>
         bool isFactored = _isFactored;
         for (int i = 0; i < _laws.Length && isFactored; i++)
         {
-            isFactored = _laws[i].Hold != Hold.Compliant && _laws[i].HoldIn() == _laws[i].Hold;
+            isFactored = _laws[i].Hold != Hold.Compliant && _laws[i].FindHold() == _laws[i].Hold;
         }
 
         return isFactored;
@@ -301,7 +301,7 @@ internal sealed partial class Laws<V>
             ref Law law = ref _laws[i];
             Node node = _batch.Shape.Nodes[law.Node];
             int cell = _batch.Shape.Pattern.Diagonal(law.Node) + law.NodeRow * (node.Rows + 1);
-            law.Hold = law.HoldIn();
+            law.Hold = law.FindHold();
             switch (law.Hold)
             {
                 case Hold.None:

@@ -199,11 +199,9 @@ internal sealed class LoopProbe
     private Vector3d AnchorSpeed(int n, int side)
     {
         int body = _batch.Shape.Nodes[n].Bodies[side];
-        int v = Batch<ScalarLane>.Body(body, BodySlot.V);
-        int r = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
-        Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, body);
-        Vector3d speed = new(_batch.Bodies[v], _batch.Bodies[v + 1], _batch.Bodies[v + 2]);
-        return speed + Vector3d.Cross(turn, new Vector3d(_batch.Joints[r], _batch.Joints[r + 1], _batch.Joints[r + 2]));
+        Vector3d speed = Transfer<ScalarLane>.Vector(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V));
+        Vector3d lever = Transfer<ScalarLane>.Vector(_batch.Joints, Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side)));
+        return speed + Vector3d.Cross(Impulses<ScalarLane>.AngularVelocity(_batch, body), lever);
     }
 
     private static bool IsSlow(double speed, out double same)

@@ -40,14 +40,8 @@ internal sealed class SpringAnswerTests
         Assert.That((wheel.Bodies.AngularVelocities[0] - other.Bodies.AngularVelocities[0]).Length, Is.LessThan(1e-7));
     }
 
-    private static MultibodySystem Wheel()
-    {
-        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
-        int wheel = b.Body(new Vector3d(1, 2, 3), Quaterniond.Identity, 3, new Vector3d(1.1, 1.3, Inertia));
-        RevoluteJoint hinge = b.Hinge(Joint.World, wheel, new Vector3d(1, 2, 3), Vector3d.UnitZ);
-        hinge.Spring = new JointDrive { Stiffness = Stiffness, Damping = 1e3, ForceLimit = double.PositiveInfinity };
-        return b.Build();
-    }
+    private static MultibodySystem Wheel() =>
+        LawScenes.Wheel(h => h.Spring = new JointDrive { Stiffness = Stiffness, Damping = 1e3, ForceLimit = double.PositiveInfinity });
 
     private static void Settle(MultibodySystem wheel, ExactSolver solver)
     {

@@ -1,6 +1,6 @@
-namespace Kinefab.Kinematics;
+namespace Kinefab.Numerics;
 
-/// <summary>Sets of bodies that are joined one by one. Source: Galler and Fischer 1964.</summary>
+/// <summary>Sets of elements that are joined one by one. Source: Galler and Fischer 1964.</summary>
 internal sealed class DisjointSets
 {
     private readonly int[] _parents;

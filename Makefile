@@ -1,14 +1,22 @@
 .DEFAULT_GOAL := help
 PYTHON := .venv/bin/python
+KINEFAB = $(PYTHON) -m kinefab
+OUT := out
+# Where `make tool` leaves dotnet-kinefab; it stands first on the recipes' PATH, before one that is installed.
 TOOL := csharp/src/Kinefab.Cli/bin/Release/net10.0
 export PATH := $(CURDIR)/$(TOOL):$(PATH)
+SDK = dotnet --list-sdks 2>/dev/null | grep -q '^1[0-9]\.'
 export DOTNET_CLI_TELEMETRY_OPTOUT := 1
 export DOTNET_NOLOGO := 1
 
-.PHONY: help setup tool demo test bench golden clean
+.PHONY: help extras setup tool demo test bench golden clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+
+extras: # libraries of single formats, so that their tests run; where the index has none of them, those are skips
+	@[ -f .venv/extras.stamp ] || { [ -x .venv/bin/pip ] && .venv/bin/pip install --quiet --disable-pip-version-check \
+		--retries 1 --timeout 15 -e 'python[dev,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || true
 
 setup: ## .venv with everything Python needs
 	@bash python/bootstrap.sh
@@ -16,23 +24,35 @@ setup: ## .venv with everything Python needs
 tool: ## build the command line tool, so that `dotnet kinefab` works in the recipes here
 	@dotnet build csharp/src/Kinefab.Cli -c Release -v quiet --nologo
 
-demo: setup tool ## the lever: CAD bundle -> Unity scene -> validated, described, moved and advised on by C#
-	@mkdir -p out
-	.venv/bin/kinefab export fixtures/lever/lever.bundle.json -o out/lever.kinefab
-	dotnet kinefab validate out/lever.kinefab
-	dotnet kinefab inspect out/lever.kinefab
-	dotnet kinefab mobility out/lever.kinefab
-	dotnet kinefab sweep out/lever.kinefab --joint Lever/Crank:1 --from 0 --to 360 --steps 12 -o out/lever.motion.json
-	$(PYTHON) fixtures/lever/motion_table.py out/lever.motion.json
-	dotnet kinefab advise out/lever.kinefab
-	.venv/bin/kinefab draw out/lever.kinefab -o out/lever.svg
+demo: setup ## the lever: CAD bundle -> Unity scene -> described, drawn, and by C# validated, moved and advised on
+	@if $(SDK); then $(MAKE) --no-print-directory tool; fi
+	@mkdir -p $(OUT)
+	$(KINEFAB) export fixtures/lever/lever.bundle.json -o $(OUT)/lever.kinefab
+	$(KINEFAB) inspect $(OUT)/lever.kinefab
+	$(KINEFAB) analyse fixtures/lever/lever.bundle.json
+	$(KINEFAB) draw $(OUT)/lever.kinefab -o $(OUT)/lever.svg
+	@if command -v dotnet-kinefab >/dev/null; then $(MAKE) --no-print-directory demo-csharp; else \
+		echo "left out: what dotnet kinefab does (validate, mobility, sweep, advise); it needs the .NET 10 SDK, https://dot.net"; fi
+	@echo "The lever, to be moved by hand:"
+	@$(KINEFAB) view $(OUT)/lever.kinefab -o $(OUT)/lever.html $(if $(DISPLAY)$(WAYLAND_DISPLAY),--open)
 
-test: setup ## every test of both languages; the last line counts them
+.PHONY: demo-csharp
+demo-csharp:
+	dotnet-kinefab validate $(OUT)/lever.kinefab
+	dotnet-kinefab inspect $(OUT)/lever.kinefab
+	dotnet-kinefab mobility $(OUT)/lever.kinefab
+	dotnet-kinefab sweep $(OUT)/lever.kinefab --joint Lever/Crank:1 --from 0 --to 360 --steps 12 -o $(OUT)/lever.motion.json
+	$(PYTHON) fixtures/lever/motion_table.py $(OUT)/lever.motion.json
+	dotnet-kinefab advise $(OUT)/lever.kinefab
+
+test: setup extras ## every test of both languages; the last line counts them
 	@$(PYTHON) tests/run.py
 
 bench: setup tool ## the measured figures of the README
 	$(PYTHON) python/bench/export_bench.py
 	$(PYTHON) python/bench/analyse_bench.py
+	$(PYTHON) python/bench/batch_bench.py
+	$(PYTHON) python/bench/unitypackage_bench.py
 	dotnet run -c Release --project csharp/bench -- load
 	dotnet run -c Release --project csharp/bench -- drive
 	dotnet run -c Release --project csharp/bench -- mobility

@@ -7,19 +7,50 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 venv=$PWD/.venv
 stamp=$venv/kinefab.stamp
-wanted=$(cat python/pyproject.toml python/bootstrap.sh | sha256sum | cut -d' ' -f1)
-if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$wanted" ] && "$venv/bin/python" -c 'import numpy, trimesh, kinefab' 2>/dev/null; then
-    exit 0
-fi
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
-from_index() {
-    local python
-    python=$(command -v python3) || return 1
-    "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' || return 1
+if ! command -v sha256sum >/dev/null; then
+    say "sha256sum is not on the PATH; it tells whether .venv is up to date.  It comes with GNU coreutils (macOS: brew install coreutils)."
+    exit 1
+fi
+wanted=$(cat python/pyproject.toml python/bootstrap.sh | sha256sum | cut -d' ' -f1)
+works() { "$venv/bin/python" -c 'import numpy, trimesh, kinefab' 2>/dev/null; }
+if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$wanted" ] && works; then
+    exit 0
+fi
+if { [ -e "$venv" ] || [ -L "$venv" ]; } && [ ! -f "$stamp" ]; then
+    if works; then
+        say "using .venv as it stands; it was not made here"
+        exit 0
+    fi
+    say "$venv is there and was not made here (it has no kinefab.stamp), so it is left alone."
+    say "Move it away, or install python[dev] of this checkout into it, and try again."
+    exit 1
+fi
+
+# The first Python on the PATH that is new enough.
+python=
+for name in python3 python3.14 python3.13 python3.12 python3.11 python3.10; do
+    if command -v "$name" >/dev/null && "$name" -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>/dev/null; then
+        python=$(command -v "$name")
+        break
+    fi
+done
+if [ -z "$python" ]; then
+    found=$(python3 -c 'import sys; print("Python %d.%d" % sys.version_info[:2])' 2>/dev/null || echo "no Python")
+    say "$found is on the PATH; kinefab needs Python 3.10 or newer."
+    exit 1
+fi
+
+# An empty stamp from the start, so that what a broken-off call leaves is known to be ours.
+fresh() {
     rm -rf "$venv"
-    "$python" -m venv "$venv" || return 1
+    "$@" "$venv" && : >"$stamp"
+}
+
+from_index() {
+    fresh "$python" -m venv || return 1
     # The smallest package first: where no index answers, this fails at once.
     "$venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 --timeout 15 'hatchling>=1.27' >/dev/null 2>&1 || return 1
     say "installing kinefab and its dependencies from the Python index"
@@ -47,8 +78,7 @@ from_debian() {
         as_root apt-get -qq update >/dev/null || true
         as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "${missing[@]}" >/dev/null || return 1
     fi
-    rm -rf "$venv"
-    /usr/bin/python3 -m venv --system-site-packages --without-pip "$venv"
+    fresh /usr/bin/python3 -m venv --system-site-packages --without-pip || return 1
     local site
     site=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
     "$venv/bin/python" -c 'import trimesh' 2>/dev/null || debian_trimesh "$site" || return 1

@@ -33,8 +33,17 @@ class Counts:
 def run_python(counts: Counts, scratch: Path) -> None:
     """pytest, read back from its JUnit file."""
     result = scratch / "pytest.xml"
-    command = [sys.executable, "-m", "pytest", "-c", "python/pyproject.toml", "tests/python",
-               f"--junitxml={result}", "-p", "no:cacheprovider"]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-c",
+        "python/pyproject.toml",
+        "tests/python",
+        f"--junitxml={result}",
+        "-p",
+        "no:cacheprovider",
+    ]
     status = subprocess.run(command, cwd=ROOT).returncode
     if not result.is_file():
         counts.failed.append(f"pytest ended with status {status} and left no result")
@@ -54,29 +63,50 @@ def run_python(counts: Counts, scratch: Path) -> None:
         counts.failed.append(f"pytest ended with status {status}")
 
 
-def write_physx_states() -> None:
-    """States of random mechanisms in PhysX itself, for the C# test that is skipped without them: needs npm."""
+def run_npm(what: str, *arguments: str) -> None:
+    """A command of npm in ``tests/reference``; without npm, or where it fails, the tests that want it say what they miss."""
     npm = shutil.which("npm")
     if npm is None:
         return
-    reference = ROOT / "tests" / "reference"
-    commands = [[npm, "run", "--silent", "fuzz"]]
-    if not (reference / "node_modules").is_dir():
-        commands.insert(0, [npm, "ci", "--silent", "--no-audit", "--no-fund", "--fetch-retries=0"])
     try:
-        for command in commands:
-            subprocess.run(command, cwd=reference, timeout=NPM_SECONDS, check=True)
+        subprocess.run([npm, *arguments], cwd=ROOT / "tests" / "reference", timeout=NPM_SECONDS, check=True)
     except (OSError, subprocess.SubprocessError) as error:
-        print(f"no PhysX states: {error}", file=sys.stderr)
+        print(f"no {what}: {error}", file=sys.stderr)
+
+
+def install_node_modules() -> None:
+    """PhysX itself, and Khronos' validator of glTF."""
+    if not (ROOT / "tests" / "reference" / "node_modules" / "gltf-validator").is_dir():
+        run_npm("PhysX and glTF validator", "ci", "--silent", "--no-audit", "--no-fund", "--fetch-retries=0")
+
+
+def has_sdk() -> bool:
+    """Whether there is an SDK that builds for .NET 10; a runtime alone has a ``dotnet`` too."""
+    if shutil.which("dotnet") is None:
+        return False
+    listed = subprocess.run(["dotnet", "--list-sdks"], capture_output=True, text=True).stdout
+    return any(int(line.partition(".")[0]) >= 10 for line in listed.splitlines() if line[:1].isdigit())
 
 
 def run_csharp(counts: Counts, scratch: Path) -> None:
     """dotnet test, read back from its TRX file."""
-    if shutil.which("dotnet") is None:
-        counts.skipped.append("C# tests: no dotnet on the PATH")
+    if not has_sdk():
+        counts.skipped.append("C# tests: no .NET 10 SDK on the PATH")
         return
-    command = ["dotnet", "test", "csharp/Kinefab.slnx", "-c", "Release", "--nologo", "-v", "quiet",
-               "--logger", "trx", "--results-directory", str(scratch)]
+    command = [
+        "dotnet",
+        "test",
+        "csharp/Kinefab.slnx",
+        "-c",
+        "Release",
+        "--nologo",
+        "-v",
+        "quiet",
+        "--logger",
+        "trx",
+        "--results-directory",
+        str(scratch),
+    ]
     if "--without-mono" in sys.argv[1:]:
         command += ["--filter", "TestCategory!=Mono"]
     status = subprocess.run(command, cwd=ROOT).returncode
@@ -104,8 +134,10 @@ def run_csharp(counts: Counts, scratch: Path) -> None:
 def main() -> int:
     counts = Counts()
     with tempfile.TemporaryDirectory() as scratch:
+        install_node_modules()
         run_python(counts, Path(scratch))
-        write_physx_states()
+        if has_sdk():  # states of random mechanisms in PhysX, for the C# test that is skipped without them
+            run_npm("PhysX states", "run", "--silent", "fuzz")
         run_csharp(counts, Path(scratch))
     if os.environ.get("KINEFAB_REQUIRE_ALL") == "1":
         counts.failed += [f"skipped, and KINEFAB_REQUIRE_ALL=1: {reason}" for reason in counts.skipped]

@@ -14,7 +14,6 @@ import sys
 import time
 
 import numpy as np
-
 from kinefab.analysis import analyse
 from kinefab.model import Constraint, ConstraintKind, Feature, FeatureKind, Node, Scene
 from kinefab.spatial import Pose, rotation_about

@@ -40,7 +40,7 @@ def progress(stage, fraction):
     stages.setdefault(stage, time.perf_counter() - start)
 result = kinefab.export(sys.argv[1], sys.argv[2], progress=progress)
 total = time.perf_counter() - start
-print(total, len(result.document.meshes), " ".join(f"{k}@{v:.1f}" for k, v in stages.items()))
+print(total, len(result.unity.meshes), " ".join(f"{k}@{v:.1f}" for k, v in stages.items()))
 """
 
 

@@ -9,9 +9,8 @@ import sys
 from pathlib import Path
 
 import jsonschema
-import pytest
-
 import kinefab
+import pytest
 from kinefab.diagnostics import schema_directory
 from scenes import lid_scene
 
@@ -38,4 +37,4 @@ def checked_report(path: Path) -> dict:
 
 @pytest.fixture()
 def lid(tmp_path) -> Path:
-    return kinefab.export(lid_scene(), tmp_path / "lid.kinefab").path
+    return kinefab.export(lid_scene(), tmp_path / "lid.kinefab", kinefab.ExportOptions(ground="world")).path

@@ -5,8 +5,23 @@ from __future__ import annotations
 
 import sys
 
+import pytest
+
 ELSEWHERE = {"posix": sys.platform == "win32", "linux": sys.platform != "linux"}
 """Markers of such tests, and whether this system is another."""
+
+
+FEW = 400
+"""Mutated files that a run tries of each format; ``--fuzz 5000`` tries more."""
+
+
+def pytest_addoption(parser):
+    parser.addoption("--fuzz", type=int, default=FEW, help="mutated files tried of each format")
+
+
+@pytest.fixture()
+def fuzz_count(request) -> int:
+    return request.config.getoption("--fuzz")
 
 
 def pytest_configure(config):

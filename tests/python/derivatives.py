@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-
-from kinefab.analysis.equations import equations_of
+from kinefab.analysis.equations.scene_equations import equations_of
 from kinefab.diagnostics import Report
 
 

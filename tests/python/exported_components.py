@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import unity_d6
-
 from kinefab.diagnostics import Report
 from kinefab.rigid import rigid_groups
-from kinefab.unity.couplings import coupling_entry, screw_couplings
-from kinefab.unity.joints import map_joint
+from kinefab.unity.joints.couplings import map_coupling, screw_couplings
+from kinefab.unity.joints.mapping import map_joint
+from unity_entries import entry_of
 
 
 def components(found):
     """(node of the own body, node of the connected one or None, component) of every joint that has one: none has one
     inside a rigid group."""
-    return found.scene(), [(m.owner, m.connected, m.component) for m in _mapped(found)]
+    return found.scene(), [(m.owner, m.connected, entry_of(m.component)) for m in _mapped(found)]
 
 
 def couplings(found):
@@ -23,14 +23,14 @@ def couplings(found):
     numbered = {m.source.id: (m, i) for i, m in enumerate(mapped)}
     scene = found.scene()
     stated = [*scene.couplings, *screw_couplings(mapped, scene.couplings)]
-    return [coupling_entry(c, numbered, range(len(scene.nodes)), Report()) for c in stated]
+    return [map_coupling(c, numbered, range(len(scene.nodes)), Report()) for c in stated]
 
 
 def _mapped(found):
     scene = found.scene()
     groups = rigid_groups(scene, found.fixed)
     carrier = lambda node: groups.members[groups.group_of[node]][0]  # noqa: E731
-    mapped = (map_joint(j, scene, groups, carrier, Report()) for j in found.joints)
+    mapped = (map_joint(j, scene, groups, carrier, Report(), found.findings[j.id]) for j in found.joints)
     return [m for m in mapped if m is not None]
 
 
@@ -52,7 +52,9 @@ def constraint_residual(found, moved):
 
 def state_of(found, system, body, moved):
     state, nodes = system.start(), len(found.source.nodes)
-    named = [n for n in moved if n is not None and n < nodes]  # a middle body has no constraints of the source
+    named = [
+        n for n in moved if n is not None and n < nodes
+    ]  # a middle body has no constraints of the source
     for node in range(nodes):
         own = next((n for n in named if found.groups.together(n, node)), None)
         if own is not None and body[node + 1]:

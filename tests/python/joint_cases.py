@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-
 from kinefab.diagnostics import Report
 from kinefab.model import UNLOCKED, Freedom, Joint, JointKind, Motion, Node, Scene, freedoms_of
 from kinefab.rigid import rigid_groups
 from kinefab.spatial import Pose, matrix_from_quaternion
-from kinefab.unity.joints import map_joint
+from kinefab.unity.joints.mapping import map_joint
+from unity_entries import entry_of
 from unity_semantics import Live, mirrored, turn
 
 NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
@@ -59,7 +59,7 @@ class Case:
         self.report = Report()
         mapped = map_joint(self.joint, self.scene, rigid_groups(self.scene), lambda node: node, self.report)
         assert mapped is not None, self.report
-        self.mapped, self.component = mapped, mapped.component
+        self.mapped, self.component = mapped, entry_of(mapped.component)
         start = self.unity_poses(pose_a, pose_b)
         if self.component["type"] != "FixedJoint":
             self.live = Live(self.component, *start)

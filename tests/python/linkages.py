@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-
 from kinefab.model import Constraint, ConstraintKind, Feature, FeatureKind, Node, Scene
 
 CRANK, ROD, ROD_2, CRANK_2 = 0.7, 0.6, 0.5, 0.65

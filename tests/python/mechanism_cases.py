@@ -5,22 +5,23 @@ from __future__ import annotations
 import csv
 import json
 import tempfile
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 import numpy as np
-
-from kinefab.analysis import Analysis, analyse
+from kinefab.analysis import Analysis, AnalysisOptions, Closures, analyse
 from kinefab.diagnostics import Report
 from kinefab.model import Scene
 from kinefab.sources import read
 
 ROOT = Path(__file__).parents[2]
 DATA = Path(__file__).parent / "data" / "mechanisms"
+MINIMAL = AnalysisOptions(closures=Closures.MINIMAL)
+"""Closing joints with the fewest rows: what most can go wrong with, as the analysis chooses them."""
 FOLDERS = {"P": "pairs", "M": "mechanisms"}
 
 
-@lru_cache(maxsize=None)
+@cache
 def scene(id: str) -> Scene:
     """The scene of a fixture, read from its bundle.  Treat as read-only."""
     report = Report()
@@ -62,9 +63,10 @@ def scene_written(id: str, up: str, mirrored: bool = False) -> Scene:
     return found
 
 
-@lru_cache(maxsize=None)
+@cache
 def analysed(id: str) -> Analysis:
-    return analyse(scene(id))
+    """With the fewest rows of its closing joints."""
+    return analyse(scene(id), MINIMAL)
 
 
 def all_ids() -> list[str]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 from kinefab.model import Constraint, ConstraintKind, Feature, Motion, Scene
 from kinefab.spatial import Pose, rotation_exp
 
@@ -75,13 +76,18 @@ def told(found, it: Restated) -> tuple[list, list]:
             return "ground"
         if node < count:
             return "+".join(sorted(it.parts[i] for i in range(count) if found.groups.together(i, node)))
-        return "middle of " + it.constraints[found.nodes[node - count].id.removeprefix("middle:")]
+        own = found.nodes[node - count].id.removeprefix("middle:")
+        # What is stated twice stands behind one middle body; which of the two names it is the source's order.
+        return "middle of " + min(
+            it.constraints[c.id] for c in it.scene.constraints if _same(it.scene, c.id, own)
+        )
 
     entries = []
     for joint in found.joints:
         frame = scene.pose(joint.a) @ joint.frame_a
         free = tuple(f.motion is not Motion.LOCKED for f in joint.freedoms)
-        words = (name(joint.a), name(joint.b), joint.kind.value, joint.closure, free)
+        closure = found.findings[joint.id].closure
+        words = (name(joint.a), name(joint.b), joint.kind.value, closure, free)
         origin = back.point(frame.translation) / it.scale
         numbers = [*origin, *(back.rotation @ frame.rotation).T.ravel(), joint.lead / it.scale]
         entries.append((words, numbers))
@@ -93,6 +99,20 @@ def told(found, it: Restated) -> tuple[list, list]:
     counts = (found.mobility, found.first_order, found.rows, found.rank, len(found.islands))
     findings = sorted(d.code for d in found.report.diagnostics)
     return [counts, findings, *(words for words, _ in entries)], [numbers for _, numbers in entries]
+
+
+def _same(scene: Scene, one: str, other: str) -> bool:
+    """Whether two constraints say the same of the same points."""
+    a, b = (next(c for c in scene.constraints if c.id == id) for id in (one, other))
+    if one == other:
+        return True
+    sides = [
+        sorted((f.node or -1, *scene.pose(f.node).point(f.point).round(9)) for f in c.features)
+        for c in (a, b)
+    ]
+    return (
+        a.kind is b.kind and abs(a.value - b.value) < 1e-9 and np.allclose(*map(np.array, sides), atol=1e-8)
+    )
 
 
 def transformed(source: Scene, by: Pose, scale: float = 1.0) -> Scene:

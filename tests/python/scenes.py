@@ -8,10 +8,9 @@ from functools import lru_cache
 from pathlib import Path
 
 import jsonschema
+import kinefab
 import numpy as np
 import trimesh
-
-import kinefab
 from kinefab.diagnostics import schema_directory
 from unity_semantics import compose, matrix
 
@@ -75,5 +74,7 @@ def components(content: dict, name: str, kind: str) -> list[dict]:
 
 
 def exported(scene, tmp_path, **options):
+    """Joints to the ground are joints to the world, unless ``ground`` says otherwise: what the tests of other things look at."""
+    options = {"ground": "world", **options}
     result = kinefab.export(scene, tmp_path / "out.kinefab", kinefab.ExportOptions(**options))
     return read(result.path), result

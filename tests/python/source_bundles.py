@@ -7,7 +7,6 @@ import math
 from pathlib import Path
 
 import numpy as np
-
 from kinefab import sources
 from kinefab.diagnostics import Report
 from kinefab.model import Joint, Scene

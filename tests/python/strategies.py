@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from hypothesis import strategies as st
-
 from kinefab.spatial import Pose, rotation_exp
 
 seeds = st.integers(0, 2**32 - 1)

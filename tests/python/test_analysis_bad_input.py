@@ -7,24 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mechanism_cases import scene
-
 from kinefab.analysis import analyse
 from kinefab.diagnostics import Severity
-from kinefab.model import (
-    Constraint,
-    ConstraintKind as C,
-    Feature,
-    FeatureKind as F,
-    Joint,
-    JointKind,
-    Node,
-    NodeKind,
-    Scene,
-    Sense,
-    freedoms_of,
-)
+from kinefab.model import Constraint, Feature, Joint, JointKind, Node, NodeKind, Scene, Sense, freedoms_of
+from kinefab.model import ConstraintKind as C
+from kinefab.model import FeatureKind as F
 from kinefab.spatial import Pose
+from mechanism_cases import scene
 
 X, Y, Z = np.eye(3)
 
@@ -202,7 +191,8 @@ def test_a_flexible_assembly_in_another_adds_no_freedoms():
     ]
     below = [replace(n, parent=1) for n in source.nodes]
     moved = [
-        replace(c, features=tuple(replace(f, node=f.node + 2) for f in c.features)) for c in source.constraints
+        replace(c, features=tuple(replace(f, node=f.node + 2) for f in c.features))
+        for c in source.constraints
     ]
     found = analyse(Scene(nodes=above + below, constraints=moved))
     assert (found.mobility, found.rank, [j.kind for j in found.joints]) == (1, 5, [JointKind.REVOLUTE])

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 import unity_d6
 from exported_components import components, constraint_residual, unity_pose
-from mechanism_cases import scene, scene_written
-
 from kinefab.analysis import AnalysisOptions, Closures, analyse
+from mechanism_cases import scene, scene_written
 
 EXACT = 1e-9
 MET = 1e-12
@@ -24,7 +23,7 @@ class Assembled:
 
     def __init__(self, found):
         self.scene, parts = components(found)
-        closing = [j.closure for j in found.joints]
+        closing = [found.findings[j.id].closure for j in found.joints]
         self.closures = [p for p, c in zip(parts, closing) if c]
         self.tree = self._outwards([p for p, c in zip(parts, closing) if not c])
         self.free = [(k, i) for k, p in enumerate(self.tree) for i in range(6) if unity_d6.freedoms(p[2])[i]]

@@ -8,16 +8,17 @@ import numpy as np
 import pytest
 from derivatives import check_derivative
 from hypothesis import given, settings
+from kinefab.analysis import analyse
+from kinefab.analysis.equations.scene_equations import equations_of
+from kinefab.analysis.freedom.rank import factored
+from kinefab.analysis.freedom.twists import twist_space
+from kinefab.diagnostics import Report
+from kinefab.model import Constraint, Feature, Node, Scene, Side
+from kinefab.model import ConstraintKind as C
+from kinefab.model import FeatureKind as F
+from kinefab.spatial import Pose, frame_from_axes, rotation_about
 from mechanism_cases import table
 from strategies import random_pose, seeds
-
-from kinefab.analysis import analyse
-from kinefab.analysis.equations import equations_of
-from kinefab.analysis.rank import factored
-from kinefab.analysis.twists import twist_space
-from kinefab.diagnostics import Report
-from kinefab.model import Constraint, ConstraintKind as C, Feature, FeatureKind as F, Node, Scene, Side
-from kinefab.spatial import Pose, frame_from_axes, rotation_about
 
 R = 0.13
 

@@ -11,8 +11,6 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
-from mechanism_cases import ROOT, analysed, scene
-
 from kinefab.analysis import AnalysisOptions, Closures, analyse
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import JointKind as K
@@ -20,6 +18,7 @@ from kinefab.model import Motion
 from kinefab.options import ExportOptions
 from kinefab.pipeline import export
 from kinefab.sources import read
+from mechanism_cases import ROOT, analysed, scene
 
 LEVER = ROOT / "fixtures" / "lever" / "lever.bundle.json"
 
@@ -53,17 +52,17 @@ def constraints_only():
 def test_lever_from_constraints_alone_has_the_joints_a_designer_would_make(tmp_path):
     """Base static; lever, shaft and panel one body on a hinge about the shaft; bar on the eccentric pin; slider
     along X; bar to slider closes the loop with its two in-plane equations."""
-    found = analyse(constraints_only())
+    found = analyse(constraints_only(), AnalysisOptions(Closures.MINIMAL))
     assert found.mobility == 1
     names = [n.id for n in found.source.nodes]
-    kinds = {(names[j.a], names[j.b]): (j.kind, j.closure) for j in found.joints}
+    kinds = {(names[j.a], names[j.b]): (j.kind, found.findings[j.id].closure) for j in found.joints}
     assert kinds == {
         ("Lever/Base:1", "Lever/Crank:1/Shaft:1"): (K.REVOLUTE, False),
         ("Lever/Base:1", "Lever/SliderD:1"): (K.PRISMATIC, False),
         ("Lever/Crank:1/PanelB:1", "Lever/BarC:1"): (K.REVOLUTE, False),
         ("Lever/BarC:1", "Lever/SliderD:1"): (K.POINT_ON_LINE, True),
     }
-    content = exported(constraints_only(), tmp_path)
+    content = exported(constraints_only(), tmp_path, ExportOptions(closures="minimal", ground="world"))
     joints = components(content)
     assert sorted(c["type"] for _, c in joints) == ["ConfigurableJoint"] * 2 + ["HingeJoint"] * 2
     hinge = next(c for o, c in joints if c["type"] == "HingeJoint" and "connectedBody" not in c)
@@ -80,9 +79,9 @@ def test_lever_from_constraints_alone_has_the_joints_a_designer_would_make(tmp_p
 
 
 def test_exact_closures_keep_the_whole_hinge():
-    """With exact closures the loop-closing hinge is a hinge."""
-    found = analyse(constraints_only(), AnalysisOptions(closures=Closures.EXACT))
-    assert [j.kind for j in found.joints if j.closure] == [K.REVOLUTE]
+    """By default the loop-closing hinge is a hinge."""
+    found = analyse(constraints_only())
+    assert [j.kind for j in found.joints if found.findings[j.id].closure] == [K.REVOLUTE]
 
 
 def test_analysis_of_the_file_speaks_of_game_objects(tmp_path):

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linkages import CRANK, CRANK_2, ROD, ROD_2, five_bar, ring, tip, tip_2
-from mechanism_cases import scene, table
-
 from kinefab.analysis import AnalysisOptions, analyse
 from kinefab.model import Freedom, Motion
+from linkages import CRANK, CRANK_2, ROD, ROD_2, five_bar, ring, tip, tip_2
+from mechanism_cases import scene, table
 
 SWEEP = AnalysisOptions(limits=True)
 
@@ -95,7 +94,9 @@ def crank_limit(crank: float, others: float, ground: float = 1.5) -> float:
     return math.acos((crank**2 + ground**2 - others**2) / (2.0 * crank * ground))
 
 
-@pytest.mark.parametrize(("one", "two", "side"), [(60.0, 110.0, 1.0), (60.0, 110.0, -1.0), (-75.0, 170.0, 1.0)])
+@pytest.mark.parametrize(
+    ("one", "two", "side"), [(60.0, 110.0, 1.0), (60.0, 110.0, -1.0), (-75.0, 170.0, 1.0)]
+)
 def test_either_crank_of_a_five_bar_goes_as_far_as_the_other_lets_it(one, two, side):
     """Two freedoms: a crank's end is where both rods and the other crank are in line, however they stand now."""
     found = analyse(five_bar(math.radians(one), math.radians(two), side), SWEEP)
@@ -130,14 +131,19 @@ def test_limits_of_one_driver_bound_the_other():
     its tip to that of the second at 120 degrees."""
     one, two = math.radians(60.0), math.radians(110.0)
     source = five_bar(one, two)
-    joints = [limited(j, -math.radians(10.0), math.radians(10.0)) if j.id == "base - crank2" else j for j in analyse(source).joints]
+    joints = [
+        limited(j, -math.radians(10.0), math.radians(10.0)) if j.id == "base - crank2" else j
+        for j in analyse(source).joints
+    ]
     found = analyse(replace(source, joints=joints, constraints=[]), SWEEP)
     by_joint = {r.joint: r for r in found.ranges}
 
     def stretched(angle: float, sign: float) -> float:
         x, y, _ = tip_2(angle)
         r = math.hypot(x, y)
-        return math.atan2(y, x) + sign * math.acos((CRANK**2 + r * r - (ROD + ROD_2) ** 2) / (2.0 * CRANK * r))
+        return math.atan2(y, x) + sign * math.acos(
+            (CRANK**2 + r * r - (ROD + ROD_2) ** 2) / (2.0 * CRANK * r)
+        )
 
     bounds = np.radians(np.linspace(100.0, 120.0, 201))
     assert max(bounds, key=lambda b: stretched(b, 1.0)) == bounds[-1]
@@ -155,7 +161,10 @@ def test_a_limit_on_one_side_leaves_the_other_end_to_the_mechanism():
     found = analyse(
         replace(
             scene("M03"),
-            joints=[limited(j, -math.inf, math.radians(20.0)) if j.id == "base - crank" else j for j in plain.joints],
+            joints=[
+                limited(j, -math.inf, math.radians(20.0)) if j.id == "base - crank" else j
+                for j in plain.joints
+            ],
             constraints=[],
         ),
         SWEEP,
@@ -214,3 +223,15 @@ def test_progress_is_told():
     told = []
     analyse(scene("M33"), SWEEP, told.append)
     assert told == sorted(told) and len(told) == 4 and 0.0 < told[-1] <= 1.0
+
+
+def test_a_search_that_would_not_end_stops_and_says_where(monkeypatch):
+    """The wobble plate's pistons: nothing is written of what was not searched to its end, and each says how far it came."""
+    whole, _ = ranges("M47")
+    monkeypatch.setattr("kinefab.analysis.ranges.reach.STEPS_IN_ALL", 150)
+    found = analyse(scene("M47"), SWEEP)
+    stopped = [d.message for d in found.report.diagnostics if d.code == "LIMITS_NOT_SWEPT"]
+    assert len(stopped) + len(found.ranges) == len(whole.ranges) and stopped
+    assert all("the search stopped after 150 steps, having come from " in message for message in stopped)
+    complete = {r.joint: (r.lower, r.upper) for r in whole.ranges}
+    assert all((r.lower, r.upper) == complete[r.joint] for r in found.ranges)

@@ -8,14 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kinefab.analysis import AnalysisOptions, analyse
+from kinefab.analysis.findings.summary import document
+from kinefab.analysis.findings.table import table
+from kinefab.model import RX, Freedom, Motion
 from scenes import components, exported
 from source_bundles import FIXTURES, bundle, frame, part, read
 from test_sources_left_handed import by_the_other_hand, limited
-
-from kinefab.analysis import AnalysisOptions, analyse
-from kinefab.analysis.summary import document
-from kinefab.analysis.table import table
-from kinefab.model import RX, Freedom, Motion
 
 SWEEP = AnalysisOptions(limits=True)
 CRANK, ROD, ROCKER, GROUND = 0.5, 1.2, 0.9, 1.5
@@ -43,7 +42,14 @@ def four_bar(crank: dict, rocker: dict) -> dict:
     b = np.array([GROUND, 0.0, 0.0]) + ROCKER * np.array([math.cos(turn), math.sin(turn), 0.0])
 
     def hinge(name: str, a: str, b: str, o, dof: list[dict]) -> dict:
-        return {"id": name, "type": "revolute", "a": a, "b": b, "frameA": frame(o, (0, 0, 1), (1, 0, 0)), "dof": dof}
+        return {
+            "id": name,
+            "type": "revolute",
+            "a": a,
+            "b": b,
+            "frameA": frame(o, (0, 0, 1), (1, 0, 0)),
+            "dof": dof,
+        }
 
     joints = [
         hinge("crank", "base", "Crank", (0.0, 0.0, 0.0), [crank]),
@@ -51,7 +57,10 @@ def four_bar(crank: dict, rocker: dict) -> dict:
         hinge("rocker", "base", "Rocker", (GROUND, 0.0, 0.0), [rocker]),
         hinge("end", "Rocker", "Rod", b.tolist(), []),
     ]
-    parts = [part("base", grounded=True), *(part(name, (0.1 * i, 0.2, 0.0)) for i, name in enumerate(("Crank", "Rod", "Rocker")))]
+    parts = [
+        part("base", grounded=True),
+        *(part(name, (0.1 * i, 0.2, 0.0)) for i, name in enumerate(("Crank", "Rod", "Rocker"))),
+    ]
     return bundle(*parts, angle="deg", joints=joints)
 
 
@@ -90,7 +99,9 @@ def test_ranges_are_told_around_what_the_cad_displays(tmp_path, hand, value):
     listed = next(r for r in document(found)["ranges"] if r["joint"] == "rocker")
     assert np.degrees((listed["lower"], listed["upper"])) == pytest.approx((low, high), abs=1e-7)
     assert f"range of rocker: {low:.6g} to {high:.6g} deg" in table(found)
-    (said,) = (d.message for d in found.report.diagnostics if d.code == "LIMITS_FOUND" and "rocker" in d.message)
+    (said,) = (
+        d.message for d in found.report.diagnostics if d.code == "LIMITS_FOUND" and "rocker" in d.message
+    )
     assert f"from {low:.6f} to {high:.6f} degrees" in said
 
 
@@ -111,7 +122,9 @@ def test_a_crank_limited_by_the_cad_ends_the_rocker_where_it_ends_itself(tmp_pat
     scene, _ = read(handed(four_bar(crank, shown(35.0)), hand), tmp_path)
     ranges = {r.joint: r for r in analyse(scene, SWEEP).ranges}
     ends = sorted(rocker_angle(AT + by) - rocker_angle(AT) for by in (-30.0, 60.0))
-    assert np.degrees((ranges["rocker"].lower, ranges["rocker"].upper)) == pytest.approx(np.add(35.0, ends), abs=1e-7)
+    assert np.degrees((ranges["rocker"].lower, ranges["rocker"].upper)) == pytest.approx(
+        np.add(35.0, ends), abs=1e-7
+    )
     content, _ = exported(scene, tmp_path, limits=True)
     written = {name: components(content, name, "HingeJoint")[0]["limits"] for name in ("Crank", "Rocker")}
     assert (written["Crank"]["min"], written["Crank"]["max"]) == pytest.approx((-30.0, 60.0), abs=1e-5)
@@ -126,9 +139,13 @@ def test_limits_a_whole_turn_from_what_the_frames_read_hold_the_sweep_too(tmp_pa
     crank = replace(free, freedoms=(*free.freedoms[:RX], limits, *free.freedoms[RX + 1 :]))
     scene.joints[scene.joints.index(free)] = crank
     ranges = {r.joint: r for r in analyse(scene, SWEEP).ranges}
-    assert np.degrees((ranges["crank"].lower, ranges["crank"].upper)) == pytest.approx((350.0, 440.0), abs=1e-7)
+    assert np.degrees((ranges["crank"].lower, ranges["crank"].upper)) == pytest.approx(
+        (350.0, 440.0), abs=1e-7
+    )
     ends = sorted(rocker_angle(AT + by) - rocker_angle(AT) for by in (-30.0, 60.0))
-    assert np.degrees((ranges["rocker"].lower, ranges["rocker"].upper)) == pytest.approx(np.add(35.0, ends), abs=1e-7)
+    assert np.degrees((ranges["rocker"].lower, ranges["rocker"].upper)) == pytest.approx(
+        np.add(35.0, ends), abs=1e-7
+    )
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
@@ -168,7 +185,9 @@ def test_a_slide_of_a_mechanism_of_two_freedoms_ends_wherever_its_zero_is(tmp_pa
     d = math.hypot(at_b - at_a, apart)
     along = (d * d + long**2 - short**2) / (2.0 * d)
     u = np.array([at_b - at_a, apart, 0.0]) / d
-    elbow = np.array([at_a, 0.0, 0.0]) + along * u + math.sqrt(long**2 - along**2) * np.array([-u[1], u[0], 0.0])
+    elbow = (
+        np.array([at_a, 0.0, 0.0]) + along * u + math.sqrt(long**2 - along**2) * np.array([-u[1], u[0], 0.0])
+    )
 
     def joint(name: str, kind: str, a: str, b: str, o, z, dof: list[dict]) -> dict:
         return {"id": name, "type": kind, "a": a, "b": b, "frameA": frame(o, z), "dof": dof}

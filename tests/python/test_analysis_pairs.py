@@ -6,13 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mechanism_cases import analysed, scene
-
 from kinefab.analysis import analyse
 from kinefab.model import Constraint, Feature, Node, Scene
 from kinefab.model import ConstraintKind as C
 from kinefab.model import FeatureKind as F
 from kinefab.model import JointKind as K
+from mechanism_cases import analysed, scene
 
 C0 = np.array([0.1, -0.2, 0.3])
 X, Y, Z = np.eye(3)
@@ -87,7 +86,7 @@ def test_a_rod_is_not_a_point_on_a_plane():
     found = analysed("P30")
     assert (found.rows, found.rank, found.mobility) == (1, 1, 5)
     assert sorted(j.kind.value for j in found.joints) == ["spherical", "universal"]
-    ends = sorted((world(found, j).translation.tolist() for j in found.joints))
+    ends = sorted(world(found, j).translation.tolist() for j in found.joints)
     assert np.allclose(ends, sorted([C0.tolist(), (C0 + [0.3, 0.0, 0.4]).tolist()]), atol=1e-12)
     assert len(found.nodes) == 1
 
@@ -122,7 +121,9 @@ def test_a_part_at_a_singular_pose_keeps_the_freedoms_of_its_joint(id, left):
 
 
 @pytest.mark.parametrize("hung", [0, 1])
-@pytest.mark.parametrize(("id", "kind", "left"), [("P28", K.SPHERICAL, 3), ("P29", K.SPHERICAL, 3), ("P36", K.FIXED, 0)])
+@pytest.mark.parametrize(
+    ("id", "kind", "left"), [("P28", K.SPHERICAL, 3), ("P29", K.SPHERICAL, 3), ("P36", K.FIXED, 0)]
+)
 def test_a_pair_at_a_singular_pose_is_the_same_from_either_part(id, kind, left, hung):
     """Its motions are known from the search of its block, in which either part may be the one at rest."""
     alone = scene(id)

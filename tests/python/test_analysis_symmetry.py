@@ -9,17 +9,18 @@ import numpy as np
 import pytest
 from derivatives import check_derivative
 from hypothesis import given, settings
+from kinefab.analysis import analyse
+from kinefab.analysis.equations.scene_equations import equations_of
+from kinefab.diagnostics import Report
+from kinefab.model import RX, TX, Constraint, Feature, Node, Scene
+from kinefab.model import ConstraintKind as C
+from kinefab.model import FeatureKind as F
+from kinefab.spatial import Pose, rotation_about, rotation_exp
 from mechanism_cases import ROOT, analysed, node, scene
 from scenes import exported
 from source_bundles import read
 from strategies import random_direction, random_pose, seeds
 from test_sources_left_handed import by_the_other_hand
-
-from kinefab.analysis import analyse
-from kinefab.analysis.equations import equations_of
-from kinefab.diagnostics import Report
-from kinefab.model import RX, TX, Constraint, ConstraintKind as C, Feature, FeatureKind as F, Node, Scene
-from kinefab.spatial import Pose, rotation_about, rotation_exp
 
 
 def mirrored_planes(first, second, tilt=0.0):
@@ -135,7 +136,11 @@ def turned_jaws(rng, feature, carried, mirrored=True):
     def image(point):
         return middle + flip @ (point - middle)
 
-    axis, pivot, point, along = random_direction(rng), *(middle + rng.uniform(-0.5, 0.5, 3) for _ in range(2)), random_direction(rng)
+    axis, pivot, point, along = (
+        random_direction(rng),
+        *(middle + rng.uniform(-0.5, 0.5, 3) for _ in range(2)),
+        random_direction(rng),
+    )
     other_axis = flip @ axis * rng.choice([-1.0, 1.0])
     if not mirrored:
         other_axis = rotation_exp(np.array([0.3, -0.2, 0.25])) @ other_axis
@@ -147,7 +152,13 @@ def turned_jaws(rng, feature, carried, mirrored=True):
     def on(node, kind, at, direction=None):
         inwards = nodes[node].pose.inverse()
         radius = 0.1 if kind is F.CIRCLE else 0.0
-        return Feature(node, kind, inwards.point(at), None if direction is None else inwards.direction(direction), radius=radius)
+        return Feature(
+            node,
+            kind,
+            inwards.point(at),
+            None if direction is None else inwards.direction(direction),
+            radius=radius,
+        )
 
     def hinge(name, one, two, at, along):
         return Constraint(name, C.INSERT, (on(one, F.CIRCLE, at, along), on(two, F.CIRCLE, at, along)))
@@ -160,7 +171,9 @@ def turned_jaws(rng, feature, carried, mirrored=True):
         Constraint("mirror", C.SYMMETRY, (*named, on(hub, F.PLANE, middle, normal))),
     ]
     if carried:
-        constraints.insert(0, hinge("wrist", 0, hub, middle + rng.uniform(-0.5, 0.5, 3), random_direction(rng)))
+        constraints.insert(
+            0, hinge("wrist", 0, hub, middle + rng.uniform(-0.5, 0.5, 3), random_direction(rng))
+        )
     return Scene(nodes=nodes, constraints=constraints)
 
 
@@ -175,15 +188,15 @@ def test_levers_that_mirror_each_other_are_coupled(feature, carried, seed):
     found = analyse(scene)
     assert found.mobility == 1 + carried and found.gaps == []
     (coupling,) = found.couplings
-    assert coupling.id == "mirror" and {coupling.freedom_a, coupling.freedom_b} == {RX}
+    assert coupling.id == "mirror" and {coupling.terms[0].freedom, coupling.freedom} == {RX}
     assert {o.outcome.value for o in found.report.outcomes} == {"kept"}
     joints = {j.id: j for j in found.joints}
-    a, b = joints[coupling.joint_a], joints[coupling.joint_b]
+    a, b = joints[coupling.terms[0].joint], joints[coupling.joint]
     assert (a.because, b.because) == (("one",), ("two",))
     system = equations_of(scene, Report()).system
     for turn in (-2.5, -0.4, 0.7, 3.0):
         state = system.start()
-        for joint, by in ((a, turn), (b, coupling.ratio * turn + coupling.offset)):
+        for joint, by in ((a, turn), (b, coupling.terms[0].ratio * turn + coupling.offset)):
             frame = found.poses[joint.a if joint.a is not None else 0] @ joint.frame_a
             axis = frame.rotation[:, 0]
             body = (joint.b if joint.b in (1, 2) else joint.a) + 1
@@ -198,17 +211,24 @@ def test_slides_at_different_slants_keep_their_ratio():
     """Planes beside the middle one: what the first moves along the normal, 60 degrees off its way, the second does too,
     30 degrees off its own."""
     x, y = np.eye(3)[:2]
-    ways = math.cos(math.radians(60)) * x + math.sin(math.radians(60)) * y, math.cos(math.radians(30)) * x - math.sin(math.radians(30)) * y
+    ways = (
+        math.cos(math.radians(60)) * x + math.sin(math.radians(60)) * y,
+        math.cos(math.radians(30)) * x - math.sin(math.radians(30)) * y,
+    )
     nodes = [Node("base", "base", grounded=True), Node("a", "a"), Node("b", "b")]
     slides = [
-        Constraint(f"slide:{n}", C.SLIDER, (Feature(0, F.LINE, np.zeros(3), way), Feature(n, F.LINE, np.zeros(3), way)))
+        Constraint(
+            f"slide:{n}",
+            C.SLIDER,
+            (Feature(0, F.LINE, np.zeros(3), way), Feature(n, F.LINE, np.zeros(3), way)),
+        )
         for n, way in enumerate(ways, 1)
     ]
     planes = tuple(Feature(n, F.PLANE, at * x, x) for n, at in ((1, 0.3), (2, -0.3), (0, 0.0)))
     found = analyse(Scene(nodes=nodes, constraints=[*slides, Constraint("mirror", C.SYMMETRY, planes)]))
     (coupling,) = found.couplings
-    first = math.sqrt(1.0 / 3.0) if coupling.joint_a == "base - a" else math.sqrt(3.0)
-    assert found.mobility == 1 and coupling.ratio == pytest.approx(-first, abs=1e-12)
+    first = math.sqrt(1.0 / 3.0) if coupling.terms[0].joint == "base - a" else math.sqrt(3.0)
+    assert found.mobility == 1 and coupling.terms[0].ratio == pytest.approx(-first, abs=1e-12)
 
 
 def test_what_keeps_step_for_a_moment_only_is_reported():
@@ -220,16 +240,32 @@ def test_what_keeps_step_for_a_moment_only_is_reported():
     circles = (Feature(n, F.CIRCLE, np.array([0.2, 0.1, 0.0]) - 0.3 * x, z, radius=0.1) for n in (0, 1))
     constraints = [
         Constraint("lever", C.INSERT, tuple(circles)),
-        Constraint("flat", C.COINCIDENT, (Feature(0, F.PLANE, np.zeros(3), z), Feature(2, F.PLANE, np.zeros(3), z))),
-        Constraint("upright", C.LOCK_ORIENTATION, (Feature(0, F.BODY, np.zeros(3)), Feature(2, F.BODY, np.zeros(3)))),
-        Constraint("mirror", C.SYMMETRY, (Feature(1, F.POINT, tip), Feature(2, F.POINT, tip * [-1, 1, 1]), Feature(0, F.PLANE, np.zeros(3), x))),
+        Constraint(
+            "flat", C.COINCIDENT, (Feature(0, F.PLANE, np.zeros(3), z), Feature(2, F.PLANE, np.zeros(3), z))
+        ),
+        Constraint(
+            "upright", C.LOCK_ORIENTATION, (Feature(0, F.BODY, np.zeros(3)), Feature(2, F.BODY, np.zeros(3)))
+        ),
+        Constraint(
+            "mirror",
+            C.SYMMETRY,
+            (
+                Feature(1, F.POINT, tip),
+                Feature(2, F.POINT, tip * [-1, 1, 1]),
+                Feature(0, F.PLANE, np.zeros(3), x),
+            ),
+        ),
     ]
     found = analyse(Scene(nodes=nodes, constraints=constraints))
     assert found.mobility == 1 and found.couplings == []
-    assert [(o.feature, o.code) for o in found.report.outcomes if o.code] == [("constraint mirror", "RELATION_DROPPED")]
+    assert [(o.feature, o.code) for o in found.report.outcomes if o.code] == [
+        ("constraint mirror", "RELATION_DROPPED")
+    ]
 
 
-@pytest.mark.parametrize(("value", "hand"), [(0.0, "right"), (35.0, "right"), (-200.0, "right"), (35.0, "left")])
+@pytest.mark.parametrize(
+    ("value", "hand"), [(0.0, "right"), (35.0, "right"), (-200.0, "right"), (35.0, "left")]
+)
 def test_displayed_values_become_the_couplings_offset(tmp_path, value, hand):
     """Levers with hinges of the source's own: the coupling holds at the exported pose whatever their joints display."""
     bundle = json.loads((ROOT / "fixtures" / "mechanisms" / "M49.bundle.json").read_text("utf-8"))
@@ -242,7 +278,7 @@ def test_displayed_values_become_the_couplings_offset(tmp_path, value, hand):
     scene, _ = read(bundle if hand == "right" else by_the_other_hand(bundle), tmp_path)
     found = analyse(scene)
     (coupling,) = found.couplings
-    assert (found.mobility, coupling.ratio) == (1, -1.0)
+    assert (found.mobility, coupling.terms[0].ratio) == (1, -1.0)
     turns = math.remainder(coupling.offset - math.radians(value + 20.0), math.tau)
     assert turns == pytest.approx(0.0, abs=1e-9)
     content, _ = exported(scene, tmp_path)
@@ -253,12 +289,12 @@ def test_displayed_values_become_the_couplings_offset(tmp_path, value, hand):
 def test_a_gripper_keeps_its_symmetry_wherever_its_plane_goes():
     """Jaws in a palm that turns, jaws on parallelograms: the symmetry is one coupling, of jaws or of cranks."""
     (slides,) = analysed("M48").couplings
-    assert (slides.freedom_a, slides.freedom_b, abs(slides.ratio)) == (TX, TX, 1.0)
+    assert (slides.terms[0].freedom, slides.freedom, abs(slides.terms[0].ratio)) == (TX, TX, 1.0)
     (cranks,) = analysed("M50").couplings
-    assert (cranks.freedom_a, cranks.freedom_b, cranks.ratio) == (RX, RX, -1.0)
+    assert (cranks.terms[0].freedom, cranks.freedom, cranks.terms[0].ratio) == (RX, RX, -1.0)
     ends = {j.id: (j.a, j.b) for j in analysed("M50").joints}
     base = node(scene("M50"), "base")
-    assert all(base in ends[name] for name in (cranks.joint_a, cranks.joint_b))
+    assert all(base in ends[name] for name in (cranks.terms[0].joint, cranks.joint))
 
 
 def test_a_plane_that_slides_between_two_slides_is_reported():
@@ -284,10 +320,16 @@ def test_a_symmetry_that_the_joints_keep_already_needs_no_coupling():
     x, y = np.eye(3)[:2]
     nodes = [Node("base", "base", grounded=True), Node("a", "a"), Node("b", "b")]
     slides = [
-        Constraint(f"slide:{n}", C.SLIDER, (Feature(0, F.LINE, np.zeros(3), x), Feature(n, F.LINE, np.zeros(3), x)))
+        Constraint(
+            f"slide:{n}", C.SLIDER, (Feature(0, F.LINE, np.zeros(3), x), Feature(n, F.LINE, np.zeros(3), x))
+        )
         for n in (1, 2)
     ]
-    planes = (Feature(1, F.PLANE, np.zeros(3), y), Feature(2, F.PLANE, np.zeros(3), y), Feature(0, F.PLANE, np.zeros(3), x))
+    planes = (
+        Feature(1, F.PLANE, np.zeros(3), y),
+        Feature(2, F.PLANE, np.zeros(3), y),
+        Feature(0, F.PLANE, np.zeros(3), x),
+    )
     found = analyse(Scene(nodes=nodes, constraints=[*slides, Constraint("mirror", C.SYMMETRY, planes)]))
     assert found.mobility == 2 and found.couplings == []
     assert {o.outcome.value for o in found.report.outcomes} == {"kept"}

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from exported_components import components
 from hypothesis import given, settings
+from kinefab.analysis import analyse
+from kinefab.model import Constraint, Feature, Node, Scene
+from kinefab.model import ConstraintKind as C
+from kinefab.model import FeatureKind as F
 from strategies import random_direction, random_pose, seeds
 from test_analysis_components import worst_violation
-
-from kinefab.analysis import analyse
-from kinefab.model import Constraint, ConstraintKind as C, Feature, FeatureKind as F, Node, Scene
 
 
 def width(rng, sides, feature, grounded):
@@ -25,7 +26,9 @@ def width(rng, sides, feature, grounded):
 
     def on(node, kind, at, direction=None):
         inwards = nodes[node].pose.inverse()
-        return Feature(node, kind, inwards.point(at), None if direction is None else inwards.direction(direction))
+        return Feature(
+            node, kind, inwards.point(at), None if direction is None else inwards.direction(direction)
+        )
 
     direction = None if feature is F.POINT else along / np.linalg.norm(along)
     points = (middle + aside, middle - aside)

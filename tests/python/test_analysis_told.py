@@ -6,17 +6,17 @@ import math
 
 import numpy as np
 import pytest
+from kinefab.analysis import analyse
+from kinefab.analysis.findings.summary import document
+from kinefab.analysis.findings.table import table
+from kinefab.diagnostics import Report
+from kinefab.model import Constraint, Feature, FeatureKind, JointKind, Motion, Node, Scene
+from kinefab.model import ConstraintKind as C
+from kinefab.sources import read
+from kinefab.spatial import Pose, rotation_exp
 from mechanism_cases import ROOT, all_ids, analysed, scene
 from scenes import exported
 from test_analysis_findings import CASES
-
-from kinefab.analysis import analyse
-from kinefab.analysis.summary import document
-from kinefab.analysis.table import table
-from kinefab.diagnostics import Report
-from kinefab.model import Motion
-from kinefab.sources import read
-from kinefab.spatial import Pose, rotation_exp
 
 BOX = ROOT / "fixtures" / "hinge_slider_zup" / "hinge_slider.bundle.json"
 
@@ -46,7 +46,10 @@ def test_a_part_held_still_is_told_with_what_holds_it(tmp_path):
     assert "fixed  base  distance:1, distance:2 and 4 more" in table(analysed("M16"))
     content, _ = exported(scene("M09"), tmp_path)
     fixed = [c for c in joints_of(content) if c["type"] == "FixedJoint"]
-    assert [c["because"] for c in fixed] == [["insert:2", "angle:3", "insert:4", "angle:5"], ["insert:4", "angle:5"]]
+    assert [c["because"] for c in fixed] == [
+        ["insert:2", "angle:3", "insert:4", "angle:5"],
+        ["insert:4", "angle:5"],
+    ]
 
 
 def test_a_joint_of_the_source_is_its_own_reason(tmp_path):
@@ -57,12 +60,30 @@ def test_a_joint_of_the_source_is_its_own_reason(tmp_path):
     assert [c["because"] for c in joints_of(content)] == [["Hinge"], ["Slide"]]
 
 
+def test_the_table_lists_every_joint_of_every_fixture():
+    """Each joint between parts that move has its line with its reason, those of the middle bodies of M17 and M18 too."""
+    for name in all_ids():
+        found = analysed(name)
+        lines = table(found).splitlines()
+        middles = {node.id for node in found.nodes}
+        assert {line.split()[0] for line in lines if line.startswith("middle:")} == middles
+        names = [n.id for n in (*found.source.nodes, *found.nodes)]
+        for joint in found.joints:
+            if {joint.a, joint.b} & set(range(len(found.source.nodes), len(names))):
+                kind = found.findings[joint.id].whole_kind(joint).value.replace("_", " ")
+                assert any(kind in line and joint.because[0] in line for line in lines)
+
+
 def test_couplings_and_idle_freedoms_are_told_in_words():
     """Which coordinate follows which by how much, signs apart from the joints' names; what idles, in source order."""
     assert "gear gear:3: rotation of [base - g2] = -0.4 x rotation of [base - g1]" in table(analysed("M25"))
-    assert "rack rack:3: translation of [base - rack] = 0.25 m/rad x rotation of [base - pinion]" in table(analysed("M26"))
+    assert "rack rack:3: translation of [base - rack] = 0.25 m/rad x rotation of [base - pinion]" in table(
+        analysed("M26")
+    )
     idle = [line for line in table(analysed("M19")).splitlines() if line.startswith("idle")]
-    assert idle == [f"idle: rod{i}{s} can move in 1 way that moves nothing else" for i in range(3) for s in "ab"]
+    assert idle == [
+        f"idle: rod{i}{s} can move in 1 way that moves nothing else" for i in range(3) for s in "ab"
+    ]
 
 
 def test_an_approximated_relation_says_by_how_much(tmp_path):
@@ -71,7 +92,7 @@ def test_an_approximated_relation_says_by_how_much(tmp_path):
     tilted = CASES["RELATION_APPROXIMATED"]()
     found = analyse(tilted)
     (joint,) = found.joints
-    metres, radians = joint.misfit
+    metres, radians = found.findings[joint.id].misfit
     assert (metres, radians) == pytest.approx(farthest(joint), rel=0.1) and min(metres, radians) > 0.0
     assert document(found)["joints"][0]["misfit"] == {"metres": metres, "radians": radians}
     size = f"{metres:.2g} m or {math.degrees(radians):.2g}"
@@ -97,3 +118,17 @@ def farthest(joint) -> tuple[float, float]:
         off = max(off, abs(part.point(np.array([0.0, 0.2, 0.0]))[0]))
         turned = max(turned, abs(math.atan2(u[1], u[0]) - math.atan2(0.6, 0.8)))
     return off, turned
+
+
+def test_a_joint_whose_second_body_is_the_ground_is_told_too(tmp_path):
+    """A pin of the ground in a part's slot: which body carries the slot matters, so the ground is the joint's b."""
+    slot = Feature(0, FeatureKind.LINE, np.zeros(3), np.array([1.0, 0.0, 0.0]))
+    pin = Feature(None, FeatureKind.LINE, np.zeros(3), np.array([0.0, 0.0, 1.0]))
+    source = Scene(nodes=[Node("arm", "arm")], constraints=[Constraint("pin", C.PIN_SLOT, (slot, pin))])
+    found = analyse(source)
+    (joint,) = found.joints
+    assert (joint.a, joint.b, joint.kind) == (0, None, JointKind.PIN_SLOT)
+    assert (document(found)["joints"][0]["a"], document(found)["joints"][0]["b"]) == ("arm", "ground")
+    assert table(found).splitlines()[2].split()[-4:] == ["pin", "slot", "ground", "pin"]
+    content, _ = exported(source, tmp_path)
+    assert [c["type"] for c in joints_of(content)] == ["ConfigurableJoint"]

@@ -76,7 +76,7 @@ def test_file_name_that_is_not_utf8_is_a_finding(tmp_path, source, output):
 
 def limited_run(blocks: int, *arguments):
     """As ``run``, with files cut off at so many KiB, as a full disk does."""
-    command = f"ulimit -f {blocks}; exec \"$@\""
+    command = f'ulimit -f {blocks}; exec "$@"'
     return subprocess.run(
         ["bash", "-c", command, "bash", sys.executable, "-m", "kinefab", *map(str, arguments)],
         capture_output=True, text=True, timeout=60,
@@ -92,7 +92,9 @@ def test_a_picture_is_written_whole_or_not_at_all(lid, tmp_path, old):
         picture.write_text(old)
     before = sorted(tmp_path.iterdir())
     done = limited_run(1, "draw", lid, "-o", picture)
-    assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
+    assert (
+        done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr and "Traceback" not in done.stderr
+    )
     assert sorted(tmp_path.iterdir()) == before and (old is None or picture.read_text() == old)
     assert run("draw", lid, "-o", picture).returncode == 0 and picture.read_text().rstrip().endswith("</svg>")
 
@@ -108,7 +110,10 @@ def test_a_report_is_written_whole_or_not_at_all(tmp_path):
     assert len(old) > 2048
     done = limited_run(1, "export", bundle, "-o", tmp_path / "a.kinefab", "--report", report)
     assert done.returncode == 1 and "error TARGET_UNWRITABLE" in done.stderr
-    assert report.read_bytes() == old and sorted(p.name for p in tmp_path.iterdir()) == ["a.bundle.json", "r.json"]
+    assert report.read_bytes() == old and sorted(p.name for p in tmp_path.iterdir()) == [
+        "a.bundle.json",
+        "r.json",
+    ]
 
 
 @pytest.mark.posix  # needs links and pipes
@@ -119,5 +124,7 @@ def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
     link.symlink_to(tmp_path / "there" / "picture.svg")
     assert run("draw", lid, "-o", link).returncode == 0
     assert link.is_symlink() and (tmp_path / "there" / "picture.svg").is_file()
-    done = run("export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", "/dev/stdout")
+    done = run(
+        "export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", "/dev/stdout"
+    )
     assert json.loads(done.stdout)["written"] is False

@@ -8,17 +8,22 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-
 from kinefab.diagnostics import KinefabError, schema_directory
-from kinefab.inspection import overview, picture
+from kinefab.views.overview import overview, picture
 
 ROOT = Path(__file__).parents[1] / "conformance"
-CASES = [case for case in json.loads((ROOT / "manifest.json").read_text(encoding="utf-8"))["cases"] if case["kind"] == "scene"]
+CASES = [
+    case
+    for case in json.loads((ROOT / "manifest.json").read_text(encoding="utf-8"))["cases"]
+    if case["kind"] == "scene"
+]
 
 
 @pytest.fixture(scope="module")
 def schema() -> jsonschema.Draft202012Validator:
-    return jsonschema.Draft202012Validator(json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8")))
+    return jsonschema.Draft202012Validator(
+        json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8"))
+    )
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["path"])

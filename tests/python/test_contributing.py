@@ -7,8 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from kinefab.analysis.constraints import _BUILDERS
+from kinefab.analysis.equations.constraints import _BUILDERS
 from kinefab.diagnostics import schema_directory
 from kinefab.model import ConstraintKind, CouplingKind, FeatureKind, Sense, Side
 from kinefab.sources import FORMATS, format_of
@@ -57,9 +56,23 @@ def test_every_constraint_kind_has_equations():
 def test_contributing_names_what_exists():
     """Paths and tests of the lists are those of the repository; what is to be made has a word in capitals."""
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    paths = [path for path in re.findall(r"`([\w.]+(?:/[\w.]+)+/?)`", text) if not re.search("[A-Z]{4}", path)]
+    paths = [
+        path for path in re.findall(r"`([\w.]+(?:/[\w.]+)+/?)`", text) if not re.search("[A-Z]{4}", path)
+    ]
     assert [path for path in paths if not (ROOT / path).exists()] == []
     files = [path for ending in ("py", "cs") for path in (ROOT / "tests").rglob(f"*.{ending}")]
     known = set(re.findall(r"\w+", "\n".join(path.read_text(encoding="utf-8") for path in files)))
     tests = set(re.findall(r"`(test_\w+|[A-Z]\w+_\w+|\w+Tests)`", text))
     assert tests - known == set() and len(tests) > 10 and len(paths) > 20
+
+
+def test_every_decision_is_in_the_index_by_subject():
+    """DECISIONS.md grows at its end; the index at its head names each once."""
+    text = (ROOT / "DECISIONS.md").read_text(encoding="utf-8")
+    index, _, decisions = text.partition("\n## 20")
+    titles = [
+        title.replace("`", "")
+        for title in re.findall(r"^## \d{4}-\d\d-\d\d (.+)$", "## 20" + decisions, re.MULTILINE)
+    ]
+    named = re.findall(r"\[([^\]]+)\]\(#", index)
+    assert sorted(named) == sorted(titles) and len(titles) > 50

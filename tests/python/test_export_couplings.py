@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import kinefab
 import numpy as np
 import pytest
-
-import kinefab
-from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind
+from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind, Term
 from kinefab.spatial import rotation_about
 from scenes import BOX, exported, lid_scene
 
@@ -19,7 +18,9 @@ def test_screw_is_a_cylindrical_joint_and_a_coupling(tmp_path):
     scene = kinefab.Scene()
     nut = scene.add_part("Nut", BOX)
     scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=0.003)
-    scene.couplings.append(Coupling("S", CouplingKind.SCREW, "Screw", RX, "Screw", TX, 0.003 / (2 * math.pi)))
+    scene.couplings.append(
+        Coupling("S", CouplingKind.SCREW, "Screw", TX, (Term("Screw", RX, 0.003 / (2 * math.pi)),))
+    )
     content, _ = exported(scene, tmp_path)
     (coupling,) = content["couplings"]
     assert coupling["a"]["coordinate"] == "angularX" and coupling["b"]["coordinate"] == "x"
@@ -33,7 +34,11 @@ def test_screw_without_a_stated_coupling_gets_one_from_its_lead(tmp_path):
     scene.add_joint(JointKind.SCREW, None, nut, point=(0, 0, 0), axis=(0, 1, 0), name="Screw", lead=-0.003)
     content, _ = exported(scene, tmp_path)
     (coupling,) = content["couplings"]
-    assert (coupling["kind"], coupling["a"]["coordinate"], coupling["b"]["coordinate"]) == ("screw", "angularX", "x")
+    assert (coupling["kind"], coupling["a"]["coordinate"], coupling["b"]["coordinate"]) == (
+        "screw",
+        "angularX",
+        "x",
+    )
     assert coupling["ratio"] == pytest.approx(0.003 / 360, rel=1e-11) and "offset" not in coupling
 
 
@@ -53,8 +58,8 @@ def test_gear_between_hinges_keeps_its_ratio_in_degrees(tmp_path):
     for part in parts[:2]:
         scene.add_hinge(None, part, point=(part, 0, 0), axis=(0, 0, 1), name=f"H{part}")
     scene.add_slider(None, parts[2], point=(2, 0, 0), axis=(1, 0, 0), name="S")
-    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "H0", RX, "H1", RX, -2.0))
-    scene.couplings.append(Coupling("K", CouplingKind.RACK, "H1", RX, "S", TX, 0.05))
+    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "H1", RX, (Term("H0", RX, -2.0),)))
+    scene.couplings.append(Coupling("K", CouplingKind.RACK, "S", TX, (Term("H1", RX, 0.05),)))
     content, _ = exported(scene, tmp_path)
     assert content["couplings"][0]["ratio"] == pytest.approx(-2.0)
     assert content["couplings"][1]["ratio"] == pytest.approx(0.05 * math.pi / 180)
@@ -71,7 +76,9 @@ def test_coupling_starts_from_the_angles_at_export(tmp_path):
             )
             joint = scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 0, 1), name=name)
             scene.joints[-1] = replace(joint, frame_b=joint.frame_a)  # zero where the part stands unturned
-        scene.couplings.append(Coupling("G", CouplingKind.GEAR, "A", RX, "B", RX, -2.0, math.radians(offset)))
+        scene.couplings.append(
+            Coupling("G", CouplingKind.GEAR, "B", RX, (Term("A", RX, -2.0),), math.radians(offset))
+        )
         content, _ = exported(scene, tmp_path)
         assert content["couplings"][0].get("offset", 0) == pytest.approx(left)
 
@@ -79,7 +86,7 @@ def test_coupling_starts_from_the_angles_at_export(tmp_path):
 def test_coupling_on_a_missing_joint_is_dropped_with_a_report(tmp_path):
     """A coupling whose joint has no component is named in the report."""
     scene = lid_scene()
-    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "Hinge", RX, "Nowhere", RX, 1.0))
+    scene.couplings.append(Coupling("G", CouplingKind.GEAR, "Nowhere", RX, (Term("Hinge", RX, 1.0),)))
     content, result = exported(scene, tmp_path)
     assert "couplings" not in content
     assert "COUPLING_WITHOUT_JOINT" in {o.code for o in result.report.outcomes}

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import kinefab
 import numpy as np
 import pytest
-
-import kinefab
 from kinefab.diagnostics import Outcome
 from kinefab.model import DofRecord
 from kinefab.spatial import rotation_about

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import kinefab
 import numpy as np
 import pytest
-
-import kinefab
 from kinefab.diagnostics import KinefabError
 from kinefab.model import Drive, Freedom, JointKind, Motion
 from kinefab.spatial import Pose, rotation_about

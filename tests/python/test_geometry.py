@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-
 from kinefab.diagnostics import Report, Severity
 from kinefab.geometry.files import FORMATS, read_mesh_file, transformed
 from kinefab.geometry.loading import MeshFiles, load_geometry
@@ -133,8 +132,8 @@ def test_obj_material_change_makes_a_submesh_not_a_body(tmp_path):
     (mesh,) = meshes(scene)
     assert mesh.face_counts == (4, 8)
     body = scene.nodes[0].bodies[0]
-    assert [scene.materials[m].name for m in body.materials] == ["Red", "Grey"]
-    assert scene.materials[body.materials[0]].color == (0.8, 0.1, 0.2, 0.5)
+    assert [scene.surfaces[m].name for m in body.surfaces] == ["Red", "Grey"]
+    assert scene.surfaces[body.surfaces[0]].color == (0.8, 0.1, 0.2, 0.5)
 
 
 def test_obj_missing_material_library_is_a_warning(tmp_path):
@@ -165,7 +164,7 @@ def test_obj_normals_and_texture_coordinates_stay_with_their_corners(tmp_path):
     assert len(mesh.vertices) == 6
     corner = [np.flatnonzero((mesh.vertices == (1, 1, 1)).all(axis=1))][0]
     assert sorted(map(tuple, mesh.normals[corner])) == [(0, 1, 0), (1, 0, 0)]
-    assert mesh.uv.shape == (6, 2)
+    assert mesh.uvs[0].shape == (6, 2)
 
 
 @pytest.mark.parametrize(
@@ -310,14 +309,20 @@ def test_normals_of_a_stretched_mesh_stay_across_it():
     assert np.allclose(found.normals @ (found.vertices[1] - found.vertices[0]), 0)
 
 
-@pytest.mark.parametrize("text", ["v 0 0 0\nv 1 0 0\nf 1 2 3\n", "f 1 2 3\n", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n"])
+@pytest.mark.parametrize(
+    "text", ["v 0 0 0\nv 1 0 0\nf 1 2 3\n", "f 1 2 3\n", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n"]
+)
 def test_an_obj_cut_short_says_so(tmp_path, text):
     """The message tells of the file, not of the parser's insides."""
     path, report = tmp_path / "cut.obj", Report()
     path.write_text(text)
     assert read_mesh_file(path, report, "here") is None
     (found,) = report.diagnostics
-    assert found.code == "GEOMETRY_UNREADABLE" and "cut short" in found.message and "NoneType" not in found.message
+    assert (
+        found.code == "GEOMETRY_UNREADABLE"
+        and "cut short" in found.message
+        and "NoneType" not in found.message
+    )
 
 
 def test_usd_is_not_promised(tmp_path):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 
-import pytest
-
 import kinefab
-from kinefab.inspection import overview, picture, read_scene_file
+import pytest
+from kinefab.views.overview import overview, picture, read_scene_file
 
 
 @pytest.mark.parametrize("number", ["NaN", "-Infinity", "1e999"])
@@ -17,7 +16,9 @@ def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
     path = tmp_path / "bad.kinefab"
     scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "extras": "MARK"}
     path.write_text(json.dumps(scene).replace('"MARK"', number), encoding="utf-8")
-    with pytest.raises(kinefab.KinefabError, match=f"SCENE_UNREADABLE: The scene cannot be read: {number} is not a finite"):
+    with pytest.raises(
+        kinefab.KinefabError, match=f"SCENE_UNREADABLE: The scene cannot be read: {number} is not a finite"
+    ):
         show(path)
 
 

@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 import trimesh
-
 from kinefab.diagnostics import Report
 from kinefab.geometry.hulls import collision_hulls, hull_of_points
 from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-
 from kinefab import ColliderShape, ExportOptions
+from kinefab.analysis import AnalysisOptions
 from kinefab.options import Closures
 
 
@@ -17,8 +17,8 @@ from kinefab.options import Closures
         ({"density": float("inf")}, ValueError, "above zero"),
         ({"density": "7850"}, TypeError, "pass a number"),
         ({"density": True}, TypeError, "pass a number"),
-        ({"colliders": "nonsense"}, ValueError, "pass one of: none, box, hull, mesh"),
-        ({"colliders": None}, ValueError, "pass one of: none, box, hull, mesh"),
+        ({"colliders": "nonsense"}, ValueError, "pass one of: auto, none, box, hull, decompose, mesh"),
+        ({"colliders": None}, ValueError, "pass one of: auto, none, box, hull, decompose, mesh"),
         ({"closures": "some"}, ValueError, "pass one of: exact, minimal"),
         ({"strict": "no"}, TypeError, "pass True or False"),
         ({"limits": 1}, TypeError, "pass True or False"),
@@ -33,5 +33,10 @@ def test_wrong_option_says_what_to_pass(wrong, error, says):
 
 def test_words_stand_for_their_members():
     """A script may say "box", as the command line does."""
-    options = ExportOptions(colliders="box", closures="exact", density=700)
-    assert options.colliders is ColliderShape.BOX and options.closures is Closures.EXACT
+    options = ExportOptions(colliders="box", closures="minimal", density=700)
+    assert options.colliders is ColliderShape.BOX and options.closures is Closures.MINIMAL
+
+
+def test_loops_are_closed_by_whole_joints_unless_asked():
+    """The export's default and the analysis' are one: what holds in Unity's solver."""
+    assert ExportOptions().closures is AnalysisOptions().closures is Closures.EXACT

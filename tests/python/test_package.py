@@ -36,7 +36,17 @@ def test_what_the_api_hands_out_is_public(tmp_path):
     result = kinefab.export(scene, tmp_path / "lid.kinefab", options)
     (kept,) = result.report.outcomes
     found = result.report.add("SCENE_WITHOUT_PARTS")
-    for thing in (scene, *scene.joints, result, options.colliders, result.report, kept, kept.outcome, found, found.severity):
+    for thing in (
+        scene,
+        *scene.joints,
+        result,
+        options.colliders,
+        result.report,
+        kept,
+        kept.outcome,
+        found,
+        found.severity,
+    ):
         assert type(thing).__name__ in kinefab.__all__
 
 

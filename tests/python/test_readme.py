@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 
 import pytest
-
 from scenes import read
 
 ROOT = Path(__file__).parents[2]
@@ -38,7 +37,9 @@ def test_python_readme_has_code():
 
 
 SCENES = {"100 four-bars": "fourbar100", "1000 double pendulums": "dpend1000"}
-TOLD = re.compile(rf"^\| ({'|'.join(SCENES)}), `(\w+)`(?:, ([\d /]+) lanes)?[^|]*\| ([\d /]+) \|", re.MULTILINE)
+TOLD = re.compile(
+    rf"^\| ({'|'.join(SCENES)}), `(\w+)`(?:, ([\d /]+) lanes)?[^|]*\| ([\d /]+) \|", re.MULTILINE
+)
 MEASURED = re.compile(r"^\| (\w+) \| (\w+)(?:, (\d) lanes)? \| [\d.]+ \| (\d+) \|", re.MULTILINE)
 
 

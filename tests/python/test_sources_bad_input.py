@@ -9,11 +9,10 @@ import time
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from source_bundles import FIXTURES, codes
-
 from kinefab import sources
 from kinefab.diagnostics import KinefabError, Report
-from kinefab.sources import file, json_text
+from kinefab.sources.reading import file, json_text
+from source_bundles import FIXTURES, codes
 
 LEVER = json.loads((FIXTURES / "lever" / "lever.bundle.json").read_text(encoding="utf-8"))
 PAPER = (FIXTURES / "lever" / "lever_paper.csv").read_bytes()

@@ -8,11 +8,10 @@ import math
 import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
-from source_bundles import FIXTURES, bundle, codes, part, read
-
 from kinefab import sources
 from kinefab.diagnostics import Report, schema_directory
 from kinefab.model import FeatureKind, JointKind, MeshKey, Motion
+from source_bundles import FIXTURES, bundle, codes, part, read
 
 COS30, SIN30 = math.sqrt(3.0) / 2.0, 0.5
 SLIDER_X = 0.025 * COS30 + math.sqrt(0.09**2 - (0.025 * SIN30) ** 2)

@@ -7,11 +7,10 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 import pytest
-from source_bundles import FIXTURES, codes
-
 from kinefab import sources
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import Source
+from source_bundles import FIXTURES, codes
 
 TAGGED = FIXTURES / "lever" / "lever.csv"
 
@@ -118,9 +117,9 @@ COUP;G;;gear;JA;rz;JB;rz;;;;20;50
 """
     scene, report = scene_of(text.encode(), tmp_path)
     assert report.diagnostics == []
-    assert scene.couplings[0].ratio == pytest.approx(-0.4)
+    assert scene.couplings[0].terms[0].ratio == pytest.approx(-0.4)
     assert scene.nodes[0].mass.mass == pytest.approx(0.5)
     assert scene.nodes[0].mass.center == pytest.approx([0.001, 0.002, 0.003])
     assert np.diag(scene.nodes[0].mass.inertia) == pytest.approx([1e-7, 2e-7, 2.5e-7])
-    assert scene.materials[0].color == (0.1, 0.2, 0.3, 1.0)
+    assert scene.surfaces[0].color == (0.1, 0.2, 0.3, 1.0)
     assert scene.nodes[0].bodies[0].density == 7850.0

@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 import math
 
+import kinefab
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from source_bundles import FIXTURES, bundle, codes, coordinates, frame, part, read
-
 from kinefab import sources
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import RX, TX, UNLOCKED, JointKind, Motion
 from kinefab.spatial import rotation_about
+from source_bundles import FIXTURES, bundle, codes, coordinates, frame, part, read
 
 X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 
@@ -79,6 +79,33 @@ def test_joint_type_leaves_its_freedoms(tmp_path, word, kind):
     assert codes(report) == []
     assert joint.kind is kind
     assert tuple(i for i in range(6) if joint.freedoms[i].motion is Motion.FREE) == UNLOCKED[kind]
+
+
+@pytest.mark.parametrize("word", ["revolute", "cylindrical", "slider", "planar", "rigid"])
+def test_opposed_axes_are_no_fault_where_the_source_does_not_say(tmp_path, word):
+    """Only a flag that is there can be wrong."""
+    joint = {"type": word, "frameA": frame((0, 0, 0), Z, X), "frameB": frame((0, 0, 0), (0, 0, -1), X)}
+    scene, report = read(two(joint), tmp_path)
+    assert codes(report) == []
+    translation, angle = coordinates(scene, scene.joints[0])
+    assert [*translation, angle] == pytest.approx([0, 0, 0, 0], abs=1e-12)
+    _, report = read(two({**joint, "flipped": False}), tmp_path)
+    assert codes(report) == ["JOINT_FLIP_MISMATCH"]
+
+
+@pytest.mark.parametrize("solve", [False, True])
+@pytest.mark.parametrize("word", ["rigid", "slider"])
+@pytest.mark.parametrize("z, x", [((0, 0, -1), X), (Z, (-1, 0, 0)), ((0, 0, -1), (-1, 0, 0))])
+def test_axes_named_the_other_way_are_no_gap_where_nothing_turns(tmp_path, solve, word, z, x):
+    """Half a turn about any axis of the frame: the parts stand as the joint holds them, and stay there."""
+    joint = {"type": word, "frameA": frame((0, 0, 0), Z, X), "frameB": frame((0, 0, 0), z, x)}
+    scene, report = read(two(joint), tmp_path)
+    result = kinefab.export(scene, tmp_path / "out.kinefab", kinefab.ExportOptions(solve=solve))
+    assert codes(report) == []
+    assert "JOINT_POSE_GAP" not in codes(result.report)
+    moved = next(o for o in result.unity.gameObjects if o.name == "Arm")
+    assert np.allclose(moved.transform.localPosition, [-1, 2, 3], atol=1e-12)
+    assert np.allclose(moved.transform.localRotation, [0, 0, 0, 1], atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -259,9 +286,9 @@ def test_coupling_of_two_hinges(tmp_path, sizes, ratio):
     scene, report = read(values, tmp_path)
     (found,) = scene.couplings
     assert codes(report) == []
-    assert found.ratio == pytest.approx(ratio)
+    assert found.terms[0].ratio == pytest.approx(ratio)
     assert found.offset == pytest.approx(math.radians(35) - ratio * math.radians(10))
-    assert (found.freedom_a, found.freedom_b) == (RX, RX)
+    assert (found.terms[0].freedom, found.freedom) == (RX, RX)
 
 
 @pytest.mark.parametrize(
@@ -281,12 +308,18 @@ def test_coupling_of_a_hinge_and_a_slider(tmp_path, sizes, ratio):
         part("A"), part("B"), joints=[hinge, slide], couplings=[coupling], length="mm", angle="deg"
     )
     scene, _ = read(values, tmp_path)
-    assert scene.couplings[0].ratio == pytest.approx(ratio)
+    assert scene.couplings[0].terms[0].ratio == pytest.approx(ratio)
 
 
 @pytest.mark.parametrize(
     "word, meant",
-    [("prismatic", "slider"), ("hinge", "revolute"), ("Revolut", "revolute"), ("pin-slot", "pin_slot"), ("cam", "none")],
+    [
+        ("prismatic", "slider"),
+        ("hinge", "revolute"),
+        ("Revolut", "revolute"),
+        ("pin-slot", "pin_slot"),
+        ("cam", "none"),
+    ],
 )
 def test_unknown_joint_type_is_an_error_that_names_the_meant_one(tmp_path, word, meant):
     """Another program's word, or a slip of the pen, is refused with the type it may stand for."""

@@ -8,13 +8,12 @@ import json
 from enum import Enum
 from pathlib import Path
 
+import kinefab
 import numpy as np
 import pytest
 from golden import differences
-from source_bundles import FIXTURES, bundle, codes, frame, part, read
-
-import kinefab
 from kinefab.spatial import rotation_about
+from source_bundles import FIXTURES, bundle, codes, frame, part, read
 
 ACROSS = np.array([-1.0, 1.0, 1.0])
 """With Y up and Z forward, or Z up and -Y forward, the right-hand X is the left-hand -X."""
@@ -31,7 +30,14 @@ def limited(name: str, value: float, low: float, high: float) -> dict:
 
 
 def feature(component: str, geometry: str, p, d=None, **more) -> dict:
-    return {"component": component, "geometry": geometry, "in": "world", "p": p, **({} if d is None else {"d": d}), **more}
+    return {
+        "component": component,
+        "geometry": geometry,
+        "in": "world",
+        "p": p,
+        **({} if d is None else {"d": d}),
+        **more,
+    }
 
 
 def asymmetric(up: str, length: str, angle: str) -> dict:
@@ -43,7 +49,10 @@ def asymmetric(up: str, length: str, angle: str) -> dict:
     parts = [
         part("base", (0.1, 0.2, 0.3), grounded=True),
         turned_part("lid", (1.0, 2.0, 3.0), (1, 2, 3), 0.7, mass=mass),
-        *(turned_part(name, (k, 1.5, -k), (2, -1, k), 0.3 * k) for k, name in enumerate(["slide", "table", "nut", "wheel", "rack"], 2)),
+        *(
+            turned_part(name, (k, 1.5, -k), (2, -1, k), 0.3 * k)
+            for k, name in enumerate(["slide", "table", "nut", "wheel", "rack"], 2)
+        ),
         *(part(f"free{k}", (5.0, k, 1.0)) for k in range(4)),
     ]
     joint = lambda kind, b, dof, **more: {  # noqa: E731
@@ -53,16 +62,43 @@ def asymmetric(up: str, length: str, angle: str) -> dict:
     turn = 0.4 if angle == "rad" else np.degrees(0.4)
     joints = [
         joint("revolute", "lid", [limited("rz", turn, -10 * degree, 80 * degree)]),
-        joint("slider", "slide", [limited("tz", 0.0, -0.1, 0.8)]) | {"frameB": frame((1.0, 2.0, 0.5), axis, across)},
-        joint("planar", "table", [limited("tx", 0.0, -0.2, 0.3), limited("ty", 0.0, -0.1, 0.8), limited("rz", turn, -20 * degree, 50 * degree)]),
+        joint("slider", "slide", [limited("tz", 0.0, -0.1, 0.8)])
+        | {"frameB": frame((1.0, 2.0, 0.5), axis, across)},
+        joint(
+            "planar",
+            "table",
+            [
+                limited("tx", 0.0, -0.2, 0.3),
+                limited("ty", 0.0, -0.1, 0.8),
+                limited("rz", turn, -20 * degree, 50 * degree),
+            ],
+        ),
         joint("screw", "nut", [], lead=0.05),
         joint("revolute", "wheel", []),
         joint("slider", "rack", []) | {"frameB": frame((1.0, 2.0, 0.5), axis, across)},
     ]
     couplings = [
-        {"id": "gear", "kind": "gear", "a": {"joint": "revolute lid", "dof": "rz"}, "b": {"joint": "revolute wheel", "dof": "rz"}, "ratio": -2.5},
-        {"id": "rack", "kind": "rack", "a": {"joint": "revolute wheel", "dof": "rz"}, "b": {"joint": "slider rack", "dof": "tz"}, "radius": 0.25},
-        {"id": "table", "kind": "linear", "a": {"joint": "planar table", "dof": "ty"}, "b": {"joint": "slider rack", "dof": "tz"}, "ratio": 1.5},
+        {
+            "id": "gear",
+            "kind": "gear",
+            "a": {"joint": "revolute lid", "dof": "rz"},
+            "b": {"joint": "revolute wheel", "dof": "rz"},
+            "ratio": -2.5,
+        },
+        {
+            "id": "rack",
+            "kind": "rack",
+            "a": {"joint": "revolute wheel", "dof": "rz"},
+            "b": {"joint": "slider rack", "dof": "tz"},
+            "radius": 0.25,
+        },
+        {
+            "id": "table",
+            "kind": "linear",
+            "a": {"joint": "planar table", "dof": "ty"},
+            "b": {"joint": "slider rack", "dof": "tz"},
+            "ratio": 1.5,
+        },
     ]
     y, z = [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]
     tilted = [np.sin(0.3), np.cos(0.3), 0.0]
@@ -75,7 +111,16 @@ def asymmetric(up: str, length: str, angle: str) -> dict:
         {"id": "offset", "kind": "coincident", "a": feature("base", "plane", [1, 2, 3], y), "b": feature("free3", "plane", [3, 2.4, 1], y), "value": 0.4},
     ]  # fmt: skip
     record = {"component": "lid", "translations": [axis], "rotations": [across], "center": [1.0, 2.0, 3.0]}
-    return bundle(*parts, up=up, length=length, angle=angle, joints=joints, couplings=couplings, constraints=constraints, dof=[record])
+    return bundle(
+        *parts,
+        up=up,
+        length=length,
+        angle=angle,
+        joints=joints,
+        couplings=couplings,
+        constraints=constraints,
+        dof=[record],
+    )
 
 
 def by_the_other_hand(right: dict) -> dict:
@@ -98,8 +143,10 @@ def by_the_other_hand(right: dict) -> dict:
 
     def turned(entry: dict) -> None:
         entry |= {key: -entry[key] for key in ("value",) if key in entry}
-        if "min" in entry:
-            entry["min"], entry["max"] = -entry["max"], -entry["min"]
+        ends = {end: entry.pop(end) for end in ("min", "max", "minEnabled", "maxEnabled") if end in entry}
+        for end, other in (("min", "max"), ("max", "min")):
+            entry |= {other: -ends[end]} if end in ends else {}
+            entry |= {f"{other}Enabled": ends[f"{end}Enabled"]} if f"{end}Enabled" in ends else {}
 
     for key in ("components", "joints", "constraints"):
         left[key] = walk(left.get(key, []))
@@ -132,7 +179,11 @@ def by_the_other_hand(right: dict) -> dict:
 def plain(value):
     """A scene as JSON values, without where it was read from."""
     if dataclasses.is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name not in ("source", "where")}
+        return {
+            f.name: plain(getattr(value, f.name))
+            for f in dataclasses.fields(value)
+            if f.name not in ("source", "where")
+        }
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, np.ndarray):
@@ -174,7 +225,9 @@ def test_what_is_counted_about_an_axis_is_counted_by_the_left_hand(tmp_path):
     objects = json.loads(result.path.read_text("utf-8"))["gameObjects"]
     lid = next(o for o in objects if o["name"] == "lid")
     assert lid["transform"]["localPosition"] == [1, 2, 3]
-    assert lid["transform"]["localRotation"] == pytest.approx([np.sin(turn / 2), 0, 0, np.cos(turn / 2)], abs=1e-9)
+    assert lid["transform"]["localRotation"] == pytest.approx(
+        [np.sin(turn / 2), 0, 0, np.cos(turn / 2)], abs=1e-9
+    )
     hinge = next(c for c in lid["components"] if c["type"] == "HingeJoint")
     # the component's axis may point either way; what the hinge lets the lid do may not
     sense = hinge["axis"][0]
@@ -187,12 +240,32 @@ def test_a_unity_like_source_comes_back_as_it_was_written(tmp_path):
     """Y up, Z forward, left-handed, metres: positions, rotations, vertices and triangles are Unity's already."""
     vertices = [[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]]
     faces = [[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]]  # clockwise seen from outside, as Unity has them
-    obj = ["o block"] + [f"v {x} {y} {z}" for x, y, z in vertices] + ["f " + " ".join(str(i + 1) for i in f) for f in faces]
+    obj = (
+        ["o block"]
+        + [f"v {x} {y} {z}" for x, y, z in vertices]
+        + ["f " + " ".join(str(i + 1) for i in f) for f in faces]
+    )
     (tmp_path / "parts.obj").write_text("\n".join(obj) + "\n", "utf-8")
     turn = rotation_about(np.array([2.0, 3.0, 6.0]) / 7.0, 0.9)
     x, y, z = turn.T.tolist()
-    values = bundle({"id": "block", "kind": "part", "pose": {"o": [1, 2, 3], "x": x, "y": y, "z": z}, "bodies": [{"id": "block"}]})
-    values["meta"] |= {"handed": "left", "mesh": {"files": ["parts.obj"], "units": "m", "layout": "single", "coordinates": "part", "key": "object"}}
+    values = bundle(
+        {
+            "id": "block",
+            "kind": "part",
+            "pose": {"o": [1, 2, 3], "x": x, "y": y, "z": z},
+            "bodies": [{"id": "block"}],
+        }
+    )
+    values["meta"] |= {
+        "handed": "left",
+        "mesh": {
+            "files": ["parts.obj"],
+            "units": "m",
+            "layout": "single",
+            "coordinates": "part",
+            "key": "object",
+        },
+    }
     path = tmp_path / "block.bundle.json"
     path.write_text(json.dumps(values), "utf-8")
     result = kinefab.export(path, tmp_path / "block.kinefab")
@@ -201,7 +274,7 @@ def test_a_unity_like_source_comes_back_as_it_was_written(tmp_path):
     assert block["transform"]["localPosition"] == [1, 2, 3]
     q = [*(np.array([2.0, 3.0, 6.0]) / 7.0 * np.sin(0.45)), np.cos(0.45)]
     assert block["transform"]["localRotation"] == pytest.approx(q, abs=1e-9)
-    mesh, data = document["meshes"][0], result.buffer.read_bytes()
+    mesh, data = document["meshes"][0], result.files[1].read_bytes()
     count, indices = mesh["vertexCount"], sum(s["indexCount"] for s in mesh["submeshes"])
     points = np.frombuffer(data, "<f4", 3 * count, mesh["positions"]["offset"]).reshape(-1, 3)
     kind = {"uint16": "<u2", "uint32": "<u4"}[mesh["indexFormat"]]
@@ -210,7 +283,9 @@ def test_a_unity_like_source_comes_back_as_it_was_written(tmp_path):
     assert sorted(map(normal, triangles)) == sorted(normal(np.array(vertices, float)[f]) for f in faces)
     assert {tuple(p) for p in points.tolist()} == {tuple(map(float, v)) for v in vertices}
     body = next(c for c in block["components"] if c["type"] == "Rigidbody")
-    assert body["mass"] == pytest.approx(1000.0) and body["centerOfMass"] == pytest.approx([0.25, 0.5, 0.75], abs=1e-6)
+    assert body["mass"] == pytest.approx(1000.0) and body["centerOfMass"] == pytest.approx(
+        [0.25, 0.5, 0.75], abs=1e-6
+    )
 
 
 def test_the_golden_box_is_the_same_from_the_left_hand(tmp_path):

@@ -6,12 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from source_bundles import FIXTURES, codes
-
 from kinefab import sources
 from kinefab.diagnostics import Report
 from kinefab.model import JointKind
-from kinefab.sources.axis_point import circles, common_axis_point
+from kinefab.sources.paper.axis_point import circles, common_axis_point
+from source_bundles import FIXTURES, codes
 
 PAPER = FIXTURES / "lever" / "lever_paper.csv"
 PIN = np.array([0.025 * math.cos(math.radians(30)), 0.0, -0.0125])

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from kinefab.spatial import Pose, matrix_from_quaternion, rotation_about, rotation_exp
 from kinefab.unity import frames
 

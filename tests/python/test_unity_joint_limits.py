@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
+from joint_cases import DRIVEN, GROUNDING, KINDS, NAMES, Case, between, turned
 from kinefab.diagnostics import Report
 from kinefab.model import UNLOCKED, Drive, Freedom, JointKind, Motion, Node
 from kinefab.rigid import rigid_groups
 from kinefab.spatial import Pose
-from kinefab.unity.joints import map_joint
-from joint_cases import DRIVEN, GROUNDING, KINDS, NAMES, Case, between, turned
+from kinefab.unity.joints.mapping import map_joint
 from unity_semantics import matrix, rotation_vector, turn
 
 seeds = st.integers(0, 2**32 - 1)
@@ -210,7 +209,7 @@ def test_tilted_pose_is_a_gap_in_degrees(kind):
     mapped = map_joint(joint, case.scene, rigid_groups(case.scene), lambda node: node, report)
     (finding,) = report.diagnostics
     assert finding.code == "JOINT_POSE_GAP" and " 2 degrees" in finding.message
-    assert mapped.component["exact"] is False
+    assert mapped.component.exact is False
 
 
 def test_range_of_one_value_is_a_lock_at_that_value():

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
+from joint_cases import GROUNDING, KINDS, NAMES, Case, random_pose
 from kinefab.model import Freedom, JointKind, Motion
 from kinefab.spatial import Pose
-from joint_cases import GROUNDING, KINDS, NAMES, Case, random_pose
 from unity_semantics import ANGULAR, LINEAR, compose, inverse, mirrored, turn
 
 

@@ -14,8 +14,15 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "export": "pipeline",
+    "motion": "mechanism",
+    "view": "showing",
+    "report": "showing",
+    "Mechanism": "mechanism",
+    "Trajectory": "mechanism",
     "ExportOptions": "options",
     "ExportResult": "pipeline",
+    "batch": "batching.run",
+    "BatchResult": "batching.run",
     "ColliderShape": "options",
     "Closures": "options",
     "Scene": "builder",
@@ -32,9 +39,11 @@ _HOMES = {
     "FeatureOutcome": "diagnostics",
     "Outcome": "diagnostics",
 }
-__all__ = [*_HOMES, "__version__"]
+__all__ = [*_HOMES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
 
 if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
+    from .batching.run import BatchResult as BatchResult
+    from .batching.run import batch as batch
     from .builder import Scene as Scene
     from .diagnostics import Diagnostic as Diagnostic
     from .diagnostics import FeatureOutcome as FeatureOutcome
@@ -42,6 +51,9 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .diagnostics import Outcome as Outcome
     from .diagnostics import Report as Report
     from .diagnostics import Severity as Severity
+    from .mechanism import Mechanism as Mechanism
+    from .mechanism import Trajectory as Trajectory
+    from .mechanism import motion as motion
     from .model import Drive as Drive
     from .model import Freedom as Freedom
     from .model import Joint as Joint
@@ -53,6 +65,8 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .options import ExportOptions as ExportOptions
     from .pipeline import ExportResult as ExportResult
     from .pipeline import export as export
+    from .showing import report as report
+    from .showing import view as view
 
 
 def __getattr__(name: str) -> Any:

@@ -1,4 +1,4 @@
-"""The command line: a thin layer over ``kinefab.export`` and ``kinefab.inspection``.
+"""The command line: a thin layer over ``kinefab.export`` and ``kinefab.views.overview``.
 
 Logs go to stderr, data to stdout; exit 0 done, 1 errors found, 2 wrong usage.  What takes long to import is
 imported inside the commands.
@@ -9,16 +9,23 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Callable, Iterator, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import typer
 
 from . import __version__
-from .diagnostics import KinefabError, Report, Severity, diagnostic, printable, report_document
-from .options import DEFAULT_DENSITY, Closures, ColliderShape, ExportOptions
+from .asking import asking
+from .batching.command import batch
+from .bundling.command import bundle_commands
+from .capturing import commands
+from .diagnostics import KinefabError, Report, Severity, diagnostic, listed, printable, report_document
+from .options import DEFAULT_DENSITY, DEFAULT_SMOOTH, Closures, ColliderShape, ExportOptions, Ground
 from .replacing import demand_writable, write_whole
+from .sources import known_suffixes, source_options
+from .targets import known_endings, target_options
 
 if TYPE_CHECKING:
     from .pipeline import ExportResult
@@ -28,6 +35,7 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # importing rich for the help alone takes longer than all the rest
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 _verbosity = 0
@@ -54,28 +62,53 @@ def _common(
     _verbosity = 1 if verbose else -1 if quiet else 0
 
 
+SOURCE_HELP = f"Assembly to read: {', '.join(sorted(known_suffixes()))}."
+DENSITY: Any = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none.")
+CLOSURES: Any = typer.Option(
+    Closures.EXACT,
+    "--closures",
+    show_default="exact",
+    help="Equations of loop-closing joints: all, as Unity needs them, or the fewest, for a direct solver.",
+)
+TARGET_HELP = f"File to write; its ending chooses the kind: {', '.join(known_endings())}."
+
+
 @app.command()
+@asking(("reading", source_options()), ("writing", target_options()))
 def export(
-    source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
-    output: Path = typer.Option(
-        ..., "--output", "-o", help="Scene to write: NAME.kinefab.", show_default=False
-    ),
+    reading: dict[str, Any],
+    writing: dict[str, Any],
+    source: Path = typer.Argument(..., help=SOURCE_HELP, show_default=False),
+    output: Path = typer.Option(..., "--output", "-o", help=TARGET_HELP, show_default=False),
     strict: bool = typer.Option(
         False, "--strict", help="Fail where anything would be approximated or dropped."
     ),
     report: Optional[Path] = typer.Option(None, "--report", help="Write every finding to this JSON file."),
-    colliders: ColliderShape = typer.Option(ColliderShape.HULL, "--colliders", show_default="hull", help="Collider of each body."),
-    density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
-    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", show_default="minimal", help="Equations of loop-closing joints to write."),
-    solve: bool = typer.Option(False, "--solve", help="Move the parts to the nearest pose that fits the constraints."),
-    limits: bool = typer.Option(False, "--limits", help="Search how far joints can move and write it as limits."),
+    colliders: ColliderShape = typer.Option(
+        ColliderShape.AUTO, "--colliders", show_default="auto", help="Collider of each body."
+    ),
+    density: float = DENSITY,
+    closures: Closures = CLOSURES,
+    solve: bool = typer.Option(
+        False, "--solve", help="Move the parts to the nearest pose that fits the constraints."
+    ),
+    limits: bool = typer.Option(
+        False, "--limits", help="Search how far joints can move and write it as limits."
+    ),
+    smooth: float = typer.Option(
+        DEFAULT_SMOOTH,
+        "--smooth",
+        help="Degrees up to which an edge is drawn smooth, of meshes without normals.",
+    ),
 ) -> None:
-    """Export a CAD assembly as a Unity scene."""
-    _demand_ending(output, ".kinefab")
+    """Export an assembly or a robot as a Unity scene."""
+    _demand_ending(output, *known_endings())
     try:
-        options = ExportOptions(colliders, density, strict, closures, solve, limits)
+        given = (colliders, density, strict, closures, solve, limits, reading, writing, smooth)
+        options = ExportOptions(*given, ground=Ground.among(reading))
     except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--density") from None
+        hint = "--smooth" if str(error).startswith("smooth") else "--density"
+        raise typer.BadParameter(str(error), param_hint=hint) from None
     for path, hint, others in ((output, "--output", (source,)), (report, "--report", (source, output))):
         if path is not None and os.path.isdir(path):
             raise typer.BadParameter(f"{path} is a folder", param_hint=hint)
@@ -96,44 +129,80 @@ def export(
         found, reasons = error.report or Report(list(error.diagnostics)), len(error.diagnostics)
     _log(found)
     if result is None:
-        reason = _count(reasons, "loss or error", "losses or errors") if strict else _count(reasons, "error", "errors")
+        words = ("loss or error", "losses or errors") if strict else ("error", "errors")
+        reason = _count(reasons, *words)
         typer.echo(f"{output} was not written: {reason}.", err=True)
     elif _verbosity >= 0:
         typer.echo(_summary(result), err=True)
     if report is not None:
-        text = json.dumps(report_document(found, str(output), result is not None), indent=2, ensure_ascii=False) + "\n"
-        _write(report, text.encode("utf-8", "backslashreplace"))  # a path's bytes may be no UTF-8; the escapes are JSON's
+        told = report_document(found, str(output), result is not None)
+        text = json.dumps(told, indent=2, ensure_ascii=False) + "\n"
+        # A path's bytes may be no UTF-8; the escapes are JSON's.
+        _write(report, text.encode("utf-8", "backslashreplace"))
     if result is None:
         raise typer.Exit(1)
 
 
 @app.command()
+@asking(("reading", source_options()))
 def analyse(
-    source: Path = typer.Argument(..., help="Assembly to read: NAME.bundle.json or CSV.", show_default=False),
+    reading: dict[str, Any],
+    source: Path = typer.Argument(..., help=SOURCE_HELP, show_default=False),
     as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
-    closures: Closures = typer.Option(Closures.MINIMAL, "--closures", show_default="minimal", help="Equations of loop-closing joints to keep."),
+    density: float = DENSITY,
+    closures: Closures = CLOSURES,
     limits: bool = typer.Option(False, "--limits", help="Search how far joints can move."),
 ) -> None:
     """Show what an assembly's constraints leave free, and which joint connects what."""
-    from .analysis import AnalysisOptions
-    from .analysis import analyse as run
-    from .analysis.summary import document
-    from .analysis.table import table
-    from .sources import read
+    from .analysis.findings.summary import document
+    from .analysis.findings.table import table
+    from .pipeline import analysed, prepared
 
+    try:
+        options = ExportOptions(density=density, closures=closures, limits=limits, reading=reading)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--density") from None
     found = Report()
     try:
         with _progress_bar() as progress:
-            scene = read(source, found)
-            analysis = run(scene, AnalysisOptions(closures, limits), lambda done: progress("limits", done))
-    except KinefabError as error:
-        _log(error.report or Report(list(error.diagnostics)))
-        raise typer.Exit(1)
-    found.extend(analysis.report)
+            analysis = analysed(prepared(source, options, found, progress), options, found, progress).analysis
+    except KinefabError:
+        _log(found)
+        raise typer.Exit(1) from None
     _log(found)
     typer.echo(json.dumps(document(analysis), indent=2, ensure_ascii=False) if as_json else table(analysis))
     if found.of(Severity.ERROR):
         raise typer.Exit(1)
+
+
+@app.command()
+@asking(("reading", source_options()))
+def mates(
+    reading: dict[str, Any],
+    source: Path = typer.Argument(
+        ..., help="Assembly with exact geometry: STEP or IGES.", show_default=False
+    ),
+    output: Optional[Path] = typer.Option(
+        None, "--output", "-o", help="File to write, NAME.mates.json; beside the source otherwise."
+    ),
+) -> None:
+    """Find the mates of an assembly that states none, for you to look over and to give by --mates."""
+    output = source.with_suffix(".mates.json") if output is None else output
+    _demand_ending(output, ".mates.json")
+    from .mates.listing import listing
+    from .mates.mates_file import text
+    from .pipeline import mates_of
+
+    found = Report()
+    try:
+        with _progress_bar() as progress:
+            scene, mates = mates_of(source, reading, found, progress)
+    except KinefabError:
+        _log(found)
+        raise typer.Exit(1) from None
+    _log(found)
+    typer.echo(listing(scene, mates))
+    _write(output, text(scene, mates).encode("utf-8"))
 
 
 @app.command()
@@ -142,7 +211,7 @@ def inspect(
     as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
 ) -> None:
     """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
-    from .inspection import overview
+    from .views.overview import overview
 
     try:
         text = overview(file, as_json)
@@ -154,25 +223,93 @@ def inspect(
 
 @app.command()
 def draw(
-    file: Path = typer.Argument(..., help="A NAME.kinefab scene.", show_default=False),
-    output: Path = typer.Option(..., "--output", "-o", help="Picture to write: NAME.svg.", show_default=False),
+    file: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Path = typer.Option(
+        ..., "--output", "-o", help="Picture to write: NAME.svg, .png, .gif or .webp.", show_default=False
+    ),
+    motion: bool = typer.Option(False, "--motion", help="A moving SVG; .gif and .webp always move."),
+    joint: Optional[str] = typer.Option(
+        None, "--joint", help="What is driven; without it the first freedom."
+    ),
 ) -> None:
     """Draw a scene: its bodies, its joints and how far they move."""
-    _demand_ending(output, ".svg")
-    from .inspection import picture
+    _demand_ending(output, ".svg", ".png", ".gif", ".webp")
+    try:
+        if output.suffix == ".svg" and not motion and file.suffix == ".kinefab":
+            from .views.overview import picture
+
+            content = picture(file).encode("utf-8")
+        else:
+            from .filming import film
+
+            content = film(file, output.suffix, joint)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--joint") from None
+    except KinefabError as error:
+        _log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None
+    _write(output, content)
+
+
+@app.command()
+def report(
+    source: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
+) -> None:
+    """Write the page of ``view`` with the analysis in words, plots of each freedom and what was lost."""
+    _demand_ending(output, ".html")
+    from .showing import report as run
 
     try:
-        svg = picture(file)
+        run(source, output)
     except KinefabError as error:
-        _log(Report(list(error.diagnostics)))
-        raise typer.Exit(1)
-    _write(output, svg.encode("utf-8"))
+        _log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None
 
 
-def _demand_ending(output: Path, ending: str) -> None:
+@app.command()
+def view(
+    source: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Optional[Path] = typer.Option(
+        None,
+        "--output",
+        "-o",
+        help="Page to write: NAME.html; without it, in this folder.",
+        show_default=False,
+    ),
+    open_: bool = typer.Option(False, "--open", help="Open it in the browser."),
+    mates: Optional[Path] = typer.Option(
+        None, "--mates", help="NAME.mates.json: list its mates, to be switched."
+    ),
+) -> None:
+    """Write one HTML file that plays the mechanism: every freedom on a slider, nothing fetched."""
+    page = Path(source.name.split(".")[0] + ".html") if output is None else output
+    _demand_ending(page, ".html")
+    from .showing import view as run
+
+    try:
+        run(source, page, mates)
+    except KinefabError as error:
+        _log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None
+    typer.echo(page)
+    if open_:
+        typer.launch(str(page))
+
+
+app.command()(asking(("reading", source_options()), ("writing", target_options()))(batch))
+
+
+def _demand_ending(output: Path, *endings: str) -> None:
     """A file of another name would not be found by the program that reads it (Unity imports by ending)."""
-    if output.suffix != ending:
-        raise typer.BadParameter(f"{output} does not end in {ending}", param_hint="--output")
+    if not output.name.endswith(endings):
+        raise typer.BadParameter(f"{output} does not end in {' or '.join(endings)}", param_hint="--output")
 
 
 def _count(number: int, word: str, words: str) -> str:
@@ -180,7 +317,7 @@ def _count(number: int, word: str, words: str) -> str:
 
 
 def _log(report: Report) -> None:
-    """Findings on stderr, one a line, coloured on a terminal."""
+    """Findings on stderr, one a line, coloured on a terminal; of thousands that are alike the first ones."""
     from rich.console import Console
     from rich.text import Text
 
@@ -188,7 +325,7 @@ def _log(report: Report) -> None:
     rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
     style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
     console = Console(stderr=True, soft_wrap=True, highlight=False)
-    for found in report.diagnostics:
+    for found in listed(report.diagnostics):
         if rank[found.severity] >= least:
             console.print(Text(printable(str(found)), style=style[found.severity]))
 
@@ -200,7 +337,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 @contextmanager
-def _unwritable_as_finding(path: Path) -> Iterator[None]:
+def _unwritable_as_finding(path: Path) -> Generator[None, None, None]:
     try:
         yield
     except OSError as error:
@@ -212,15 +349,17 @@ def _unwritable_as_finding(path: Path) -> Iterator[None]:
 def _summary(result: ExportResult) -> str:
     outcomes = [outcome.outcome.value for outcome in result.report.outcomes]
     counts = ", ".join(f"{outcomes.count(word)} {word}" for word in ("kept", "approximated", "dropped"))
-    objects = result.document.tail["gameObjects"]
-    joints = sum(c["type"].endswith("Joint") for o in objects for c in o.get("components", ()))
-    meshes = len(result.document.meshes)
-    parts = _count(len(objects), "object", "objects"), _count(joints, "joint", "joints"), _count(meshes, "mesh", "meshes")
+    numbers = result.numbers
+    parts = (
+        _count(numbers[0], "object", "objects"),
+        _count(numbers[1], "joint", "joints"),
+        _count(numbers[2], "mesh", "meshes"),
+    )
     return f"{result.path}: {', '.join(parts)}; features: {counts}."
 
 
 @contextmanager
-def _progress_bar() -> Iterator[Callable[[str, float], None]]:
+def _progress_bar() -> Generator[Callable[[str, float], None], None, None]:
     """A bar on a terminal, nothing in a pipe."""
     if _verbosity < 0 or not sys.stderr.isatty():
         yield lambda stage, fraction: None
@@ -240,6 +379,21 @@ def _progress_bar() -> Iterator[Callable[[str, float], None]]:
         yield advance
 
 
+app.add_typer(commands(_log))
+app.add_typer(bundle_commands(_log))
+
+
 def main() -> None:
     """Entry point of the ``kinefab`` script."""
-    app()
+    try:
+        try:
+            app()
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # whoever reads has enough; nothing more is to be flushed at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        typer.echo(f"kinefab: the output cannot be written: {error.strerror or error}", err=True)
+        sys.exit(1)

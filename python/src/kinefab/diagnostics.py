@@ -7,11 +7,11 @@ a wrong *call* (a programmer's mistake) gives an ordinary exception.
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
-from typing import Iterable, Mapping
 
 
 class Severity(str, Enum):
@@ -69,13 +69,36 @@ def printable(text: str) -> str:
     return text if text.isprintable() else "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
-class KinefabError(Exception):
-    """The data cannot be carried on; holds the diagnostics that say why, and everything found until then."""
+MOST_ALIKE = 100
+"""Findings of one code that a text lists."""
 
-    def __init__(self, diagnostics: Iterable[Diagnostic], report: "Report | None" = None):
+
+def listed(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The findings as people read them: of one code the first ``MOST_ALIKE``, and at the end how many more there are."""
+    shown: list[Diagnostic] = []
+    more: dict[str, list[Diagnostic]] = {}
+    for entry in found:
+        alike = more.setdefault(entry.code, [])
+        alike.append(entry)
+        if len(alike) <= MOST_ALIKE:
+            shown.append(entry)
+    for code, alike in more.items():
+        if len(alike) > MOST_ALIKE:
+            left = diagnostic("FINDINGS_OMITTED", code, count=len(alike) - MOST_ALIKE)
+            shown.append(replace(left, severity=alike[0].severity))
+    return shown
+
+
+class KinefabError(Exception):
+    """The data cannot be carried on; holds the diagnostics that say why, and everything found until then.
+
+    Its text lists the first findings of each code (``listed``).
+    """
+
+    def __init__(self, diagnostics: Iterable[Diagnostic], report: Report | None = None):
         self.diagnostics = tuple(diagnostics)
         self.report = report
-        super().__init__("\n".join(str(d) for d in self.diagnostics))
+        super().__init__("\n".join(map(str, listed(self.diagnostics))))
 
 
 def schema_directory() -> Path:
@@ -111,8 +134,8 @@ def diagnostic(code: str, where: str = "", **values: object) -> Diagnostic:
 class Report:
     """What a run found (``diagnostics``) and what became of each feature (``outcomes``), in order."""
 
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    outcomes: list[FeatureOutcome] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list[Diagnostic])
+    outcomes: list[FeatureOutcome] = field(default_factory=list[FeatureOutcome])
 
     def add(self, code: str, where: str = "", **values: object) -> Diagnostic:
         found = diagnostic(code, where, **values)
@@ -132,11 +155,13 @@ class Report:
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
         self._told(feature, Outcome.DROPPED, code, where, values)
 
-    def _told(self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]) -> None:
+    def _told(
+        self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]
+    ) -> None:
         found = self.add(code, where, feature=feature, **values)
         self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
 
-    def extend(self, other: "Report") -> None:
+    def extend(self, other: Report) -> None:
         self.diagnostics.extend(other.diagnostics)
         self.outcomes.extend(other.outcomes)
 

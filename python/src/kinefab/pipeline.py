@@ -1,131 +1,226 @@
-"""The export, read like a sentence: read, load the geometry, weigh, analyse, map to Unity, write."""
+"""The road of a scene, read like a sentence: prepared, analysed, written.
+
+``prepared`` reads a source, loads its geometry and weighs it; ``analysed`` finds the mechanism; ``written`` hands it to a
+target.  ``export``, ``analyse`` and everything else that asks about a mechanism share the first two.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Callable
+from typing import Any
 
-from .analysis import AnalysisOptions, analyse
-from .analysis.dof_records import joints_of_dof_records
-from .analysis.reasons import holding
-from .analysis.summary import scene_entry
-from .diagnostics import KinefabError, Outcome, Report, Severity
-from .geometry.hulls import collision_hulls
+from .analysis import Analysis, AnalysisOptions, analyse
+from .analysis.findings.reasons import holding
+from .analysis.findings.summary import scene_entry
+from .analysis.joints.dof_records import joints_of_dof_records
+from .diagnostics import KinefabError, Report
+from .geometry.collision import collision_meshes
 from .geometry.loading import MeshFiles, load_geometry
+from .geometry.looks.shading import with_normals
+from .geometry.plausibility import check_plausible
 from .geometry.weighing import weigh
+from .mates import Mates, find_mates
+from .mates.asked import mated
 from .model import Scene
-from .options import ColliderShape, ExportOptions
+from .options import ExportOptions
 from .rigid import RigidGroups, rigid_groups
-from .unity.colliders import Colliders
-from .unity.document import Document, build_document
-from .unity.writer import write_scene
+from .sources import Stage, read, read_stage
+from .targets import check_target, known_endings, target_of, write
+from .targets.content import Content
+from .unity.bodies.colliders import Colliders
+from .unity.mapping import map_scene
+from .unity.overlaps import check_overlaps
+from .unity.scene import Joint as UnityJoint
+from .unity.scene import UnityScene
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""
 
 
+def silent(stage: str, fraction: float) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Analysed:
+    """scene: with the found joints, as it is to be exported.  groups: its rigid groups, with what constraints fix."""
+
+    analysis: Analysis
+    scene: Scene
+    groups: RigidGroups
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ExportResult:
-    """path: the scene file.  buffer: the binary beside it, or None.  document: what was written."""
+    """path: the file that was named.  files: everything that was written, that one first.
+    scene: in Unity's terms, where the target asked for it."""
 
     path: Path
-    buffer: Path | None
-    document: Document
+    files: tuple[Path, ...]
+    analysed: Analysed
+    content: Content
     report: Report
+
+    @property
+    def numbers(self) -> tuple[int, int, int]:
+        """Objects, joints and meshes: in Unity's terms where the target asked for them, else of the model."""
+        mapped, scene = self.content.in_unity, self.analysed.scene
+        if mapped is None:
+            return len(scene.nodes), len(scene.joints), len(scene.meshes)
+        components = (component for entry in mapped.gameObjects for component in entry.components)
+        return len(mapped.gameObjects), sum(isinstance(c, UnityJoint) for c in components), len(mapped.meshes)
+
+    @property
+    def unity(self) -> UnityScene:
+        """What was exported, in Unity's terms."""
+        return self.content.unity()
+
+
+def prepared(
+    source: str | Path | Scene | Stage, options: ExportOptions, report: Report, progress: Progress = silent
+) -> Scene:
+    """The scene of a source with geometry loaded, masses weighed, freedom records turned into joints.
+
+    source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
+    Raises KinefabError with every error found.
+    """
+    files = MeshFiles(report)
+    scene = source if isinstance(source, Scene) else _read(source, options.reading, files, report, progress)
+    if not scene.nodes:
+        report.add("SCENE_WITHOUT_PARTS")
+    scene = mated(_enabled(scene, report), options.reading, report)
+    scene = load_geometry(scene, files, report, progress)
+    scene = weigh(scene, options.density, report)
+    check_plausible(scene, options.density, report)
+    report.raise_for_errors()
+    return replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, rigid_groups(scene), report)])
+
+
+def mates_of(
+    source: str | Path, reading: Mapping[str, object], report: Report, progress: Progress = silent
+) -> tuple[Scene, Mates]:
+    """A source as it is read, and the mates found in its geometry.  Raises KinefabError with every error found."""
+    scene = _read(Path(source), {**reading, "mates": ""}, MeshFiles(report), report, progress)
+    progress("mates", 0.0)
+    ground = str(reading.get("ground", ""))
+    found = find_mates(scene, ground)
+    if found.ground is None:
+        report.add("MATES_WITHOUT_FACES", scene.source.uri)
+    elif ground and found.ground_reason != "named":
+        report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
+    report.raise_for_errors()
+    progress("mates", 1.0)
+    return scene, found
+
+
+def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Progress = silent) -> Analysed:
+    """What may move in a prepared scene; what is wrong with it is in the report."""
+    progress("analyse", 0.0)
+    found = analyse(
+        scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
+    )
+    report.extend(found.report)
+    exported = found.scene(options.solve)
+    groups = rigid_groups(exported, found.fixed)
+    progress("analyse", 1.0)
+    return Analysed(found, exported, groups)
 
 
 def export(
-    source: str | Path | Scene,
+    source: str | Path | Scene | Stage,
     target: str | Path,
     options: ExportOptions = ExportOptions(),
-    progress: Progress = lambda stage, fraction: None,
+    progress: Progress = silent,
 ) -> ExportResult:
-    """Export ``source`` to ``target`` (``NAME.kinefab``) and its buffer beside it.
+    """Export ``source`` to ``target``, by whose ending the kind of output is chosen (``NAME.kinefab`` ...).
 
-    source: a file that a reader of ``kinefab.sources`` knows, or a Scene made in code.
+    source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
     Raises KinefabError, with every error found, when the data is wrong (or lossy, if strict) or the target
-    cannot be written; then the target is as it was.  Raises ValueError for a target of another ending: Unity
-    imports by it.
+    cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has.
     """
-    if Path(target).suffix != ".kinefab":
-        raise ValueError(f"the target is {os.fspath(target)!r}; its name must end in .kinefab")
+    path = Path(target)
+    kind = target_of(path)
+    if kind is None:
+        known = " or ".join(known_endings())
+        raise ValueError(f"the target is {os.fspath(target)!r}; its name must end in {known}")
     report = Report()
     try:
-        files = MeshFiles(report)
-        scene = _read(source, files, report, progress)
-        if not scene.nodes:
-            report.add("SCENE_WITHOUT_PARTS")
-        scene = load_geometry(scene, files, report, progress)
-        scene = weigh(scene, options.density, report)
+        asked = check_target(kind, options.writing, report)
         report.raise_for_errors()
-        progress("analyse", 0.0)
-        scene = replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, rigid_groups(scene), report)])
-        found = analyse(
-            scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
+        found = analysed(prepared(source, options, report, progress), options, report, progress)
+        report.raise_for_errors()
+        content = Content(
+            found.scene,
+            found.groups,
+            found.analysis.findings,
+            lambda: _mapped(found, options, report),
+            report,
+            asked,
+            options.strict,
+            lambda fraction: progress("write", fraction),
         )
-        report.extend(found.report)
-        report.raise_for_errors()
-        scene = found.scene(options.solve)
-        groups = rigid_groups(scene, found.fixed)
-        progress("analyse", 1.0)
-        colliders = _colliders(scene, groups, options.colliders, report)
-        document = build_document(scene, groups, colliders, report, scene_entry(found), holding(found))
-        _refuse_losses(report, options.strict)
-        buffer = _write(document, Path(target), report, progress)
+        if os.path.lexists(path) and not os.path.isfile(
+            path
+        ):  # a rename would put a file in a device's place
+            detail = "it is no regular file"
+            raise KinefabError([report.add("TARGET_UNWRITABLE", path=path, detail=detail)])
+        try:
+            files = write(kind, content, path)
+        except OSError as error:
+            detail = error.strerror or str(error)
+            raise KinefabError([report.add("TARGET_UNWRITABLE", path=path, detail=detail)]) from error
     except KinefabError as error:
         error.report = report
         raise
-    return ExportResult(Path(target), buffer, document, report)
+    return ExportResult(path, files, found, content, report)
 
 
-def _read(source: str | Path | Scene, files: MeshFiles, report: Report, progress: Progress) -> Scene:
-    if isinstance(source, Scene):
-        return source
-    from .sources import read
-
+def _read(
+    source: str | Path | Stage,
+    options: Mapping[str, Any],
+    files: MeshFiles,
+    report: Report,
+    progress: Progress,
+) -> Scene:
     progress("read", 0.0)
-    scene = read(Path(source), report, files.vertices)
+    if isinstance(source, (str, Path)):
+        scene = read(source, report, files.vertices, options)
+    else:
+        scene = read_stage(source, report, options)
     progress("read", 1.0)
     return scene
 
 
-def _colliders(scene: Scene, groups: RigidGroups, shape: ColliderShape, report: Report) -> Colliders:
-    """The hulls that the asked-for colliders need, placed behind the scene's own meshes."""
-    bodies = []
-    for i, node in enumerate(scene.nodes):
-        moves = groups.group_of[i] is not None and not groups.is_ground(i)
-        if shape is ColliderShape.HULL or (shape is ColliderShape.MESH and moves):
-            bodies += [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
-    if shape is ColliderShape.MESH:
-        for _, body in bodies:
-            report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
-    hulls = collision_hulls(scene, bodies, report)
-    first = len(scene.meshes)
-    return Colliders(shape, {mesh: first + i for i, mesh in enumerate(hulls)}, tuple(hulls.values()))
+def _enabled(scene: Scene, report: Report) -> Scene:
+    """The scene without joints that the source switches off."""
+    off = [joint for joint in scene.joints if not joint.enabled]
+    for joint in off:
+        report.dropped(f"joint {joint.id}", "JOINT_DISABLED", joint.where, joint=joint.id)
+    return replace(scene, joints=[joint for joint in scene.joints if joint.enabled]) if off else scene
 
 
-def _refuse_losses(report: Report, strict: bool) -> None:
-    """Raise for errors; if strict, also for every loss that is worth a warning."""
-    errors = report.of(Severity.ERROR)
-    if strict:
-        lossy = {o.code for o in report.outcomes if o.outcome is not Outcome.KEPT}
-        errors += [d for d in report.of(Severity.WARNING) if d.code in lossy]
-    if errors:
-        raise KinefabError(errors)
-
-
-def _write(document: Document, target: Path, report: Report, progress: Progress) -> Path | None:
-    detail = ""
-    if os.path.lexists(target) and not os.path.isfile(target):  # a rename would put a file in a device's place
-        detail = "it is no regular file"
-    elif any("\ud800" <= character <= "\udfff" for character in target.name):
-        detail = "its name is not UTF-8, and the scene names its buffer"
-    if detail:
-        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    try:
-        return write_scene(document, target, lambda fraction: progress("write", fraction))
-    except OSError as error:
-        detail = error.strerror or str(error)
-        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
+def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnityScene:
+    scene, groups = with_normals(found.scene, options.smooth), found.groups
+    made = collision_meshes(scene, groups, options.colliders, report)
+    hulls, cylinders = list(made.hulls.items()), list(made.cylinders.items())
+    pieces = [(number, piece) for number, found in made.pieces.items() for piece in found]
+    after_hulls = len(scene.meshes) + len(hulls)
+    after_cylinders = after_hulls + len(cylinders)
+    pieces_of: dict[int, list[int]] = {}
+    for k, (number, _) in enumerate(pieces):
+        pieces_of.setdefault(number, []).append(after_cylinders + k)
+    colliders = Colliders(
+        options.colliders,
+        {number: len(scene.meshes) + k for k, (number, _) in enumerate(hulls)},
+        {size: after_hulls + k for k, (size, _) in enumerate(cylinders)},
+        tuple(mesh for _, mesh in [*hulls, *cylinders, *pieces]),
+        pieces_of,
+        options.ground,
+    )
+    entry, held = scene_entry(found.analysis), holding(found.analysis)
+    mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    check_overlaps(mapped, report)
+    return mapped

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Iterable
 
-from .model import JointKind, NodeKind, Scene
+from .model import Joint, JointKind, NodeKind, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class RigidGroups:
 
     def together(self, a: int | None, b: int | None) -> bool:
         """Whether two sides of a joint can never move against each other."""
-        if self.is_ground(a) or self.is_ground(b):
+        if a is None or b is None or self.is_ground(a) or self.is_ground(b):
             return self.is_ground(a) and self.is_ground(b)
         return self.group_of[a] == self.group_of[b]
 
@@ -41,7 +41,7 @@ def active_nodes(scene: Scene) -> list[bool]:
     return active
 
 
-def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()) -> RigidGroups:
+def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None]] = ()) -> RigidGroups:
     """Group the scene's nodes by fixed joints, inflexible assemblies and the ground.
 
     also_fixed: further pairs of nodes that are fixed to each other (None: ground), as an analysis finds them.
@@ -64,14 +64,14 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()
     for i, node in enumerate(nodes):
         inherited = node.parent is not None and frozen[node.parent]
         frozen[i] = inherited or (node.kind is NodeKind.ASSEMBLY and not node.flexible)
-        if active[i] and inherited:
+        if active[i] and inherited and node.parent is not None:
             unite(node.parent, i)
         if active[i] and node.grounded:
             unite(i, ground)
     fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j)]
     for a, b in [*fixed, *also_fixed]:
-        if active[b] and (a is None or active[a]):
-            unite(ground if a is None else a, b)
+        if (a is None or active[a]) and (b is None or active[b]):
+            unite(ground if a is None else a, ground if b is None else b)
 
     is_body = [
         active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded)
@@ -91,7 +91,7 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int]] = ()
     return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
 
 
-def is_rigid(joint) -> bool:
+def is_rigid(joint: Joint) -> bool:
     """Whether a joint leaves no freedom at all and cannot break."""
     locked = joint.kind is JointKind.FIXED or not joint.unlocked
     return locked and joint.break_force == joint.break_torque == float("inf")

@@ -10,14 +10,16 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+BoolArray = NDArray[np.bool_]
 ROUNDING = 6
 """Digits of a unit vector by which a choice is made, so that the last bit of a turned one decides nothing."""
 
 
-def vector(values) -> Array:
+def vector(values: ArrayLike) -> Array:
     """Three numbers as a float64 array, shape (3,)."""
     array = np.asarray(values, dtype=np.float64)
     if array.shape != (3,):
@@ -36,10 +38,10 @@ class Pose:
     rotation: Array = field(default_factory=lambda: np.eye(3))
     translation: Array = field(default_factory=lambda: np.zeros(3))
 
-    def __matmul__(self, inner: "Pose") -> "Pose":
+    def __matmul__(self, inner: Pose) -> Pose:
         return Pose(self.rotation @ inner.rotation, self.rotation @ inner.translation + self.translation)
 
-    def inverse(self) -> "Pose":
+    def inverse(self) -> Pose:
         return Pose(self.rotation.T, -self.rotation.T @ self.translation)
 
     def point(self, p: Array) -> Array:
@@ -82,6 +84,13 @@ def rotation_exp(w: Array) -> Array:
     """Rotation matrix of the rotation vector ``w``, radians, shape (3,)."""
     angle = float(np.linalg.norm(w))
     return rotation_about(w / angle, angle) if angle > 0.0 else np.eye(3)
+
+
+def rotation_log(r: Array) -> Array:
+    """Rotation vector of a rotation matrix, radians, shape (3,); of length pi at most."""
+    q = quaternion_from_matrix(r)
+    size = float(np.linalg.norm(q[:3]))
+    return q[:3] * (2.0 * math.atan2(size, q[3]) / size) if size > 0.0 else np.zeros(3)
 
 
 def perpendicular(axis: Array, axes: Array | None = None) -> Array:
@@ -129,6 +138,25 @@ def quaternion_from_matrix(r: Array) -> Array:
         q[3] = r[k, j] - r[j, k]
     q /= np.linalg.norm(q)
     return -q if q[3] < 0.0 else q
+
+
+def quaternions_from_matrices(r: Array) -> Array:
+    """Unit quaternions (x, y, z, w), w >= 0, of rotation matrices, shape (..., 3, 3) to (..., 4)."""
+    xx, yy, zz = r[..., 0, 0], r[..., 1, 1], r[..., 2, 2]
+    squares = np.stack([1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz, 1 + xx + yy + zz], axis=-1)
+    sums = {(i, j): r[..., i, j] + r[..., j, i] for i, j in ((0, 1), (0, 2), (1, 2))}
+    turns = {i: r[..., (i + 2) % 3, (i + 1) % 3] - r[..., (i + 1) % 3, (i + 2) % 3] for i in range(3)}
+    table = np.empty(r.shape[:-2] + (4, 4))
+    for i in range(3):
+        table[..., i, i] = squares[..., i]
+        table[..., i, 3] = table[..., 3, i] = turns[i]
+    table[..., 3, 3] = squares[..., 3]
+    for (i, j), value in sums.items():
+        table[..., i, j] = table[..., j, i] = value
+    best = np.argmax(squares, axis=-1)[..., None, None]
+    q = np.take_along_axis(table, np.broadcast_to(best, r.shape[:-2] + (1, 4)), axis=-2)[..., 0, :]
+    unit: Array = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.where(unit[..., 3:] < 0.0, -unit, unit)
 
 
 def matrix_from_quaternion(q: Array) -> Array:

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from minimal_coordinates import O, X, Y, Z, Mechanism, numbers, quaternion, rot
+from minimal_coordinates import Mechanism, O, X, Y, Z, numbers, quaternion, rot
 
 FILE = Path(__file__).with_name("mechanisms.json")
 CASES = []
@@ -120,7 +120,11 @@ def watt(m):
     a, b, c, d = O, X, np.array([1.1, 0.4, 0]), np.array([2.1, 0.4, 0])
     l0, l2 = m.link(-1, "R", Z, a), m.link(-1, "R", Z, d)
     l1 = m.link(l0, "R", Z, b)
-    crank, coupler, rocker = m.rod("crank", l0, a, b, 1), m.rod("coupler", l1, b, c, 2), m.rod("rocker", l2, d, c, 1.5)
+    crank, coupler, rocker = (
+        m.rod("crank", l0, a, b, 1),
+        m.rod("coupler", l1, b, c, 2),
+        m.rod("rocker", l2, d, c, 1.5),
+    )
     m.hinge(crank, None, a, Z)
     m.hinge(coupler, crank, b, Z)
     m.hinge(rocker, None, d, Z)
@@ -138,7 +142,15 @@ def double_fourbar(m):
     l1, l3 = m.link(l0, "R", Z, b), m.link(l2, "R", Z, c)
     rods = ((l0, a, b, 1), (l1, b, c, 1.2), (l2, d, c, 0.8), (l3, c, e, 1.1), (l4, f, e, 0.9))
     bar = [m.rod(f"bar{i}", *rod) for i, rod in enumerate(rods)]
-    for own, other, p in ((0, None, a), (1, 0, b), (2, None, d), (1, 2, c), (3, 2, c), (4, None, f), (3, 4, e)):
+    for own, other, p in (
+        (0, None, a),
+        (1, 0, b),
+        (2, None, d),
+        (1, 2, c),
+        (3, 2, c),
+        (4, None, f),
+        (3, 4, e),
+    ):
         m.hinge(bar[own], None if other is None else bar[other], p, Z)
     m.close(l1, l2, c)
     m.close(l3, l4, e)
@@ -321,11 +333,17 @@ def compute(make):
     out["start"] = [numbers(np.r_[v, w]) for _, _, v, w in m.states(q, np.array(speeds, float))]
     out["times"] = list(times)
     out["states"] = [
-        [numbers(np.r_[x, quaternion(r)], 7) for x, r, _, _ in row] for row in m.solve(np.array(speeds, float), times)
+        [numbers(np.r_[x, quaternion(r)], 7) for x, r, _, _ in row]
+        for row in m.solve(np.array(speeds, float), times)
     ]
     if m.kinematic:
         out["kinematic"] = m.kinematic
-    out["scene"] = {"format": "kinefab.scene", "version": "1.0", "gameObjects": m.objects, "couplings": m.couplings}
+    out["scene"] = {
+        "format": "kinefab.scene",
+        "version": "1.0",
+        "gameObjects": m.objects,
+        "couplings": m.couplings,
+    }
     return out
 
 

@@ -61,9 +61,13 @@ class Mechanism:
         scale = 0 if inert else 1
         self.bodies.append((link, mass * scale, moments * scale, np.asarray(centre, float), rotation))
         rigidbody = {"type": "Rigidbody", "mass": mass, "inertiaTensor": numbers(moments)}
-        rigidbody |= {"angularDamping": 0, "maxAngularVelocity": 1e6} | ({"isKinematic": True} if inert else {})
+        rigidbody |= {"angularDamping": 0, "maxAngularVelocity": 1e6} | (
+            {"isKinematic": True} if inert else {}
+        )
         transform = {"localPosition": numbers(centre), "localRotation": numbers(quaternion(rotation))}
-        self.objects.append({"id": str(len(self.objects)), "name": name, "transform": transform, "components": [rigidbody]})
+        self.objects.append(
+            {"id": str(len(self.objects)), "name": name, "transform": transform, "components": [rigidbody]}
+        )
         return len(self.bodies) - 1
 
     def rod(self, name, link, start, end, mass):
@@ -75,7 +79,9 @@ class Mechanism:
         y /= np.linalg.norm(y)
         across = mass * length**2 / 12
         moments = (across / 50, across, across * 1.01)
-        return self.body(name, link, mass, moments, (start + end) / 2, np.column_stack([x, y, np.cross(x, y)]))
+        return self.body(
+            name, link, mass, moments, (start + end) / 2, np.column_stack([x, y, np.cross(x, y)])
+        )
 
     def joint(self, own, other, kind, point, axis, secondary=None, free="", limited="", **fields):
         """Adds a joint to the scene at a world point and axis; `free` of x y z X Y Z (angular)."""
@@ -101,7 +107,9 @@ class Mechanism:
 
     def close(self, link, other, point, along=None):
         """Keeps a point common to two links, or its parts along directions of the world."""
-        self.loops.append(("point", link, other, np.asarray(point, float), np.eye(3) if along is None else np.array(along)))
+        self.loops.append(
+            ("point", link, other, np.asarray(point, float), np.eye(3) if along is None else np.array(along))
+        )
 
     def keep(self, **factors):
         """Keeps a sum of coordinates, each times its factor, at constant speed: q0=1, q1=-2."""

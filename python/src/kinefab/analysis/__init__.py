@@ -7,7 +7,8 @@
 * As numbers: ``equations`` writes a scene's statements through ``rows`` into a ``system``; ``duplicates`` counts
   what is said twice once.
 * In which order: ``canonical``, so that no name and no source's order decides.
-* Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``drive`` (to stated coordinates).
+* Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``driving`` (along stated coordinates:
+  ``walk`` from knot to knot, ``way`` with what ends it, ``mechanism`` by names).
 * Freedoms: ``rank``, ``freedom`` (first order, block by ``blocks``), ``motion`` (finite), ``idle``, ``freedoms``
   (of each part against ground).
 * Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to the
@@ -20,6 +21,6 @@
 
 from ..options import Closures
 from .analyse import AnalysisOptions, analyse
-from .result import Analysis, Island, NodeFreedom
+from .findings.result import Analysis, Island, NodeFreedom
 
 __all__ = ["Analysis", "AnalysisOptions", "Closures", "Island", "NodeFreedom", "analyse"]

@@ -2,35 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Callable
 
 import numpy as np
 
 from ..diagnostics import Report
+from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
-from .assembly import Assembly, assemble
-from .couplings import couplings_of
-from .freedoms import check_records, singular_joints
-from .idle import idle_freedoms
-from .jointing import links_of
-from .limits import found_ranges, with_found_ranges
-from .links import Link, Links
-from .loops import Tree, spanning_tree
-from .minimal import minimal_closures
-from .ranges import with_ranges
-from .rehanging import rehung
-from .result import Analysis, Island
-from .symmetry import symmetric_couplings
+from .assembly.assemble import Assembly, assemble
+from .couplings.rehanging import rehung
+from .couplings.stated import couplings_of
+from .couplings.symmetry import symmetric_couplings
+from .findings.freedoms import check_records, singular_joints
+from .findings.idle import idle_freedoms
+from .findings.result import Analysis, Island
+from .joints.jointing import links_of
+from .joints.links import Link, Links
+from .loops.minimal import minimal_closures
+from .loops.spanning import Tree, spanning_tree
+from .ranges.limits import found_ranges, with_found_ranges
+from .ranges.stated import with_ranges
 
 
 @dataclass(frozen=True, slots=True)
 class AnalysisOptions:
     """closures: see ``Closures``.  limits: sweep the mechanisms and write the ranges into the joints."""
 
-    closures: Closures = Closures.MINIMAL
+    closures: Closures = Closures.EXACT
     limits: bool = False
 
 
@@ -73,6 +74,10 @@ def analyse(
         islands=_islands(assembly, tree, links, couplings),
         idle=sorted(idle_freedoms(assembly), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
+        findings={
+            **{joint.id: JointFinding(joint.id) for joint in found.aside},
+            **{link.joint.id: link.finding for link in links},
+        },
         couplings=couplings,
         nodes=found.nodes,
         poses=assembly.poses,
@@ -97,7 +102,10 @@ def _in_source_order(assembly: Assembly, links: list[Link]) -> list[Joint]:
     """The links' joints by the first nodes of the two bodies."""
     bodies, first = np.unique(assembly.body, return_index=True)
     place = {int(b): int(i) for b, i in zip(bodies, first)}
-    key = lambda l: sorted(place.get(b, len(assembly.body) + b) for b in (l.a, l.b))  # noqa: E731
+
+    def key(link: Link) -> list[int]:
+        return sorted(place.get(b, len(assembly.body) + b) for b in (link.a, link.b))
+
     return [link.joint for link in sorted(links, key=key)]
 
 
@@ -134,7 +142,7 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
     """
     branch = np.full(len(tree.parent), -1)
     for body in tree.order:
-        link = None if tree.parent[body] < 0 else tree.links[tree.parent[body]]
+        link = None if tree.parent[body] < 0 else tree.links[int(tree.parent[body])]
         if link is None:
             branch[body] = body if body > 0 else -1
             continue
@@ -161,11 +169,11 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
         if body and island[body] >= 0:
             nodes_of.setdefault(int(island[body]), []).append(node)
     loops = dict.fromkeys(nodes_of, 0)
-    counted = {id for c in couplings for id in (c.joint_a, c.joint_b)}
+    counted = {id for c in couplings for id in c.joints}
     for link in links:
         # where the loop holds all of it, Unity has a joint only between two bodies, which must not collide
-        written = link.joint.locked or link.joint.id in counted or (link.joint.freed and link.a and link.b)
-        if link.joint.closure and written:
+        written = link.joint.locked or link.joint.id in counted or (link.finding.freed and link.a and link.b)
+        if link.finding.closure and written:
             ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
             if ends and ends[0] in loops:
                 loops[ends[0]] += 1
@@ -194,7 +202,8 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
 def _report_singular(assembly: Assembly, report: Report) -> None:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         if finite.mobility < first.mobility:
-            nodes = sorted(n for body in first.bodies[:4] for n in assembly.nodes[body])
+            few: list[int] = first.bodies[:4].tolist()
+            nodes = sorted(n for body in few for n in assembly.nodes[body])
             parts = ", ".join(assembly.scene.nodes[n].id for n in nodes[:4])
             report.add("MECHANISM_SINGULAR", parts=parts, first=first.mobility, finite=finite.mobility)
 

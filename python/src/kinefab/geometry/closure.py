@@ -4,30 +4,34 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..spatial import Array
+from ..spatial import Array, IntArray
 
 
-def welded(vertices: Array, faces: np.ndarray, tolerance: float = 1e-7) -> np.ndarray:
+def welded(vertices: Array, faces: IntArray, tolerance: float = 1e-7) -> IntArray:
     """``faces`` with vertices at the same place given the same number, shape (m, 3).
 
     CAD programs repeat a vertex for each surface that meets there.
     tolerance: what counts as the same place, as a share of the mesh's size.
     """
+    return joined_vertices(vertices, tolerance)[faces]
+
+
+def joined_vertices(vertices: Array, tolerance: float = 1e-7) -> IntArray:
+    """For each vertex the number of its place, shape (n,); tolerance: as ``welded`` has it."""
     low = vertices.min(axis=0)
     size = float((vertices.max(axis=0) - low).max())
     if not size > 0.0:
-        return np.zeros_like(faces)
+        return np.zeros(len(vertices), dtype=np.int64)
     cells = np.rint((vertices - low) / (size * tolerance)).astype(np.int64)
-    span = int(round(1.0 / tolerance)) + 2  # below 2^21, so three of them fit one 64-bit key
-    keys = (cells[:, 0] * span + cells[:, 1]) * span + cells[:, 2] if span < 1 << 21 else None
-    if keys is None:
-        _, numbers = np.unique(cells, axis=0, return_inverse=True)
-    else:
-        _, numbers = np.unique(keys, return_inverse=True)
-    return numbers.reshape(-1)[faces]
+    span = (
+        int(cells.max()) + 1
+    )  # below 2^24 by default, so two of them fit one 64-bit key, and sorting keys is cheap
+    _, columns = np.unique(cells[:, 0] * span + cells[:, 1], return_inverse=True)
+    _, numbers = np.unique(np.reshape(columns, -1) * span + cells[:, 2], return_inverse=True)
+    return np.reshape(numbers, -1)
 
 
-def is_closed(faces: np.ndarray) -> bool:
+def is_closed(faces: IntArray) -> bool:
     """Whether every edge is used by as many faces one way as the other.
 
     faces: welded, shape (m, 3).  Then volume and moments do not depend on the origin.

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Material, MeshKey
+from ..model import MeshKey, Surface
+from ..spatial import Array
+from .looks.visuals import look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece
+from .references import FolderResolver, UnsafeReference, demand_honest_archive
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 STEP_FORMATS = (".step", ".stp")
+ARCHIVES = (".3mf",)
+GLTF = (".glb", ".gltf")
 _ADVICE = {
     ".iges": "Export STEP or OBJ instead.",
     ".igs": "Export STEP or OBJ instead.",
@@ -32,10 +40,12 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
         report.add("GEOMETRY_FORMAT_UNKNOWN", where, path=path.name, advice=advice)
         return None
     try:
+        if path.exists() and not path.is_file():
+            raise UnsafeReference("it is no regular file")
         if path.stat().st_size == 0:
             report.add("GEOMETRY_EMPTY", where, path=path.name)
             return None
-        found = read_obj(path, report) if suffix == ".obj" else _read_scene(path)
+        found = read_obj(path, report) if suffix == ".obj" else _read_scene(path, report, where)
     except ObjError as error:
         report.add("GEOMETRY_UNREADABLE", where, path=path.name, detail=error)
         return None
@@ -59,28 +69,26 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
 
 
 def _reads_step() -> bool:
-    from importlib.util import find_spec
-
     return find_spec("cascadio") is not None
 
 
 def _brief(error: Exception) -> str:
+    if isinstance(error, UnsafeReference):
+        return str(error)
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     return " ".join(str(error).split())[:200] or type(error).__name__
 
 
-def _read_scene(path: Path) -> MeshFile:
+def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     """Every placed mesh of a trimesh scene as a piece, named by its node, the nodes above and its geometry."""
-    import trimesh
-
-    if hasattr(trimesh, "load_scene"):
-        scene = trimesh.load_scene(str(path), process=False)
-    else:
-        scene = trimesh.load(str(path), force="scene", process=False)
+    resolver = FolderResolver(path.parent)
+    scene = _trimesh_scene(path, resolver)
+    gltf = path.suffix.lower() in GLTF
     parents = scene.graph.transforms.parents
     pieces: list[Piece] = []
-    materials: dict[str, Material] = {}
+    surfaces: dict[str, Surface] = {}
+    own: dict[str, Piece] = {}
     by_node: dict[str, list[tuple[int, ...]]] = {}
     by_ancestor: dict[str, list[int]] = {}
     by_geometry: dict[str, list[tuple[int, ...]]] = {}
@@ -90,7 +98,10 @@ def _read_scene(path: Path) -> MeshFile:
         if len(getattr(mesh, "faces", ())) == 0:
             continue
         number = len(pieces)
-        pieces.append(_placed(mesh, np.asarray(transform), materials))
+        if name not in own:
+            own[name] = _piece(mesh, gltf, surfaces)
+        placed = np.asarray(transform)
+        pieces.append(own[name] if np.array_equal(placed, np.eye(4)) else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))
         by_geometry.setdefault(str(name), []).append((number,))
         above = parents.get(node)
@@ -102,22 +113,53 @@ def _read_scene(path: Path) -> MeshFile:
         objects.setdefault(name, [tuple(numbers)])
     for name, occurrences in by_geometry.items():
         objects.setdefault(name, occurrences)
-    return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, materials)
+    for name, detail in resolver.failed.items():  # of buffers the whole file would have failed
+        report.dropped(
+            f"texture {name}", "TEXTURE_UNREADABLE", where, file=name, path=path.name, detail=detail
+        )
+    if gltf and find_spec("PIL") is None and b'"images"' in path.read_bytes():
+        detail = "reading images needs the Python package pillow"
+        report.dropped(
+            "textures of " + path.name,
+            "TEXTURE_UNREADABLE",
+            where,
+            file="of it",
+            path=path.name,
+            detail=detail,
+        )
+    return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces)
 
 
-def _placed(mesh, transform: np.ndarray, materials: dict[str, Material]) -> Piece:
-    """One trimesh mesh at its place in the scene."""
+def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
+    """The file as trimesh reads it; its classes state no types."""
+    import trimesh
+
+    library = cast(Any, trimesh)
+    if path.suffix.lower() in ARCHIVES:
+        demand_honest_archive(path)
+    if hasattr(library, "load_scene"):
+        return library.load_scene(str(path), process=False, resolver=resolver)
+    return library.load(str(path), force="scene", process=False, resolver=resolver)
+
+
+def _piece(mesh: Any, gltf: bool, surfaces: dict[str, Surface]) -> Piece:
+    """One trimesh mesh in its own frame, its surfaces noted."""
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces, dtype=np.int64)
+    look = look_of(mesh, gltf)
     # Normals from the file lie in trimesh's cache; asking for them outright would compute missing ones, and
     # asking the cache itself would hash the whole mesh.
     normals = np.asarray(mesh.vertex_normals) if "vertex_normals" in mesh._cache.cache else None
-    uv = getattr(mesh.visual, "uv", None)
-    piece = Piece(vertices, faces, normals, uv, (len(faces),), (_named_material(mesh, materials),))
-    return piece if np.array_equal(transform, np.eye(4)) else transformed(piece, transform)
+    if look.corners is not None:
+        vertices, normals = vertices[look.corners], None if normals is None else normals[look.corners]
+        faces = np.arange(len(look.corners)).reshape(-1, 3)
+    if look.order is not None:
+        faces = faces[look.order]
+    names = tuple("" if s is None else noted(s, surfaces) for s in look.surfaces)
+    return Piece(vertices, faces, normals, look.uv, look.face_counts, names, look.colors)
 
 
-def transformed(piece: Piece, matrix: np.ndarray) -> Piece:
+def transformed(piece: Piece, matrix: Array) -> Piece:
     """A piece through an affine map, shape (4, 4); where that mirrors, the winding is turned too."""
     linear = matrix[:3, :3]
     vertices = piece.vertices @ linear.T + matrix[:3, 3]
@@ -127,22 +169,13 @@ def transformed(piece: Piece, matrix: np.ndarray) -> Piece:
         normals = normals @ np.linalg.inv(linear)  # normals go by the inverse transpose
         normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
     faces = piece.faces[:, ::-1] if mirrored else piece.faces
-    return Piece(vertices, faces, normals, piece.uv, piece.face_counts, piece.materials)
+    return replace(piece, vertices=vertices, faces=faces, normals=normals)
 
 
-def _named_material(mesh, materials: dict[str, Material]) -> str:
-    """The name of a mesh's material, noted with its colour, roughness and metalness; "" for none."""
-    material = getattr(mesh.visual, "material", None)
-    name = getattr(material, "name", None)
-    if not name:
-        return ""
-    if name not in materials:
-        main = np.asarray(material.main_color, dtype=np.float64) / 255.0
-        rough, metal = getattr(material, "roughnessFactor", None), getattr(material, "metallicFactor", None)
-        materials[name] = Material(
-            str(name),
-            tuple(float(c) for c in main),
-            0.0 if metal is None else float(metal),
-            0.5 if rough is None else 1.0 - float(rough),
-        )
-    return str(name)
+def noted(surface: Surface, surfaces: dict[str, Surface]) -> str:
+    """The name that a surface is listed by: its own, with a number where another of that name looks different."""
+    name, count = surface.name, 1
+    while surfaces.setdefault(name, replace(surface, name=name)) != replace(surface, name=name):
+        count += 1
+        name = f"{surface.name}:{count}"
+    return name

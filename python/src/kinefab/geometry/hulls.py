@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
-from typing import Iterable
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import Mesh, Scene
-from ..spatial import Array
+from ..spatial import Array, IntArray
 
 UNITY_TRIANGLES = 255
 """Most triangles of a convex MeshCollider."""
@@ -19,7 +19,7 @@ UNITY_VERTICES = 128
 DIRECTIONS = 24
 """Directions whose extreme vertices a simplified hull starts from."""
 
-Hull = tuple[Array, np.ndarray]
+Hull = tuple[Array, IntArray]
 
 
 def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Report) -> dict[int, Mesh]:
@@ -58,7 +58,7 @@ def hull_of_points(points: Array) -> Hull | None:
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
     kept, numbers = np.unique(faces, return_inverse=True)
-    return points[kept], numbers.reshape(faces.shape)
+    return points[kept], np.reshape(numbers, faces.shape)
 
 
 def _is_solid(points: Array) -> bool:
@@ -73,7 +73,8 @@ def _simplified(hull: Hull, body: str, report: Report) -> Hull:
     vertices, faces = hull
     if len(faces) <= UNITY_TRIANGLES:
         return hull
-    chosen = np.unique((vertices @ _directions().T).argmax(axis=0))
+    chosen: IntArray = np.unique(np.argmax(vertices @ _directions().T, axis=0))
+    heights = np.zeros(0)
     while (smaller := hull_of_points(vertices[chosen])) is not None:
         # For each facet the vertex that stands out of it the most.
         a, b, c = (smaller[0][smaller[1][:, i]] for i in range(3))
@@ -90,7 +91,7 @@ def _simplified(hull: Hull, body: str, report: Report) -> Hull:
         chosen = np.sort(np.append(chosen, fresh[:room]))
     if smaller is None:
         return hull
-    deviation = f"{max(0.0, float(heights.max())):.3g}"
+    deviation = f"{max(0.0, float(heights.max(initial=0.0))):.3g}"
     report.add("HULL_SIMPLIFIED", body=body, before=len(faces), after=len(smaller[1]), deviation=deviation)
     return smaller
 

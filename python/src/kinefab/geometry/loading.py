@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Callable
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Body, Material, Mesh, MeshReference, Scene
+from ..model import Body, Mesh, MeshReference, Scene, Surface
 from ..spatial import Array
 from .files import read_mesh_file, transformed
+from .lending import tell_losses, with_lent_bodies, without_lent_bodies
 from .matching import Wanted, match_bodies
 from .pieces import MeshFile, Piece, joined
 
@@ -34,10 +35,10 @@ class MeshFiles:
         self._report = report
         self._files: dict[Path, MeshFile | None] = {}
 
-    def get(self, path: Path, where: str) -> MeshFile | None:
-        """The file, or None with an error in the report.  where: the place that names it."""
+    def get(self, path: Path, where: str, report: Report | None = None) -> MeshFile | None:
+        """The file, or None with an error in the report.  where: the place that names it.  report: instead of the own one."""
         if path not in self._files:
-            self._files[path] = read_mesh_file(path, self._report, where)
+            self._files[path] = read_mesh_file(path, self._report if report is None else report, where)
         return self._files[path]
 
     def vertices(self, reference: MeshReference) -> Array:
@@ -57,34 +58,38 @@ class MeshFiles:
 def load_geometry(
     scene: Scene, files: MeshFiles, report: Report, progress: Callable[[str, float], None]
 ) -> Scene:
-    """The scene with the mesh of every ``Body.reference`` loaded, in its node's frame, metres.
+    """The scene with the mesh of every reference of a body or collider loaded, in its own frame, metres.
 
-    Errors (missing files, bodies that are not in them) are in the report; such bodies stay without a mesh.
+    Errors (missing files, bodies that are not in them) are in the report; such bodies stay without a mesh, and such
+    colliders are left out.  Of a reference that is not needed they are losses.
     """
-    places: dict[Path, list[_Place]] = {}
+    given, scene = scene, with_lent_bodies(scene)
+    places: dict[Path, list[tuple[_Place, Wanted]]] = {}
     for i, node in enumerate(scene.nodes):
         for k, body in enumerate(node.bodies):
             if body.reference is not None and body.mesh is None:
-                places.setdefault(body.reference.path, []).append((i, k))
+                wanted = Wanted(f"{node.id}/{body.name}", body.reference)
+                places.setdefault(body.reference.path, []).append(((i, k), wanted))
     if not places:
-        return scene
-    loading = _Loading(scene, report)
+        return given
+    loading = _Loading(scene, report, [len(node.bodies) for node in given.nodes])
     for done, (path, bodies) in enumerate(places.items()):
         progress("geometry", done / len(places))
-        wanted = [
-            Wanted(f"{scene.nodes[i].id}/{scene.nodes[i].bodies[k].name}", scene.nodes[i].bodies[k].reference)
-            for i, k in bodies
-        ]
-        file = files.get(path, wanted[0].reference.where)
+        wanted = [body for _, body in bodies]
+        needed = any(body.reference.needed for body in wanted)
+        found = report if needed else Report()
+        file = files.get(path, wanted[0].reference.where, found)
+        matches = [] if file is None else match_bodies(file, wanted, found)
+        if not needed:
+            tell_losses(found, [w.label for w in wanted], path.name, wanted[0].reference.where, report)
         if file is None:
             continue
-        matches = match_bodies(file, wanted, report)
-        for k, (place, body, numbers) in enumerate(zip(bodies, wanted, matches)):
+        for k, ((place, body), numbers) in enumerate(zip(bodies, matches)):
             if numbers:
                 loading.place(place, body, file, numbers)
             progress("geometry", (done + (k + 1) / len(bodies)) / len(places))
     progress("geometry", 1.0)
-    return loading.finish()
+    return without_lent_bodies(given, loading.finish())
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,14 +102,16 @@ class _Known:
 
 
 class _Loading:
-    """The scene's meshes, materials and bodies while files are being read."""
+    """The scene's meshes, surfaces and bodies while files are being read."""
 
-    def __init__(self, scene: Scene, report: Report):
-        self._scene, self._report = scene, report
-        self._meshes, self._materials = list(scene.meshes), list(scene.materials)
+    def __init__(self, scene: Scene, report: Report, drawn: Sequence[int]):
+        """drawn: of each node how many of its bodies are to be seen; the others are colliders'."""
+        self._scene, self._report, self._drawn = scene, report, drawn
+        self._meshes, self._surfaces = list(scene.meshes), list(scene.surfaces)
+        self._stated = len(self._surfaces)
         self._bodies = [list(node.bodies) for node in scene.nodes]
-        self._by_origin: dict[tuple, tuple[int, Piece]] = {}
-        self._by_shape: dict[tuple, list[_Known]] = {}
+        self._by_origin: dict[tuple[Path, tuple[int, ...], bytes], tuple[int, Piece]] = {}
+        self._by_shape: dict[tuple[int, tuple[int, ...], tuple[bool, ...], int], list[_Known]] = {}
         self._first_of: dict[tuple[str, int], tuple[int, str]] = {}
 
     def place(self, place: _Place, wanted: Wanted, file: MeshFile, numbers: tuple[int, ...]) -> None:
@@ -121,8 +128,8 @@ class _Loading:
                 return
             self._by_origin[origin] = (self._share(body.name, piece), piece)
         mesh, piece = self._by_origin[origin]
-        materials = self._body_materials(body, piece, file)
-        self._bodies[i][k] = replace(body, mesh=mesh, materials=materials, reference=None)
+        surfaces = self._body_surfaces(body, piece, file) if k < self._drawn[i] else ()
+        self._bodies[i][k] = replace(body, mesh=mesh, surfaces=surfaces, reference=None)
         self._compare_with_definition(place, wanted, mesh)
 
     def finish(self) -> Scene:
@@ -130,12 +137,13 @@ class _Loading:
             replace(node, bodies=tuple(bodies)) if bodies else node
             for node, bodies in zip(self._scene.nodes, self._bodies)
         ]
-        return replace(self._scene, nodes=nodes, meshes=self._meshes, materials=self._materials)
+        return replace(self._scene, nodes=nodes, meshes=self._meshes, surfaces=self._surfaces)
 
     def _share(self, name: str, piece: Piece) -> int:
         """The index of a mesh of this shape: one that is there already, or a new one."""
         faces = np.ascontiguousarray(piece.faces)
-        key = (len(piece.vertices), piece.face_counts, piece.uv is None, zlib.crc32(faces))
+        stated = (piece.uv is None, piece.normals is None, piece.colors is None)
+        key = (len(piece.vertices), piece.face_counts, stated, zlib.crc32(faces.data))
         alike = self._by_shape.setdefault(key, [])
         first = piece.vertices[0].tolist()
         for known in alike:
@@ -143,11 +151,16 @@ class _Loading:
                 abs(x - y) <= known.tolerance for x, y in zip(first, known.first)
             ):  # tells most apart at once
                 mesh = self._meshes[known.mesh]
-                if _deviation(mesh.vertices, piece.vertices) <= known.tolerance and (
-                    piece.uv is None or np.allclose(mesh.uv, piece.uv, atol=SAME_SHAPE)
+                if (
+                    _deviation(mesh.vertices, piece.vertices) <= known.tolerance
+                    and (piece.uv is None or np.allclose(mesh.uvs[0], piece.uv, atol=SAME_SHAPE))
+                    and (piece.colors is None or np.array_equal(mesh.colors, piece.colors))  # type: ignore[arg-type]
                 ):
                     return known.mesh
-        self._meshes.append(Mesh(name, piece.vertices, faces, piece.normals, piece.uv, piece.face_counts))
+        uvs = () if piece.uv is None else (piece.uv,)
+        self._meshes.append(
+            Mesh(name, piece.vertices, faces, piece.normals, uvs, None, piece.colors, piece.face_counts)
+        )
         tolerance = SAME_SHAPE * float(np.ptp(piece.vertices, axis=0).max())
         alike.append(_Known(len(self._meshes) - 1, first, tolerance))
         return len(self._meshes) - 1
@@ -172,26 +185,28 @@ class _Loading:
             deviation=deviation,
         )
 
-    def _body_materials(self, body: Body, piece: Piece, file: MeshFile) -> tuple[int, ...]:
-        """One material for each submesh: the source's where it names as many, else the file's."""
+    def _body_surfaces(self, body: Body, piece: Piece, file: MeshFile) -> tuple[int, ...]:
+        """One surface for each submesh: the source's where it names as many, else the file's."""
         count = max(1, len(piece.face_counts))
-        if len(body.materials) == count:
-            return body.materials
-        if count == 1 and not body.materials and not any(piece.materials):
+        if len(body.surfaces) == count:
+            return body.surfaces
+        if count == 1 and not body.surfaces and not any(piece.surfaces):
             return ()
-        names = piece.materials or ("",) * count
-        return tuple(self._material(name, file, body) for name in names)
+        names = piece.surfaces or ("",) * count
+        return tuple(self._surface(name, file, body) for name in names)
 
-    def _material(self, name: str, file: MeshFile, body: Body) -> int:
-        """The index of the scene's material of that name, added from the file where it is new."""
-        if not name and body.materials:
-            return body.materials[0]
-        for index, material in enumerate(self._materials):
+    def _surface(self, name: str, file: MeshFile, body: Body) -> int:
+        """The index of the scene's surface of that name, added from the file where it is new."""
+        if not name and body.surfaces:
+            return body.surfaces[0]
+        for index, material in enumerate(self._surfaces[: self._stated]):
             if material.name in (name, name.replace("_", " ")):
                 return index
-        self._materials.append(file.materials.get(name, Material(name or "Default")))
-        return len(self._materials) - 1
+        found = file.surfaces.get(name, Surface(name or "Default"))
+        if found not in self._surfaces[self._stated :]:  # two files may call different looks by one name
+            self._surfaces.append(found)
+        return self._surfaces.index(found, self._stated)
 
 
-def _deviation(a: np.ndarray, b: np.ndarray) -> float:
+def _deviation(a: Array, b: Array) -> float:
     return float(np.abs(a - b).max())

@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import permutations
-from typing import Iterable, Sequence
 
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, Pose
+from ..spatial import Array, IntArray, Pose
 
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
 
 
-def solid_properties(vertices: Array, faces: np.ndarray, density: float) -> MassProperties:
+def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassProperties:
     """Of the solid inside a closed, outward wound mesh.
 
     vertices: metres, shape (n, 3).  faces: shape (m, 3).  density: kg/m^3.
-    The mass is negative for an inward wound mesh.  Source: Eberly, *Polyhedral Mass Properties*, by trimesh.
+    The mass is negative for an inward wound mesh.  Sum over the tetrahedra from the mesh's middle to its faces; source:
+    Blow and Binstock, *How to find the inertia tensor (or other mass properties) of a 3D solid body represented by a
+    triangle mesh*.
     """
-    from trimesh.triangles import mass_properties
-
     middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))  # moments lose digits far from the origin
-    found = mass_properties((vertices - middle)[faces], density=density)
-    return MassProperties(
-        float(found["mass"]), np.asarray(found["center_mass"]) + middle, np.asarray(found["inertia"])
-    )
+    corners = (vertices - middle)[faces]
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    six = np.einsum("ij,ij->i", a, np.cross(b, c))  # times the volume of each tetrahedron
+    whole = a + b + c
+    volume = float(six.sum()) / 6.0
+    with np.errstate(divide="ignore", invalid="ignore"):  # of no volume: the caller looks at the mass
+        center = (six @ whole) / (24.0 * volume)
+    # The integral of x x' over a tetrahedron with a corner at the origin is det / 120 (sum of v v' + s s').
+    second = (corners * six[:, None, None]).reshape(-1, 3).T @ corners.reshape(-1, 3) + (
+        whole.T * six
+    ) @ whole
+    second = second / 120.0 - volume * np.outer(center, center)
+    inertia = np.trace(second) * np.eye(3) - second
+    return MassProperties(volume * density, center + middle, inertia * density)
 
 
 def moved(properties: MassProperties, pose: Pose) -> MassProperties:
@@ -36,13 +46,27 @@ def moved(properties: MassProperties, pose: Pose) -> MassProperties:
     return MassProperties(properties.mass, pose.point(properties.center), r @ properties.inertia @ r.T)
 
 
+def stretched(properties: MassProperties, scale: tuple[float, float, float]) -> MassProperties:
+    """The same body stretched along its frame's axes, its density kept; a mirroring factor turns nothing inside out."""
+    if scale == (1.0, 1.0, 1.0):
+        return properties
+    s, size = np.array(scale), abs(scale[0] * scale[1] * scale[2])
+    # The integral of x x' over the body goes as S (.) S, its trace less it is the inertia.
+    inertia = properties.inertia
+    second = 0.5 * np.trace(inertia) * np.eye(3) - inertia
+    second = np.outer(s, s) * second * size
+    return MassProperties(
+        properties.mass * size, s * properties.center, np.trace(second) * np.eye(3) - second
+    )
+
+
 def combined(bodies: Iterable[MassProperties]) -> MassProperties:
     """Of several bodies as one (parallel axis theorem); all in one frame, at least one body."""
     parts: Sequence[MassProperties] = list(bodies)
     if len(parts) == 1:
         return parts[0]
     mass = sum(p.mass for p in parts)
-    center = sum(p.mass * p.center for p in parts) / mass
+    center = np.sum([p.mass * p.center for p in parts], axis=0) / mass
     inertia = np.zeros((3, 3))
     for p in parts:
         d = p.center - center

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Sequence
 
 from ..diagnostics import Report
 from ..model import MeshKey, MeshReference
@@ -15,6 +15,8 @@ from .pieces import MeshFile
 
 _SEPARATORS = re.compile(r"[\s:/\\|]+")
 _EXTENSION = re.compile(r"\.(ipt|iam|sldprt|sldasm|par|asm|prt|f3d|stp|step)(?=_|$)")
+
+_Pieces = tuple[int, ...] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +26,11 @@ class Wanted:
     label: str
     reference: MeshReference
 
+    @property
+    def name(self) -> str:
+        """The body's name in the file; "" where the whole file is meant."""
+        return self.reference.key or ""
+
 
 def match_bodies(file: MeshFile, wanted: Sequence[Wanted], report: Report) -> list[tuple[int, ...] | None]:
     """For each wanted body the numbers of its pieces, or None with an error in the report.
@@ -32,7 +39,7 @@ def match_bodies(file: MeshFile, wanted: Sequence[Wanted], report: Report) -> li
     many bodies as the file has of that name, which are then taken in order.
     """
     found: list[tuple[int, ...] | None] = [None] * len(wanted)
-    open_ones = []
+    open_ones: list[int] = []
     for i, body in enumerate(wanted):
         if body.reference.key is None:
             found[i] = tuple(range(len(file.pieces)))
@@ -43,27 +50,29 @@ def match_bodies(file: MeshFile, wanted: Sequence[Wanted], report: Report) -> li
     names = sorted({name for kind in file.named.values() for name in kind})
     for i in open_ones:
         body = wanted[i]
-        close = get_close_matches(body.reference.key, names, n=3)
+        close = get_close_matches(body.name, names, n=3)
         near = f" Near: {', '.join(close)}." if close else ""
         report.add("BODY_NOT_IN_FILE", body.reference.where, body=body.label, path=file.path.name, near=near)
     _report_unused(file, found, report)
     return found
 
 
-def _by_name(file: MeshFile, wanted, open_ones: list[int], found: list, report: Report) -> list[int]:
+def _by_name(
+    file: MeshFile, wanted: Sequence[Wanted], open_ones: list[int], found: list[_Pieces], report: Report
+) -> list[int]:
     """Exact names first, then the file's other kind of name, then names alike but for spelling."""
-    times = Counter((wanted[i].reference.key, wanted[i].reference.keyed_by) for i in open_ones)
-    served: Counter = Counter()
+    times = Counter((wanted[i].name, wanted[i].reference.keyed_by) for i in open_ones)
+    served: Counter[tuple[str, MeshKey]] = Counter()
     loose = {kind: _spelled_alike(names) for kind, names in file.named.items()}
-    left = []
+    left: list[int] = []
     for i in open_ones:
         body, reference = wanted[i], wanted[i].reference
         other = MeshKey.GROUP if reference.keyed_by is MeshKey.OBJECT else MeshKey.OBJECT
         name = how = None
         for kind, reading in ((reference.keyed_by, ""), (other, f"as the name of a {other.value}")):
-            if reference.key in file.named[kind]:
-                name, how = reference.key, reading
-            elif (alike := loose[kind].get(_spelling(reference.key))) is not None and name is None:
+            if body.name in file.named[kind]:
+                name, how = body.name, reading
+            elif (alike := loose[kind].get(_spelling(body.name))) is not None and name is None:
                 name, how = alike, "the names differ in spelling"
             if name is not None:
                 break
@@ -71,7 +80,7 @@ def _by_name(file: MeshFile, wanted, open_ones: list[int], found: list, report: 
             left.append(i)
             continue
         occurrences = file.named[kind][name]
-        again = (reference.key, reference.keyed_by)
+        again = (body.name, reference.keyed_by)
         place = {"body": body.label, "path": file.path.name}
         if len(occurrences) == 1:
             found[i] = occurrences[0]
@@ -92,7 +101,9 @@ def _by_name(file: MeshFile, wanted, open_ones: list[int], found: list, report: 
     return left
 
 
-def _by_order(file: MeshFile, wanted, open_ones: list[int], found: list, report: Report) -> list[int]:
+def _by_order(
+    file: MeshFile, wanted: Sequence[Wanted], open_ones: list[int], found: list[_Pieces], report: Report
+) -> list[int]:
     """Bodies left over pair with pieces left over where there are as many of either."""
     taken = {number for numbers in found if numbers for number in numbers}
     for kind in MeshKey:
@@ -128,7 +139,7 @@ def _spelling(name: str) -> str:
     return _EXTENSION.sub("", plain)
 
 
-def _spelled_alike(names) -> dict[str, str]:
+def _spelled_alike(names: Iterable[str]) -> dict[str, str]:
     """Spelling to name, for spellings that only one name has."""
     alike: dict[str, list[str]] = {}
     for name in names:
@@ -139,7 +150,7 @@ def _spelled_alike(names) -> dict[str, str]:
 def _report_unused(file: MeshFile, found: Sequence[tuple[int, ...] | None], report: Report) -> None:
     if any(numbers is None for numbers in found):
         return  # the bodies that were not found say more
-    taken = {number for numbers in found for number in numbers}
+    taken = {number for numbers in found for number in numbers or ()}
     unused = [n for n in range(len(file.pieces)) if n not in taken]
     if not unused:
         return

@@ -10,16 +10,20 @@ from __future__ import annotations
 
 import inspect
 import io
-import math
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Material, MeshKey
+from ..model import MeshKey, Surface
+from .looks.libraries import library_textures
+from .looks.visuals import phong_smoothness
 from .pieces import MeshFile, Piece, cut
+from .references import read_reference
 
 # A literal beginning lets the engine skip from hit to hit through hundreds of megabytes.
 _STATEMENTS = {
@@ -28,7 +32,11 @@ _STATEMENTS = {
 _INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
 _CORNER = rb" +[1-9][0-9]*(?:/[0-9]*){0,2}"
 _UNUSUAL_FACE = re.compile(rb"^f(?!(?:" + _CORNER + rb"){3} *$)", re.MULTILINE)
+MOST_LIBRARY_BYTES = 16 * 2**20
+"""Of one material library."""
 _LIBRARY = re.compile(rb"\nmtllib +([^\n]*?) *(?=\n)")
+
+NOTHING = Piece(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
 
 
 class ObjError(ValueError):
@@ -38,11 +46,11 @@ class ObjError(ValueError):
 @dataclass(slots=True)
 class _Section:
     """Faces between two ``o`` or ``g`` statements.  object, group: (number of the statement, name).
-    runs: [material, faces] in order."""
+    runs: (material, faces) in order."""
 
     object: tuple[int, str]
     group: tuple[int, str]
-    runs: list[list]
+    runs: list[tuple[str, int]]
 
     @property
     def faces(self) -> int:
@@ -50,13 +58,13 @@ class _Section:
 
 
 def read_obj(path: Path, report: Report) -> MeshFile:
-    """Read bodies and materials of an OBJ file.  Raises ObjError or OSError."""
+    """Read bodies and surfaces of an OBJ file.  Raises ObjError or OSError."""
     text = _plain_text(path.read_bytes())
     if _UNUSUAL_FACE.search(text):
         text = _with_plain_faces(text)
     statements = _statements(text)
     sections = [s for s in _sections(text, statements) if s.faces]
-    whole = _parse(_without(text, statements)) if sections else None
+    whole = _parse(_without(text, statements)) if sections else NOTHING
     pieces: list[Piece] = []
     named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = {key: {} for key in MeshKey}
     opened: dict[tuple[MeshKey, int, str], list[int]] = {}
@@ -64,8 +72,8 @@ def read_obj(path: Path, report: Report) -> MeshFile:
     for number, section in enumerate(sections):
         stop = start + section.faces
         runs = [run for run in section.runs if run[1]]
-        counts, materials = tuple(n for _, n in runs), tuple(name for name, _ in runs)
-        pieces.append(cut(whole, start, stop, counts, materials))
+        counts, surfaces = tuple(n for _, n in runs), tuple(name for name, _ in runs)
+        pieces.append(cut(whole, start, stop, counts, surfaces))
         start = stop
         for key, (statement, name) in ((MeshKey.OBJECT, section.object), (MeshKey.GROUP, section.group)):
             for word in dict.fromkeys([name, *name.split()]) if key is MeshKey.GROUP else [name]:
@@ -73,9 +81,9 @@ def read_obj(path: Path, report: Report) -> MeshFile:
                     opened.setdefault((key, statement, word), []).append(number)
     for (key, _, name), numbers in opened.items():
         named[key].setdefault(name, []).append(tuple(numbers))
-    if whole is not None and start != len(whole.faces):
+    if start != len(whole.faces):
         raise ObjError(f"{len(whole.faces)} faces were read where {start} were counted")
-    return MeshFile(path, pieces, named, _materials(text, path, report))
+    return MeshFile(path, pieces, named, _surfaces(text, path, report))
 
 
 def _plain_text(data: bytes) -> bytes:
@@ -117,7 +125,7 @@ def _sections(text: bytes, statements: list[_Statement]) -> list[_Section]:
     current_object, current_group, material = (0, ""), (0, ""), ""
     sections = [_Section(current_object, current_group, [])]
     stops = [*(s.start for s in statements), len(text)]
-    sections[-1].runs.append([material, text.count(b"\nf ", 0, stops[0])])
+    sections[-1].runs.append((material, text.count(b"\nf ", 0, stops[0])))
     for number, statement in enumerate(statements, 1):
         if statement.word == b"usemtl":
             material = statement.name
@@ -127,7 +135,7 @@ def _sections(text: bytes, statements: list[_Statement]) -> list[_Section]:
         else:
             current_group = (number, statement.name)
             sections.append(_Section(current_object, current_group, []))
-        sections[-1].runs.append([material, text.count(b"\nf ", statement.stop, stops[number])])
+        sections[-1].runs.append((material, text.count(b"\nf ", statement.stop, stops[number])))
     return sections
 
 
@@ -135,7 +143,7 @@ def _with_plain_faces(text: bytes) -> bytes:
     """The text with every face a fan of triangles whose indices count from 1.  Line by line, so slow."""
     counts = {b"v": 0, b"vt": 0, b"vn": 0}
     order = (b"v", b"vt", b"vn")
-    lines = []
+    lines: list[bytes] = []
     for line in text.split(b"\n"):
         head, _, rest = line.partition(b" ")
         if head in counts:
@@ -150,7 +158,7 @@ def _with_plain_faces(text: bytes) -> bytes:
 
 
 def _absolute(corner: bytes, counts: list[int]) -> bytes:
-    indices = []
+    indices: list[bytes] = []
     for text, count in zip(corner.split(b"/"), counts):
         try:
             index = int(text) if text else None
@@ -166,53 +174,59 @@ def _absolute(corner: bytes, counts: list[int]) -> bytes:
 
 def _parse(text: bytes) -> Piece:
     """The whole text as one piece, by trimesh; face order is kept."""
-    from trimesh.exchange.obj import load_obj
+    from trimesh.exchange import obj
 
+    load_obj = cast(Any, obj).load_obj  # trimesh states no types
     wanted = {"skip_materials": True, "split_objects": False, "split_object": False, "split_groups": False}
     known = inspect.signature(load_obj).parameters
     options = {name: value for name, value in wanted.items() if name in known}
     try:
-        loaded = load_obj(io.BytesIO(text), **options)
+        loaded: Any = load_obj(io.BytesIO(text), **options)
         if "geometry" in loaded:
-            (loaded,) = loaded["geometry"].values()
+            # trimesh 5 leaves out what has no vertices
+            loaded = cast(Any, next(iter(loaded["geometry"].values()), None))
         faces = np.asarray(loaded["faces"], dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(loaded["vertices"], dtype=np.float64)
+        if vertices.shape[1:] != (3,) or faces.min(initial=0) < 0 or faces.max(initial=-1) >= len(vertices):
+            raise IndexError  # trimesh 5 hands out what earlier ones stumbled over
     except (IndexError, ValueError, KeyError, TypeError, AttributeError) as error:
         # A ValueError names the text that is no number; the others say what trimesh stumbled over in its own code.
         torn = "its vertices and faces do not fit together; it may be cut short"
         raise ObjError(str(error) if isinstance(error, ValueError) else torn) from error
     normals, uv = loaded.get("vertex_normals"), getattr(loaded.get("visual"), "uv", None)
-    fits = lambda values: values is not None and len(values) == len(vertices)  # noqa: E731
+
+    def fits(values: Any) -> bool:
+        return values is not None and len(values) == len(vertices)
+
     return Piece(vertices, faces, normals if fits(normals) else None, np.asarray(uv) if fits(uv) else None)
 
 
-def _materials(text: bytes, path: Path, report: Report) -> dict[str, Material]:
-    """The materials of every ``mtllib`` that is there; a warning for one that is not."""
-    from trimesh.exchange.obj import parse_mtl
+def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
+    """The surfaces of every ``mtllib`` that is there; a warning for one that is not."""
+    from trimesh.exchange import obj
 
-    materials: dict[str, Material] = {}
+    surfaces: dict[str, Surface] = {}
     for match in _LIBRARY.finditer(text):
-        library = path.parent / match[1].decode("utf-8", "replace")
+        library = match[1].decode("utf-8", "replace")
         try:
-            content = library.read_bytes()
-        except OSError:
-            report.add("MATERIALS_MISSING", str(path), library=library.name, path=path.name)
+            content = read_reference(path.parent, library, MOST_LIBRARY_BYTES)
+        except (OSError, ValueError):  # ValueError: a NUL in the name
+            report.add("MATERIALS_MISSING", str(path), library=Path(library).name, path=path.name)
             continue
-        for name, entry in parse_mtl(content).items():
-            materials[name] = _material(name, entry)
-    return materials
+        textures = library_textures(content, path, report)
+        for name, entry in cast(Any, obj).parse_mtl(content).items():
+            surfaces[name] = replace(_surface(name, entry, name in textures), **textures.get(name, {}))
+    return surfaces
 
 
-def _material(name: str, entry: dict) -> Material:
-    """Unity's terms for a Phong material: Kd, d (or Tr) and Ns."""
+def _surface(name: str, entry: Mapping[str, Any], textured: bool) -> Surface:
+    """Unity's terms for a Phong material: Kd, d (or Tr) and Ns.  textured: it has images, which Kd multiplies."""
+    absent = (1.0, 1.0, 1.0) if textured else (0.8, 0.8, 0.8)
     try:
-        color = [min(1.0, max(0.0, float(c))) for c in entry.get("diffuse", (0.8, 0.8, 0.8))][:3]
+        red, green, blue = (min(1.0, max(0.0, float(c))) for c in entry.get("diffuse", absent)[:3])
         opacity = float(entry["d"][0]) if "d" in entry else 1.0 - float(entry.get("tr", ["0"])[0])
         shininess = max(0.0, float(entry.get("glossiness", 0.0)))
     except (TypeError, ValueError, IndexError):
-        return Material(name)
-    if len(color) != 3:
-        return Material(name)
-    # Blinn-Phong exponent to roughness: alpha^2 = 2 / (n + 2); smoothness = 1 - alpha.
-    smoothness = 1.0 - math.sqrt(2.0 / (shininess + 2.0))
-    return Material(name, (*color, min(1.0, max(0.0, opacity))), 0.0, smoothness)
+        return Surface(name)
+    color = (red, green, blue, min(1.0, max(0.0, opacity)))
+    return Surface(name, color, 0.0, phong_smoothness(shininess))

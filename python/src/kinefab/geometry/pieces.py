@@ -7,24 +7,26 @@ from pathlib import Path
 
 import numpy as np
 
-from ..model import Material, MeshKey
-from ..spatial import Array
+from ..model import MeshKey, Surface
+from ..spatial import Array, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
     """Triangles in the file's frame and unit.
 
-    vertices (n, 3), faces (m, 3), normals (n, 3) or None, uv (n, 2) or None.
-    face_counts, materials: for each run of faces its length and its material's name ("" for none).
+    vertices (n, 3), faces (m, 3), normals (n, 3) or None, uv (n, 2) or None,
+    colors (n, 4), linear RGBA, or None.
+    face_counts, surfaces: for each run of faces its length and its surface's name ("" for none).
     """
 
     vertices: Array
-    faces: np.ndarray
+    faces: IntArray
     normals: Array | None = None
     uv: Array | None = None
     face_counts: tuple[int, ...] = ()
-    materials: tuple[str, ...] = ()
+    surfaces: tuple[str, ...] = ()
+    colors: Array | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -32,13 +34,15 @@ class MeshFile:
     """A file that was read.
 
     named: for each kind of name, name to its occurrences in file order; an occurrence is a tuple of pieces.
-    materials: the looks that the file or its library defines, by name.
+    surfaces: the looks that the file or its library defines, by name.
     """
 
     path: Path
     pieces: list[Piece]
-    named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = field(default_factory=dict)
-    materials: dict[str, Material] = field(default_factory=dict)
+    named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = field(
+        default_factory=dict[MeshKey, dict[str, list[tuple[int, ...]]]]
+    )
+    surfaces: dict[str, Surface] = field(default_factory=dict[str, Surface])
 
 
 def joined(pieces: list[Piece]) -> Piece:
@@ -46,19 +50,26 @@ def joined(pieces: list[Piece]) -> Piece:
     if len(pieces) == 1:
         return pieces[0]
     starts = np.cumsum([0, *(len(p.vertices) for p in pieces)])
-    every = lambda name: all(getattr(p, name) is not None for p in pieces)  # noqa: E731
+    normals = [p.normals for p in pieces if p.normals is not None]
+    uv = [p.uv for p in pieces if p.uv is not None]
+    colors = None
+    if any(p.colors is not None for p in pieces):  # what has none is multiplied by one
+        colors = np.concatenate(
+            [np.ones((len(p.vertices), 4)) if p.colors is None else p.colors for p in pieces]
+        )
     return Piece(
         np.concatenate([p.vertices for p in pieces]),
         np.concatenate([p.faces + start for p, start in zip(pieces, starts)]),
-        np.concatenate([p.normals for p in pieces]) if every("normals") else None,
-        np.concatenate([p.uv for p in pieces]) if every("uv") else None,
+        np.concatenate(normals) if len(normals) == len(pieces) else None,
+        np.concatenate(uv) if len(uv) == len(pieces) else None,
         sum((p.face_counts or (len(p.faces),) for p in pieces), ()),
-        sum((p.materials or ("",) for p in pieces), ()),
+        sum((p.surfaces or ("",) for p in pieces), ()),
+        colors,
     )
 
 
 def cut(
-    piece: Piece, start: int, stop: int, face_counts: tuple[int, ...], materials: tuple[str, ...]
+    piece: Piece, start: int, stop: int, face_counts: tuple[int, ...], surfaces: tuple[str, ...]
 ) -> Piece:
     """The faces start..stop of a piece with just the vertices they use."""
     faces = piece.faces[start:stop]
@@ -70,6 +81,17 @@ def cut(
         local = (np.cumsum(used) - 1)[faces - low]
     else:
         kept, local = np.unique(faces, return_inverse=True)
-        local = local.reshape(faces.shape)
-    pick = lambda values: None if values is None else values[kept]  # noqa: E731
-    return Piece(piece.vertices[kept], local, pick(piece.normals), pick(piece.uv), face_counts, materials)
+        local = np.reshape(local, faces.shape)
+
+    def pick(values: Array | None) -> Array | None:
+        return None if values is None else values[kept]
+
+    return Piece(
+        piece.vertices[kept],
+        local,
+        pick(piece.normals),
+        pick(piece.uv),
+        face_counts,
+        surfaces,
+        pick(piece.colors),
+    )

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Iterable
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import MassProperties, Mesh, Node, Scene
+from ..spatial import Array
 from .closure import is_closed, welded
 from .hulls import hull_of_points
-from .mass import combined, is_possible, solid_properties
+from .mass import combined, is_possible, moved, solid_properties, stretched
 
+LEAST = 1.1754944e-38
+"""Least normal number of a 32-bit float: a mass or moment below it would be written and read as nothing."""
 THIN = 1e-9
 """A volume below this share of the cube of the mesh's size is none."""
 
@@ -27,11 +30,11 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
     turned: dict[int, Mesh] = {}
     for i, node in enumerate(nodes):
         if node.mass is not None:
-            _check_given(node, report)
+            _check_given(node, node.mass, report)
             continue
-        known = []
+        known: list[MassProperties] = []
         for body in node.bodies:
-            if body.mesh is None:
+            if body.mesh is None or not body.weighed:
                 continue
             if body.mesh not in unit:
                 mesh = scene.meshes[body.mesh]
@@ -42,9 +45,11 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
                     unit[body.mesh] = MassProperties(-found.mass, found.center, -found.inertia)
             if (found := unit[body.mesh]) is not None:
                 factor = density if body.density is None else body.density
-                known.append(MassProperties(found.mass * factor, found.center, found.inertia * factor))
+                shape = moved(stretched(found, body.scale), body.pose)
+                known.append(MassProperties(shape.mass * factor, shape.center, shape.inertia * factor))
         if known:
             nodes[i] = replace(node, mass=combined(known))
+            _check_size(node, combined(known), report)
     meshes = [turned.get(i, mesh) for i, mesh in enumerate(scene.meshes)]
     return replace(scene, nodes=nodes, meshes=meshes)
 
@@ -68,11 +73,18 @@ def _inside_out(mesh: Mesh) -> Mesh:
     return replace(mesh, faces=mesh.faces[:, ::-1], normals=normals)
 
 
-def _check_given(node: Node, report: Report) -> None:
-    given = node.mass
-    numbers: Iterable[np.ndarray] = (np.asarray(given.mass), given.center, given.inertia)
+def _check_given(node: Node, given: MassProperties, report: Report) -> None:
+    numbers: Iterable[Array] = (np.asarray(given.mass), given.center, given.inertia)
     if not all(np.isfinite(n).all() for n in numbers) or not given.mass > 0.0:
         report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=f"the mass is {given.mass:g} kg")
     elif not is_possible(given.inertia):
         detail = "a principal moment is not positive, or above the sum of the other two"
+        report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)
+    else:
+        _check_size(node, given, report)
+
+
+def _check_size(node: Node, mass: MassProperties, report: Report) -> None:
+    if mass.mass < LEAST or 0.0 < float(np.linalg.eigvalsh(mass.inertia)[0]) < LEAST:
+        detail = f"{mass.mass:g} kg, or a moment of it, is nothing in Unity's 32-bit floats"
         report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)

@@ -8,8 +8,12 @@ Twists and freedoms are ordered linear first: (tx, ty, tz, rx, ry, rz).
 "Ground" is the world and everything fixed to it; it is written ``None`` where a node index is asked for.
 """
 
+from .animation import AnimationClip, Repeat, Track
+from .boundary import Face, FaceKind
+from .colliders import Collider, ColliderKind, Combine, PhysicsMaterial
 from .constraints import Constraint, ConstraintKind, DofRecord, Feature, FeatureKind, Sense, Side
-from .joints import (
+from .couplings import Coupling, CouplingKind, Term
+from .freedoms import (
     FREE,
     FREEDOM_NAMES,
     LOCKED,
@@ -19,31 +23,37 @@ from .joints import (
     TX,
     TY,
     TZ,
-    UNLOCKED,
-    Coupling,
-    CouplingKind,
     Drive,
     Freedom,
-    Joint,
-    JointKind,
     Motion,
-    freedoms_of,
-    kind_of,
-    unlocked_of,
+    Passive,
+    SphericalDrive,
 )
-from .parts import Body, MassProperties, Material, Mesh, MeshKey, MeshReference, Node, NodeKind
-from .scene import Physics, Scene, Source
+from .joints import UNLOCKED, Joint, JointKind, freedoms_of, kind_of, unlocked_of
+from .meshes import Mesh, MeshKey, MeshReference
+from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
+from .scene import EARTH, Physics, Scene, Source, SourceFile
+from .surfaces import AlphaMode, Surface, Texture, Wrap
 
 __all__ = [
+    "AlphaMode",
+    "AnimationClip",
     "Body",
+    "Collider",
+    "ColliderKind",
+    "Combine",
     "Constraint",
     "ConstraintKind",
     "Coupling",
     "CouplingKind",
     "DofRecord",
     "Drive",
+    "Dynamics",
+    "EARTH",
     "FREE",
     "FREEDOM_NAMES",
+    "Face",
+    "FaceKind",
     "Feature",
     "FeatureKind",
     "Freedom",
@@ -51,25 +61,35 @@ __all__ = [
     "JointKind",
     "LOCKED",
     "MassProperties",
-    "Material",
     "Mesh",
     "MeshKey",
     "MeshReference",
     "Motion",
     "Node",
     "NodeKind",
+    "Passive",
     "Physics",
+    "PhysicsMaterial",
     "RX",
     "RY",
     "RZ",
+    "Repeat",
     "Scene",
     "Sense",
     "Side",
+    "Site",
     "Source",
+    "SourceFile",
+    "SphericalDrive",
+    "Surface",
     "TX",
     "TY",
     "TZ",
+    "Term",
+    "Texture",
+    "Track",
     "UNLOCKED",
+    "Wrap",
     "freedoms_of",
     "kind_of",
     "unlocked_of",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Mapping
 
 from ..spatial import Array
 
@@ -106,7 +106,7 @@ class Constraint:
     suppressed: bool = False
     name: str = ""
     raw_kind: str = ""
-    reading: Mapping[str, str] = field(default_factory=dict)
+    reading: Mapping[str, str] = field(default_factory=dict[str, str])
     where: str = ""
 
 

@@ -1,80 +1,14 @@
-"""Joints and what each of their six freedoms may do; couplings between joint coordinates."""
+"""Joints: how two bodies may move against each other."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Mapping
 
 from ..spatial import Pose
-
-TX, TY, TZ, RX, RY, RZ = range(6)
-"""Indices of a freedom in a joint's frame: translation along and rotation about X, Y, Z."""
-FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
-"""Their names, by index."""
-
-
-class Motion(str, Enum):
-    LOCKED = "locked"
-    LIMITED = "limited"
-    FREE = "free"
-
-
-@dataclass(frozen=True, slots=True)
-class Drive:
-    """A spring, damper or motor on one freedom; metres or radians, newtons or newton metres, seconds.
-
-    Force = stiffness * (target - q) + damping * (target_velocity - qdot), clamped to +-max_force.
-    acceleration: the gains are per unit of inertia instead (rad/s^2, m/s^2).
-    motor: ``target_velocity`` is held with up to ``max_force`` (stiffness and damping are not used).
-    """
-
-    target: float = 0.0
-    target_velocity: float = 0.0
-    stiffness: float = 0.0
-    damping: float = 0.0
-    max_force: float = math.inf
-    acceleration: bool = False
-    motor: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Freedom:
-    """One of a joint's six freedoms.
-
-    lower, upper: range of the coordinate when LIMITED, metres or radians; either may be infinite.
-    stiffness, damping: of the limit, 0 and 0 for a hard one.  restitution: 0..1, of a hard limit.
-    turns: whole turns by which the source displays more than the coordinate, its limits too; for messages only.
-    """
-
-    motion: Motion = Motion.LOCKED
-    lower: float = -math.inf
-    upper: float = math.inf
-    drive: Drive | None = None
-    stiffness: float = 0.0
-    damping: float = 0.0
-    restitution: float = 0.0
-    turns: int = field(default=0, compare=False)
-
-    def displayed(self, *values: float) -> tuple[float, ...]:
-        """Values of the coordinate, radians or metres, as the source shows them."""
-        return tuple(value + 2.0 * math.pi * self.turns for value in values)
-
-    def nearest_turn(self, value: float) -> float:
-        """The angle, radians, that ``value`` stands for where it is known up to whole turns: the one in the range."""
-        turn = 2.0 * math.pi
-        if self.motion is not Motion.LIMITED:
-            return value
-        if math.isinf(self.lower):
-            return value - turn * max(0, math.ceil((value - self.upper) / turn - 1e-9))
-        if math.isinf(self.upper):
-            return value + turn * max(0, math.ceil((self.lower - value) / turn - 1e-9))
-        return value + turn * round((0.5 * (self.lower + self.upper) - value) / turn)
-
-
-LOCKED = Freedom()
-FREE = Freedom(Motion.FREE)
+from .freedoms import FREE, FREEDOM_NAMES, LOCKED, RX, RY, RZ, TX, TY, TZ, Freedom, Motion, SphericalDrive
 
 
 class JointKind(str, Enum):
@@ -148,7 +82,7 @@ def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Joint:
-    """A joint between node ``b`` and node ``a`` (None: ground).
+    """A joint between node ``b`` and node ``a``, one of which may be ground (None).
 
     frame_a: joint frame in a's frame (in the world when a is ground); frame_b: in b's frame.
     Coordinates are those of b's frame seen from a's: q is zero where the two frames coincide,
@@ -156,17 +90,15 @@ class Joint:
     Which body carries an axis matters for pin-slot, universal and the point-on kinds (see JointKind);
     for all translations it is a.
     freedoms: six, in the order tx ty tz rx ry rz.  lead: of a SCREW, metres a turn, right-handed.
+    enabled: False for a joint that the source has and switches off.  collide: whether the two bodies collide.
+    slerp: one drive about all three rotations, instead of single ones.
     because: ids of the source's constraints or joints that this one comes from.
-    closure: this joint closes a loop (the spanning tree does not need it).
-    loop: of a closure, the nodes (None: ground) from a to b, each joined to the next by a joint of the spanning tree.
-    freed: freedoms (TX..RZ) that the joint locks by itself and that were left free, since the loop holds them.
-    misfit: by how much the joint's motions miss what it stands for, at most, metres and radians; zero where exact.
     """
 
     id: str
     kind: JointKind
     a: int | None
-    b: int
+    b: int | None
     frame_a: Pose
     frame_b: Pose
     freedoms: tuple[Freedom, ...]
@@ -174,50 +106,23 @@ class Joint:
     lead: float = 0.0
     break_force: float = math.inf
     break_torque: float = math.inf
+    enabled: bool = True
+    collide: bool = False
+    slerp: SphericalDrive | None = None
     because: tuple[str, ...] = ()
-    closure: bool = False
-    loop: tuple[int | None, ...] = ()
-    freed: tuple[int, ...] = ()
-    misfit: tuple[float, float] = (0.0, 0.0)
     where: str = ""
+    extras: Mapping[str, object] = field(default_factory=dict[str, object])
 
     @property
     def unlocked(self) -> tuple[int, ...]:
         """The freedoms TX..RZ that may move."""
         return unlocked_of(self.freedoms)
 
+    def freedom_name(self, freedom: int) -> str:
+        """What the source calls a freedom TX..RZ, or its name in the joint's own frame."""
+        return self.freedoms[freedom].name or FREEDOM_NAMES[freedom]
+
     @property
     def locked(self) -> tuple[int, ...]:
         """The freedoms TX..RZ that may not."""
         return tuple(i for i, f in enumerate(self.freedoms) if f.motion is Motion.LOCKED)
-
-    @property
-    def whole_kind(self) -> JointKind:
-        """The kind with what the loop holds instead of the joint."""
-        return kind_of(tuple(i for i in self.unlocked if i not in self.freed)) if self.freed else self.kind
-
-
-class CouplingKind(str, Enum):
-    GEAR = "gear"
-    BELT = "belt"
-    RACK = "rack"
-    SCREW = "screw"
-    LINEAR = "linear"
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Coupling:
-    """``q_b = ratio * q_a + offset`` between two joint coordinates, metres and radians.
-
-    joint_a, joint_b: ids of joints (the same for a screw).  freedom_a, freedom_b: TX..RZ.
-    """
-
-    id: str
-    kind: CouplingKind
-    joint_a: str
-    freedom_a: int
-    joint_b: str
-    freedom_b: int
-    ratio: float
-    offset: float = 0.0
-    where: str = ""

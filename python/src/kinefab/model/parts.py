@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from pathlib import Path
-from typing import Mapping
 
-import numpy as np
-
+from ..options import ColliderShape
 from ..spatial import Array, Pose
+from .boundary import Face
+from .colliders import Collider
+from .meshes import MeshReference
 
 
 class NodeKind(str, Enum):
@@ -18,72 +19,28 @@ class NodeKind(str, Enum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Material:
-    """name; color: linear RGBA in 0..1; metallic and smoothness in 0..1 (Unity's Standard/Lit meaning)."""
-
-    name: str
-    color: tuple[float, float, float, float] = (0.8, 0.8, 0.8, 1.0)
-    metallic: float = 0.0
-    smoothness: float = 0.5
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
-    """Triangles in the frame of the node that uses them.
-
-    vertices: shape (n, 3), metres.  faces: shape (m, 3), indices into vertices, outward side
-    counter-clockwise (right-handed).  normals: shape (n, 3), unit, or None.  uv: shape (n, 2) or None.
-    face_counts: number of faces of each submesh, in order; they add up to m.
-    """
-
-    name: str
-    vertices: Array
-    faces: np.ndarray
-    normals: Array | None = None
-    uv: Array | None = None
-    face_counts: tuple[int, ...] = ()
-
-
-class MeshKey(str, Enum):
-    """What names a body inside a mesh file: OBJ's ``o`` or ``g`` (other formats: the node's name)."""
-
-    OBJECT = "object"
-    GROUP = "group"
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class MeshReference:
-    """Where the triangles of a body are: a reader states it, the geometry stage loads them.
-
-    path: the mesh file.  key: the body's name in it, matched by ``keyed_by``; None takes the whole file.
-    to_node: affine map from the file's axes and units to the node's frame in metres, shape (4, 4).  It holds
-        the unit, the turn of the axes, the inverse pose where the file is in world coordinates, and the mirror
-        of a mirrored part: where its determinant is negative the winding must be reversed.
-    where: place in the source, for diagnostics.
-    """
-
-    path: Path
-    to_node: Array
-    key: str | None = None
-    keyed_by: MeshKey = MeshKey.OBJECT
-    where: str = ""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """One solid or surface body of a part: a mesh with a material for each submesh.
+    """One solid or surface body of a part: a mesh with a surface for each submesh.
 
     mesh: index into ``Scene.meshes``, or None where the geometry is not loaded or was not found.
-    materials: indices into ``Scene.materials``, one for each submesh.
+    surfaces: indices into ``Scene.surfaces``, one for each submesh.
     density: kg/m^3, or None for the scene's default.
     reference: where the geometry is to be loaded from, or None for a body without (or with loaded) geometry.
+    pose, scale: the mesh's frame in the node's, the scale along the mesh's own axes; no factor is zero.
+    visible: whether it is drawn.  weighed: whether its volume counts for a mass that the source does not state.
+    boundary: the exact faces, in the NODE's frame, where the source has them.
     """
 
     name: str
     mesh: int | None = None
-    materials: tuple[int, ...] = ()
+    surfaces: tuple[int, ...] = ()
     density: float | None = None
     reference: MeshReference | None = None
+    pose: Pose = field(default_factory=Pose)
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    visible: bool = True
+    weighed: bool = True
+    boundary: tuple[Face, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,6 +54,32 @@ class MassProperties:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Site:
+    """A named frame of a node: a tool's tip, a sensor, a camera.  pose: in the node's frame."""
+
+    name: str
+    pose: Pose = field(default_factory=Pose)
+    where: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dynamics:
+    """How a node's body is moved, apart from its mass.
+
+    kinematic: moved by scripts alone, pushing others.  gravity: whether it falls.
+    linear_damping, angular_damping: 1/s, the share of its speed that it loses; None for the engine's own.
+    velocity, angular_velocity: at the start, WORLD frame, m/s and rad/s, shape (3,), or None.
+    """
+
+    kinematic: bool = False
+    gravity: bool = True
+    linear_damping: float | None = None
+    angular_damping: float | None = None
+    velocity: Array | None = None
+    angular_velocity: Array | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Node:
     """A component of the source: a part, or an assembly that holds others.
 
@@ -107,6 +90,9 @@ class Node:
     grounded: fixed to the world.  flexible: for an assembly, whether its parts may move against each
     other (an inflexible assembly is one rigid group).  suppressed: present in the source but inactive.
     mass: as given by the source; None means "from geometry".
+    colliders: the shapes that the source states, () for none at all; None where it does not say, and the export chooses.
+    collision: the shape that is made for its bodies where it states no colliders, None for the export's choice.
+    dynamics: see ``Dynamics``.  sites: named frames.  layer, tag: the source's words for them, "" for none.
     where: place in the source, for diagnostics.
     """
 
@@ -122,5 +108,11 @@ class Node:
     flexible: bool = False
     suppressed: bool = False
     visible: bool = True
+    colliders: tuple[Collider, ...] | None = None
+    collision: ColliderShape | None = None
+    dynamics: Dynamics = field(default_factory=Dynamics)
+    sites: tuple[Site, ...] = ()
+    layer: str = ""
+    tag: str = ""
     where: str = ""
-    extras: Mapping[str, object] = field(default_factory=dict)
+    extras: Mapping[str, object] = field(default_factory=dict[str, object])

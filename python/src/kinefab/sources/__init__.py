@@ -1,60 +1,159 @@
-"""Readers: one module for each source format, behind one small registry.
+"""Readers: one room for each source format, behind one small registry.
 
 A reader turns a file into a ``Scene`` (right-handed, +Y up, +Z forward, metres, radians) and says in the
-report what it found wrong, approximated or dropped.  It names the mesh files (``MeshReference``) and never
-loads them.
+report what it found wrong, approximated or dropped.  Where the geometry is in files of its own it names them
+(``MeshReference``) and never loads them; where it is in the source itself it fills ``Scene.meshes``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Callable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
-from ..diagnostics import Report
-from ..model import MeshReference, Scene
-from ..spatial import Array
+from ..options import FormatOption
+from .mjcf.options import KEYFRAME
+from .occ.options import TOLERANCE
+from .roads import road_of
+from .robots.packages import PACKAGE_PATH
+from .step.options import ASKED as STEP_OPTIONS
+from .urdf.options import FLOATING_BASE, XACRO_ARG
 
-Vertices = Callable[[MeshReference], Array]
-"""Loads the vertices of a mesh, shape (n, 3), through its ``to_node``; for a reader that must look at
-geometry."""
+if TYPE_CHECKING:  # the command line asks for the endings alone, and should not wait for numpy
+    from ..diagnostics import Report
+    from ..model import Scene
+    from .reading.request import Vertices
 
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A source format.  suffixes: lower case.  module: beside this file; it has ``read(path, report,
-    vertices)`` and, where formats share a suffix, ``sniff(head)`` that tells by the first bytes."""
+    """A source format.
+
+    suffixes: lower case.  module: below this package; it has ``read(path, report, request)`` and, where formats share
+    a suffix (``sniffed``), ``sniff(head)`` that tells by the first bytes.
+    options: what a user may ask of it.  An option that several formats have is one object.
+    requires: modules without which it cannot be read at all.  extra: of the package, that installs them ("" for none).
+    """
 
     name: str
     suffixes: tuple[str, ...]
     module: str
     sniffed: bool = False
+    options: tuple[FormatOption, ...] = ()
+    requires: tuple[str, ...] = ()
+    extra: str = ""
 
 
 FORMATS = (
-    Format("CAD bundle", (".bundle.json", ".json"), "bundle"),
-    Format("CAD bundle as tagged CSV", (".csv", ".txt"), "bundle_csv", sniffed=True),
-    Format("CSV of Braun et al. (2020)", (".csv", ".txt"), "paper_csv"),
+    Format("CAD bundle", (".bundle.json", ".json"), "bundle.reader"),
+    Format("CAD bundle as tagged CSV", (".csv", ".txt"), "bundle.tagged_csv", sniffed=True),
+    Format("CSV of Braun et al. (2020)", (".csv", ".txt"), "paper.reader"),
+    Format("STEP", (".step", ".stp"), "step.reader", options=STEP_OPTIONS, requires=("OCP",), extra="cad"),
+    Format("IGES", (".iges", ".igs"), "step.reader", options=STEP_OPTIONS, requires=("OCP",), extra="cad"),
+    Format("FreeCAD document", (".fcstd",), "freecad.reader", options=(TOLERANCE,)),
+    Format("OndselSolver assembly", (".asmt",), "asmt.reader"),
+    Format(
+        "USD stage",
+        (".usd", ".usda", ".usdc", ".usdz"),
+        "usd.reader",
+        options=(
+            FormatOption("root", "Read this prim and what is below it.", metavar="PRIM"),
+            FormatOption(
+                "variant", "Choose a variant: set=name, or /Prim:set=name.", repeated=True, metavar="SET=NAME"
+            ),
+            FormatOption("load", "Load payloads or leave them out.", words=("all", "none")),
+            FormatOption(
+                "purpose",
+                "Draw geometry of this purpose too, beside default and render.",
+                repeated=True,
+                words=("proxy", "guide"),
+            ),
+        ),
+        requires=("pxr",),
+        extra="usd",
+    ),
+    Format("URDF", (".urdf", ".xacro"), "urdf.reader", options=(PACKAGE_PATH, XACRO_ARG, FLOATING_BASE)),
+    Format("SDF", (".sdf", ".world"), "sdf.reader", sniffed=True, options=(PACKAGE_PATH,)),
+    Format(
+        "MJCF",
+        (".xml", ".mjcf"),
+        "mjcf.reader",
+        sniffed=True,
+        options=(PACKAGE_PATH, KEYFRAME),
+        requires=("mujoco",),
+        extra="mujoco",
+    ),
 )
 """In the order of preference."""
 
 HEAD_BYTES = 4096
 
 
-def read(path: Path | str, report: Report, vertices: Vertices | None = None) -> Scene:
+def read(
+    path: Path | str,
+    report: Report,
+    vertices: Vertices | None = None,
+    options: Mapping[str, Any] | None = None,
+) -> Scene:
     """Read a source by whichever reader knows it.
 
-    report: receives every finding.  vertices: loads a mesh's vertices, for formats that leave a point to be
-    found in the geometry (None: that step is left out).  Raises KinefabError with every error found.
+    report: receives every finding.  vertices: see ``Request``.  options: by name; one that the format does not have
+    is a warning.  Raises KinefabError with every error found.
     """
+    from .reading.request import Request
+
     path = Path(path)
     found = format_of(path)
     if found is None:
-        known = ", ".join(sorted({suffix for entry in FORMATS for suffix in entry.suffixes}))
-        report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, known=known)
+        known, road = ", ".join(sorted(known_suffixes())), road_of(path.name)
+        report.add(
+            "SOURCE_FORMAT_UNKNOWN", path.name, path=path, road=f"{road} " if road else "", known=known
+        )
         report.raise_for_errors()
-    return import_module(f".{found.module}", __name__).read(path, report, vertices)
+        raise AssertionError("an unknown format is an error")
+    for name in found.requires:
+        if find_spec(name) is None:
+            report.add(
+                "SOURCE_LIBRARY_MISSING", path.name, format=found.name, library=name, extra=found.extra
+            )
+    report.raise_for_errors()
+    asked = dict(options or {})
+    for name in sorted(asked.keys() - {option.name for option in found.options}):
+        report.add("SOURCE_OPTION_UNUSED", path.name, option=name.replace("_", "-"), format=found.name)
+        del asked[name]
+    reader = import_module(f".{found.module}", __name__)
+    scene: Scene = reader.read(path, report, Request(asked, vertices))
+    return scene
+
+
+@runtime_checkable
+class Stage(Protocol):
+    """A ``pxr.Usd.Stage`` that a program has open, as far as it takes to know one without importing pxr."""
+
+    def GetRootLayer(self) -> Any: ...
+    def GetPseudoRoot(self) -> Any: ...
+
+
+def read_stage(stage: Stage, report: Report, options: Mapping[str, Any] | None = None) -> Scene:
+    """Read an open stage as it is; what is not saved counts too.  report, options: as in ``read``."""
+    from .reading.request import Request
+
+    reader = import_module(".usd.reader", __name__)
+    scene: Scene = reader.read_stage(stage, report, Request(dict(options or {})))
+    return scene
+
+
+def known_suffixes() -> set[str]:
+    """Of all formats, lower case."""
+    return {suffix for entry in FORMATS for suffix in entry.suffixes}
+
+
+def source_options() -> Iterator[FormatOption]:
+    """The options of all formats, each once, in the order of the formats."""
+    yield from dict.fromkeys(option for entry in FORMATS for option in entry.options)
 
 
 def format_of(path: Path) -> Format | None:
@@ -68,6 +167,8 @@ def format_of(path: Path) -> Format | None:
 
 def _head(path: Path) -> bytes:
     try:
+        if not path.is_file():  # a pipe would be waited for
+            return b""
         with path.open("rb") as stream:
             return stream.read(HEAD_BYTES)
     except (OSError, ValueError):

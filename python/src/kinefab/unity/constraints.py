@@ -3,32 +3,32 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Sequence
+from collections.abc import Sequence
 
 from ..model import Constraint, ConstraintKind, Feature
 from . import frames
-from .numbers import rounded, without_defaults
+from .scene import Constraint as UnityConstraint
+from .scene import Feature as UnityFeature
+from .scene.vectors import vector3
 
 
-def constraint_entry(constraint: Constraint, object_of: Sequence[int]) -> dict[str, Any]:
-    """The scene format's entry of one constraint.  object_of: for each node its GameObject."""
-    fields = {
-        "id": constraint.id,
-        "name": constraint.name,
-        "kind": constraint.kind.value,
-        "rawKind": constraint.raw_kind,
-        "features": [_feature_entry(f, object_of) for f in constraint.features],
-        "value": _value(constraint, constraint.value),
-        "lower": _value(constraint, constraint.lower),
-        "upper": _value(constraint, constraint.upper),
-        "sense": constraint.sense.value,
-        "side": constraint.side.value,
-        "lockRotation": constraint.lock_rotation,
-        "suppressed": constraint.suppressed,
-        "reading": dict(constraint.reading),
-    }
-    present = {key: value for key, value in fields.items() if value not in (None, "", {})}
-    return without_defaults("constraint", rounded(present))
+def map_constraint(constraint: Constraint, object_of: Sequence[int]) -> UnityConstraint:
+    """One constraint in Unity's frame.  object_of: for each node its GameObject."""
+    return UnityConstraint(
+        id=constraint.id,
+        kind=constraint.kind.value,
+        features=tuple(_feature(f, object_of) for f in constraint.features),
+        name=constraint.name,
+        rawKind=constraint.raw_kind,
+        value=_value(constraint, constraint.value),
+        lower=_value(constraint, constraint.lower),
+        upper=_value(constraint, constraint.upper),
+        sense=constraint.sense.value,
+        side=constraint.side.value,
+        lockRotation=constraint.lock_rotation,
+        suppressed=constraint.suppressed,
+        reading=dict(constraint.reading),
+    )
 
 
 def _value(constraint: Constraint, value: float | None) -> float | None:
@@ -42,16 +42,15 @@ def _value(constraint: Constraint, value: float | None) -> float | None:
     return value
 
 
-def _feature_entry(feature: Feature, object_of: Sequence[int]) -> dict[str, Any]:
-    fields: dict[str, Any] = {
-        "kind": feature.kind.value,
-        "point": frames.point(feature.point),
-        "radius": feature.radius,
-        "halfAngle": math.degrees(feature.half_angle),
-    }
-    if feature.node is not None:
-        fields["gameObject"] = object_of[feature.node]
-    for key, direction in (("direction", feature.direction), ("secondary", feature.secondary)):
-        if direction is not None:
-            fields[key] = frames.direction(direction)
-    return without_defaults("feature", rounded(fields))
+def _feature(feature: Feature, object_of: Sequence[int]) -> UnityFeature:
+    directions = (feature.direction, feature.secondary)
+    direction, secondary = (None if d is None else vector3(frames.direction(d)) for d in directions)
+    return UnityFeature(
+        kind=feature.kind.value,
+        gameObject=None if feature.node is None else object_of[feature.node],
+        point=vector3(frames.point(feature.point)),
+        direction=direction,
+        secondary=secondary,
+        radius=feature.radius,
+        halfAngle=math.degrees(feature.half_angle),
+    )

@@ -1,34 +1,43 @@
-"""What the analysis found, in the scene file's terms."""
+"""What the analysis found, in Unity's frame."""
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from . import frames
-from .numbers import rounded
+from .scene import BodyFreedom, ClosureGap, Island, Mobility
+from .scene.vectors import vector3
 
 
-def mobility_entry(found: Mapping[str, Any], object_of: Sequence[int]) -> dict[str, Any]:
-    """The file's ``analysis``.
-
-    found: by node number and in the right-handed frame, as ``analysis.summary.scene_entry`` gives it.
+def map_mobility(found: Mapping[str, Any], object_of: Sequence[int]) -> Mobility:
+    """found: by node number and in the right-handed frame, as ``analysis.findings.summary.scene_entry`` gives it.
     object_of: for each node the index of its GameObject.
     """
-    entry = {key: value for key, value in found.items() if key not in ("closureGap", "islands", "bodies")}
-    entry["closureGap"] = rounded(dict(found["closureGap"]))
-    entry["islands"] = [
-        {"gameObjects": [object_of[node] for node in island["nodes"]]}
-        | {key: value for key, value in island.items() if key != "nodes"}
-        for island in found["islands"]
-    ]
-    entry["bodies"] = [
-        {
-            "gameObject": object_of[body["node"]],
-            "translations": len(body["directions"]),
-            "rotations": len(body["axes"]),
-            "directions": [rounded(frames.direction(v)) for v in body["directions"]],
-            "axes": [rounded(frames.axial(v)) for v in body["axes"]],
-        }
-        for body in found["bodies"]
-    ]
-    return entry
+    gap = found["closureGap"]
+    return Mobility(
+        found["mobility"],
+        found["firstOrderMobility"],
+        found["redundant"],
+        found["idle"],
+        ClosureGap(gap["position"], gap["angle"]),
+        tuple(
+            Island(
+                tuple(object_of[node] for node in island["nodes"]),
+                island["mobility"],
+                island["redundant"],
+                island["loops"],
+            )
+            for island in found["islands"]
+        ),
+        tuple(
+            BodyFreedom(
+                object_of[body["node"]],
+                len(body["directions"]),
+                len(body["axes"]),
+                tuple(vector3(frames.direction(v)) for v in body["directions"]),
+                tuple(vector3(frames.axial(v)) for v in body["axes"]),
+            )
+            for body in found["bodies"]
+        ),
+    )

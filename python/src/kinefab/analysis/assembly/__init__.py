@@ -1,0 +1,1 @@
+"""The whole assembly: duplicates told, poses closed, bodies merged, blocks split."""

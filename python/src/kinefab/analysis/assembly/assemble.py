@@ -1,0 +1,270 @@
+"""The whole assembly: closed, merged into rigid groups, and split into blocks with their freedoms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...model import Constraint, ConstraintKind, Joint, Scene
+from ...rigid import RigidGroups
+from ...spatial import Array, BoolArray, IntArray, Pose, cross
+from ..equations.scene_equations import Equations, equations_of
+from ..equations.solve import Solver
+from ..equations.system import State, System
+from ..freedom.bodies import Partition, stated_bodies
+from ..freedom.first_order import BlockFreedom, block_freedoms
+from ..freedom.motion import FiniteFreedom, displaced, finite_freedoms
+from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
+from .blocks import Blocks, blocks_of, edges_of, relative_system
+from .canonical import canonical
+from .closing import Closing, closed
+from .duplicates import without_duplicates
+
+SAME = 1e-7
+"""Difference of two bodies' twists (or displacements over a trial step) up to which they move as one."""
+
+
+@dataclass(eq=False)
+class Assembly:
+    """An assembly at its closed pose.
+
+    body: shape (nodes + 1,), the body of each node (entry 0: ground, body 0).
+    system: all rows between bodies.  relative: the same, each block against its root at rest.
+    freedoms, finite: of each block, in the order of ``solver``'s parts.
+    stated: the rigid groups the source itself states.  duplicates: constraints that an explicit joint
+    already stands for; their rows are left out.  counted: rows between the source's bodies without them.
+    """
+
+    scene: Scene
+    equations: Equations
+    stated: RigidGroups
+    closing: Closing
+    duplicates: dict[int, int]
+    counted: int
+    body: IntArray
+    system: System
+    pairs: Pairs
+    blocks: Blocks
+    relative: System
+    solver: Solver
+    start: State
+    freedoms: list[BlockFreedom]
+    finite: list[FiniteFreedom]
+
+    def body_of(self, node: int | None) -> int:
+        """The body of a node, 0 for ground."""
+        return int(self.body[0 if node is None else node + 1])
+
+    @cached_property
+    def nodes(self) -> list[list[int]]:
+        """The nodes of each body, in scene order (of ground: those that stand on it)."""
+        nodes: list[list[int]] = [[] for _ in range(self.system.bodies)]
+        bodies: list[int] = self.body[1:].tolist()
+        for node, body in enumerate(bodies):
+            nodes[body].append(node)
+        return nodes
+
+    @cached_property
+    def part_of_block(self) -> dict[int, int]:
+        """The number among ``freedoms`` of each block."""
+        return {int(self.blocks.block[f.bodies[0]]): i for i, f in enumerate(self.freedoms)}
+
+    @cached_property
+    def poses(self) -> list[Pose]:
+        """World poses of the nodes with every constraint closed."""
+        shifted = self.closing
+        return [shifted.displacement(shifted.body[i + 1]) @ n.pose for i, n in enumerate(self.scene.nodes)]
+
+    def blocks_with(self, edges: list[tuple[int, int]], bodies: int) -> Blocks:
+        """The blocks of the same bodies, and further ones, joined by these edges."""
+        return blocks_of(bodies, np.unique(np.sort(np.array(edges), axis=1), axis=0))
+
+    @property
+    def floating(self) -> int:
+        """Islands that hang on nothing: each adds six freedoms."""
+        return len(self.blocks.island_root) - 1
+
+
+def assemble(scene: Scene, report: Report) -> Assembly:
+    """Bring a scene's constraints to the point where every question about freedoms can be answered."""
+    body, stated = stated_bodies(scene)
+    order = canonical(scene, body)
+    body = order.body
+    equations = equations_of(order.scene, report, order.frame.rotation, scene)
+    closing = closed(equations, body, report)
+    mirrored = np.array([_is_symmetry(s) for s in equations.statements], dtype=bool)
+    folded = closing.system.folded(mirrored[closing.system.owner])
+    system, duplicates = without_duplicates(folded, equations, report)
+    counted = system.rows
+    breakable = np.array([_can_break(s) for s in equations.statements], dtype=bool)
+    while True:
+        body, system = _merge_rigid_pairs(body, system, breakable, mirrored, equations.length)
+        edges = edges_of(system)
+        blocks = blocks_of(system.bodies, edges)
+        relative = relative_system(system, blocks)
+        solver = Solver.fitted(relative, equations.length)
+        start = relative.start()
+        freedoms = block_freedoms(solver, start)
+        finite = finite_freedoms(solver, freedoms, start)
+        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges, breakable)
+        if together is None:
+            break
+        body, system = together[body], _merged(system, together, mirrored)
+    system.center, system.length = relative.center, relative.length
+    system.row_length = relative.row_length
+    pairs = pairs_of(system)
+    return Assembly(
+        scene,
+        equations,
+        stated,
+        closing,
+        duplicates,
+        counted,
+        body,
+        system,
+        pairs,
+        blocks,
+        relative,
+        solver,
+        start,
+        freedoms,
+        finite,
+    )
+
+
+def _merged(system: System, label: IntArray, mirrored: BoolArray) -> System:
+    """With other body numbers, without rows inside one body.  mirrored: shape (statements,), the symmetries."""
+    merged = system.relabel(label)
+    merged = merged.select(merged.joining())
+    return merged.folded(mirrored[merged.owner])
+
+
+def _is_symmetry(statement: object) -> bool:
+    """Its rows join three bodies, or two, where the plane's body moves as one with that of a side."""
+    return isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY
+
+
+def _can_break(statement: object) -> bool:
+    """A joint that may break keeps its two bodies apart, however rigid it is."""
+    return isinstance(statement, Joint) and min(statement.break_force, statement.break_torque) < np.inf
+
+
+def _merge_rigid_pairs(
+    body: IntArray, system: System, breakable: BoolArray, mirrored: BoolArray, length: float
+) -> tuple[IntArray, System]:
+    """Merge bodies whose common rows leave nothing, and again, until none are left."""
+    while True:
+        system.length = np.full(system.bodies, length)
+        pairs = pairs_of(system)
+        if not len(pairs):
+            return body, system
+        rows, _, _ = relative_rows(system, pairs, system.start())
+        rank = batched_null_spaces(rows, pairs.row_pair, len(pairs))[0]
+        rank[pairs.row_pair[breakable[system.owner] & (pairs.row_pair >= 0)]] = 0
+        rigid = np.flatnonzero(rank == 6)
+        if not len(rigid):
+            return body, system
+        partition = Partition(system.bodies)
+        for i in rigid:
+            partition.join(int(pairs.first[i]), int(pairs.second[i]))
+        label = partition.labels()
+        body, system = label[body], _merged(system, label, mirrored)
+
+
+def _moving_as_one(
+    relative: System,
+    solver: Solver,
+    start: State,
+    freedoms: list[BlockFreedom],
+    finite: list[FiniteFreedom],
+    blocks: Blocks,
+    edges: IntArray,
+    breakable: BoolArray,
+) -> IntArray | None:
+    """New body numbers that merge what a block's loops hold together, or None where there is nothing.
+
+    Equal twists are not enough at a dead centre, where a crank's velocity vanishes and its motion does
+    not: a trial step of finite size decides.
+    """
+    draw = np.random.default_rng(3)
+    partition = Partition(relative.bodies)
+    neighbours: dict[int, set[int]] = {}
+    for i, j in edges.tolist():
+        neighbours.setdefault(i, set()).add(j)
+        neighbours.setdefault(j, set()).add(i)
+    groups: dict[int, list[IntArray]] = {}
+    doubtful: dict[int, BlockFreedom] = {}
+    for part, (first, last) in enumerate(zip(freedoms, finite)):
+        if breakable[relative.owner[first.rows]].any():
+            continue
+        root = int(blocks.root[blocks.block[first.bodies[0]]])
+        if first.mobility == 0:
+            groups[part] = [np.concatenate([[root], first.bodies])]
+        elif len(first.bodies) > 1 and last.mobility > 0:
+            twist = (first.basis @ draw.standard_normal(first.mobility)).reshape(-1, 6)
+            groups[part] = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
+            at_rest = any(root in group for group in groups[part])  # or only at a dead centre
+            if groups[part] and (at_rest or last.singular or len(first.rows) > first.rank):
+                doubtful[part] = first
+    for part, shift in displaced(solver, doubtful, start).items():
+        bodies = doubtful[part].bodies
+        root = int(blocks.root[blocks.block[bodies[0]]])
+        groups[part] = [g for g in groups[part] if _stays_one(relative, root, bodies, g, shift)]
+    together = [group for of_part in groups.values() for group in of_part]
+    for group in together:
+        for other in group[1:]:
+            partition.join(int(group[0]), int(other))
+    return partition.labels() if together else None
+
+
+def _at_origin(relative: System, bodies: IntArray, twist: Array) -> Array:
+    """Twists (v / length, w) about one common point, that of the block's first body."""
+    length = relative.length[bodies[0]]
+    arm = (relative.center[bodies] - relative.center[bodies[0]]) / length
+    return np.concatenate([twist[:, :3] - cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)
+
+
+def _same_twists(relative: System, root: int, bodies: IntArray, twist: Array) -> list[IntArray]:
+    """Groups of two or more bodies (the root at rest among them) with the same twist."""
+    common = np.concatenate([np.zeros((1, 6)), _at_origin(relative, bodies, twist)])
+    names = np.concatenate([[root], bodies])
+    near = np.abs(common[:, None] - common[None]).max(axis=2) < SAME * np.abs(common).max()
+    groups: list[IntArray] = []
+    seen = np.zeros(len(names), dtype=bool)
+    for i in range(len(names)):
+        if not seen[i]:
+            seen |= near[i]
+            if near[i].sum() > 1:
+                groups.append(names[near[i]])
+    return groups
+
+
+def _adjoining(groups: list[IntArray], neighbours: dict[int, set[int]]) -> list[IntArray]:
+    """The groups, split where they do not hang together by themselves.
+
+    The rods of a parallelogram chain keep step without being joined; they stay parts of their own.
+    """
+    split: list[IntArray] = []
+    for group in groups:
+        left: set[int] = set(group.tolist())
+        while left:
+            reached: set[int] = set()
+            queue = [min(left)]
+            for body in queue:
+                if body in left:
+                    left.discard(body)
+                    reached.add(body)
+                    queue.extend(sorted(neighbours.get(body, set()) & left))
+            if len(reached) > 1:
+                split.append(np.array(sorted(reached)))
+    return split
+
+
+def _stays_one(relative: System, root: int, bodies: IntArray, group: IntArray, shift: Array) -> bool:
+    common = dict(zip(bodies.tolist(), _at_origin(relative, bodies, shift.reshape(-1, 6))))
+    common[root] = np.zeros(6)
+    values = np.array([common[int(b)] for b in group])
+    return bool(np.ptp(values, axis=0).max() < 1e-5)

@@ -1,0 +1,1 @@
+"""Relations between joint coordinates: gears and their like, and symmetry."""

@@ -1,0 +1,89 @@
+"""Gear-like constraints as couplings between the coordinates of the joints that were found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...diagnostics import Report
+from ...model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Feature, Scene, Term
+from ..assembly.assemble import Assembly
+from ..joints.links import Link
+
+_KINDS = {
+    ConstraintKind.GEAR: (CouplingKind.GEAR, RX, RX),
+    ConstraintKind.BELT: (CouplingKind.BELT, RX, RX),
+    ConstraintKind.RACK: (CouplingKind.RACK, RX, TX),
+    ConstraintKind.LINEAR: (CouplingKind.LINEAR, TX, TX),
+}
+COUPLED = frozenset(_KINDS)
+"""Constraints that become couplings."""
+ALONG = 1.0 - 1e-6
+
+
+def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Coupling]:
+    """Explicit couplings as they are, and one for each gear, belt, rack and linear constraint.
+
+    scene: with middle bodies, at the closed pose, where every found joint's coordinates are zero.
+    """
+    by_pair: dict[tuple[int, int], Link] = {}
+    for link in links:
+        by_pair.setdefault((min(link.a, link.b), max(link.a, link.b)), link)
+    found = list(scene.couplings)
+    for statement in assembly.equations.statements:
+        if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
+            continue
+        kind, *freedoms = _KINDS[statement.kind]
+        carrier = assembly.body_of(statement.features[2].node) if len(statement.features) > 2 else 0
+        ends: list[tuple[Link, int, float]] = []
+        for feature, first in zip(statement.features, freedoms):
+            end = _coordinate(assembly, by_pair, scene, feature, carrier, first)
+            if end is None:
+                part = "ground" if feature.node is None else scene.nodes[feature.node].id
+                report.dropped(
+                    f"constraint {statement.id}",
+                    "COUPLING_UNPLACED",
+                    statement.where,
+                    id=statement.id,
+                    part=part,
+                )
+                break
+            ends.append(end)
+        else:
+            (link_a, freedom_a, sign_a), (link_b, freedom_b, sign_b) = ends
+            ratio = statement.value * sign_a * sign_b
+            found.append(
+                Coupling(
+                    statement.id,
+                    kind,
+                    link_b.joint.id,
+                    freedom_b,
+                    (Term(link_a.joint.id, freedom_a, ratio),),
+                    link_b.coordinate(freedom_b, scene) - ratio * link_a.coordinate(freedom_a, scene),
+                    statement.where,
+                )
+            )
+    first = len(scene.couplings)
+    return found[:first] + sorted(found[first:], key=lambda c: assembly.equations.places[c.id])
+
+
+def _coordinate(
+    assembly: Assembly,
+    by_pair: Mapping[tuple[int, int], Link],
+    scene: Scene,
+    feature: Feature,
+    carrier: int,
+    first: int,
+) -> tuple[Link, int, float] | None:
+    """(link, freedom, sign) of the joint coordinate along or about a feature's direction, or None."""
+    body = assembly.body_of(feature.node)
+    link = by_pair.get((min(body, carrier), max(body, carrier)))
+    if link is None or feature.direction is None:
+        return None
+    direction = scene.pose(feature.node).direction(feature.direction)
+    axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
+    for i in range(3):
+        cosine = float(direction @ axes[:, i])
+        if abs(cosine) > ALONG and first + i in link.joint.unlocked:
+            sign = (1.0 if cosine > 0.0 else -1.0) * (1.0 if link.b == body else -1.0)
+            return link, first + i, sign
+    return None

@@ -1,0 +1,1 @@
+"""Drives a mechanism: pose after pose at stated joint coordinates, each block by itself."""

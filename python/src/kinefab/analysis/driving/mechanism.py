@@ -1,0 +1,398 @@
+"""A mechanism that can be driven: its freedoms by name, and where every part is along the way.
+
+Coordinates are as the source shows them: degrees and metres, counted from the joint's own zero.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import RX, Joint, Motion, Scene
+from ...spatial import Array, quaternions_from_matrices
+from ..assembly.assemble import Assembly
+from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
+from .walk import Poses, Walk
+from .way import Way, walked
+
+STRAIGHT = 1e-9
+"""Difference between steps, as a share of the step, up to which they are one straight way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinate:
+    """A joint's coordinate.
+
+    name: by which it is driven.  joint: the joint's id.  unit: ``deg`` or ``m``.  value: at the exported pose.
+    lower, upper: the joint's own limits, infinite where it has none.  All as the source shows them.
+    """
+
+    name: str
+    joint: str
+    unit: str
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Why a motion ended before its last frame.
+
+    reason: ``limit`` or ``dead point``.  coordinate: whose limit it is; at a dead point, the driven one that stops.
+    value: of that coordinate there, in its ``unit``.  frames: those reached.
+    """
+
+    reason: str
+    coordinate: str
+    value: float
+    unit: str
+    frames: int
+
+    def __str__(self) -> str:
+        what = "its limit" if self.reason == "limit" else "a dead point"
+        return f"{self.coordinate} is at {what} at {self.value:.6g} {self.unit}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trajectory:
+    """Poses of a mechanism, frame by frame.
+
+    parts: ids.  poses: shape (frames, parts, 7), in the WORLD (right-handed, +Y up, +Z forward): position, metres, and
+    quaternion (x, y, z, w).  coordinates: for each joint coordinate its values, shape (frames,), degrees or metres.
+    stop: why there are fewer frames than asked for, or None.  gap: how far the loops are from closed at most, radians
+    or fractions of their size.
+    """
+
+    parts: tuple[str, ...]
+    poses: Array
+    coordinates: Mapping[str, Array]
+    stop: Stop | None
+    gap: float
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def __getitem__(self, name: str) -> Array:
+        """The values of a coordinate, shape (frames,), or else the poses of a part.  Raises KeyError."""
+        return self.coordinates[name] if name in self.coordinates else self.part(name)
+
+    def part(self, id: str) -> Array:
+        """The poses of a part, shape (frames, 7).  Raises KeyError."""
+        if id in self.parts:
+            return self.poses[:, self.parts.index(id)]
+        raise KeyError(f"{id!r} is neither a coordinate ({', '.join(self.coordinates)}) nor a part's id")
+
+
+class Mechanism:
+    """What an analysis found, to be driven.  Every motion starts from the exported pose.
+
+    scene: at the closed pose, with its joints.
+    """
+
+    def __init__(self, assembly: Assembly, joints: Sequence[Driven], scene: Scene):
+        self._assembly = assembly
+        self.scene = scene
+        self.blocks: list[DrivenBlock] = driven_blocks(assembly, joints, scene)
+        names = coordinate_names(joints)
+        self.parts = tuple(node.id for node in assembly.scene.nodes)
+        self._place: dict[str, tuple[DrivenBlock, int]] = {}
+        self._names: dict[tuple[int, int], str] = {}
+        self._other: dict[str, list[str]] = {}
+        self._coordinates: dict[str, Coordinate] = {}
+        for block in self.blocks:
+            values = block.measured.read(block.measured.start, block.measured.turns)[0]
+            for i, (driven, freedom) in enumerate(block.joints):
+                joint = driven.joint
+                name = names[joint.id, freedom]
+                self._place[name] = block, i
+                self._names[id(block), i] = name
+                self._coordinates[name] = _coordinate(name, joint, freedom, float(values[i]))
+                for other in {joint.id, joint.name} - {name}:
+                    self._other.setdefault(other, []).append(name)
+
+    @property
+    def mobility(self) -> int:
+        """How many freedoms it has, those of floating islands left out."""
+        return sum(block.mobility for block in self.blocks)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """All joint coordinates that can move."""
+        return tuple(self._coordinates.values())
+
+    @property
+    def freedoms(self) -> tuple[Coordinate, ...]:
+        """As many coordinates as there are freedoms, where the joints have so many: what one would put on sliders."""
+        chosen = ((block, i) for block in self.blocks for i in sorted(block.independent()))
+        return tuple(self._coordinates[self.name_of(block, i)] for block, i in chosen)
+
+    def sweep(
+        self, name: str, start: float | None = None, stop: float | None = None, frames: int = 100
+    ) -> Trajectory:
+        """Move one coordinate evenly from ``start`` to ``stop``, the others following or staying.
+
+        start, stop: degrees or metres as the source shows them; without them the joint's limits, or a whole turn from
+        where it stands.  frames: at least 2.
+        Raises ValueError for a name that is none, a number that is not finite, and a slide without limits and stop.
+        """
+        coordinate = self.coordinate(name)
+        if stop is None:
+            start, stop = self._whole(coordinate, start)
+        elif start is None:
+            start = coordinate.value
+        if frames < 2:
+            raise ValueError(f"a sweep has at least 2 frames, not {frames}")
+        return self.follow({coordinate.name: np.linspace(start, stop, frames)})
+
+    def follow(self, values: Mapping[str, Sequence[float] | Array]) -> Trajectory:
+        """Move several coordinates at once, through their values frame by frame.
+
+        values: by name, each of shape (frames,), degrees or metres as the source shows them.
+        Raises ValueError for a name that is none, for values of different lengths or not finite, and for coordinates of
+        which one already moves the other.
+        """
+        driven = self._driven(values)
+        frames = len(next(iter(driven.values()))[1][0])
+        runs: list[_Run] = [
+            _Run(block, places, np.array(columns).T) for block, (places, columns) in driven.items()
+        ]
+        pieces = _straight(np.concatenate([run.goals for run in runs], axis=1))
+        reached, stop = frames, None
+        for first, last in pieces:
+            ways = [run.go(first, last) for run in runs]
+            share = min(way.reached for way in ways)
+            if share < 1.0:
+                at = next(i for i, way in enumerate(ways) if way.reached == share)
+                reached = 0 if first < 0 else first + int(np.sum(_shares(first, last) <= share))
+                stop = self._stopped(runs[at], ways[at], reached)
+                break
+        return self._trajectory(runs, reached, stop)
+
+    def name_of(self, block: DrivenBlock, i: int) -> str:
+        """The name of a block's coordinate."""
+        return self._names[id(block), i]
+
+    def coordinate(self, name: str) -> Coordinate:
+        """A coordinate by its name, or by the id or name of a joint that has only one.  Raises ValueError."""
+        return self._coordinates[self._named(name)]
+
+    def freedom_of(self, name: str) -> int:
+        """TX..RZ of a coordinate."""
+        block, i = self._place[name]
+        return block.joint(i)[1]
+
+    def internal(self, coordinate: Coordinate) -> tuple[float, float, float]:
+        """Value, lower and upper of a coordinate, metres or radians from where the joint's frames meet."""
+        block, i = self._place[coordinate.name]
+        joint, freedom = block.joint(i)
+        shown = (coordinate.value, coordinate.lower, coordinate.upper)
+        if freedom < RX:
+            return shown
+        value, lower, upper = (math.radians(x) - 2.0 * math.pi * joint.freedoms[freedom].turns for x in shown)
+        return value, lower, upper
+
+    def bodies_of(self, block: DrivenBlock) -> tuple[int, list[int]]:
+        """A block's root and its bodies, as ``body_of_part`` numbers them (0: the ground)."""
+        bodies = self._assembly.freedoms[block.part].bodies
+        blocks = self._assembly.blocks
+        return int(blocks.root[blocks.block[bodies[0]]]), bodies.tolist()
+
+    @property
+    def body_of_part(self) -> list[int]:
+        """The body that each part moves with."""
+        return self._assembly.body[1:].tolist()
+
+    @property
+    def generation_of(self) -> dict[int, int]:
+        """How many blocks each block is from its island's root, by its number."""
+        blocks, found = self._assembly.blocks, dict[int, int]()
+        for depth, bodies in enumerate(blocks.generations()):
+            found |= {self._assembly.part_of_block[int(blocks.block[b])]: depth for b in bodies}
+        return found
+
+    def _named(self, name: str) -> str:
+        """The coordinate meant by its name, or by the id or name of a joint that has only one."""
+        if name in self._place:
+            return name
+        others = self._other.get(name, [])
+        if len(others) == 1:
+            return others[0]
+        known = ", ".join(others or self._place) or "none: nothing moves"
+        raise ValueError(f"there is no coordinate {name!r}; the mechanism has {known}")
+
+    def _whole(self, coordinate: Coordinate, start: float | None) -> tuple[float, float]:
+        ends = [coordinate.lower, coordinate.upper]
+        if coordinate.unit == "deg":
+            free = [math.isinf(end) for end in ends]
+            ends = [
+                (coordinate.value if all(free) else ends[1 - i] + (-360.0, 360.0)[i]) if free[i] else ends[i]
+                for i in (0, 1)
+            ]
+            ends[1] += 360.0 * all(free)
+        if not all(map(math.isfinite, ends)):
+            raise ValueError(
+                f"{coordinate.name} slides without limits; say how far: sweep(name, start, stop)"
+            )
+        return (ends[0] if start is None else start), ends[1]
+
+    def _driven(
+        self, values: Mapping[str, Sequence[float] | Array]
+    ) -> dict[DrivenBlock, tuple[list[int], list[Array]]]:
+        """For each block the places of its driven coordinates and their values, metres and radians."""
+        driven: dict[DrivenBlock, tuple[list[int], list[Array]]] = {}
+        lengths: set[int] = set()
+        for asked, given in values.items():
+            name = self._named(asked)
+            block, i = self._place[name]
+            column = np.array(given, dtype=float)
+            if column.ndim != 1 or not len(column) or not np.isfinite(column).all():
+                raise ValueError(f"the values of {name} are no list of finite numbers")
+            lengths.add(len(column))
+            joint, freedom = block.joint(i)
+            if freedom >= RX:
+                column = np.radians(column) - 2.0 * math.pi * joint.freedoms[freedom].turns
+            places, columns = driven.setdefault(block, ([], []))
+            if i in places:
+                raise ValueError(f"{name} is named twice")
+            places.append(i)
+            columns.append(column)
+        if len(lengths) != 1:
+            raise ValueError("every coordinate needs as many values as the others, and one at least")
+        for block, (places, _) in driven.items():
+            rank = np.linalg.matrix_rank(block.rates[places], 1e-9) if len(places) > 1 else 1
+            if rank < len(places):
+                names = ", ".join(self.name_of(block, i) for i in places)
+                raise ValueError(f"{names} move together; drive fewer of them")
+        return driven
+
+    def _stopped(self, run: _Run, way: Way, frames: int) -> Stop:
+        i = way.limit if way.limit is not None else run.driven[0]
+        coordinate = self._coordinates[self.name_of(run.block, i)]
+        joint, freedom = run.block.joint(i)
+        value = way.bound if way.limit is not None else float(run.walk.values[0])
+        return Stop(
+            "dead point" if way.limit is None else "limit",
+            coordinate.name,
+            float(_shown(joint, freedom, value)),
+            coordinate.unit,
+            frames,
+        )
+
+    def _trajectory(self, runs: Sequence[_Run], frames: int, stop: Stop | None) -> Trajectory:
+        assembly = self._assembly
+        bodies = assembly.system.bodies
+        turn = np.broadcast_to(np.eye(3), (frames, bodies, 3, 3)).copy()
+        move = np.zeros((frames, bodies, 3))
+        moving = {id(run.block): run for run in runs}
+        for run in runs:
+            own, center = assembly.freedoms[run.block.part].bodies, run.block.measured.system.center[1:]
+            rotation, shift = run.poses(frames)
+            turn[:, own] = rotation[:, 1:]
+            move[:, own] = center + shift[:, 1:] - np.einsum("fbij,bj->fbi", rotation[:, 1:], center)
+        _carry(assembly, turn, move)
+        at = assembly.body[1:]
+        poses = np.empty((frames, len(at), 7))
+        if len(at):
+            placed = [(pose.rotation, pose.translation) for pose in assembly.poses]
+            rotation, translation = (np.array(column) for column in zip(*placed))
+            poses[:, :, :3] = np.einsum("fnij,nj->fni", turn[:, at], translation) + move[:, at]
+            poses[:, :, 3:] = _continuous(quaternions_from_matrices(turn[:, at] @ rotation))
+        coordinates: dict[str, Array] = {}
+        for name, (block, i) in self._place.items():
+            joint, freedom = block.joint(i)
+            run = moving.get(id(block))
+            if run is None:
+                column: Array = np.full(frames, self._coordinates[name].value)
+            else:
+                column = np.asarray(_shown(joint, freedom, run.column(i, frames)))
+            coordinates[name] = column
+        return Trajectory(self.parts, poses, coordinates, stop, max((run.gap for run in runs), default=0.0))
+
+
+class _Run:
+    """One block through the values of some of its coordinates.  goals: (frames, driven), metres and radians."""
+
+    def __init__(self, block: DrivenBlock, driven: list[int], goals: Array):
+        self.block, self.driven, self.goals = block, driven, goals
+        self.walk = Walk(block.measured, block.independent(driven))
+        self.before = block.measured.read(block.measured.start, block.measured.turns)[0]
+        self.gap = 0.0
+        self._poses: list[Poses] = []
+        self._values: list[Array] = []
+
+    def go(self, first: int, last: int) -> Way:
+        """Walk from frame ``first`` (-1: where it stands now) straight to frame ``last`` and keep the frames after it."""
+        target = self.walk.values.copy()
+        target[: len(self.driven)] = self.goals[last]
+        shares = _shares(first, last)
+        way = walked(self.block, self.walk, target, shares, self.before)
+        new = way.poses.at > 0.0 if first >= 0 else way.poses.at == 1.0
+        self._poses.append(way.poses.taken(new))
+        self._values.append(way.values[new])
+        if len(way.values):
+            self.before = way.values[-1]
+        self.gap = max(self.gap, way.residual)
+        return way
+
+    def poses(self, frames: int) -> tuple[Array, Array]:
+        rotation, shift = (
+            np.concatenate([getattr(poses, name) for poses in self._poses])[:frames]
+            for name in ("rotation", "shift")
+        )
+        return rotation, shift
+
+    def column(self, i: int, frames: int) -> Array:
+        return np.concatenate(self._values)[:frames, i]
+
+
+def _shares(first: int, last: int) -> Array:
+    """Of a straight way between two frames, where the frames are; of the way to the first one, its end."""
+    return np.array([0.0, 1.0]) if first < 0 else np.linspace(0.0, 1.0, last - first + 1)
+
+
+def _straight(goals: Array) -> Iterator[tuple[int, int]]:
+    """The pieces of a path that can be walked straight: the way to its first frame (-1, 0), then (first, last)."""
+    yield -1, 0
+    first = 0
+    steps = np.diff(goals, axis=0)
+    for i in range(1, len(goals)):
+        bends = i < len(steps) and not np.allclose(steps[i], steps[i - 1], rtol=STRAIGHT, atol=1e-12)
+        if bends or i == len(goals) - 1:
+            yield first, i
+            first = i
+
+
+def _carry(assembly: Assembly, turn: Array, move: Array) -> None:
+    """Displacements against each block's root to displacements, over all frames, in place."""
+    blocks = assembly.blocks
+    for bodies in blocks.generations():
+        root = blocks.root[blocks.block[bodies]]
+        move[:, bodies] = np.einsum("fbij,fbj->fbi", turn[:, root], move[:, bodies]) + move[:, root]
+        turn[:, bodies] = turn[:, root] @ turn[:, bodies]
+
+
+def _continuous(q: Array) -> Array:
+    """Quaternions over frames, each with the sign that is nearer to the one before."""
+    if not len(q):
+        return q
+    flips = np.sign(np.einsum("fni,fni->fn", q[1:], q[:-1]))
+    signs = np.cumprod(np.concatenate([np.ones((1, q.shape[1])), np.where(flips < 0.0, -1.0, 1.0)]), axis=0)
+    return q * signs[..., None]
+
+
+def _coordinate(name: str, joint: Joint, freedom: int, value: float) -> Coordinate:
+    own = joint.freedoms[freedom]
+    limits = (own.lower, own.upper) if own.motion is Motion.LIMITED else (-math.inf, math.inf)
+    shown = (float(_shown(joint, freedom, x)) for x in (value, *limits))
+    return Coordinate(name, joint.id, "deg" if freedom >= RX else "m", *shown)
+
+
+def _shown(joint: Joint, freedom: int, value: Array | float):
+    """Metres or radians of a coordinate as the source shows it."""
+    if freedom < RX:
+        return value
+    return np.degrees(value + 2.0 * math.pi * joint.freedoms[freedom].turns)

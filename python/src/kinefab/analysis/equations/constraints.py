@@ -1,0 +1,336 @@
+"""From a constraint's geometry and verb to equations: every pairing that CAD programs offer.
+
+The number of rows is what the constraint removes in general position; special positions (parallel axes,
+coplanar rods) lower the rank later, where it is measured.  Where one vendor's words mean other rows than
+another's, ``Constraint.reading`` decides (``schemas/SPEC.md``, "Constraint readings").
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...model import Constraint, ConstraintKind, FeatureKind
+from ...spatial import Array, cross
+from .atoms import Atom
+from .coupled import coupled, screw
+from .distances import PARALLEL_SINE, apart, lines_apart, off_line
+from .features import UnknownPairing, need_directions, plain_family
+from .rows import Rows, Side
+from .tangency import tangent
+
+STRAIGHT = 1e-9
+"""Sine or cosine of a stated angle below which it asks for parallel directions."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RangedCoordinate:
+    """A length along or an angle about ``axis`` (WORLD, fixed on a) that the source bounds, not fixes.
+
+    measured: its value at the exported pose.
+    """
+
+    constraint: Constraint
+    body_a: int
+    body_b: int
+    axis: Array
+    is_angle: bool
+    measured: float
+
+
+@dataclass(slots=True)
+class Context:
+    """What a constraint may need from the rest of its pair.
+
+    axes: for each pair of bodies (lower number first), directions that another constraint makes common,
+        WORLD; an angle without a reference vector is measured about one of them.
+    ranges: coordinates that have a range instead of a value, filled in while building.
+    """
+
+    axes: dict[tuple[int, int], list[Array]] = field(default_factory=dict[tuple[int, int], list[Array]])
+    ranges: list[RangedCoordinate] = field(default_factory=list[RangedCoordinate])
+
+
+def build(rows: Rows, constraint: Constraint, sides: list[Side], context: Context) -> None:
+    """Add the constraint's equations.  Raises UnknownPairing when there are none for its geometry."""
+    _BUILDERS[constraint.kind](rows, constraint, *sides, context=context)
+
+
+def _ordered(a: Side, b: Side, *order: str) -> tuple[Side, Side, tuple[str, str]]:
+    """The two sides so that the first one's family stands earlier in ``order``."""
+    fa, fb = (plain_family(s) for s in (a, b))
+    if order.index(fa) <= order.index(fb):
+        return a, b, (fa, fb)
+    return b, a, (fb, fa)
+
+
+def _ranged(c: Constraint) -> bool:
+    return c.lower is not None or c.upper is not None
+
+
+def _nearest_sign(value: float, measured: float) -> float:
+    return value if abs(measured - value) <= abs(measured + value) else -value
+
+
+def _nearest_turn(value: float, measured: float) -> float:
+    """The angle as it is met nearest to ``measured``: 330 degrees are -30."""
+    return measured + math.remainder(value - measured, math.tau)
+
+
+def _offset(
+    rows: Rows, c: Constraint, plane: Side, other: Side, context: Context, value: float | None = None
+) -> None:
+    """A signed distance along the plane's normal: an equation, or a range that is only noted."""
+    measured = float(plane.z @ (other.p - plane.p))
+    if _ranged(c):
+        context.ranges.append(RangedCoordinate(c, plane.body, other.body, plane.z, False, measured))
+        return
+    value = c.value if value is None else value
+    if c.reading.get("offset") != "along_normal":
+        value = _nearest_sign(value, measured)
+    rows.plane(plane, plane.z, other, value)
+
+
+def _coincident(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    if a.kind is FeatureKind.FRAME and b.kind is FeatureKind.FRAME:
+        rows.point(a, b)
+        rows.parallel(a, b)
+        rows.dot(a, a.x, b, b.y)
+        return
+    first, second, pair = _ordered(a, b, "plane", "line", "point")
+    if pair == ("point", "point"):
+        rows.point(first, second)
+    elif pair == ("line", "point"):
+        rows.on_line(first, second)
+    elif pair == ("plane", "point"):
+        _offset(rows, c, first, second, context)
+    elif pair == ("line", "line"):
+        rows.parallel(first, second)
+        rows.on_line(first, second)
+    elif pair == ("plane", "line"):
+        rows.dot(first, first.z, second, second.z)
+        _offset(rows, c, first, second, context)
+    else:
+        rows.parallel(first, second)
+        _offset(rows, c, first, second, context)
+
+
+def _parallel(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    first, second, pair = _ordered(a, b, "plane", "line", "point")
+    if "point" in pair:
+        raise UnknownPairing
+    if pair == ("plane", "line"):
+        rows.dot(first, first.z, second, second.z)
+    else:
+        rows.parallel(first, second)
+
+
+def _perpendicular(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    first, second, pair = _ordered(a, b, "plane", "line", "point")
+    if "point" in pair:
+        raise UnknownPairing
+    if pair == ("plane", "line"):
+        rows.parallel(first, second)
+    else:
+        rows.dot(first, first.z, second, second.z)
+
+
+def _angle(
+    rows: Rows, c: Constraint, a: Side, b: Side, reference: Side | None = None, *, context: Context
+) -> None:
+    first, second, pair = _ordered(a, b, "plane", "line", "point")
+    if "point" in pair:
+        raise UnknownPairing
+    if pair == ("plane", "line"):
+        if abs(math.cos(c.value)) < STRAIGHT:
+            rows.parallel(first, second)  # a.b = +-1 has no gradient
+        else:
+            rows.dot(first, first.z, second, second.z, math.sin(c.value))
+        return
+    about = _angle_axis(c, a, b, reference, context)
+    if about is not None:
+        measured = math.atan2(about @ cross(a.z, b.z), a.z @ b.z)
+        if _ranged(c):
+            context.ranges.append(RangedCoordinate(c, a.body, b.body, about, True, measured))
+            return
+        value = _nearest_turn(c.value, measured)
+        if reference is None and c.reading.get("angle") != "directed":
+            other = _nearest_turn(-c.value, measured)
+            value = value if abs(measured - value) <= abs(measured - other) else other
+        rows.angle(a, a.z, about, b, b.z, value)
+    elif _ranged(c):
+        raise UnknownPairing
+    elif abs(math.sin(c.value)) < STRAIGHT:
+        rows.parallel(a, b)  # a.b = +-1 has no gradient
+    else:
+        rows.dot(a, a.z, b, b.z, math.cos(c.value))
+
+
+def _angle_axis(c: Constraint, a: Side, b: Side, reference: Side | None, context: Context) -> Array | None:
+    """The axis the angle turns about: the stated one, else one that the pair's bodies share."""
+    if reference is not None:
+        candidates = [reference.z]
+    else:
+        candidates = context.axes.get((min(a.body, b.body), max(a.body, b.body)), [])
+    for axis in candidates:
+        if max(abs(axis @ a.z), abs(axis @ b.z)) < PARALLEL_SINE:
+            across = axis - a.z * (axis @ a.z)
+            return across / np.linalg.norm(across)
+    return None
+
+
+def _distance(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    first, second, pair = _ordered(a, b, "plane", "line", "point")
+    if first.kind is FeatureKind.PLANE:
+        _coincident(rows, c, first, second, context=context)
+    elif _ranged(c):
+        raise UnknownPairing
+    elif pair == ("point", "point"):
+        apart(rows, first, second, abs(c.value))
+    elif pair == ("line", "point"):
+        off_line(rows, first, second, abs(c.value))
+    else:
+        lines_apart(rows, first, second, abs(c.value), c.reading.get("line_line_distance"))
+
+
+def _insert(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    if "point" in (plain_family(a), plain_family(b)):
+        raise UnknownPairing
+    rows.parallel(a, b)
+    rows.on_line(a, b)
+    _offset(rows, c, a, b, context)
+    if c.lock_rotation:
+        _lock_spin(rows, a, b)
+
+
+def _lock_spin(rows: Rows, a: Side, b: Side) -> None:
+    """Rotation about a's axis stays as it is, or as the two frames say where both are whole frames."""
+    if a.framed and b.framed:
+        rows.dot(a, a.x, b, b.y)
+    else:
+        rows.dot(a, a.x, b, a.y)
+
+
+def _lock_orientation(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    if FeatureKind.FRAME in (a.kind, b.kind) and a.framed and b.framed:
+        rows.parallel(a, b)
+        rows.dot(a, a.x, b, b.y)
+    else:
+        x, y, z = rows.axes.T
+        for along_a, along_b in ((x, z), (y, z), (x, y)):
+            rows.dot(a, along_a, b, along_b)
+
+
+def _lock(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    _lock_orientation(rows, c, a, b, context=context)
+    if a.kind is FeatureKind.FRAME and b.kind is FeatureKind.FRAME:
+        rows.point(a, b)
+    else:
+        for axis in rows.axes.T:
+            rows.plane(a, axis, b, float(axis @ (b.p - a.p)))
+
+
+def _concentric(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    if "plane" in (plain_family(a), plain_family(b)):
+        raise UnknownPairing
+    _coincident(rows, c, a, b, context=context)
+    if c.lock_rotation and plain_family(a) == plain_family(b) == "line":
+        _lock_spin(rows, a, b)
+
+
+def _slider(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    need_directions(a, b)
+    rows.parallel(a, b)
+    _lock_spin(rows, a, b)
+    rows.on_line(a, b)
+
+
+def _pin_slot(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    """a: the slot, along its direction (or its secondary, where the direction is the pin's); b: the pin."""
+    need_directions(a, b)
+    slot = a.z if abs(a.z @ b.z) < 0.5 else a.x
+    normal = b.z - slot * (slot @ b.z)
+    normal /= np.linalg.norm(normal)
+    across = cross(normal, slot)
+    rows.dot(a, slot, b, b.z)
+    rows.dot(a, across, b, b.z)
+    rows.plane(a, normal, b)
+    rows.plane(a, across, b)
+
+
+def _universal(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
+    need_directions(a, b)
+    rows.point(a, b)
+    rows.dot(a, a.z, b, b.z)
+
+
+def _symmetry(rows: Rows, c: Constraint, a: Side, b: Side, plane: Side, *, context: Context) -> None:
+    """b is the mirror image of a in the plane: H = I - 2 n n', n fixed on the plane's body."""
+    kinds = {plain_family(a), plain_family(b)}
+    if plane.kind is not FeatureKind.PLANE or len(kinds) != 1:
+        raise UnknownPairing
+
+    def image(direction: Array) -> Array:
+        return direction - 2.0 * plane.z * (plane.z @ direction)
+
+    if kinds == {"point"}:
+        for e in (plane.z, plane.x, plane.y):
+            # C = e.(p_b - p_0) - (H e).(p_a - p_0)
+            row = rows.row(True)
+            rows.atom(row, Atom.PIP, plane.body, b.body, p_a=plane.p, dir_a=e, p_b=b.p)
+            rows.atom(row, Atom.PIP, plane.body, a.body, p_a=plane.p, dir_a=image(e), p_b=a.p, weight=-1.0)
+        return
+    sense = math.copysign(1.0, float(b.z @ image(a.z)))
+    for e in (b.x, b.y):
+        # C = e.z_b - sense (H e).z_a, e fixed on the plane's body
+        row = rows.row(False)
+        rows.atom(row, Atom.DOT, plane.body, b.body, dir_a=e, p_b=b.p, dir_b=b.z)
+        rows.atom(row, Atom.DOT, plane.body, a.body, dir_a=image(e), p_b=a.p, dir_b=a.z, weight=-sense)
+    if kinds == {"line"}:
+        for e in (b.x, b.y):
+            # C = e.m_b + sense (H e).m_a, m = (p - p_0) x z: a moment is an axial vector, its image is -H m.
+            # Moments do not change with the point that names the line; the third, along z, is zero anyway.
+            row = rows.row(True)
+            rows.atom(row, Atom.MOM, plane.body, b.body, p_a=plane.p, dir_a=e, p_b=b.p, dir_b=b.z)
+            rows.atom(
+                row,
+                Atom.MOM,
+                plane.body,
+                a.body,
+                p_a=plane.p,
+                dir_a=image(e),
+                p_b=a.p,
+                dir_b=a.z,
+                weight=sense,
+            )
+        return
+    # C = z_b.(p_0 - p_b) - sense z_a.(p_0 - p_a): the plane's point is as far from the one as from the other
+    row = rows.row(True)
+    rows.atom(row, Atom.PIP, b.body, plane.body, p_a=b.p, dir_a=b.z, p_b=plane.p)
+    rows.atom(row, Atom.PIP, a.body, plane.body, p_a=a.p, dir_a=a.z, p_b=plane.p, weight=-sense)
+
+
+_BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
+    ConstraintKind.COINCIDENT: _coincident,
+    ConstraintKind.CONCENTRIC: _concentric,
+    ConstraintKind.PARALLEL: _parallel,
+    ConstraintKind.PERPENDICULAR: _perpendicular,
+    ConstraintKind.ANGLE: _angle,
+    ConstraintKind.DISTANCE: _distance,
+    ConstraintKind.TANGENT: tangent,
+    ConstraintKind.INSERT: _insert,
+    ConstraintKind.SYMMETRY: _symmetry,
+    ConstraintKind.LOCK: _lock,
+    ConstraintKind.LOCK_ORIENTATION: _lock_orientation,
+    ConstraintKind.SLIDER: _slider,
+    ConstraintKind.PIN_SLOT: _pin_slot,
+    ConstraintKind.UNIVERSAL: _universal,
+    ConstraintKind.SCREW: screw,
+    ConstraintKind.GEAR: coupled,
+    ConstraintKind.BELT: coupled,
+    ConstraintKind.RACK: coupled,
+    ConstraintKind.LINEAR: coupled,
+}

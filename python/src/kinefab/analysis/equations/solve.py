@@ -1,0 +1,259 @@
+"""Moves bodies onto their constraints: Gauss-Newton with minimum-norm steps.
+
+Minimum norm makes redundant and under-constrained systems ordinary: repeated rows do no harm, free
+directions stay where they are, and the pose found is the nearest one.  Independent parts of a system are
+solved apart: small ones densely, many at a time; large ones by a damped sparse factorisation
+(Levenberg-Marquardt with a damping that only makes the normal matrix definite).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import lstsq
+from scipy.sparse import coo_matrix, csr_matrix, identity
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import splu
+
+from ...spatial import Array, BoolArray, IntArray
+from .system import State, System, summed
+
+CLOSED = 1e-13
+"""Scaled residual at which a pose is closed."""
+LARGEST_STEP = 0.3
+"""Radians, or fractions of the characteristic length, one iteration may move a body."""
+ITERATIONS = 60
+STALLED = 0.9
+"""A part whose residual shrinks by less than this factor three times running has met its floor."""
+CUT = 1e-8
+"""Singular values below this fraction of the largest take no part in a step."""
+DENSE = 180
+"""Largest number of unknowns solved densely."""
+DAMPING = 1e-14
+
+
+@dataclass(slots=True, eq=False)
+class _Group:
+    """Parts of a system that have the same shape: members (m,) with R rows and n bodies each."""
+
+    members: IntArray
+    rows: IntArray  # (m, R) row numbers
+    bodies: IntArray  # (m, n) body numbers
+    atoms: IntArray  # atoms of all members
+    index_a: IntArray  # (atoms, 6) where their blocks go in (m, R, 6 n), flat; the end for a fixed body
+    index_b: IntArray
+
+
+class Solver:
+    """The independent parts of a system, ready to be solved many times.
+
+    part: shape (bodies,), the part a body belongs to, -1 for body 0 and for bodies without rows.
+    """
+
+    def __init__(self, system: System):
+        self.system = system
+        n = system.bodies
+        a, b = system.body_a, system.body_b
+        first = np.zeros(system.rows, dtype=np.int64)
+        np.maximum.at(first, system.row, np.maximum(a, b))
+        ends = [(a, b)] + [(first[system.row], x) for x in (a, b)]
+        i, j = (np.concatenate(x) for x in zip(*ends))
+        real = (i > 0) & (j > 0) & (i != j)
+        graph = csr_matrix((np.ones(real.sum()), (i[real], j[real])), shape=(n, n))
+        label = connected_components(graph, directed=False)[1]
+        self.row_part = np.full(system.rows, -1)
+        self.row_part[system.row] = label[first[system.row]]
+        self.row_part[first == 0] = -1
+        used = np.unique(self.row_part[self.row_part >= 0])
+        number = np.full(n, -1)
+        number[used] = np.arange(len(used))
+        self.row_part = np.where(self.row_part >= 0, number[self.row_part], -1)
+        self.part = np.where(np.arange(n) > 0, number[label], -1)
+        self.parts = len(used)
+        self.groups = self._grouped()
+
+    @classmethod
+    def fitted(cls, system: System, length: float) -> Solver:
+        """Sets the system's own points and lengths too.  length: see ``System.fit``."""
+        solver = cls(system)
+        system.fit(solver.row_part, solver.part, length)
+        return solver
+
+    def _grouped(self) -> list[_Group]:
+        s, n = self.system, self.parts
+        if not n:
+            return []
+        row_count = np.bincount(self.row_part[self.row_part >= 0], minlength=n)
+        body_count = np.bincount(self.part[self.part >= 0], minlength=n)
+        local_row, row_order, row_start = _positions(self.row_part, row_count)
+        local_body, body_order, body_start = _positions(self.part, body_count)
+        shape = np.stack([row_count, body_count], axis=1)
+        groups: list[_Group] = []
+        for shape_rows, shape_bodies in np.unique(shape, axis=0):
+            members = np.flatnonzero((row_count == shape_rows) & (body_count == shape_bodies))
+            if 6 * shape_bodies > DENSE:
+                lots = [members[i : i + 1] for i in range(len(members))]
+            else:
+                lots = [members]
+            for lot in lots:
+                place = np.full(n + 1, -1)
+                place[lot] = np.arange(len(lot))
+                atoms = np.flatnonzero(place[self.row_part[s.row]] >= 0)
+                width = 6 * shape_bodies
+                base = (place[self.row_part[s.row[atoms]]] * shape_rows + local_row[s.row[atoms]]) * width
+                end = len(lot) * shape_rows * width
+
+                def index(body: IntArray, base: IntArray = base, end: int = end) -> IntArray:
+                    moving = (self.part[body] >= 0)[:, None]
+                    flat = (base + 6 * local_body[body])[:, None] + np.arange(6)
+                    return np.where(moving, flat, end)
+
+                groups.append(
+                    _Group(
+                        lot,
+                        np.stack([row_order[row_start[p] : row_start[p] + shape_rows] for p in lot]),
+                        np.stack([body_order[body_start[p] : body_start[p] + shape_bodies] for p in lot]),
+                        atoms,
+                        index(s.body_a[atoms]),
+                        index(s.body_b[atoms]),
+                    )
+                )
+        return groups
+
+    def alone(self, part: int) -> System:
+        """One part's rows and bodies by themselves, the bodies numbered from 1 on."""
+        order, starts = self._atoms
+        atoms = np.sort(order[starts[part] : starts[part + 1]])
+        group, at = self._place[part]
+        return self.system.part(atoms, group.rows[at], group.bodies[at])
+
+    @cached_property
+    def _atoms(self) -> tuple[IntArray, IntArray]:
+        """The atoms in the order of their parts, and where each part starts there."""
+        part = self.row_part[self.system.row]
+        order = np.argsort(part, kind="stable")
+        return order, np.searchsorted(part[order], np.arange(self.parts + 1))
+
+    @cached_property
+    def _place(self) -> dict[int, tuple[_Group, int]]:
+        """The group that each part is in, and where."""
+        return {int(part): (group, at) for group in self.groups for at, part in enumerate(group.members)}
+
+    def jacobians(self, group: _Group, block_a: Array, block_b: Array) -> Array:
+        """Dense Jacobians of a group's members, shape (m, R, 6 n)."""
+        m, r = group.rows.shape
+        size = m * r * 6 * group.bodies.shape[1]
+        index = np.concatenate([group.index_a.ravel(), group.index_b.ravel()])
+        values = np.concatenate([block_a[group.atoms].ravel(), block_b[group.atoms].ravel()])
+        return summed(index, values, size + 1)[:size].reshape(m, r, -1)
+
+    def sparse_jacobian(self, group: _Group, block_a: Array, block_b: Array) -> csr_matrix:
+        """Sparse Jacobian of a group of one member, shape (R, 6 n)."""
+        width = 6 * group.bodies.shape[1]
+        index = np.concatenate([group.index_a.ravel(), group.index_b.ravel()])
+        values = np.concatenate([block_a[group.atoms].ravel(), block_b[group.atoms].ravel()])
+        kept = index < group.rows.shape[1] * width
+        index, values = index[kept], values[kept]
+        return coo_matrix(
+            (values, (index // width, index % width)), shape=(group.rows.shape[1], width)
+        ).tocsr()
+
+    def worst(self, residual: Array) -> Array:
+        """Largest residual of each part, shape (parts,)."""
+        worst = np.zeros(self.parts)
+        kept = self.row_part >= 0
+        np.maximum.at(worst, self.row_part[kept], np.abs(residual[kept]))
+        return worst
+
+    def project(
+        self,
+        state: State,
+        active: BoolArray | None = None,
+        target: Array | float = CLOSED,
+        iterations: int = ITERATIONS,
+    ) -> tuple[State, Array]:
+        """The nearest pose that satisfies the rows, and each part's residual there, shape (parts,).
+
+        active: mask of the parts to solve.  target: residual (of each part) that is good enough.
+        A part that cannot be closed keeps the best pose found; its residual says so.
+        """
+        system = self.system
+        residual, block_a, block_b = system.linearise(state)
+        worst = self.worst(residual)
+        open_ = worst > target if active is None else active & (worst > target)
+        slow = np.zeros(self.parts, dtype=int)
+        damp = np.ones(self.parts)
+        for _ in range(iterations):
+            if not open_.any():
+                break
+            bodies, twists = self._steps(open_, residual, block_a, block_b, damp)
+            trial = system.moved(state, bodies, twists)
+            values = system.linearise(trial)
+            now = self.worst(values[0])
+            worse = open_ & (now > 2.0 * worst) & (damp > 1e-3)
+            if worse.any():
+                # halve the step of those parts and leave them where they are; the others go on
+                back = np.flatnonzero(np.isin(self.part, np.flatnonzero(worse)))
+                trial.rotation[back], trial.shift[back] = state.rotation[back], state.shift[back]
+                damp[worse] *= 0.5
+                values = system.linearise(trial)
+                now = self.worst(values[0])
+            damp[~worse] = np.minimum(1.0, damp[~worse] * 2.0)
+            slow = np.where(now > STALLED * worst, slow + 1, 0)
+            state, worst = trial, now
+            residual, block_a, block_b = values
+            open_ = open_ & (worst > target) & (slow < 3 + 8 * (damp < 1.0))
+        return state, worst
+
+    def _steps(
+        self, open_: BoolArray, residual: Array, block_a: Array, block_b: Array, damp: Array
+    ) -> tuple[IntArray, Array]:
+        bodies: list[IntArray] = []
+        twists: list[Array] = []
+        for group in self.groups:
+            take = open_[group.members]
+            if not take.any():
+                continue
+            if 6 * group.bodies.shape[1] > DENSE:
+                jacobian = self.sparse_jacobian(group, block_a, block_b)
+                normal = (jacobian.T @ jacobian + DAMPING * identity(jacobian.shape[1])).tocsc()
+                step = -splu(normal).solve(jacobian.T @ residual[group.rows[0]])[None]
+            else:
+                jacobian = self.jacobians(group, block_a, block_b)[take]
+                step = -minimum_norm(jacobian, residual[group.rows[take]])
+            step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
+            largest = np.abs(step).max(axis=(1, 2), initial=0.0)
+            step *= np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None, None]
+            bodies.append(group.bodies[take].ravel())
+            twists.append(step.reshape(-1, 6))
+        return np.concatenate(bodies), np.concatenate(twists)
+
+
+def minimum_norm(jacobian: Array, residual: Array) -> Array:
+    """Least-squares solutions of least norm of J y = r, shapes (m, R, n), (m, R) to (m, n).
+
+    A complete orthogonal factorisation finds the rank as well as singular values do, several times faster where
+    there is more than one body; thousands of single bodies cost less as one stack.
+    """
+    if jacobian.shape[2] > 6:
+        solutions: list[Array] = [
+            lstsq(matrix, right, cond=CUT, lapack_driver="gelsy", check_finite=False)[0]
+            for matrix, right in zip(jacobian, residual)
+        ]
+        return np.array(solutions)
+    u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
+    kept = s > CUT * s[:, :1]
+    inverse = np.divide(1.0, s, out=np.zeros_like(s), where=kept)
+    return np.einsum("mkn,mk->mn", vt, inverse * np.einsum("mrk,mr->mk", u, residual))
+
+
+def _positions(part: IntArray, count: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Place of each item in its part, the items in order of part, and where each part starts there."""
+    order = np.argsort(part, kind="stable")
+    order = order[np.searchsorted(part[order], 0) :]
+    start = np.concatenate([[0], np.cumsum(count)[:-1]])
+    local = np.zeros(len(part), dtype=np.int64)
+    local[order] = np.arange(len(order)) - np.repeat(start, count)
+    return local, order, start

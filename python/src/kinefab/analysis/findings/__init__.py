@@ -1,0 +1,1 @@
+"""What an analysis tells: as data, as a table, as a summary."""

@@ -1,0 +1,178 @@
+"""Each part's remaining freedoms against ground, as a CAD program's DOF analysis lists them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...model import RX, NodeKind
+from ...spatial import Array, cross
+from ..assembly.assemble import Assembly
+from ..freedom.finite import Candidate
+from ..freedom.rank import spans
+from ..freedom.stacks import alike
+from ..freedom.twists import twist_spaces
+from ..pairs.relations import Relation
+
+TOO_FEW = 1e-7
+OFF_DIRECTION = math.radians(0.5)
+"""Angle from which a stated direction is another one: far above the rounding of a CAD program's list."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NodeFreedom:
+    """What is left of a node's six freedoms against ground, first order at the closed pose; of a part whose own
+    joint had to be found from finite motions there, what that joint leaves.
+
+    translations: shape (t, 3), unit, WORLD, pure translations.  rotations: shape (r, 3), unit, WORLD.
+    center: WORLD, a point of the rotation axes, or None where they have none in common.
+    """
+
+    node: int
+    translations: Array
+    rotations: Array
+    center: Array | None = None
+
+    @property
+    def dof(self) -> int:
+        return len(self.translations) + len(self.rotations)
+
+
+def singular_joints(assembly: Assembly, relations: Sequence[Relation]) -> dict[int, Candidate]:
+    """The joints of bodies that hang by one alone, where twists promise more than its motions keep."""
+    found: dict[int, Candidate] = {}
+    for relation in relations:
+        if relation.finite < 6 - relation.rank and relation.joint is not None:
+            body = next((b for b in (relation.second, relation.first) if _hangs_alone(assembly, b)), None)
+            if body is not None:
+                found[body] = relation.joint
+    return found
+
+
+def _hangs_alone(assembly: Assembly, body: int) -> bool:
+    """Whether the body is all of its block: nothing but one pair holds it."""
+    block = int(assembly.blocks.block[body])
+    return block >= 0 and int(np.sum(assembly.blocks.block == block)) == 1
+
+
+def _joint_twists(joint: Candidate, center: Array, length: float) -> Array:
+    """Scaled twists (v / length, w) that a joint allows where it stands, columns, shape (6, freedoms).
+
+    center: WORLD, metres, the point whose velocity v is.
+    """
+    slides = joint.axes[:, [i for i in joint.unlocked if i < RX]]
+    axes = joint.axes[:, [i - RX for i in joint.unlocked if i >= RX]]
+    turns = np.concatenate([cross(axes.T, center - joint.origin).T / length, axes])
+    return np.concatenate([np.concatenate([slides, 0.0 * slides]), turns], axis=1)
+
+
+def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[Array]:
+    """Scaled twists (v / length, w) of every body about its own point, orthonormal columns, shape (6, d).
+
+    Blocks move independently: a body's twists are those of its block's root, carried along, and its own.
+    singular: see ``singular_joints``.
+    """
+    relative, blocks = assembly.relative, assembly.blocks
+    own: list[Array] = [np.zeros((6, 0))] * relative.bodies
+    for freedom in assembly.freedoms:
+        for body, rows in zip(freedom.bodies, freedom.basis.reshape(len(freedom.bodies), 6, -1)):
+            own[body] = rows
+    for body, joint in singular.items():
+        own[body] = _joint_twists(joint, relative.center[body], float(relative.length[body]))
+    found: list[Array] = [np.zeros((6, 0))] * relative.bodies
+    for body in blocks.island_root[1:].tolist():  # the islands that float
+        found[body] = np.eye(6)
+    root = np.append(blocks.root, -1)[blocks.block]
+    for bodies in blocks.generations():
+        pairs: list[tuple[int, int]] = np.stack([bodies, root[bodies]], axis=1).tolist()
+        for (k, _), part in alike((found[r].shape[1], own[b].shape[1]) for b, r in pairs):
+            here = bodies[part]
+            before = root[here]
+            places: list[int] = part.tolist()
+            mine = [pairs[i] for i in places]
+            carried = np.array([found[r] for _, r in mine])
+            if 0 < k < 6:
+                arm = (relative.center[here] - relative.center[before])[:, None]
+                turning = np.swapaxes(carried[:, 3:], 1, 2)
+                v = carried[:, :3] * relative.length[before, None, None] + np.swapaxes(
+                    cross(turning, arm), 1, 2
+                )
+                carried = np.concatenate([v / relative.length[here, None, None], carried[:, 3:]], axis=1)
+            if k < 6:
+                carried = _moving_spans(
+                    np.concatenate([carried, np.array([own[b] for b, _ in mine])], axis=2)
+                )
+            for (body, _), twists in zip(mine, carried):
+                found[body] = twists
+    return found
+
+
+def _moving_spans(stack: Array) -> list[Array]:
+    """Of columns, shape (n, m, k), by direction; columns without length (bodies at rest) are left out."""
+    size = np.linalg.norm(stack, axis=1)
+    moving = size > TOO_FEW
+    directions = stack / np.where(moving, size, 1.0)[:, None]
+    return spans([own[:, kept] for own, kept in zip(directions, moving)])
+
+
+def node_freedoms(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[NodeFreedom]:
+    """Of every part of the scene.  singular: see ``singular_joints``."""
+    twists = body_twists(assembly, singular)
+    relative = assembly.relative
+    spaces = twist_spaces(twists, relative.center, relative.length, relative.axes)
+    found: list[NodeFreedom] = []
+    for i, node in enumerate(assembly.scene.nodes):
+        if node.kind is NodeKind.PART and not node.suppressed:
+            space = spaces[int(assembly.body[i + 1])]
+            found.append(NodeFreedom(i, space.translations, space.rotations, space.center))
+    return found
+
+
+def check_records(assembly: Assembly, freedoms: list[NodeFreedom], report: Report) -> None:
+    """Warn where the source's own DOF records say otherwise."""
+    by_node = {f.node: f for f in freedoms}
+    for record in assembly.scene.dof_records:
+        mine = by_node.get(record.node)
+        if mine is None:
+            continue
+        stated = (len(record.translations), len(record.rotations))
+        if stated != (len(mine.translations), len(mine.rotations)):
+            report.add(
+                "DOF_RECORD_DIFFERS",
+                record.where,
+                node=assembly.scene.nodes[record.node].id,
+                stated_t=stated[0],
+                stated_r=stated[1],
+                found_t=len(mine.translations),
+                found_r=len(mine.rotations),
+            )
+            continue
+        for what, said, found in (
+            ("translations", record.translations, mine.translations),
+            ("rotation axes", record.rotations, mine.rotations),
+        ):
+            if (angle := _angle_between(said, found)) > OFF_DIRECTION:
+                report.add(
+                    "DOF_DIRECTION_DIFFERS", record.where, node=assembly.scene.nodes[record.node].id, what=what,
+                    stated=_directions(said), found=_directions(found), angle=f"{math.degrees(angle):.3g}",
+                )  # fmt: skip
+
+
+def _angle_between(a: Array, b: Array) -> float:
+    """Largest principal angle of two spans, radians; directions as rows, shape (n, 3).
+
+    Bases of a span are many, so spans are compared, and no points: a rotation may be about a momentary pole.
+    """
+    if not len(a):
+        return 0.0
+    u, v = (_moving_spans(rows.T[None])[0] for rows in (a, b))
+    outside = max(float(np.linalg.norm(p - q @ (q.T @ p), 2)) for p, q in ((u, v), (v, u)))
+    return math.asin(min(1.0, outside))
+
+
+def _directions(rows: Array) -> str:
+    return ", ".join("(" + " ".join(f"{x + 0.0:.4g}" for x in row.round(4)) + ")" for row in rows)

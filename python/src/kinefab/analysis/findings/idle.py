@@ -1,0 +1,191 @@
+"""Freedoms that move nothing else: a rod spinning between its two balls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...spatial import Array, cross
+from ..assembly.assemble import Assembly
+from ..equations.solve import Solver
+from ..freedom.first_order import BlockFreedom, block_freedoms
+from ..freedom.motion import walked
+from ..freedom.rank import spans
+
+ALONE = 1e-12
+"""Share of a motion, squared, that all other bodies may have in it; of a shared twist, that is not the other joint's."""
+NEW = 1e-6
+"""Length of a motion beside those already found from which it is another one."""
+NEAR = 4e-6
+"""Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
+ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
+"""A direction, about one long, that favours no twist, to sort them along."""
+MOST = 10_000
+"""Pairs of joints compared at once, which bounds the memory."""
+MOVING = 1e-7
+"""Share of a joint's largest singular value below which it has no further freedom in any motion."""
+
+
+@dataclass(frozen=True, slots=True)
+class IdleFreedom:
+    """Freedoms of some nodes that move nothing else, such as a rod's spin."""
+
+    nodes: tuple[int, ...]
+    count: int
+
+
+def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
+    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else; in a single loop,
+    of bodies that turn in it as one."""
+    neighbours: dict[int, set[int]] = {}
+    low, high = assembly.system.body_a, assembly.system.body_b
+    for i, j in set(zip(low.tolist(), high.tolist())):
+        neighbours.setdefault(i, set()).add(j)
+        neighbours.setdefault(j, set()).add(i)
+    found: list[IdleFreedom] = []
+    for part in range(len(assembly.freedoms)):
+        freedom = _moving(assembly, part)
+        if freedom is None:
+            continue
+        legs = _legs(freedom.bodies.tolist(), neighbours)
+        if len(legs) > 1:
+            counted = [(leg, _alone(freedom, leg)) for leg in legs]
+        elif (assembly.pairs.row_pair[freedom.rows] < 0).any():
+            continue  # a coupling between joints of the loop
+        else:
+            root = int(assembly.blocks.root[assembly.blocks.block[freedom.bodies[0]]])
+            counted = _turning_in_a_loop(assembly, freedom, _ring(root, neighbours, legs[0]))
+        for bodies, count in counted:
+            if count:
+                nodes = sorted(n for body in bodies for n in assembly.nodes[body])
+                found.append(IdleFreedom(tuple(nodes), count))
+    return found
+
+
+def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:
+    """A block's velocities that are motions, or None where they are fewer than two or not to be told from others.
+
+    At a singular pose they are looked at some steps away, where no part seems to move alone that cannot.
+    """
+    first, finite = assembly.freedoms[part], assembly.finite[part]
+    if finite.mobility < 2 or len(first.bodies) < 2:
+        return None
+    if finite.mobility == first.mobility:
+        return first
+    solver = Solver(assembly.solver.system.select(first.rows))
+    away = block_freedoms(solver, walked(solver, 0, first, assembly.start))[0]
+    return replace(away, rows=first.rows) if away.mobility == finite.mobility else None
+
+
+def _alone(freedom: BlockFreedom, leg: list[int]) -> int:
+    """How many of the motions are the leg's own."""
+    place = {int(b): k for k, b in enumerate(freedom.bodies)}
+    own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
+    # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
+    return int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
+
+
+def _turning_in_a_loop(
+    assembly: Assembly, freedom: BlockFreedom, ring: list[int]
+) -> list[tuple[list[int], int]]:
+    """Neighbouring bodies of one closed loop that move as one and alone: the joints at their two ends share a twist.
+
+    ring: the bodies in the loop's order, its root left out.
+    """
+    place = {int(b): k for k, b in enumerate(freedom.bodies)}
+    relative, length = assembly.relative, float(assembly.relative.length[freedom.bodies[0]])
+    twists = [np.zeros((6, freedom.mobility))]
+    for body in ring:
+        own = freedom.basis[6 * place[body] : 6 * place[body] + 6]
+        arm = (relative.center[body] - relative.center[ring[0]]) / length
+        v = own[:3] * relative.length[body] / length - cross(own[3:].T, arm).T
+        twists.append(np.concatenate([v, own[3:]]))
+    twists.append(twists[0])
+    joints = spans([after - before for before, after in zip(twists, twists[1:])], MOVING)
+    found: list[tuple[list[int], int]] = []
+    known = np.zeros((6 * len(ring), 0))
+    for first, last in _sharing(joints):
+        size = last - first
+        if size == len(ring):
+            continue  # all of the loop
+        u, s, _ = np.linalg.svd(joints[first].T @ joints[last])
+        shared = joints[first] @ u[:, : int(np.sum(s**2 > 1.0 - ALONE))]
+        motions = np.zeros((len(ring), 6, shared.shape[1]))
+        motions[first:last] = shared / np.sqrt(size)
+        new = motions.reshape(len(known), -1)
+        # a ram's spin is that of its tube and of its piston, if these turn
+        new = new - known @ (known.T @ new)
+        u, s, _ = np.linalg.svd(new, full_matrices=False)
+        if count := int(np.sum(s > NEW)):
+            known = np.concatenate([known, u[:, :count]], axis=1)
+            found.append((ring[first:last], count))
+        if known.shape[1] >= freedom.mobility:
+            break  # there are no others
+    return found
+
+
+def _sharing(joints: list[Array]) -> list[tuple[int, int]]:
+    """Numbers of the joints that share a twist with each other, the nearest neighbours first.
+
+    joints: orthonormal twists of each, shape (6, n).  Hinges, of which a loop may have hundreds, share theirs only where
+    it is the same, so they are sorted by it; the few joints with more freedoms are compared with all.
+    """
+    pairs: list[tuple[int, int]] = []
+    plain = [i for i, own in enumerate(joints) if own.shape[1] == 1]
+    key = np.abs(np.array([joints[i][:, 0] for i in plain]).reshape(-1, 6) @ ASLANT)
+    order: list[int] = np.argsort(key, kind="stable").tolist()
+    for at, here in enumerate(order):
+        for there in order[at + 1 :]:
+            if key[there] - key[here] > NEAR:
+                break
+            pairs.append((plain[here], plain[there]))
+    for i, own in enumerate(joints):
+        if own.shape[1] > 1:
+            pairs += [
+                (i, j) for j, other in enumerate(joints) if other.shape[1] == 1 or other.shape[1] and j > i
+            ]
+    ordered = sorted((min(pair), max(pair)) for pair in pairs)
+    sizes: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for i, j in ordered:
+        sizes.setdefault((joints[i].shape[1], joints[j].shape[1]), []).append((i, j))
+    shared: list[tuple[int, int]] = []
+    for alike in sizes.values():
+        for at in range(0, len(alike), MOST):
+            some = alike[at : at + MOST]
+            a, b = (np.array([joints[pair[end]] for pair in some]) for end in (0, 1))
+            largest = np.linalg.svd(np.swapaxes(a, 1, 2) @ b, compute_uv=False)[:, 0]
+            shared += [pair for pair, s in zip(some, largest.tolist()) if s**2 > 1.0 - ALONE]
+    return sorted(shared, key=lambda pair: (pair[1] - pair[0], pair[0]))
+
+
+def _ring(root: int, neighbours: dict[int, set[int]], bodies: list[int]) -> list[int]:
+    """The bodies in the order in which their loop joins them, from the root and back; empty where they make none."""
+    inside, before = set(bodies), root
+    ring: list[int] = []
+    body = min(neighbours[root] & inside, default=root)
+    while body != root and len(ring) < len(bodies):
+        ring.append(body)
+        before, body = body, next((n for n in sorted(neighbours[body]) if n != before), root)
+    return ring if body == root and len(ring) == len(bodies) else []
+
+
+def _legs(bodies: list[int], neighbours: dict[int, set[int]]) -> list[list[int]]:
+    """Chains of bodies with two neighbours each, as long as they go; other bodies by themselves."""
+    inside = set(bodies)
+    seen: set[int] = set()
+    legs: list[list[int]] = []
+    for body in bodies:
+        if body in seen:
+            continue
+        leg = [body]
+        seen.add(body)
+        if len(neighbours[body]) == 2:
+            for start in sorted(neighbours[body]):
+                following = start
+                while following in inside and following not in seen and len(neighbours[following]) == 2:
+                    seen.add(following)
+                    leg.append(following)
+                    following = next((n for n in sorted(neighbours[following]) if n not in seen), -1)
+        legs.append(leg)
+    return legs

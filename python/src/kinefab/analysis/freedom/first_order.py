@@ -1,0 +1,154 @@
+"""First-order freedoms of every block: rank, and how each body may move against the block's root.
+
+A small block's Jacobian goes to an SVD as it is, many blocks of one shape at a time.  A large block is
+first written in the freedoms of a spanning tree, J_cut T y = 0: the bodies' six-vectors T y follow the
+tree, only the rows outside it remain, and the matrix shrinks from 6 n columns to the tree's freedoms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix, diags
+
+from ...spatial import Array, IntArray, skew
+from ..equations.solve import DENSE, Solver
+from ..equations.system import State, System
+from .bodies import Partition
+from .rank import factored, rank_of
+from .stacks import alike
+
+
+@dataclass(slots=True, eq=False)
+class BlockFreedom:
+    """bodies: shape (n,), the block's root left out.  rows: number of rows.
+
+    basis: scaled twists (v / length, w) of the bodies about their own points g against the root,
+    shape (6 n, first order mobility), orthonormal columns.  gap: see ``rank``.
+    """
+
+    bodies: IntArray
+    rows: IntArray
+    rank: int
+    gap: float
+    basis: Array
+
+    @property
+    def mobility(self) -> int:
+        return self.basis.shape[1]
+
+
+def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
+    """Every part of the solver's system, in the order of its part numbers."""
+    _, block_a, block_b = solver.system.linearise(state)
+    found: dict[int, BlockFreedom] = {}
+    for group in solver.groups:
+        width = 6 * group.bodies.shape[1]
+        if width > DENSE:
+            part = int(group.members[0])
+            jacobian = solver.sparse_jacobian(group, block_a, block_b)
+            rank, basis, gap = large_null_space(solver.system, state, group.bodies[0], group.atoms, jacobian)
+            found[part] = BlockFreedom(group.bodies[0], group.rows[0], rank, gap, basis)
+            continue
+        ranks, gaps, vt = factored(solver.jacobians(group, block_a, block_b))
+        for i, part in enumerate(group.members.tolist()):
+            found[part] = BlockFreedom(
+                group.bodies[i], group.rows[i], int(ranks[i]), float(gaps[i]), vt[i, ranks[i] :].T
+            )
+    return [found[part] for part in range(solver.parts)]
+
+
+def large_null_space(
+    system: System, state: State, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix
+) -> tuple[int, Array, float]:
+    """Rank, orthonormal null space and gap of one block's sparse Jacobian, shape (R, 6 n).
+
+    bodies: shape (n,), the block's.  atoms: the system's atoms in the block.
+    """
+    rows, width = jacobian.shape
+    size = np.sqrt(np.asarray(jacobian.multiply(jacobian).sum(axis=1)).ravel())
+    factor: Array = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
+    jacobian = csr_matrix(diags(factor) @ jacobian)
+    tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian)
+    point = (system.center + state.shift)[bodies] / system.length[bodies, None]
+    carried = np.zeros((len(bodies), 6, sum(basis.shape[1] for _, _, basis in tree)))
+    at = 0
+    for parent, body, basis in tree:
+        if parent >= 0:
+            carried[body] = carried[parent]
+            carried[body][:3] -= skew(point[body] - point[parent]) @ carried[parent][3:]
+        carried[body][:, at : at + basis.shape[1]] += basis
+        at += basis.shape[1]
+    flat = carried.reshape(width, at)
+    flat /= np.maximum(np.abs(flat).max(axis=0), 1e-300)
+    rest = np.setdiff1d(np.arange(rows), tree_rows)
+    loops = jacobian[rest] @ flat
+    if len(rest) > at:
+        loops = np.linalg.qr(loops, mode="r")
+    _, s, vt = np.linalg.svd(
+        np.concatenate([loops, np.zeros((max(0, at - len(loops)), at))]), full_matrices=False
+    )
+    rank, gap = rank_of(s)
+    moving = np.linalg.qr(flat @ vt[int(rank) :].T)[0]
+    return width - moving.shape[1], moving, float(gap)
+
+
+def _spanning_tree(
+    system: System, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix
+) -> tuple[list[tuple[int, int, Array]], IntArray]:
+    """(parent, body, null space of the joining rows on the body) outwards from the root (parent -1).
+
+    Pairs with the fewest freedoms come first, so that the tree has few unknowns.  Also returns the rows
+    that the tree takes up.
+    """
+    local = np.full(system.bodies, -1)
+    local[bodies] = np.arange(len(bodies))
+    number = np.unique(system.row[atoms], return_inverse=True)[1].reshape(-1)
+    ends = np.sort(np.stack([local[system.body_a[atoms]], local[system.body_b[atoms]]], axis=1), axis=1)
+    row_ends = np.zeros((jacobian.shape[0], 2), dtype=np.int64)
+    row_ends[number] = ends
+    mixed = np.zeros(jacobian.shape[0], dtype=bool)
+    np.logical_or.at(mixed, number, np.any(row_ends[number] != ends, axis=1))
+    plain = np.flatnonzero(~mixed)
+    pairs, which = np.unique(row_ends[plain], axis=0, return_inverse=True)
+    order = np.argsort(which.reshape(-1), kind="stable")
+    starts = np.searchsorted(which.reshape(-1)[order], np.arange(len(pairs) + 1))
+    rows_of = [plain[order[starts[p] : starts[p + 1]]] for p in range(len(pairs))]
+    entries = jacobian.tocoo()
+    body, column = np.divmod(entries.col, 6)
+    on_ends = np.zeros((2, jacobian.shape[0], 6))
+    for end in (0, 1):
+        own = body == row_ends[entries.row, end]
+        on_ends[end, entries.row[own], column[own]] = entries.data[own]
+    ranks = np.zeros(len(pairs), dtype=np.int64)
+    spaces: dict[tuple[int, int], Array] = {}
+    for _, group in alike(map(len, rows_of)):
+        members: list[int] = group.tolist()
+        rank, _, vt = factored(on_ends[:, np.array([rows_of[p] for p in members])])
+        ranks[group] = rank[1]
+        for end in (0, 1):
+            for n, p in enumerate(members):
+                spaces[p, int(pairs[p, end])] = vt[end, n, rank[end, n] :].T
+    forest = Partition(len(bodies) + 1)
+    near: dict[int, list[int]] = {}
+    for p in np.argsort(-ranks, kind="stable"):
+        i, j = int(pairs[p, 0]), int(pairs[p, 1])
+        if forest.find(i + 1) != forest.find(j + 1):
+            forest.join(i + 1, j + 1)
+            near.setdefault(i, []).append(int(p))
+            near.setdefault(j, []).append(int(p))
+    tree: list[tuple[int, int, Array]] = []
+    taken: list[IntArray] = []
+    queue, seen = [-1], {-1}
+    for body in queue:
+        for p in near.get(body, []):
+            other = int(pairs[p, 0] + pairs[p, 1] - body)
+            if other not in seen:
+                seen.add(other)
+                queue.append(other)
+                tree.append((body, other, spaces[p, other]))
+                taken.append(rows_of[p])
+    for body in set(range(len(bodies))) - seen:  # joined by rows over three or more bodies only
+        tree.append((-1, body, np.eye(6)))
+    return tree, np.concatenate(taken) if taken else np.zeros(0, dtype=np.int64)

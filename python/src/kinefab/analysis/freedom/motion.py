@@ -1,0 +1,227 @@
+"""How far first order can be trusted: which velocities grow into finite motions.
+
+At a change point, a dead centre or on a mechanism that is singular all along its path, the null space of
+the Jacobian is larger than the set of motions.  A velocity counts when a step along it, brought back onto
+the constraints, is still there: an obstructed one shrinks with the square root of the closing tolerance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...spatial import Array, IntArray
+from ..equations.solve import Solver
+from ..equations.system import State
+from .first_order import BlockFreedom, block_freedoms
+
+STEP = 1e-3
+"""Size of a trial step, radians or fractions of the length."""
+SURVIVES = 0.005
+"""Relative change of a random step by which the whole null space still counts as motions (the motions'
+own curvature changes it by about STEP)."""
+TRIALS = 2
+DIRECTION = 0.05
+"""Share of its length that a step must keep to count as a motion of its own."""
+MOST_DIRECTIONS = 12
+"""Directions tried at the start pose itself; beyond, the tangent is the one found some steps away."""
+MOST_WORK = 1_000
+"""Directions times unknowns tried one by one; beyond, random ones are tried until they add nothing."""
+MOST_SAMPLES = 30
+"""Random directions tried; beyond, the first-order mobility some steps away stands as an upper bound."""
+SPARE = 3
+LONG_STEP = 3e-2
+"""Size of their trial steps: what obstructs a long chain shows at the root of its closing error, far above STEP's."""
+FURTHER = 0.1
+"""Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
+WALK = 3
+WALK_STEP = 0.05
+
+
+@dataclass(slots=True, eq=False)
+class FiniteFreedom:
+    """A block's finite motions.
+
+    mobility: their number.  tangent: scaled twists that lead into them, shape (6 n, mobility), near the
+    start pose; exact (the null space) where nothing is obstructed.  singular: whether something is.
+    """
+
+    mobility: int
+    tangent: Array
+    singular: bool
+
+
+def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: State) -> list[FiniteFreedom]:
+    """Finite mobility of every part.
+
+    Rows that are independent at a pose make a smooth set of poses there, so only parts with redundant
+    rows (and something to move) need a trial.
+    """
+    found = [FiniteFreedom(f.mobility, f.basis, False) for f in first_order]
+    doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
+    if doubtful.any():
+        draw = np.random.default_rng(11)
+        for _ in range(TRIALS):
+            directions = {
+                int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)
+            }
+            moved = _trial(solver, dict(enumerate(first_order)), start, directions) if directions else {}
+            for part, direction in directions.items():
+                if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
+                    found[part] = _searched(solver, part, first_order[part])
+                    doubtful[part] = False
+    return found
+
+
+def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
+    """Displacements over STEP of some parts' bodies after a random small motion, by part, shape (6 n,) each."""
+    directions = {p: _random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
+    return _trial(solver, first_order, start, directions) if directions else {}
+
+
+def stepped(
+    solver: Solver, first_order: list[BlockFreedom], start: State, size: float, draw: np.random.Generator
+) -> State:
+    """A pose of all parts after a random step of ``size``, radians or fractions of the length, and back onto the rows."""
+    moving = [f for f in first_order if f.mobility]
+    if not moving:
+        return start
+    twists = [size * _random_direction(f.basis, draw).reshape(-1, 6) for f in moving]
+    return solver.project(
+        solver.system.moved(start, np.concatenate([f.bodies for f in moving]), np.concatenate(twists))
+    )[0]
+
+
+def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
+    direction: Array = basis @ draw.standard_normal((basis.shape[1],))
+    return direction / np.abs(direction).max()
+
+
+def _floor(solver: Solver, state: State) -> Array:
+    """A pose that cannot be closed further is asked for no more than it has."""
+    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
+
+
+def _trial(
+    solver: Solver,
+    first_order: Mapping[int, BlockFreedom],
+    start: State,
+    directions: dict[int, Array],
+    step: float = STEP,
+) -> dict[int, Array]:
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows."""
+    bodies = np.concatenate([first_order[p].bodies for p in directions])
+    twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
+    active = np.zeros(solver.parts, dtype=bool)
+    active[list(directions)] = True
+    state = solver.system.moved(start, bodies, twists)
+    state, _ = solver.project(state, active, _floor(solver, start))
+    moved = _displacement(solver, bodies, start, state) / step
+    ends = np.cumsum([6 * len(first_order[p].bodies) for p in directions])
+    return dict(zip(directions, np.split(moved, ends[:-1])))
+
+
+def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
+    """Scaled twist that takes the bodies from one state to a near one, to second order, shape (6 n,)."""
+    turn = end.rotation[bodies] @ np.swapaxes(start.rotation[bodies], 1, 2)
+    w = 0.5 * np.stack(
+        [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+    )
+    v = (end.shift[bodies] - start.shift[bodies]) / solver.system.length[bodies, None]
+    return np.concatenate([v, w], axis=1).ravel()
+
+
+def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, seed: int = 5) -> State:
+    """A pose some random steps away, to leave an isolated singular one."""
+    draw = np.random.default_rng(seed)
+    active = np.arange(solver.parts) == part
+    state, basis = start, first_order.basis
+    for _ in range(WALK):
+        if not basis.shape[1]:
+            break
+        twist = WALK_STEP * _random_direction(basis, draw).reshape(-1, 6)
+        state, _ = solver.project(
+            solver.system.moved(state, first_order.bodies, twist), active, _floor(solver, start)
+        )
+        basis = block_freedoms(solver, state)[part].basis
+    return state
+
+
+def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFreedom:
+    """Walk away from the start pose, then try every direction of the null space there."""
+    solver, part = Solver(solver.alone(part)), 0
+    first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
+    start = solver.system.start()
+    away = walked(solver, part, first_order, start)
+    there = block_freedoms(solver, away)
+    if there[part].mobility * len(first_order.basis) > MOST_WORK:
+        away, there = _further(solver, part, there[part], away)
+        sampled = _sampled(solver, part, there[part], away)
+        if sampled is None:
+            return FiniteFreedom(there[part].mobility, there[part].basis, True)
+        if (
+            sampled.shape[1] > 1
+        ):  # what an obstructed velocity left of itself is no motion, and does not go on
+            sampled = _survivors(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
+        return FiniteFreedom(sampled.shape[1], sampled, True)
+    tangent = _survivors(solver, part, there[part], away)
+    if tangent.shape[1] == 0:
+        return FiniteFreedom(0, tangent, True)
+    if first_order.mobility > MOST_DIRECTIONS:
+        return FiniteFreedom(tangent.shape[1], tangent, True)
+    here = _survivors(solver, part, first_order, start)
+    return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
+
+
+def _further(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State
+) -> tuple[State, list[BlockFreedom]]:
+    """A pose further away, and the first order there: of many random velocities the obstructed ones take the others
+    along, so that the pose has hardly moved; what a trial step leaves of one is a motion that goes on."""
+    way = _left_of(
+        solver, part, freedom, state, _random_direction(freedom.basis, np.random.default_rng(29)), LONG_STEP
+    )
+    if (size := np.abs(way).max()) > 0.0:
+        twist = FURTHER * (way / size).reshape(-1, 6)
+        state, _ = solver.project(
+            solver.system.moved(state, freedom.bodies, twist), None, _floor(solver, state)
+        )
+    return state, block_freedoms(solver, state)
+
+
+def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float = STEP) -> Array:
+    """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
+    kept = [_left_of(solver, part, freedom, state, direction, step) for direction in freedom.basis.T]
+    if not kept:
+        return np.zeros((len(freedom.bodies) * 6, 0))
+    u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
+    return u[:, s > DIRECTION]
+
+
+def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array | None:
+    """As ``_survivors``, from random directions: what is left of one lies in the motions, so that a few more than
+    their number span them all.  None where ``MOST_SAMPLES`` are not enough."""
+    draw = np.random.default_rng(31)
+    kept: list[Array] = []
+    for _ in range(MOST_SAMPLES):
+        kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP))
+        u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
+        least = DIRECTION * max(
+            s[0], 1.0 / np.sqrt(freedom.mobility)
+        )  # a random direction's share of one motion
+        if (found := int(np.sum(s > least))) <= len(kept) - SPARE:
+            return u[:, :found]
+    return None
+
+
+def _left_of(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, direction: Array, step: float
+) -> Array:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,)."""
+    direction = direction / np.abs(direction).max()
+    there, back = (
+        _trial(solver, {part: freedom}, state, {part: way}, step)[part] for way in (direction, -direction)
+    )
+    return 0.5 * (there - back) / np.linalg.norm(direction)

@@ -1,0 +1,1 @@
+"""From the relations between bodies to joints."""

@@ -1,0 +1,1 @@
+"""Which joints close loops, and the fewest rows that keep them closed."""

@@ -1,0 +1,1 @@
+"""How far joints go: as stated, and as found by moving the mechanism."""

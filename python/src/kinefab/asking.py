@@ -1,0 +1,74 @@
+"""The options that formats and targets list in their registries, as options of a command."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, Optional
+
+import typer
+
+from .options import FormatOption
+
+Command = Callable[..., None]
+
+
+def asking(*groups: tuple[str, Iterable[FormatOption]]) -> Callable[[Command], Command]:
+    """Add options to a command, which gets those that were given as a dict.
+
+    groups: (the keyword that the command takes the dict by, the options).  An option that two groups have is asked once and
+    handed to both.
+    """
+
+    def decorate(command: Command) -> Command:
+        listed = {keyword: {option.name: option for option in options} for keyword, options in groups}
+        known = {name: option for options in listed.values() for name, option in options.items()}
+
+        def asked(**given: Any) -> None:
+            values = {name: given.pop(name) for name in known}
+            stated = {name: value for name, value in values.items() if value not in (None, [], False)}
+            split = {
+                keyword: {name: value for name, value in stated.items() if name in options}
+                for keyword, options in listed.items()
+            }
+            command(**given, **split)
+
+        own = inspect.signature(command, eval_str=True)
+        kept = [parameter for name, parameter in own.parameters.items() if name not in listed]
+        added = [_parameter(option) for option in known.values()]
+        asked.__signature__ = own.replace(parameters=[*kept, *added])  # type: ignore[attr-defined]
+        asked.__annotations__ = {p.name: p.annotation for p in [*kept, *added]}
+        asked.__name__, asked.__doc__ = command.__name__, command.__doc__
+        return asked
+
+    return decorate
+
+
+def _parameter(option: FormatOption) -> inspect.Parameter:
+    kind: Any = {str: str, float: float, int: int, bool: bool, Path: Path}[option.kind]
+    annotation: Any = list[kind] if option.repeated else kind if option.kind is bool else Optional[kind]
+    flag = f"--{option.name.replace('_', '-')}"
+    default: Any = False if option.kind is bool else [] if option.repeated else None
+    words = f" ({', '.join(option.words)})" if option.words else ""
+    declared = typer.Option(
+        default,
+        flag,
+        help=option.help + words,
+        show_default=False,
+        metavar=option.metavar or None,
+        callback=_checked(option) if option.words else None,
+    )
+    return inspect.Parameter(
+        option.name, inspect.Parameter.KEYWORD_ONLY, default=declared, annotation=annotation
+    )
+
+
+def _checked(option: FormatOption) -> Callable[[Any], Any]:
+    def check(value: Any) -> Any:
+        for word in value if option.repeated else [value]:
+            if word is not None and word not in option.words:
+                raise typer.BadParameter(f"{word!r} is not one of {', '.join(option.words)}")
+        return value
+
+    return check

@@ -1,0 +1,83 @@
+"""The meshes that colliders need beside those that are drawn: convex hulls and cylinders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import ColliderKind, Mesh, Scene
+from ..options import ColliderShape
+from ..rigid import RigidGroups
+from .contact.decomposition import convex_pieces
+from .hulls import collision_hulls
+
+SIDES = 32
+"""Of the prism that stands for a cylinder: 124 triangles, half a percent of the radius off."""
+
+Cylinder = tuple[float, float]
+"""Radius and length, metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CollisionMeshes:
+    """hulls: by the number of the mesh that they enclose.  pieces: of hollow ones, convex, by the same.  cylinders: by
+    radius and length."""
+
+    hulls: Mapping[int, Mesh]
+    pieces: Mapping[int, tuple[Mesh, ...]]
+    cylinders: Mapping[Cylinder, Mesh]
+
+
+def collision_meshes(
+    scene: Scene, groups: RigidGroups, shape: ColliderShape, report: Report
+) -> CollisionMeshes:
+    """What the colliders of a scene need.  shape: for bodies of nodes that state neither colliders nor their shape."""
+    hulled: list[tuple[int, str]] = []
+    split: list[tuple[int, str]] = []
+    cylinders: dict[Cylinder, Mesh] = {}
+    not_convex: list[str] = []
+    for i, node in enumerate(scene.nodes):
+        group = groups.group_of[i]
+        moves = group is not None and not groups.grounded[group]
+        asked = node.collision or shape
+        if node.colliders is None:
+            own = [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
+            if asked in (ColliderShape.HULL, ColliderShape.DECOMPOSE) or (
+                moves and asked in (ColliderShape.MESH, ColliderShape.AUTO)
+            ):
+                hulled += own
+            if asked is ColliderShape.DECOMPOSE or (asked is ColliderShape.AUTO and moves):
+                split += own
+            not_convex += [name for _, name in own] if asked is ColliderShape.MESH and moves else []
+        for collider in node.colliders or ():
+            name = f"{node.id}/{collider.name or collider.kind.value}"
+            if collider.kind is ColliderKind.CYLINDER:
+                size = (collider.radius, collider.length)
+                cylinders.setdefault(size, prism(*size))
+            elif collider.mesh is not None and (collider.kind is ColliderKind.HULL or moves):
+                hulled.append((collider.mesh, name))
+    for body in not_convex:
+        report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
+    hulls = collision_hulls(scene, hulled, report)
+    return CollisionMeshes(hulls, convex_pieces(scene, split, hulls, report), cylinders)
+
+
+def prism(radius: float, length: float) -> Mesh:
+    """A cylinder along Z about the origin, as a prism that encloses half of its edge's error."""
+    turn = 2.0 * math.pi * np.arange(SIDES) / SIDES
+    across = 0.5 * radius * (1.0 + 1.0 / math.cos(math.pi / SIDES))
+    ring = np.column_stack([across * np.cos(turn), across * np.sin(turn)])
+    low, high = (np.column_stack([ring, np.full(SIDES, z)]) for z in (-0.5 * length, 0.5 * length))
+    i = np.arange(SIDES)
+    j = (i + 1) % SIDES
+    sides = [np.column_stack([i, j, j + SIDES]), np.column_stack([i, j + SIDES, i + SIDES])]
+    k = np.arange(1, SIDES - 1)
+    caps = [
+        np.column_stack([np.zeros_like(k), k + 1, k]),
+        np.column_stack([np.zeros_like(k), k, k + 1]) + SIDES,
+    ]
+    return Mesh("cylinder", np.vstack([low, high]), np.vstack([*sides, *caps]).astype(np.int64))

@@ -1,0 +1,1 @@
+"""Shapes that touch: convex pieces of hollow ones, and how deep two of them overlap."""

@@ -1,0 +1,1 @@
+"""How bodies look: surfaces, textures and colours of what trimesh read, and normals where a source has none."""

@@ -1,0 +1,216 @@
+"""Numbers that no machine has: what looks like a wrong unit is told, once for each kind, with the unit it is likely in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..model import Freedom, Motion, Node, Scene
+from ..spatial import Array
+
+LARGE = 100.0
+"""Metres: no part is that large, but one whose millimetres were taken for metres is."""
+TINY = 1e-4
+"""Metres: no whole assembly is that small, but one whose metres were taken for millimetres, twice, is."""
+APART = 100.0
+"""Sizes of a part: nothing that belongs to a part is that far outside of it, unless the two are in different units."""
+LIGHT, HEAVY = 25.0, 25_000.0
+"""kg/m^3: solids are denser than the one, and osmium is lighter than the other."""
+SPREAD = 4.0
+"""Times that a moment of inertia may exceed mass times greatest distance squared: a part may lack a mesh of its load."""
+TURNS = 4.0 * math.pi
+"""Radians: two turns; whole numbers beyond are degrees."""
+STEP = math.pi / 12.0
+"""Radians: 15 degrees, of which people's limits are multiples."""
+NEAR = 2e-3
+"""What pi is rounded to on the way, radians."""
+
+Box = tuple[Array, Array]
+"""Lowest and highest corner of a node's geometry in its own frame."""
+
+
+def check_plausible(scene: Scene, density: float, report: Report) -> None:
+    """Tell what is likely in another unit than it says.  density: kg/m^3 of bodies that state none."""
+    boxes = {i: box for i, node in enumerate(scene.nodes) if (box := _box(scene, node)) is not None}
+    _check_sizes(scene, boxes, report)
+    _check_masses(scene, boxes, report)
+    _check_densities(scene, density, report)
+    _check_anchors(scene, boxes, report)
+    _check_limits(scene, report)
+    mirrored = sum(d.code == "POSE_MIRRORED" for d in report.diagnostics)
+    if mirrored > 1 and mirrored >= len(scene.nodes):
+        report.add("SOURCE_LIKELY_LEFT_HANDED", scene.source.uri, count=mirrored)
+
+
+def _box(scene: Scene, node: Node) -> Box | None:
+    corners: list[Array] = []
+    for body in node.bodies:
+        if body.mesh is not None:
+            vertices = scene.meshes[body.mesh].vertices
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+            eight = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T * np.array(body.scale)
+            corners.append(eight @ body.pose.rotation.T + body.pose.translation)
+    if not corners:
+        return None
+    every = np.concatenate(corners)
+    return every.min(axis=0), every.max(axis=0)
+
+
+def _outside(box: Box, point: Array) -> float:
+    """How far a point is from a box; 0 inside."""
+    return _norm(np.maximum(np.maximum(box[0] - point, point - box[1]), 0.0))
+
+
+def _size(box: Box) -> float:
+    return _norm(box[1] - box[0])
+
+
+def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
+    large = [(float((b[1] - b[0]).max()), i) for i, b in boxes.items()]
+    large = [(size, i) for size, i in large if size > LARGE]
+    if large:
+        size, worst = max(large, key=lambda found: found[0])
+        node = scene.nodes[worst]
+        weight = "" if node.mass is None else f" and weighs {node.mass.mass:.3g} kg"
+        report.add(
+            "SIZE_IMPLAUSIBLE", node.where, node=node.id, size=f"{size:.4g}", weight=weight,
+            likely=f"{size / 1000.0:.4g}", count=len(large), unit="millimetres", taken="metres",
+        )  # fmt: skip
+        return
+    if boxes and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
+        worst = max(boxes, key=lambda i: _size(boxes[i]))
+        report.add(
+            "SIZE_IMPLAUSIBLE", scene.nodes[worst].where, node=scene.nodes[worst].id, size=f"{whole:.4g}", weight="",
+            likely=f"{whole * 1000.0:.4g}", count=len(boxes), unit="metres", taken="millimetres",
+        )  # fmt: skip
+
+
+def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
+    """Of masses, whoever stated them: that they lie in their part, and are spread no wider than it."""
+    away: list[tuple[float, Node]] = []
+    wide: list[tuple[float, Node]] = []
+    dense: list[tuple[float, Node]] = []
+    for i, box in boxes.items():
+        node, size = scene.nodes[i], _size(box)
+        if node.mass is None or not size > 0.0:
+            continue
+        far = _outside(box, node.mass.center)
+        if far > size:
+            away.append((far / size, node))
+            continue
+        reach = _norm(np.maximum(abs(box[0] - node.mass.center), abs(box[1] - node.mass.center)))
+        ratio = float(np.linalg.eigvalsh(node.mass.inertia)[2]) / (node.mass.mass * reach * reach)
+        if ratio > SPREAD:
+            wide.append((ratio, node))
+        extents = np.maximum(box[1] - box[0], 1e-3 * size)
+        if (packed := node.mass.mass / float(extents.prod())) > HEAVY:
+            dense.append((packed, node))
+    for code, found in (
+        ("CENTER_OF_MASS_IMPLAUSIBLE", away),
+        ("INERTIA_IMPLAUSIBLE", wide),
+        ("MASS_IMPLAUSIBLE", dense),
+    ):
+        if found:
+            ratio, node = max(found, key=lambda entry: entry[0])
+            report.add(
+                code,
+                node.where,
+                node=node.id,
+                ratio=f"{ratio:.3g}",
+                count=len(found),
+                unit=_likely(code, ratio),
+            )
+
+
+def _likely(code: str, ratio: float) -> str:
+    """The unit of a number that is ``ratio`` times too large."""
+    if code == "INERTIA_IMPLAUSIBLE":
+        return "g mm^2" if ratio > 1e8 else "kg mm^2" if ratio > 1e4 else "g m^2 or kg cm^2"
+    if code == "MASS_IMPLAUSIBLE":
+        return "millimetres" if ratio > 1e8 else "grams"
+    return "millimetres"
+
+
+def _check_densities(scene: Scene, density: float, report: Report) -> None:
+    stated = [
+        (body.density, f"{node.id}/{body.name}", node.where)
+        for node in scene.nodes
+        for body in node.bodies
+        if body.density is not None
+    ]
+    asked = [(density, "those that state none", "")] if any(_unstated(scene)) else []
+    odd = [entry for entry in [*stated, *asked] if not LIGHT <= entry[0] <= HEAVY]
+    if odd:
+        value, body, where = odd[0]
+        units = (
+            (LIGHT, 1e3, "g/cm^3"), (HEAVY, 1.0, ""), (HEAVY * 1e3, 1e-3, "g/m^3"),
+        ) if value > 0.5 else ((1e-7, 1e12, "t/mm^3"), (1e-3, 1e9, "kg/mm^3"), (0.5, 1e6, "g/mm^3"))  # fmt: skip
+        factor, unit = next(((f, u) for end, f, u in units if value <= end), (1e-6, "mg/m^3"))
+        report.add(
+            "DENSITY_IMPLAUSIBLE", where, body=body, density=f"{value:g}", count=len(odd), unit=unit,
+            likely=f"{value * factor:g}",
+        )  # fmt: skip
+
+
+def _unstated(scene: Scene) -> Iterable[bool]:
+    return (
+        body.density is None and body.mesh is not None and body.weighed
+        for node in scene.nodes
+        for body in node.bodies
+    )
+
+
+def _check_anchors(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
+    """Joints that stand far outside both of the parts that they join."""
+    found: list[tuple[float, str, str, str, float]] = []
+    for joint in scene.joints:
+        for side, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
+            if side is None or side not in boxes or not (size := _size(boxes[side])) > 0.0:
+                continue
+            far = _outside(boxes[side], frame.translation)
+            if far > APART * size:
+                found.append((far / size, joint.id, joint.where, scene.nodes[side].id, far))
+    if found:
+        _, joint, where, node, far = max(found)
+        count = len({entry[1] for entry in found})
+        report.add("ANCHOR_IMPLAUSIBLE", where, joint=joint, node=node, metres=f"{far:.4g}", count=count)
+
+
+def _check_limits(scene: Scene, report: Report) -> None:
+    degrees: list[tuple[str, str, Freedom]] = []
+    radians: list[tuple[str, str, Freedom]] = []
+    for joint in scene.joints:
+        for freedom in joint.freedoms[3:]:
+            if freedom.motion is not Motion.LIMITED:
+                continue
+            ends = [e for e in freedom.displayed(freedom.lower, freedom.upper) if math.isfinite(e)]
+            if not ends:
+                continue
+            where = freedom.where or joint.where
+            if max(map(abs, ends)) > TURNS and all(abs(e - round(e)) < 1e-6 for e in ends):
+                degrees.append((joint.id, where, freedom))
+            elif _read_as_degrees([math.degrees(e) for e in ends]):
+                radians.append((joint.id, where, freedom))
+    for found, unit, taken in ((degrees, "degrees", "radians"), (radians, "radians", "degrees")):
+        if found:
+            joint, where, freedom = found[0]
+            ends = freedom.displayed(freedom.lower, freedom.upper)
+            low, high = (math.degrees(e) for e in ends)
+            report.add(
+                "LIMITS_IMPLAUSIBLE", where, joint=joint, lower=f"{low:.6g}", upper=f"{high:.6g}", count=len(found),
+                unit=unit, taken=taken,
+            )  # fmt: skip
+
+
+def _read_as_degrees(ends: list[float]) -> bool:
+    """Whether ends, in degrees, are what people write in radians: within a turn, and multiples of pi / 12."""
+    if max(map(abs, ends)) > 2.0 * math.pi + NEAR or max(map(abs, ends)) < 2.0 * STEP - NEAR:
+        return False
+    return all(abs(e - STEP * round(e / STEP)) < NEAR for e in ends)
+
+
+def _norm(vector: Array) -> float:
+    return float(np.sqrt(vector @ vector))

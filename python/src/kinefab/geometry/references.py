@@ -1,0 +1,87 @@
+"""Files that a mesh file refers to: libraries, buffers, images.  They stay inside its folder, and are of a bounded size."""
+
+from __future__ import annotations
+
+import os
+import stat
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+MOST_BYTES = 2 * 2**30
+"""Of one file that is referred to, and of all that an archive holds unpacked."""
+MOST_GROWTH = 200
+"""Times that an archive may grow when it is unpacked: meshes grow about tenfold."""
+
+
+class UnsafeReference(OSError):
+    """A reference that is not followed; the message says why."""
+
+
+def read_reference(folder: Path, name: str, limit: int = MOST_BYTES) -> bytes:
+    """The bytes of a file that a mesh file in ``folder`` names.
+
+    Raises UnsafeReference for one that leads out of the folder, also through a link, is no regular file (a pipe, a
+    device) or is larger than ``limit``; OSError as the file system does.
+    """
+    plain = PurePosixPath(unquote(name).replace("\\", "/"))
+    root = Path(os.path.realpath(folder))
+    path = Path(os.path.realpath(root / plain))
+    if plain.is_absolute() or not path.is_relative_to(root):
+        raise UnsafeReference(f"{name!r} leads out of the folder of the file that names it")
+    return read_regular(path, limit)
+
+
+def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:
+    """The bytes of a regular file; what could make the reader wait or never end is refused."""
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with open(descriptor, "rb") as stream:
+        found = os.fstat(descriptor)
+        if not stat.S_ISREG(found.st_mode):
+            raise UnsafeReference(f"{path.name!r} is no regular file")
+        if found.st_size > limit:
+            raise UnsafeReference(f"{path.name!r} has {found.st_size} bytes; at most {limit} are read")
+        return stream.read()
+
+
+def demand_honest_archive(path: Path) -> None:
+    """Raises UnsafeReference for a zip archive that unpacks to more than it may."""
+    with zipfile.ZipFile(path) as archive:
+        unpacked = sum(entry.file_size for entry in archive.infolist())
+    allowed = min(MOST_BYTES, max(2**20, MOST_GROWTH * path.stat().st_size))
+    if unpacked > allowed:
+        raise UnsafeReference(f"it unpacks to {unpacked} bytes; at most {allowed} are read")
+
+
+class FolderResolver:
+    """trimesh's resolver of references, kept inside one folder; what may not be read is not there."""
+
+    def __init__(self, folder: Path, failed: dict[str, str] | None = None):
+        """failed: what could not be read, and why; it grows."""
+        self._folder = folder
+        self.failed: dict[str, str] = {} if failed is None else failed
+
+    def get(self, name: str) -> bytes:
+        try:
+            return read_reference(self._folder, name)
+        except OSError as error:
+            self.failed[name] = error.strerror or str(error)
+            raise
+
+    def __getitem__(self, name: str) -> bytes:
+        return self.get(name)
+
+    def __contains__(self, name: str) -> bool:
+        try:
+            self.get(name)
+        except OSError:
+            return False
+        return True
+
+    def keys(self) -> Iterator[str]:
+        """Nothing is listed: a format that searches a folder finds nothing in it."""
+        return iter(())
+
+    def namespaced(self, namespace: str) -> FolderResolver:
+        return FolderResolver(self._folder / namespace, self.failed)

@@ -1,0 +1,130 @@
+"""What one of a joint's six freedoms may do: its range, what drives it, and what it is by itself."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum
+
+from ..spatial import Array
+
+TX, TY, TZ, RX, RY, RZ = range(6)
+"""Indices of a freedom in a joint's frame: translation along and rotation about X, Y, Z."""
+FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
+"""Their names, by index."""
+
+
+SEAM = 1e-6
+"""Turns by which half a turn outside of a range may be the rounding of half a turn inside."""
+
+
+class Motion(str, Enum):
+    LOCKED = "locked"
+    LIMITED = "limited"
+    FREE = "free"
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """A spring, damper or motor on one freedom; metres or radians, newtons or newton metres, seconds.
+
+    Force = stiffness * (target - q) + damping * (target_velocity - qdot), clamped to +-max_force.
+    acceleration: the gains are per unit of inertia instead (rad/s^2, m/s^2).
+    motor: ``target_velocity`` is held with up to ``max_force`` (stiffness and damping are not used).
+    """
+
+    target: float = 0.0
+    target_velocity: float = 0.0
+    stiffness: float = 0.0
+    damping: float = 0.0
+    max_force: float = math.inf
+    acceleration: bool = False
+    motor: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Passive:
+    """What a freedom is by itself, beside any actuator; metres or radians, newtons or newton metres, seconds.
+
+    stiffness, rest: a spring, force = stiffness * (rest - q).  damping: force = -damping * qdot.
+    friction: largest dry friction.  armature: inertia that turns or slides with the coordinate, kg m^2 or kg.
+    effort: largest force of whatever drives it; speed: largest rate: both infinite where nobody states them.
+    """
+
+    stiffness: float = 0.0
+    rest: float = 0.0
+    damping: float = 0.0
+    friction: float = 0.0
+    armature: float = 0.0
+    effort: float = math.inf
+    speed: float = math.inf
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SphericalDrive:
+    """One spring and damper about all three rotations (Unity's slerp drive); radians, newton metres, seconds.
+
+    target: rotation of b's joint frame in a's that is driven to, shape (3, 3).
+    target_velocity: of b against a, in a's joint frame, shape (3,).
+    Torque = stiffness * angle + damping * (target_velocity - w), clamped to max_force.
+    acceleration: the gains are per unit of inertia instead.
+    """
+
+    target: Array
+    target_velocity: Array
+    stiffness: float = 0.0
+    damping: float = 0.0
+    max_force: float = math.inf
+    acceleration: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Freedom:
+    """One of a joint's six freedoms.
+
+    lower, upper: range of the coordinate when LIMITED, metres or radians; either may be infinite.
+    stiffness, damping: of the limit, 0 and 0 for a hard one.  restitution: 0..1, of a hard limit.
+    passive: what the freedom is by itself, None for nothing stated.
+    at: the coordinate at the exported pose where the source states it: its frames tell an angle up to whole turns only.
+    turns: whole turns by which the source displays more than the coordinate, its limits too; for messages only.
+    name, where: what the source calls the freedom and where it speaks of it, empty where it does not; for messages only.
+    """
+
+    motion: Motion = Motion.LOCKED
+    lower: float = -math.inf
+    upper: float = math.inf
+    drive: Drive | None = None
+    stiffness: float = 0.0
+    damping: float = 0.0
+    restitution: float = 0.0
+    passive: Passive | None = None
+    at: float | None = field(default=None, compare=False)
+    turns: int = field(default=0, compare=False)
+    name: str = field(default="", compare=False)
+    where: str = field(default="", compare=False)
+
+    def displayed(self, *values: float) -> tuple[float, ...]:
+        """Values of the coordinate, radians or metres, as the source shows them."""
+        return tuple(value + 2.0 * math.pi * self.turns for value in values)
+
+    def nearest_turn(self, value: float) -> float:
+        """The angle, radians, that ``value`` stands for where it is known up to whole turns.
+
+        It is the one nearest to where the source says that the pose is.  Where it does not say: the one nearest to the
+        middle of the range; of a range with one end ``value`` itself where it lies inside, else the nearest to that end.
+        """
+        turn = 2.0 * math.pi
+        open_ends = math.isinf(self.lower) + math.isinf(self.upper)
+        if self.motion is not Motion.LIMITED or open_ends == 2:
+            return value
+        if self.at is not None:
+            return value + turn * round((self.at - value) / turn)
+        if not open_ends:
+            return value + turn * round((0.5 * (self.lower + self.upper) - value) / turn)
+        outwards, end = (1.0, self.lower) if math.isinf(self.upper) else (-1.0, self.upper)
+        missing = outwards * (end - value) / turn  # turns that it is outside of the range
+        return value + outwards * turn * max(0, math.ceil(missing - 0.5 + SEAM))
+
+
+LOCKED = Freedom()
+FREE = Freedom(Motion.FREE)

@@ -1,0 +1,1 @@
+"""The CAD bundle, as JSON and as tagged CSV."""

@@ -1,0 +1,155 @@
+"""A bundle's components: the hierarchy and the poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import Node, NodeKind
+from ...spatial import Array
+from ..reading.placement import ROUNDED, SKEWED, Placement, place
+from ..reading.record import REQUIRED, Log, Record, shown
+from ..reading.source_frame import SourceFrame
+from .bodies import Materials, MeshSource, read_bodies, read_mass
+
+COMPONENT = frozenset(
+    "id name kind parent definition pose grounded flexible suppressed visible bodies mass file".split()
+)
+POSE = frozenset("o x y z".split())
+KINDS = {"part": NodeKind.PART, "assembly": NodeKind.ASSEMBLY}
+
+MOST_NAMES = 12
+"""Components of a cycle that a message lists."""
+GROUND = "ground"
+"""Where a joint or constraint names a component: the world itself."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Components:
+    """nodes: parents before children.  index: of a node by its id.  placement: of the nodes, in that
+    order."""
+
+    nodes: list[Node]
+    index: dict[str, int]
+    placement: Placement
+
+    def is_active(self, node: int) -> bool:
+        """Whether neither the node nor an assembly above it is suppressed; the ground always is."""
+        at: int | None = node if node >= 0 else None
+        while at is not None and not self.nodes[at].suppressed:
+            at = self.nodes[at].parent
+        return at is None
+
+    def find(self, record: Record, key: str, feature: str) -> int:
+        """The node that a field names; -1 for the ground, and after a fault."""
+        name = record.text(key)
+        if name and name != GROUND and name not in self.index:
+            record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name)
+        return self.index.get(name, -1)
+
+
+def read_components(
+    bundle: Record, frame: SourceFrame, meshes: MeshSource, materials: Materials, log: Log
+) -> Components:
+    """The nodes of the scene, without geometry."""
+    records = _unique(bundle, log)
+    parents = {name: record.text("parent", "") for name, record in records.items()}
+    order = _parents_first(records, parents)
+    index = {name: i for i, name in enumerate(order)}
+    placement = place(*_axes_and_origins([records[name] for name in order]), frame)
+    nodes: list[Node] = []
+    for i, name in enumerate(order):
+        record = records[name]
+        _check_axes(record, name, placement, i)
+        definition = record.text("definition", None)
+        nodes.append(
+            Node(
+                id=name,
+                name=record.text("name", "") or name.rpartition("/")[2],
+                kind=record.choice("kind", KINDS),
+                parent=index.get(parents[name]),
+                pose=placement.pose(i),
+                # A mirrored occurrence has a mesh of its own.
+                definition=f"{definition} (mirrored)" if definition and placement.mirrored[i] else definition,
+                bodies=read_bodies(record, name, placement, i, frame, meshes, materials),
+                mass=read_mass(record, placement, i, frame, index),
+                grounded=record.flag("grounded"),
+                flexible=record.flag("flexible"),
+                suppressed=record.flag("suppressed"),
+                visible=record.flag("visible", True),
+                where=log.place(record.pointer),
+                extras=record.extras(),
+            )
+        )
+    return Components(nodes, index, placement)
+
+
+def _unique(bundle: Record, log: Log) -> dict[str, Record]:
+    """Component records by id; one without an id of its own by its place, so that its other faults are told too."""
+    found: dict[str, Record] = {}
+    for record in bundle.records("components", COMPONENT):
+        name = record.text("id")
+        if name == GROUND:
+            record.fault("ID_RESERVED", "id", id=name)
+        elif name in found:
+            record.fault("SOURCE_ID_DUPLICATE", "id", id=name, first=log.place(found[name].pointer))
+        elif name:
+            found[name] = record
+            continue
+        found[record.pointer] = record
+    return found
+
+
+def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[str]:
+    """The ids with every parent before its children, else in the order of the file; cycles are cut."""
+    ordered: dict[str, None] = {}
+    for name in records:
+        chain: dict[str, None] = {}
+        while name and name not in ordered:
+            if name in chain:
+                loop = list(chain)[list(chain).index(name) :]
+                records[name].fault("HIERARCHY_CYCLE", "parent", path=_path([*loop, name]))
+                parents[name] = ""  # cut, so that nobody walks it for ever
+                break
+            chain[name] = None
+            if (parent := parents[name]) and parent not in records:
+                records[name].fault("PARENT_UNKNOWN", "parent", component=name, parent=parent)
+                break
+            name = parent
+        ordered.update(dict.fromkeys(reversed(chain)))
+    return list(ordered)
+
+
+def _path(names: list[str]) -> str:
+    """A way from parent to parent for a message: of a long one its two ends."""
+    if len(names) > MOST_NAMES:
+        half = MOST_NAMES // 2
+        names = [*names[:half], f"({len(names) - 2 * half} more)", *names[-half:]]
+    return " -> ".join(map(shown, names))
+
+
+def _axes_and_origins(records: list[Record]) -> tuple[Array, Array]:
+    axes, origins = np.empty((len(records), 3, 3)), np.empty((len(records), 3))
+    for i, record in enumerate(records):
+        pose = record.record("pose", POSE, REQUIRED)
+        if pose is None:
+            axes[i], origins[i] = np.eye(3), 0.0
+            continue
+        origins[i] = pose.vector("o")
+        columns = [pose.vector(axis) for axis in "xyz"]
+        axes[i] = np.transpose(columns) if pose.sound else np.eye(3)
+    return axes, origins
+
+
+def _check_axes(record: Record, name: str, placement: Placement, i: int) -> None:
+    deviation = placement.deviation[i]
+    if deviation > SKEWED:
+        record.fault(
+            "POSE_NOT_ORTHONORMAL", "pose", component=name, deviation=f"{deviation:.2g}", limit=SKEWED
+        )
+        return
+    if deviation > ROUNDED:
+        record.fault("POSE_ROUNDED", "pose", component=name, deviation=f"{deviation:.2g}")
+    if placement.mirrored[i]:
+        record.fault("POSE_MIRRORED", "pose", component=name)

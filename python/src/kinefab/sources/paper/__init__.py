@@ -1,0 +1,1 @@
+"""The CSV of Braun et al. (2020)."""

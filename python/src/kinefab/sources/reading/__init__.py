@@ -1,0 +1,1 @@
+"""What readers share: bytes in, records with places, frames, units, joint frames."""

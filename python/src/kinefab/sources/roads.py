@@ -1,0 +1,56 @@
+"""The shortest road from a CAD program's own file to one that is read, for the remedy of an ending that is not known.
+
+Each stands at length in ``python/README.md``, "From my CAD program".
+"""
+
+from __future__ import annotations
+
+import re
+
+STEP_ROAD = "export STEP (AP242, else AP214) and run: kinefab mates NAME.step, then kinefab export NAME.step --mates auto"
+MESH_ROAD = (
+    "put one file a part into a folder (OBJ, STL or GLB) and run: kinefab bundle init FOLDER --units mm"
+)
+
+INVENTOR = (
+    f"Inventor: open the assembly and run: kinefab capture inventor -o NAME.bundle.json; or {STEP_ROAD}."
+)
+SOLIDWORKS = (
+    f"SolidWorks: open the assembly and run: kinefab capture solidworks -o NAME.bundle.json; or {STEP_ROAD}."
+)
+FUSION = f"Fusion: install the add-in that kinefab capture fusion --help tells of, open the design; or {STEP_ROAD}."
+NX_OR_CREO = f"NX, Creo or Solid Edge: {STEP_ROAD}."
+CATIA = f"CATIA: {STEP_ROAD}."
+MESH_ONLY = f"It holds no joints that can be read: {MESH_ROAD}."
+
+ROADS = {
+    **dict.fromkeys((".iam", ".ipt", ".idw", ".ipn"), INVENTOR),
+    **dict.fromkeys((".sldasm", ".sldprt", ".slddrw"), SOLIDWORKS),
+    **dict.fromkeys((".f3d", ".f3z"), FUSION),
+    ".asm": f"Creo or Solid Edge: {STEP_ROAD}.",
+    **dict.fromkeys((".prt", ".par", ".psm"), NX_OR_CREO),
+    **dict.fromkeys((".catproduct", ".catpart", ".cgr"), CATIA),
+    **dict.fromkeys(
+        (".jt", ".x_t", ".x_b", ".xmt_txt", ".sat", ".sab"), f"Open it in a CAD program: {STEP_ROAD}."
+    ),
+    ".3dxml": f"CATIA or 3DEXPERIENCE: {STEP_ROAD}.",
+    ".3dm": f"Rhino: {STEP_ROAD}; or {MESH_ROAD}.",
+    ".skp": f"SketchUp: {MESH_ROAD}.",
+    **dict.fromkeys((".dwg", ".dxf"), f"AutoCAD: {STEP_ROAD}."),
+    ".blend": f"Blender: {MESH_ROAD}.",
+    **dict.fromkeys(
+        (".fbx", ".max", ".mb", ".ma", ".c4d", ".3ds", ".wrl", ".x3d"),
+        f"Export OBJ, STL or GLB: {MESH_ROAD}.",
+    ),
+    **dict.fromkeys((".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off"), MESH_ONLY),
+}
+"""By ending, lower case."""
+
+
+def road_of(name: str) -> str:
+    """The sentence for a file's name; "" where nothing better is known than the list of what is read.
+
+    Creo numbers its versions behind the ending (``arm.asm.7``).
+    """
+    match = re.search(r"(\.\w+?)(?:\.\d+)?$", name.lower())
+    return ROADS.get(match[1], "") if match else ""

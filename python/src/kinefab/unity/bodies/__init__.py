@@ -1,0 +1,1 @@
+"""Which objects are Rigidbodies, and what they touch each other with."""

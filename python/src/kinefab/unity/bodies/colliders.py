@@ -1,0 +1,139 @@
+"""Colliders of bodies: those that the source states, else what the export chooses: convex hull, box or the mesh itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...model import Collider, ColliderKind, Mesh
+from ...options import ColliderShape, Ground
+from ...spatial import Array, Pose
+from .. import frames
+from ..scene import BoxCollider, CapsuleCollider, MeshCollider, SphereCollider
+from ..scene.vectors import ONE, Vector3, vector3
+
+UnityCollider = BoxCollider | SphereCollider | CapsuleCollider | MeshCollider
+
+ALONG = 1e-9
+"""Sine of the angle up to which a shape's axis is one of its object's."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Colliders:
+    """What geometry made for the colliders.
+
+    shape: what was asked for where the source says nothing.
+    hull_of: for each mesh of the scene that has one, the index of its hull among all meshes of the file.
+    cylinder_of: for each (radius, length) the index of a mesh of it along Z.
+    pieces_of: for each hollow mesh the indices of its convex pieces.
+    made: those meshes, to stand behind the scene's own.
+    ground: what stands for it; as a body it is kinematic, where Unity takes meshes of every shape.
+    """
+
+    shape: ColliderShape = ColliderShape.HULL
+    hull_of: Mapping[int, int] = field(default_factory=dict[int, int])
+    cylinder_of: Mapping[tuple[float, float], int] = field(default_factory=dict[tuple[float, float], int])
+    made: tuple[Mesh, ...] = ()
+    pieces_of: Mapping[int, Sequence[int]] = field(default_factory=dict[int, Sequence[int]])
+    ground: Ground = Ground.WORLD
+
+
+def chosen_colliders(
+    colliders: Colliders, shape: ColliderShape, index: int, mesh: Mesh, dynamic: bool
+) -> list[UnityCollider]:
+    """The colliders of a body whose source states none.  shape: asked for.  dynamic: the body has a Rigidbody that is
+    moved by forces, where Unity takes convex meshes only."""
+    if shape is ColliderShape.NONE:
+        return []
+    if shape in (ColliderShape.MESH, ColliderShape.AUTO) and not dynamic:
+        return [MeshCollider(mesh=index)]
+    if shape is not ColliderShape.BOX and shape is not ColliderShape.HULL and index in colliders.pieces_of:
+        return [MeshCollider(mesh=piece, convex=True) for piece in colliders.pieces_of[index]]
+    if shape is ColliderShape.BOX or index not in colliders.hull_of:
+        low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+        center = vector3(frames.point(0.5 * (low + high)))
+        return [BoxCollider(center=center, size=vector3(np.subtract(high, low)))]
+    return [MeshCollider(mesh=colliders.hull_of[index], convex=True)]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlacedCollider:
+    """A component, and the frame of the object that it needs: the node's own where pose is None."""
+
+    component: UnityCollider
+    pose: Pose | None = None
+    scale: Vector3 = ONE
+
+
+def stated_collider(
+    collider: Collider, colliders: Colliders, dynamic: bool, material: int | None, node: str, report: Report
+) -> PlacedCollider | None:
+    """A collider that the source states; the report tells what Unity has no shape for.
+
+    material: index of its physics material.  node: id, for the report.
+    """
+    feature = f"collider {node}/{collider.name or collider.kind.value}"
+    common: dict[str, Any] = {
+        "isTrigger": collider.trigger,
+        "enabled": collider.enabled,
+        "material": material,
+        "group": collider.group,
+        "id": collider.name,
+    }
+    center, turn = collider.pose.translation, collider.pose.rotation
+    if collider.kind is ColliderKind.SPHERE:
+        report.kept(feature, collider.where)
+        return PlacedCollider(
+            SphereCollider(**common, center=vector3(frames.point(center)), radius=collider.radius)
+        )
+    if collider.kind is ColliderKind.BOX:
+        size = _along_axes(np.array(collider.size), turn)
+        report.kept(feature, collider.where)
+        if size is None:
+            return PlacedCollider(BoxCollider(**common, size=collider.size), collider.pose)
+        return PlacedCollider(BoxCollider(**common, center=vector3(frames.point(center)), size=vector3(size)))
+    if collider.kind is ColliderKind.CAPSULE:
+        height = collider.length + 2.0 * collider.radius
+        size = _along_axes(np.array([0.0, 0.0, 1.0]), turn)
+        report.kept(feature, collider.where)
+        shape: dict[str, Any] = {**common, "radius": collider.radius, "height": height}
+        if size is None:
+            return PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)
+        direction = "XYZ"[int(size.argmax())]
+        return PlacedCollider(
+            CapsuleCollider(**shape, center=vector3(frames.point(center)), direction=direction)
+        )
+    if collider.kind is ColliderKind.CYLINDER:
+        mesh = colliders.cylinder_of[collider.radius, collider.length]
+        report.approximated(feature, "COLLIDER_CYLINDER_AS_MESH", collider.where, collider=feature)
+        return _meshed(MeshCollider(**common, mesh=mesh, convex=True), collider)
+    assert collider.mesh is not None, "a hull or mesh collider names its mesh"
+    if collider.kind is ColliderKind.MESH and not dynamic:
+        report.kept(feature, collider.where)
+        return _meshed(MeshCollider(**common, mesh=collider.mesh), collider)
+    if collider.mesh not in colliders.hull_of:
+        report.dropped(feature, "COLLIDER_FLAT_DROPPED", collider.where, collider=feature)
+        return None
+    if collider.kind is ColliderKind.MESH:
+        report.approximated(feature, "COLLIDER_MESH_AS_HULL", collider.where, collider=feature)
+    else:
+        report.kept(feature, collider.where)
+    return _meshed(MeshCollider(**common, mesh=colliders.hull_of[collider.mesh], convex=True), collider)
+
+
+def _meshed(component: MeshCollider, collider: Collider) -> PlacedCollider:
+    pose, scale = collider.pose, collider.scale
+    at_home = not pose.translation.any() and np.abs(pose.rotation - np.eye(3)).max() < ALONG
+    return PlacedCollider(component, None if at_home and scale == ONE else pose, scale)
+
+
+def _along_axes(size: Array, turn: Array) -> Array | None:
+    """Extents along the outer axes of a shape turned by right angles only; None for any other turn."""
+    spread = np.abs(turn)
+    if np.minimum(spread, np.abs(1.0 - spread)).max() > ALONG:
+        return None
+    return spread.round() @ size

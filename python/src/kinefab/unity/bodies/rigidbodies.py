@@ -1,0 +1,180 @@
+"""Which GameObjects get a Rigidbody: one for each rigid group, on the node that holds just this group."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...geometry.mass import combined, moved, principal
+from ...model import Dynamics, MassProperties, Node, NodeKind, Scene
+from ...rigid import RigidGroups
+from ...spatial import quaternion_from_matrix
+from .. import frames
+from ..scene import Rigidbody
+from ..scene.vectors import quaternion4, vector3
+
+UNITY_ANGULAR_DAMPING = 0.05
+"""1/s: a Rigidbody's before anyone sets it."""
+UNITY_DEFAULT = MassProperties(1.0, np.zeros(3), np.eye(3))
+"""A Rigidbody's mass and inertia before anyone sets them: 1 kg and 1 kg m^2."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rigidbodies:
+    """carrier_of: for each node the node whose Rigidbody moves it, or None (ground, or no body).
+    carriers: every node that gets a Rigidbody, with the nodes it moves, in scene order.
+    fixed: pairs (own, connected) of carriers that a FixedJoint holds together.
+    """
+
+    carrier_of: tuple[int | None, ...]
+    carriers: dict[int, tuple[int, ...]]
+    fixed: tuple[tuple[int, int], ...]
+
+
+def place_rigidbodies(scene: Scene, groups: RigidGroups) -> Rigidbodies:
+    """One Rigidbody at the node whose subtree is exactly the group; else one for each member that has mass,
+    and FixedJoints to the first of them."""
+    carrier_of: list[int | None] = [None] * len(scene.nodes)
+    carriers: dict[int, tuple[int, ...]] = {}
+    fixed: list[tuple[int, int]] = []
+    subtree = _subtree_bodies(scene, groups)
+    for group, members in enumerate(groups.members):
+        if groups.grounded[group]:
+            continue
+        parts = [i for i in members if scene.nodes[i].kind is NodeKind.PART] or list(members)
+        top = _common_ancestor(scene, members)
+        whole = top is not None and subtree[top] == len(members)
+        if len(parts) == 1 and (not whole or len(members) == 1):
+            top, whole = parts[0], True
+        if whole:
+            carriers[top] = members
+            for i in members:
+                carrier_of[i] = top
+            continue
+        for i in parts:
+            carriers[i] = (i,)
+            carrier_of[i] = i
+            if i != parts[0]:
+                fixed.append((i, parts[0]))
+        for i in members:
+            if carrier_of[i] is None:
+                carrier_of[i] = parts[0]
+    return Rigidbodies(tuple(carrier_of), dict(sorted(carriers.items())), tuple(fixed))
+
+
+def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> MassProperties:
+    """Of everything a carrier moves, in the carrier's frame."""
+    own = scene.nodes[carrier]
+    if own.mass is not None and (own.kind is NodeKind.ASSEMBLY or moved_nodes == (carrier,)):
+        known = [own.mass]
+    else:
+        to_carrier = own.pose.inverse()
+        counted, weightless = _weighed(scene, moved_nodes)
+        known = [moved(node.mass, to_carrier @ node.pose) for node in counted]
+        for node in weightless if known else ():
+            report.add("MASS_LEFT_OUT", node.where, node=node.id, carrier=own.id)
+    if not known:
+        report.approximated(f"mass {own.id}", "MASS_UNKNOWN", own.where, node=own.id)
+    return combined(known) if known else UNITY_DEFAULT
+
+
+def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> Rigidbody:
+    """Mass, centre of mass and principal inertia of everything a carrier moves, in the carrier's frame."""
+    own, total = scene.nodes[carrier], body_mass(scene, carrier, moved_nodes, report)
+    moments, axes = principal(total.inertia)
+    dynamics = body_dynamics(scene, carrier, moved_nodes)
+    if dynamics.velocity is not None or dynamics.angular_velocity is not None:
+        report.dropped(f"velocity {own.id}", "BODY_VELOCITY_DROPPED", own.where, node=own.id)
+    damping = (dynamics.linear_damping, dynamics.angular_damping)
+    return Rigidbody(
+        mass=total.mass,
+        linearDamping=0.0 if damping[0] is None else damping[0],
+        angularDamping=UNITY_ANGULAR_DAMPING if damping[1] is None else damping[1],
+        centerOfMass=vector3(frames.point(total.center)),
+        inertiaTensor=vector3(moments),
+        inertiaTensorRotation=quaternion4(frames.quaternion(quaternion_from_matrix(axes))),
+        useGravity=dynamics.gravity,
+        isKinematic=dynamics.kinematic,
+    )
+
+
+def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
+    """Whether one of a body's nodes is moved by scripts alone: then all of it is."""
+    return any(scene.nodes[i].dynamics.kinematic for i in moved_nodes)
+
+
+def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> Dynamics:
+    """What the body's nodes say of how it moves: the carrier first, then whoever says something."""
+    stated = [scene.nodes[i].dynamics for i in (carrier, *moved_nodes)]
+
+    def first(name: str):
+        return next((value for d in stated if (value := getattr(d, name)) is not None), None)
+
+    return Dynamics(
+        kinematic=is_kinematic(scene, moved_nodes),
+        gravity=all(d.gravity for d in stated),
+        linear_damping=first("linear_damping"),
+        angular_damping=first("angular_damping"),
+        velocity=first("velocity"),
+        angular_velocity=first("angular_velocity"),
+    )
+
+
+def _weighed(scene: Scene, indices: tuple[int, ...]) -> tuple[list[Node], list[Node]]:
+    """Of some nodes those whose masses add up, and the parts that have none.
+
+    What stands below an assembly with a mass of its own is in neither: its mass is already that assembly's.
+    """
+    whole = {
+        i for i in indices if scene.nodes[i].kind is NodeKind.ASSEMBLY and scene.nodes[i].mass is not None
+    }
+    below = _below(scene, indices, whole) if whole else set[int]()
+    outer = [scene.nodes[i] for i in indices if i not in below]
+    weightless = [node for node in outer if node.mass is None and node.kind is NodeKind.PART]
+    return [node for node in outer if node.mass is not None], weightless
+
+
+def _subtree_bodies(scene: Scene, groups: RigidGroups) -> list[int]:
+    """For each node how many bodies its subtree holds, itself included."""
+    counts = [0 if group is None else 1 for group in groups.group_of]
+    for i in range(len(scene.nodes) - 1, -1, -1):
+        parent = scene.nodes[i].parent
+        if parent is not None:
+            counts[parent] += counts[i]
+    return counts
+
+
+def _common_ancestor(scene: Scene, members: tuple[int, ...]) -> int | None:
+    """The deepest node whose subtree holds all members; a member counts as its own ancestor."""
+    waiting = sorted(
+        -i for i in members
+    )  # a heap; parents stand before their children, so the last node climbs
+    seen = set(members)
+    while len(seen) > 1:
+        node = -heapq.heappop(waiting)
+        seen.remove(node)
+        parent = scene.nodes[node].parent
+        if parent is None:
+            return None
+        if parent not in seen:
+            seen.add(parent)
+            heapq.heappush(waiting, -parent)
+    return seen.pop()
+
+
+def _below(scene: Scene, nodes: tuple[int, ...], tops: set[int]) -> set[int]:
+    """Those of the nodes, and of their ancestors, that stand below one of ``tops``."""
+    first, below, above = min(tops), set[int](), set[int]()
+    for node in nodes:
+        line: list[int] = []
+        at: int | None = node
+        while at is not None and at > first and at not in below and at not in above:
+            line.append(at)
+            at = scene.nodes[at].parent
+            if at in tops:
+                break
+        (below if at in tops or at in below else above).update(line)
+    return below

@@ -1,0 +1,1 @@
+"""From joints of the model to Unity's components."""

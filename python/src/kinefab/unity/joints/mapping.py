@@ -1,0 +1,240 @@
+"""From a joint of the model to the one Unity component that moves as it does.
+
+Signs and frames: ``schemas/SPEC.md``, "Joints".  In short, with X Y Z the joint axes in CAD:
+
+* The component's axes are M X, M Y and their cross product, -M Z.
+* A HingeJoint on ``b`` has axis -M X, on ``a`` +M X: its angle is the CAD angle less that at export.
+* A ConfigurableJoint limits and drives c, PhysX's "actor1 in actor0".  Where c is "b in a" (the component
+  is on ``a``, or on ``b`` with swapBodies) distances keep their sign on X and Y; where it is "a in b" (on
+  ``b``) all senses turn round.  Only joints that move alike seen from either side may take the second form.
+* Zero of an angle is the exported pose, as Unity freezes the frames there.  Zero of a distance is where the
+  anchors meet, so the anchors carry it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...diagnostics import Report
+from ...findings import JointFinding
+from ...model import RX, Joint, Motion, Scene
+from ...rigid import RigidGroups
+from ...spatial import Array, Pose
+from .. import frames
+from ..scene import ConfigurableJoint, FixedJoint, HingeJoint
+from ..scene.vectors import vector3
+from .configurable import MOTION_TITLES, configurable_fields
+from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
+from .hinge import fits_hinge, hinge_fields
+from .placement import Placement, place
+
+GAP_LENGTH = 1e-5
+"""Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
+GAP_ANGLE = 1e-4
+"""Radians, likewise."""
+
+MappedJoint = HingeJoint | ConfigurableJoint | FixedJoint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnityCoordinate:
+    """How a CAD coordinate q reads on the component: u = sign * (q - zero), metres or radians.
+
+    name: of the scene format (``angle``, ``x`` .. ``angularZ``).
+    """
+
+    name: str
+    sign: float
+    zero: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnityJoint:
+    """A component, the node whose Rigidbody carries it and the one it is connected to (None: the world).
+
+    component: without ``connectedBody``.
+    coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
+    """
+
+    source: Joint
+    owner: int
+    connected: int | None
+    component: MappedJoint
+    coordinates: dict[int, UnityCoordinate]
+
+
+def map_joint(
+    joint: Joint,
+    scene: Scene,
+    groups: RigidGroups,
+    carrier: Callable[[int], int],
+    report: Report,
+    finding: JointFinding | None = None,
+) -> UnityJoint | None:
+    """The component for ``joint``, or None where none is needed or possible; ``report`` says which and why.
+
+    carrier: the node whose GameObject has the Rigidbody that a node moves with.  finding: what is known of the joint.
+    """
+    found = finding or JointFinding(joint.id)
+    feature = f"joint {joint.id}"
+    unbodied = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
+    if unbodied is not None:
+        report.dropped(
+            feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id
+        )
+        return None
+    if not _limits_in_order(joint, report):
+        return None
+    shape = canonical(joint)
+    relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
+    coordinates = read_coordinates(shape, relative)
+    lossless = _report_gap(joint, coordinates, report)
+    if groups.together(joint.a, joint.b):
+        if not (shape.rotations or shape.translations):
+            report.kept(feature, joint.where)  # one Rigidbody, or a FixedJoint of the group
+        else:
+            report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+        return None
+    free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
+    counted = any(joint.id in c.joints for c in scene.couplings)
+    apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
+    if free and not (counted or apart):  # between two bodies it still keeps Unity from letting them collide
+        if found.freed:
+            remark = {"joint": joint.id, "loop": found.loop_names(scene)}
+            report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)
+            return None
+        report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
+        return None
+
+    a, b = (None if groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
+    frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
+    placement = place(shape, a is None, b is None)
+    before = len(report.outcomes)
+    for i, freedom in enumerate(joint.freedoms):
+        if freedom.drive is not None and freedom.motion is Motion.LOCKED:
+            report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i))
+    common = _common_fields(joint, found)
+    if not (shape.rotations or shape.translations):
+        component: MappedJoint = FixedJoint(**common)
+    elif fits_hinge(shape):
+        anchors, basis = _frame_fields(frame_a, frame_b, placement, coordinates)
+        # The axis takes the sense, so that the angle is the CAD angle less that at export.
+        axis = vector3(placement.own.angular[0] * basis[:, 0])
+        component = HingeJoint(
+            **common, **anchors, axis=axis, **hinge_fields(joint, shape, coordinates, report)
+        )
+    else:
+        limits, middle = configurable_fields(joint, shape, coordinates, placement, report)
+        shifted = Pose(frame_a.rotation, frame_a.point(middle))
+        anchors, basis = _frame_fields(shifted, frame_b, placement, coordinates)
+        axes = {"axis": vector3(basis[:, 0]), "secondaryAxis": vector3(basis[:, 1])}
+        component = ConfigurableJoint(**common, **anchors, **axes, **limits)
+    owner, connected = (a, b) if placement.on_a else (b, a)
+    if not lossless or any(found.misfit) or len(report.outcomes) > before:
+        component = replace(component, exact=False)
+    elif found.freed:
+        _report_freed(joint, found, shape, component, scene, scene.nodes[owner].id, report)
+    else:
+        report.kept(feature, joint.where)
+    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
+
+
+def _frame_fields(
+    frame_a: Pose, frame_b: Pose, placement: Placement, coordinates: Coordinates
+) -> tuple[dict[str, Any], Array]:
+    """Anchors, and the component's axes as columns, shape (3, 3).  frame_a, frame_b: the joint frames in their carriers, their origins the anchors."""
+    own, other = (frame_a, frame_b) if placement.on_a else (frame_b, frame_a)
+    turn = coordinates.in_a if placement.on_a else coordinates.in_b
+    basis = frames.joint_basis(own.rotation @ turn)
+    anchors = {
+        "anchor": vector3(frames.point(own.translation)),
+        "autoConfigureConnectedAnchor": False,
+        "connectedAnchor": vector3(frames.point(other.translation)),
+    }
+    return anchors, basis
+
+
+def _report_freed(
+    joint: Joint,
+    found: JointFinding,
+    shape: CanonicalJoint,
+    component: MappedJoint,
+    scene: Scene,
+    owner: str,
+    report: Report,
+) -> None:
+    """What the loop holds instead of the joint, by the names that Unity's inspector shows."""
+    feature = f"joint {joint.id}"
+    names = {"joint": joint.id, "loop": found.loop_names(scene), "object": owner}
+    if not joint.locked:
+        report.kept(feature, joint.where, "CLOSURE_ALL_FREE", **names)
+        return
+    axes = [MOTION_TITLES[i] for i, freedom in enumerate(shape.name_of) if freedom in found.freed]
+    if isinstance(component, HingeJoint):
+        axes = ["The turning"]
+    one = len(axes) == 1
+    names |= {"axes": ", ".join(axes), "type": type(component).__name__}
+    names |= {"are": "is" if one else "are", "motions": "this motion" if one else "these motions"}
+    report.kept(feature, joint.where, "CLOSURE_AXES_FREE", **names)
+
+
+def _common_fields(joint: Joint, found: JointFinding) -> dict[str, Any]:
+    return {
+        "breakForce": joint.break_force,
+        "breakTorque": joint.break_torque,
+        "enableCollision": joint.collide,
+        "because": tuple(joint.because),
+        "closure": found.closure,
+        "id": joint.id,
+        "extras": {"name": joint.name, **joint.extras} if joint.name else dict(joint.extras),
+    }
+
+
+def _readings(
+    shape: CanonicalJoint, coordinates: Coordinates, placement: Placement
+) -> dict[int, UnityCoordinate]:
+    """How each unlocked coordinate is read: the own body's motion against the connected one's."""
+    own = placement.own
+    hinge = fits_hinge(shape)
+    readings = {}
+    for i in range(6):
+        if shape.freedoms[i].motion is Motion.LOCKED:
+            continue
+        axis = i % 3
+        if hinge:
+            name, sign = "angle", 1.0  # hinge_fields turns the axis to it
+        elif i < RX:
+            name, sign = "xyz"[axis], own.linear[axis]
+        else:
+            name, sign = "angular" + "XYZ"[axis], own.angular[axis]
+        zero = shape.freedoms[i].nearest_turn(coordinates.values[i]) if i >= RX else coordinates.values[i]
+        readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
+    return readings
+
+
+def _report_gap(joint: Joint, coordinates: Coordinates, report: Report) -> bool:
+    """Whether the exported pose meets the joint; a warning with the misfit where it does not."""
+    if coordinates.gap_length <= GAP_LENGTH and coordinates.gap_angle <= GAP_ANGLE:
+        return True
+    report.approximated(
+        f"joint {joint.id}",
+        "JOINT_POSE_GAP",
+        joint.where,
+        joint=joint.id,
+        metres=f"{coordinates.gap_length:.3g}",
+        degrees=f"{math.degrees(coordinates.gap_angle):.3g}",
+    )
+    return False
+
+
+def _limits_in_order(joint: Joint, report: Report) -> bool:
+    limited = [f for f in joint.freedoms if f.motion is Motion.LIMITED]
+    wrong = next((f for f in limited if not f.lower <= f.upper), None)
+    if wrong is not None:
+        values = {"lower": wrong.lower, "upper": wrong.upper}
+        report.dropped(f"joint {joint.id}", "JOINT_LIMITS_REVERSED", joint.where, joint=joint.id, **values)
+    return wrong is None

@@ -1,0 +1,61 @@
+"""What a freedom is by itself, beside any actuator, in the one drive that Unity has for it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from ...diagnostics import Report
+from ...model import FREEDOM_NAMES, Drive, Freedom, Joint, Motion, Passive
+
+
+def with_passive_drives(joint: Joint, report: Report) -> Joint:
+    """The joint with its passive springs and dampers made part of the drives; the report tells what Unity's joints have
+    no place for (dry friction, armature) and what could not be added up."""
+    if all(freedom.passive is None for freedom in joint.freedoms):
+        return joint
+    freedoms = tuple(
+        freedom if freedom.passive is None else _driven(joint, i, freedom, freedom.passive, report)
+        for i, freedom in enumerate(joint.freedoms)
+    )
+    return replace(joint, freedoms=freedoms)
+
+
+def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:
+    names = {"joint": joint.id, "freedom": FREEDOM_NAMES[index]}
+    bare = replace(freedom, passive=None)
+    if freedom.motion is Motion.LOCKED:
+        return bare
+    for value, code in (
+        (passive.friction, "JOINT_FRICTION_DROPPED"),
+        (passive.armature, "JOINT_ARMATURE_DROPPED"),
+    ):
+        if value > 0.0:
+            report.dropped(f"joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
+    if freedom.drive is None and (math.isfinite(passive.effort) or math.isfinite(passive.speed)):
+        report.dropped(
+            f"joint {joint.id}",
+            "JOINT_EFFORT_DROPPED",
+            joint.where,
+            effort=f"{passive.effort:g}",
+            speed=f"{passive.speed:g}",
+            **names,
+        )
+    if not (passive.stiffness or passive.damping):
+        return bare
+    drive = freedom.drive
+    if drive is None:
+        return replace(bare, drive=Drive(passive.rest, 0.0, passive.stiffness, passive.damping))
+    if drive.motor or drive.acceleration or math.isfinite(drive.max_force):
+        report.dropped(f"joint {joint.id}", "JOINT_PASSIVE_DROPPED", joint.where, **names)
+        return bare
+    # F = k1 (t1 - q) + d1 (v1 - u) + k2 (t2 - q) - d2 u: one spring and one damper.
+    stiffness, damping = drive.stiffness + passive.stiffness, drive.damping + passive.damping
+    target = drive.target
+    if stiffness > 0.0:
+        target = (drive.stiffness * drive.target + passive.stiffness * passive.rest) / stiffness
+    velocity = drive.damping * drive.target_velocity / damping if damping > 0.0 else 0.0
+    return replace(
+        bare,
+        drive=replace(drive, target=target, target_velocity=velocity, stiffness=stiffness, damping=damping),
+    )

@@ -1,0 +1,275 @@
+"""A scene of the model as Unity's own objects and components."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
+
+from ..diagnostics import Report
+from ..findings import JointFinding
+from ..model import Body, Collider, PhysicsMaterial, Scene, Surface
+from ..options import Ground
+from ..rigid import RigidGroups, active_nodes
+from ..spatial import Pose, quaternion_from_matrix
+from . import frames
+from .assets.clips import map_clip
+from .assets.meshes import MappedMeshes
+from .assets.surfaces import map_physics_material, map_surface
+from .bodies.colliders import Colliders, chosen_colliders, stated_collider
+from .bodies.rigidbodies import Rigidbodies, is_kinematic, map_rigidbody, place_rigidbodies
+from .constraints import map_constraint
+from .joints.couplings import map_coupling, screw_couplings
+from .joints.mapping import UnityJoint, map_joint
+from .joints.passive import with_passive_drives
+from .mobility import map_mobility
+from .scene import (
+    ONE,
+    Component,
+    Coupling,
+    FixedJoint,
+    GameObject,
+    MeshFilter,
+    MeshRenderer,
+    Physics,
+    Rigidbody,
+    Source,
+    Transform,
+    UnityScene,
+    Vector3,
+)
+from .scene.vectors import quaternion4, vector3
+
+PLAIN = Surface("Default")
+"""Stands in where the source names no surface."""
+GROUND_ID = "kinefab:ground"
+"""Of the object that stands for the ground; no source has such an id."""
+
+
+def map_scene(
+    scene: Scene,
+    groups: RigidGroups,
+    colliders: Colliders,
+    report: Report,
+    analysis: Mapping[str, Any] | None = None,
+    holding: Mapping[int, Sequence[str]] = MappingProxyType({}),
+    findings: Mapping[str, JointFinding] = MappingProxyType({}),
+) -> UnityScene:
+    """Everything of the scene in Unity's terms.  ``report`` gets what became of each joint, collider and coupling.
+
+    analysis: what the constraints leave free, by node number (see ``mobility``).
+    holding: for each node the ids of what joins it to others of its rigid group.
+    findings: what the analysis found of the joints, by their ids.
+    """
+    builder = _Builder(scene, groups, colliders, report, holding, findings)
+    builder.add_ground()
+    builder.add_objects()
+    builder.add_rigidbodies()
+    builder.add_joints()
+    physics = scene.physics
+    gravity = vector3(frames.direction(physics.gravity))
+    return UnityScene(
+        source=Source(
+            scene.source.uri, scene.source.up_axis, scene.source.meters_per_unit, scene.source.sha256
+        ),
+        physics=Physics(
+            gravity, physics.fixed_timestep, physics.solver_iterations, physics.solver_velocity_iterations
+        ),
+        couplings=tuple(builder.couplings()),
+        gameObjects=tuple(builder.finished()),
+        meshes=MappedMeshes([*scene.meshes, *colliders.made]),
+        materials=tuple(map_surface(s) for s in builder.surfaces),
+        physicsMaterials=tuple(map_physics_material(m) for m in builder.physics_materials),
+        animations=tuple(map_clip(clip, builder.object_of) for clip in scene.animations),
+        constraints=tuple(map_constraint(c, builder.object_of) for c in scene.constraints),
+        analysis=None if analysis is None else map_mobility(analysis, builder.object_of),
+        extras=dict(scene.extras),
+    )
+
+
+@dataclass(slots=True, eq=False)
+class _Builder:
+    """Fills the list of GameObjects.  components: of each object.  ground: index of the one that stands for the ground.  object_of: for each node the index of its GameObject."""
+
+    scene: Scene
+    groups: RigidGroups
+    colliders: Colliders
+    report: Report
+    holding: Mapping[int, Sequence[str]]
+    findings: Mapping[str, JointFinding]
+    objects: list[GameObject] = field(default_factory=list[GameObject])
+    components: list[list[Component]] = field(default_factory=list[list[Component]])
+    object_of: list[int] = field(default_factory=list[int])
+    surfaces: list[Surface] = field(default_factory=list[Surface])
+    physics_materials: list[PhysicsMaterial] = field(default_factory=list[PhysicsMaterial])
+    joints: dict[str, tuple[UnityJoint, int]] = field(default_factory=dict[str, tuple[UnityJoint, int]])
+    taken: set[str] = field(default_factory=set[str])
+    rigidbodies: Rigidbodies | None = None
+    ground: int | None = None
+
+    def finished(self) -> list[GameObject]:
+        return [
+            replace(entry, components=tuple(components))
+            for entry, components in zip(self.objects, self.components)
+        ]
+
+    def add_ground(self) -> None:
+        """The body that stands for the ground, above everything, where something stands on it."""
+        joined = any(joint.a is None or joint.b is None for joint in self.scene.joints)
+        if self.colliders.ground is Ground.BODY and (joined or any(self.groups.grounded)):
+            self.ground = self._object(GROUND_ID, "Ground", None, Pose())
+            self.components[self.ground].append(Rigidbody(useGravity=False, isKinematic=True))
+
+    def add_objects(self) -> None:
+        self.surfaces = list(self.scene.surfaces)
+        active = active_nodes(self.scene)
+        for i, node in enumerate(self.scene.nodes):
+            parent = node.parent
+            local = self.scene.pose(parent).inverse() @ node.pose
+            index = self._object(
+                node.id, node.name, self.ground if parent is None else self.object_of[parent], local
+            )
+            self.object_of.append(index)
+            self.taken.clear()
+            self.objects[index] = replace(
+                self.objects[index],
+                active=active[i],
+                layer=node.layer,
+                tag=node.tag,
+                extras=dict(node.extras),
+            )
+            self._add_bodies(i, index)
+            self._add_colliders(i, index)
+            for site in node.sites:
+                self._object(self._free_id(f"{node.id}/site:{site.name}"), site.name, index, site.pose)
+
+    def _object(self, id: str, name: str, parent: int | None, local: Pose, scale: Vector3 = ONE) -> int:
+        """The index of a new GameObject."""
+        placed = frames.pose(local)
+        rotation = quaternion4(quaternion_from_matrix(placed.rotation))
+        transform = Transform(vector3(placed.translation), rotation, scale)
+        self.objects.append(GameObject(id, name, parent, transform=transform))
+        self.components.append([])
+        return len(self.objects) - 1
+
+    def _free_id(self, wanted: str) -> str:
+        """The id, with the first number that makes it one of its own among those of the node's objects."""
+        id, count = wanted, 1
+        while id in self.taken:
+            count += 1
+            id = f"{wanted}#{count}"
+        self.taken.add(id)
+        return id
+
+    def _dynamic(self, index: int) -> bool:
+        """Whether a node's body is moved by forces."""
+        group = self.groups.group_of[index]
+        if group is None or self.groups.grounded[group]:
+            return False
+        return not is_kinematic(self.scene, self.groups.members[group])
+
+    def _add_bodies(self, index: int, parent: int) -> None:
+        """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""
+        node = self.scene.nodes[index]
+        bodies = [body for body in node.bodies if body.mesh is not None]
+        dynamic = self._dynamic(index)
+        for body in bodies:
+            assert body.mesh is not None
+            holder = parent
+            if len(bodies) > 1 or not _at_home(body):
+                id = self._free_id(f"{node.id}/body:{body.name}")
+                holder = self._object(id, body.name, parent, body.pose, body.scale)
+            mesh = self.scene.meshes[body.mesh]
+            materials = tuple(body.surfaces) or (self._plain(),) * max(1, len(mesh.face_counts))
+            self.components[holder] += [
+                MeshFilter(body.mesh),
+                MeshRenderer(node.visible and body.visible, materials),
+            ]
+            if node.colliders is None:
+                shape = node.collision or self.colliders.shape
+                self.components[holder] += chosen_colliders(self.colliders, shape, body.mesh, mesh, dynamic)
+
+    def _add_colliders(self, index: int, parent: int) -> None:
+        node = self.scene.nodes[index]
+        for collider in node.colliders or ():
+            material = self._physics_material(collider)
+            placed = stated_collider(
+                collider, self.colliders, self._dynamic(index), material, node.id, self.report
+            )
+            if placed is None:
+                continue
+            holder = parent
+            if placed.pose is not None:
+                name = collider.name or collider.kind.value
+                id = self._free_id(f"{node.id}/collider:{name}")
+                holder = self._object(id, name, parent, placed.pose, placed.scale)
+            self.components[holder].append(placed.component)
+
+    def _physics_material(self, collider: Collider) -> int | None:
+        if collider.material is None:
+            return None
+        if collider.material not in self.physics_materials:
+            self.physics_materials.append(collider.material)
+        return self.physics_materials.index(collider.material)
+
+    def _plain(self) -> int:
+        if PLAIN not in self.surfaces:
+            self.surfaces.append(PLAIN)
+        return self.surfaces.index(PLAIN)
+
+    def add_rigidbodies(self) -> None:
+        self.rigidbodies = place_rigidbodies(self.scene, self.groups)
+        for carrier, members in self.rigidbodies.carriers.items():
+            self.components[self.object_of[carrier]].append(
+                map_rigidbody(self.scene, carrier, members, self.report)
+            )
+        for own, connected in self.rigidbodies.fixed:
+            because = tuple(self.holding.get(own, ()))
+            joint = FixedJoint(connectedBody=self.object_of[connected], because=because)
+            self.components[self.object_of[own]].append(joint)
+        if self.ground is not None:
+            self._hold_grounded_below_others()
+
+    def _hold_grounded_below_others(self) -> None:
+        """A grounded node in the tree below a moving body would move with it: it is kinematic by itself."""
+        assert self.rigidbodies is not None
+        moved: list[bool] = []
+        for i, node in enumerate(self.scene.nodes):
+            below = node.parent is not None and moved[node.parent]
+            held = below and self.groups.is_ground(i)
+            if held:
+                self.components[self.object_of[i]].append(Rigidbody(useGravity=False, isKinematic=True))
+            moved.append(i in self.rigidbodies.carriers or (below and not held))
+
+    def add_joints(self) -> None:
+        for joint in self.scene.joints:
+            driven = with_passive_drives(joint, self.report)
+            finding = self.findings.get(joint.id)
+            mapped = map_joint(driven, self.scene, self.groups, self._carrier, self.report, finding)
+            if mapped is None:
+                continue
+            connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
+            component = replace(mapped.component, connectedBody=connected)
+            components = self.components[self.object_of[mapped.owner]]
+            components.append(component)
+            self.joints[joint.id] = (mapped, len(components) - 1)
+
+    def _carrier(self, node: int) -> int:
+        assert self.rigidbodies is not None
+        carrier = self.rigidbodies.carrier_of[node]
+        assert carrier is not None, "map_joint asks for bodies only"
+        return carrier
+
+    def couplings(self) -> list[Coupling]:
+        stated = self.scene.couplings
+        screws = screw_couplings((mapped for mapped, _ in self.joints.values()), stated)
+        mapped = (map_coupling(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
+        return [coupling for coupling in mapped if coupling is not None]
+
+
+def _at_home(body: Body) -> bool:
+    """Whether a body's mesh lies in its node's own frame."""
+    pose = body.pose
+    unmoved = not pose.translation.any() and bool((pose.rotation == Pose().rotation).all())
+    return unmoved and body.scale == ONE

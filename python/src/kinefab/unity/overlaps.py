@@ -1,0 +1,162 @@
+"""Colliders that Unity would push apart at the start: of different bodies, overlapping, and not kept from colliding."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..diagnostics import Report
+from ..geometry.contact.depth import Depths, Solid, is_available
+from ..geometry.primitives import box, sphere
+from ..spatial import Array, matrix_from_quaternion
+from .scene import BoxCollider, CapsuleCollider, Joint, MeshCollider, Rigidbody, SphereCollider, UnityScene
+
+CONTACT_OFFSET = 0.01
+"""Metres: Unity's default, within which touching shapes are held apart softly."""
+SHARE = 0.02
+"""Of the smaller shape's size: the depth that counts for shapes that are small against the contact offset."""
+MOST_PAIRS = 20_000
+"""Pairs of close shapes that are looked at."""
+MOST_TRIANGLES = 100_000
+"""Of a mesh that is not convex; finer ones take minutes to prepare."""
+
+_Collider = BoxCollider | SphereCollider | CapsuleCollider | MeshCollider
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Placed:
+    """A collider in the world.  body: index of the object whose Rigidbody moves it, None for a static one."""
+
+    owner: int
+    body: int | None
+    solid: Solid
+    low: Array
+    high: Array
+
+
+def check_overlaps(scene: UnityScene, report: Report) -> None:
+    """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first."""
+    moved = _bodies(scene)
+    dynamic = {
+        i
+        for i, entry in enumerate(scene.gameObjects)
+        for c in entry.components
+        if isinstance(c, Rigidbody) and not c.isKinematic
+    }
+    if not dynamic:
+        return
+    if not is_available():
+        report.add("OVERLAPS_NOT_CHECKED", detail="the Python package coal is not installed")
+        return
+    placed = _placed(scene, moved)
+    joined = _joined(scene, moved)
+    depths, found, looked = Depths(), dict[tuple[int, int], float](), 0
+    fine: set[int] = set()
+    for a, b in _close(placed):
+        first, second = placed[a], placed[b]
+        if first.body == second.body or not dynamic & {first.body, second.body}:
+            continue
+        if frozenset((first.body, second.body)) in joined:
+            continue
+        if max(len(first.solid.faces), len(second.solid.faces)) > MOST_TRIANGLES:
+            fine.add(max(first, second, key=lambda p: len(p.solid.faces)).owner)
+            continue
+        looked += 1
+        if looked > MOST_PAIRS:
+            report.add("OVERLAPS_NOT_CHECKED", detail=f"more than {MOST_PAIRS} pairs of shapes are close")
+            break
+        depth = depths.between(first.solid, second.solid)
+        size = min(float((p.high - p.low).max()) for p in (first, second))
+        if depth > min(CONTACT_OFFSET, SHARE * size):
+            pair = (first.owner, second.owner)
+            found[pair] = max(depth, found.get(pair, 0.0))
+    for owner in sorted(fine):
+        detail = f"{scene.gameObjects[owner].id} has more than {MOST_TRIANGLES} triangles"
+        report.add("OVERLAPS_NOT_CHECKED", detail=detail)
+    for (a, b), depth in sorted(found.items(), key=lambda entry: (-round(entry[1], 9), entry[0])):
+        ids = (scene.gameObjects[a].id, scene.gameObjects[b].id)
+        report.add("COLLIDERS_OVERLAP", a=ids[0], b=ids[1], depth=f"{depth:.3g}")
+
+
+def _bodies(scene: UnityScene) -> list[int | None]:
+    """For each object the one whose Rigidbody moves it."""
+    found: list[int | None] = []
+    for i, entry in enumerate(scene.gameObjects):
+        own = any(isinstance(c, Rigidbody) for c in entry.components)
+        found.append(i if own else None if entry.parent is None else found[entry.parent])
+    return found
+
+
+def _joined(scene: UnityScene, moved: list[int | None]) -> set[frozenset[int | None]]:
+    """Pairs of Rigidbodies that a joint keeps from colliding; Unity does so for no static collider."""
+    return {
+        frozenset((moved[i], moved[c.connectedBody]))
+        for i, entry in enumerate(scene.gameObjects)
+        for c in entry.components
+        if isinstance(c, Joint) and c.connectedBody is not None and not c.enableCollision
+    }
+
+
+def _placed(scene: UnityScene, moved: list[int | None]) -> list[_Placed]:
+    world: list[tuple[Array, Array]] = []  # linear part and translation of each object
+    active: list[bool] = []
+    found: list[_Placed] = []
+    for i, entry in enumerate(scene.gameObjects):
+        t = entry.transform
+        linear = matrix_from_quaternion(np.array(t.localRotation)) * np.array(t.localScale)
+        position = np.array(t.localPosition)
+        above = (np.eye(3), np.zeros(3)) if entry.parent is None else world[entry.parent]
+        world.append((above[0] @ linear, above[0] @ position + above[1]))
+        active.append(entry.active and (entry.parent is None or active[entry.parent]))
+        for component in entry.components:
+            if not isinstance(component, _Collider) or not active[i]:
+                continue
+            if not component.enabled or component.isTrigger or _is_nothing(component):
+                continue
+            vertices, faces, convex = _shape(scene, component)
+            points = vertices @ world[i][0].T + world[i][1]
+            solid = Solid(points, faces, convex)
+            found.append(_Placed(i, moved[i], solid, points.min(axis=0), points.max(axis=0)))
+    return found
+
+
+def _is_nothing(collider: _Collider) -> bool:
+    """Whether a shape has no extent at all, as a target will say."""
+    if isinstance(collider, MeshCollider):
+        return False
+    return max(collider.size) <= 0.0 if isinstance(collider, BoxCollider) else collider.radius <= 0.0
+
+
+def _shape(scene: UnityScene, collider: _Collider) -> tuple[Array, Array, bool]:
+    """Vertices in the object's frame, triangles, and whether the shape is convex."""
+    if isinstance(collider, MeshCollider):
+        mesh = scene.meshes[collider.mesh]
+        return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.triangles), collider.convex
+    center = np.array(collider.center)
+    if isinstance(collider, BoxCollider):
+        made = box(collider.size)
+        return made.vertices + center, made.faces, True
+    made = sphere(collider.radius)
+    vertices = made.vertices
+    if isinstance(collider, CapsuleCollider):
+        axis = np.eye(3)["XYZ".index(str(collider.direction))]
+        half = max(0.0, 0.5 * collider.height - collider.radius)
+        vertices = vertices + half * np.sign(np.round(vertices @ axis, 12))[:, None] * axis
+    return vertices + center, made.faces, True
+
+
+def _close(placed: list[_Placed]) -> list[tuple[int, int]]:
+    """Pairs whose boxes overlap, by a sweep along X."""
+    if not placed:
+        return []
+    low, high = np.array([p.low for p in placed]), np.array([p.high for p in placed])
+    order = np.argsort(low[:, 0], kind="stable")
+    starts = low[order, 0]
+    found: list[tuple[int, int]] = []
+    for k, i in enumerate(order):
+        stop = int(np.searchsorted(starts, high[i, 0], side="right"))
+        others = order[k + 1 : stop]
+        near = (low[others] <= high[i]).all(axis=1) & (high[others] >= low[i]).all(axis=1)
+        found += [(min(int(i), int(j)), max(int(i), int(j))) for j in others[near]]
+    return sorted(found)

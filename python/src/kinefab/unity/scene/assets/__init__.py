@@ -1,0 +1,1 @@
+"""What GameObjects refer to and share."""

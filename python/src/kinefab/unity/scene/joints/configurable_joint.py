@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..vectors import IDENTITY, ZERO, Quaternion, Vector3
+from .joint import AnchoredJoint
+
+
+@dataclass(frozen=True, slots=True)
+class SoftJointLimit:
+    """limit: metres or degrees.  bounciness: 0..1."""
+
+    limit: float = 0.0
+    bounciness: float = 0.0
+    contactDistance: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SoftJointLimitSpring:
+    spring: float = 0.0
+    damper: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class JointDrive:
+    """positionSpring, positionDamper: N/m, N s/m, or N m/rad, N m s/rad.  maximumForce: infinite is Unity's largest float."""
+
+    positionSpring: float = 0.0
+    positionDamper: float = 0.0
+    maximumForce: float = math.inf
+    useAcceleration: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ConfigurableJoint(AnchoredJoint):
+    """Motions are ``Locked``, ``Limited`` or ``Free``.  targetVelocity: m/s; targetAngularVelocity: rad/s."""
+
+    secondaryAxis: Vector3 = (0.0, 1.0, 0.0)
+    xMotion: str = "Free"
+    yMotion: str = "Free"
+    zMotion: str = "Free"
+    angularXMotion: str = "Free"
+    angularYMotion: str = "Free"
+    angularZMotion: str = "Free"
+    linearLimitSpring: SoftJointLimitSpring = SoftJointLimitSpring()
+    linearLimit: SoftJointLimit = SoftJointLimit()
+    angularXLimitSpring: SoftJointLimitSpring = SoftJointLimitSpring()
+    lowAngularXLimit: SoftJointLimit = SoftJointLimit()
+    highAngularXLimit: SoftJointLimit = SoftJointLimit()
+    angularYZLimitSpring: SoftJointLimitSpring = SoftJointLimitSpring()
+    angularYLimit: SoftJointLimit = SoftJointLimit()
+    angularZLimit: SoftJointLimit = SoftJointLimit()
+    targetPosition: Vector3 = ZERO
+    targetVelocity: Vector3 = ZERO
+    xDrive: JointDrive = JointDrive()
+    yDrive: JointDrive = JointDrive()
+    zDrive: JointDrive = JointDrive()
+    targetRotation: Quaternion = IDENTITY
+    targetAngularVelocity: Vector3 = ZERO
+    rotationDriveMode: str = "XYAndZ"
+    angularXDrive: JointDrive = JointDrive()
+    angularYZDrive: JointDrive = JointDrive()
+    slerpDrive: JointDrive = JointDrive()
+    projectionMode: str = "None"
+    projectionDistance: float = 0.1
+    projectionAngle: float = 180.0
+    configuredInWorldSpace: bool = False
+    swapBodies: bool = False

@@ -1,0 +1,45 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ..vectors import ZERO, Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """What all joints have.  It sits on the object of one body.
+
+    connectedBody: index of the GameObject of the other body, None for the world.
+    breakForce, breakTorque: newtons, newton metres; infinite: unbreakable.
+    because: ids of the source's constraints or joints that it comes from.  closure: it closes a loop.
+    exact: it moves just as the source's.  id: of the joint in the source, "" for one that holds a rigid group together.
+    """
+
+    connectedBody: int | None = None
+    breakForce: float = math.inf
+    breakTorque: float = math.inf
+    enableCollision: bool = False
+    enablePreprocessing: bool = True
+    massScale: float = 1.0
+    connectedMassScale: float = 1.0
+    because: tuple[str, ...] = ()
+    closure: bool = False
+    exact: bool = True
+    id: str = ""
+    extras: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class AnchoredJoint(Joint):
+    """A joint with a place and an axis.
+
+    anchor, axis: in the own object's frame, metres, unit vector.  connectedAnchor: in the connected body's frame, in the
+    world where there is none.
+    """
+
+    anchor: Vector3 = ZERO
+    axis: Vector3 = (1.0, 0.0, 0.0)
+    autoConfigureConnectedAnchor: bool = True
+    connectedAnchor: Vector3 = ZERO

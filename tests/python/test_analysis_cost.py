@@ -1,0 +1,40 @@
+"""Work that must not grow as the square of a mechanism is counted, since a clock decides no test."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from kinefab.analysis import analyse
+from linkages import ring
+
+
+def pins(count: int) -> list[np.ndarray]:
+    turns = np.linspace(0.0, math.tau, count, endpoint=False)
+    return [np.array([math.cos(t), 0.7 * math.sin(t), 0.0]) for t in turns]
+
+
+@pytest.mark.parametrize("count", [40, 160])
+def test_a_ring_of_hinges_compares_those_alone_that_may_share_an_axis(monkeypatch, count):
+    """No decomposition for each pair of hinges: their number in a ring is in proportion to the hinges."""
+    calls = 0
+    plain = np.linalg.svd
+
+    def counted(*args, **more):
+        nonlocal calls
+        calls += 1
+        return plain(*args, **more)
+
+    monkeypatch.setattr(np.linalg, "svd", counted)
+    found = analyse(ring(pins(count), [f"bar{i}" for i in range(count)]))
+    assert found.mobility == count - 3 and found.idle == []
+    assert calls < 2 * count
+
+
+def test_bars_on_one_axis_in_a_ring_are_idle_together_as_before():
+    """Three hinges on one line and four others: what turns between the three moves nothing else."""
+    places = [(0, 0), (0, 0), (0, 0), (1, 0.2), (1.4, 1), (0.6, 1.5), (-0.3, 1.1)]
+    found = analyse(ring([np.array([x, y, 0.0]) for x, y in places], [f"bar{i}" for i in range(7)]))
+    told = [([found.source.nodes[n].id for n in idle.nodes], idle.count) for idle in found.idle]
+    assert told == [(["bar1"], 1), (["bar2"], 1)]

@@ -1,0 +1,38 @@
+"""What the package hands out, and that asking for it costs little."""
+
+from __future__ import annotations
+
+import inspect
+import subprocess
+import sys
+
+import kinefab
+
+API = """
+BatchResult Closures ColliderShape Diagnostic Drive ExportOptions ExportResult FeatureOutcome Freedom Joint JointKind
+KinefabError MassProperties Mechanism Motion Outcome Report Scene Severity Trajectory __version__ batch export motion report view
+""".split()
+"""A name that is added or gone changes what scripts may rely on: write it in CHANGELOG.md too."""
+
+
+def test_the_public_names_are_those_listed():
+    assert sorted(kinefab.__all__) == sorted(API)
+    assert all(getattr(kinefab, name) is not None for name in API)
+
+
+def test_every_public_name_says_what_it_is():
+    told = {name: inspect.getdoc(getattr(kinefab, name)) for name in API if name != "__version__"}
+    assert [name for name, doc in told.items() if not doc or len(doc) < 20] == []
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    """``import kinefab`` is for everybody who only might need it; numpy comes with the first name that is used."""
+    code = "import sys, kinefab; print(sorted({'numpy', 'scipy', 'trimesh', 'typer', 'rich', 'pxr'} & sys.modules.keys()))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_the_help_of_the_command_line_imports_no_numpy():
+    code = "import sys, kinefab.cli; print(sorted({'numpy', 'scipy', 'trimesh', 'pxr'} & sys.modules.keys()))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -1,0 +1,98 @@
+"""What the Makefile and ``python/bootstrap.sh`` do where something is missing: a sentence, and nothing of ours is lost."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+NEEDED = ("bash", "dirname", "cat", "cut", "rm", "env")
+
+pytestmark = pytest.mark.posix
+
+
+def checkout(tmp_path: Path, *tools: str) -> tuple[Path, dict[str, str]]:
+    """What ``make setup`` reads of a checkout, and an environment whose PATH holds only these tools."""
+    (tmp_path / "python").mkdir()
+    for name in ("bootstrap.sh", "pyproject.toml"):
+        shutil.copy(ROOT / "python" / name, tmp_path / "python")
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    for name in (*NEEDED, *tools):
+        (programs / name).symlink_to(shutil.which(name))
+    return tmp_path, {"PATH": str(programs)}
+
+
+def setup(place: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        ["bash", str(place / "python" / "bootstrap.sh")], env=environment, capture_output=True, text=True
+    )
+
+
+def test_setup_without_sha256sum_says_so(tmp_path):
+    place, environment = checkout(tmp_path)
+    done = setup(place, environment)
+    assert done.returncode != 0 and "sha256sum is not on the PATH" in done.stderr
+
+
+def test_setup_with_an_old_python_says_so(tmp_path):
+    place, environment = checkout(tmp_path, "sha256sum")
+    old = tmp_path / "programs" / "python3"
+    old.write_text('#!/usr/bin/env bash\ncase "$2" in *exit*) exit 1;; *) echo Python 3.9;; esac\n')
+    old.chmod(0o755)
+    done = setup(place, environment)
+    assert done.returncode != 0 and not (place / ".venv").exists()
+    assert "Python 3.9 is on the PATH; kinefab needs Python 3.10 or newer" in done.stderr
+
+
+def test_setup_leaves_a_foreign_environment_alone(tmp_path):
+    place, environment = checkout(tmp_path, "sha256sum")
+    mine = place / ".venv" / "mine.txt"
+    mine.parent.mkdir()
+    mine.write_text("mine")
+    done = setup(place, environment)
+    assert done.returncode != 0 and mine.read_text() == "mine" and os.listdir(place / ".venv") == ["mine.txt"]
+    assert "was not made here" in done.stderr and "Move it away" in done.stderr
+
+
+def demo(tmp_path: Path, *tools: str, **stubs: str) -> subprocess.CompletedProcess[str]:
+    """``make demo`` with this interpreter, into ``tmp_path/out``, where the PATH holds these tools and stubs alone."""
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    for name in ("bash", "sh", "grep", "mkdir", "make", *tools):
+        (programs / name).symlink_to(shutil.which(name))
+    for name, text in stubs.items():
+        (programs / name.replace("_", "-")).write_text(text)
+        (programs / name.replace("_", "-")).chmod(0o755)
+    variables = (f"PYTHON={sys.executable}", f"OUT={tmp_path / 'out'}", "TOOL=nowhere")
+    command = ["make", "-o", "setup", "demo", *variables]
+    made_by_make = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES"}  # `make test` runs this: no level below its own
+    environment = {
+        **{name: value for name, value in os.environ.items() if name not in made_by_make},
+        "PATH": str(programs),
+        "DISPLAY": "",
+        "WAYLAND_DISPLAY": "",
+    }  # opens no browser
+    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="no make on the PATH")
+def test_the_demo_without_dotnet_does_the_python_half_and_says_what_is_left_out(tmp_path):
+    done = demo(tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out" / "lever.kinefab").is_file() and (tmp_path / "out" / "lever.svg").is_file()
+    assert "mobility 1" in done.stdout and "it needs the .NET 10 SDK" in done.stdout
+    assert Path(done.stdout.splitlines()[-1]) == tmp_path / "out" / "lever.html"  # the page, to be looked at
+    assert (tmp_path / "out" / "lever.html").is_file()
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="no make on the PATH")
+def test_the_demo_uses_a_tool_that_is_installed(tmp_path):
+    """``dotnet-kinefab`` on the PATH, as a global tool is, does the other half without an SDK; its refusal counts."""
+    done = demo(tmp_path, dotnet_kinefab='#!/usr/bin/env bash\necho "asked to $1"\nexit 3\n')
+    assert done.returncode != 0 and "asked to validate" in done.stdout and "left out" not in done.stdout

@@ -1,0 +1,256 @@
+"""What is seen of a part: normals, texture coordinates, colours and textures, from scripts and from files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from kinefab.diagnostics import Outcome, Report
+from kinefab.geometry.files import read_mesh_file
+from kinefab.geometry.looks.shading import shaded
+from kinefab.model import AlphaMode, Mesh
+from trimesh.visual.material import PBRMaterial
+
+RED = (1.0, 0.0, 0.0, 1.0)
+
+
+def exported(part, tmp_path, **options) -> tuple[dict, kinefab.ExportResult]:
+    scene = kinefab.Scene()
+    scene.add_part("Part", part, grounded=True)
+    result = kinefab.export(scene, tmp_path / "p.kinefab", kinefab.ExportOptions(colliders="none", **options))
+    return json.loads(result.path.read_text("utf-8")), result
+
+
+def colors(content: dict) -> list[list[float]]:
+    return [m.get("color", [0.8, 0.8, 0.8, 1.0]) for m in content["materials"]]
+
+
+def mesh_of(shape: trimesh.Trimesh) -> Mesh:
+    return Mesh("m", np.array(shape.vertices), np.array(shape.faces))
+
+
+def soup(shape: trimesh.Trimesh) -> Mesh:
+    corners = np.array(shape.vertices)[shape.faces].reshape(-1, 3)
+    return Mesh("m", corners, np.arange(len(corners)).reshape(-1, 3))
+
+
+def face_normals(mesh: Mesh) -> np.ndarray:
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    across = np.cross(b - a, c - a)
+    return across / np.linalg.norm(across, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("made", [mesh_of, soup])
+def test_a_box_keeps_its_edges(made):
+    """Each corner has a normal for each of its three sides, that side's own, whether or not vertices are shared."""
+    found = shaded(made(trimesh.creation.box((0.4, 0.2, 0.3))), 30.0)
+    assert found.normals is not None
+    for corner in range(3):
+        assert np.allclose(found.normals[found.faces[:, corner]], face_normals(found), atol=1e-12)
+    assert len(np.unique(np.column_stack([found.vertices, found.normals]).round(6), axis=0)) == 24
+
+
+def test_a_cylinder_is_round_and_its_ends_are_flat():
+    """Normals of the side point away from the axis to 1e-12, however its quads are cut; those of the ends along it."""
+    found = shaded(mesh_of(trimesh.creation.cylinder(0.1, 0.3, sections=24)), 30.0)
+    across = face_normals(found)
+    side = np.abs(across[:, 2]) < 0.5
+    at = found.faces[side].reshape(-1)
+    outward = found.vertices[at] * [1.0, 1.0, 0.0]
+    assert np.allclose(
+        found.normals[at], outward / np.linalg.norm(outward, axis=1, keepdims=True), atol=1e-12
+    )
+    ends = found.faces[~side]
+    assert np.allclose(found.normals[ends], across[~side][:, None], atol=1e-12)
+
+
+def test_a_sphere_gets_no_further_vertex():
+    """All edges below the angle: the vertices are what they were, the normals the directions from the middle to 1 degree."""
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    found = shaded(mesh_of(ball), 30.0)
+    assert np.array_equal(found.vertices, ball.vertices) and np.array_equal(found.faces, ball.faces)
+    assert np.einsum("ij,ij->i", found.normals, found.vertices).min() > np.cos(np.radians(1.0))
+
+
+@pytest.mark.parametrize("angle, sharp", [(10.0, True), (20.0, False)])
+def test_the_angle_decides_which_edge_is_hard(angle, sharp):
+    """A roof of 15 degrees between its sides: hard below, smooth above; the ridge's two vertices are the ones repeated."""
+    slope = np.radians(7.5)
+    y, z = np.cos(slope), np.sin(slope)
+    vertices = np.array([[0, -y, -z], [1, -y, -z], [0, 0, 0], [1, 0, 0], [0, y, -z], [1, y, -z]], dtype=float)
+    faces = np.array([[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]])
+    found = shaded(Mesh("roof", vertices, faces, uvs=(vertices[:, :2],)), angle)
+    assert len(found.vertices) == (8 if sharp else 6)
+    ridge = np.flatnonzero((found.vertices[:, 1:] == 0.0).all(axis=1))
+    upward = found.normals[ridge] @ [0.0, 0.0, 1.0]
+    assert np.allclose(upward, np.cos(slope) if sharp else 1.0, atol=1e-12)
+    assert np.array_equal(found.uvs[0], found.vertices[:, :2])
+
+
+def test_stated_normals_stay_and_none_are_made_when_not_asked(tmp_path):
+    box = trimesh.creation.box((1, 1, 1))
+    tilted = np.tile([0.6, 0.8, 0.0], (8, 1))
+    stated = trimesh.Trimesh(box.vertices, box.faces, vertex_normals=tilted, process=False)
+    content, result = exported(stated, tmp_path, smooth=10.0)
+    mesh = result.unity.meshes[0]
+    assert len(mesh.vertices) == 8 and np.allclose(np.abs(mesh.normals), [0.6, 0.8, 0.0])
+    assert "normals" in content["meshes"][0]
+    content, _ = exported(box, tmp_path, smooth=None)
+    assert "normals" not in content["meshes"][0]
+    content, _ = exported(box, tmp_path)
+    assert content["meshes"][0]["vertexCount"] == 24 and "normals" in content["meshes"][0]
+
+
+def test_normals_that_trimesh_computed_are_not_stated_ones(tmp_path):
+    """Looking at a box's ``vertex_normals`` must not smooth its edges."""
+    box = trimesh.creation.box((1, 1, 1))
+    assert len(box.vertex_normals) == 8
+    content, _ = exported(box, tmp_path)
+    assert content["meshes"][0]["vertexCount"] == 24
+
+
+def write_obj(folder: Path, name: str, kd: str, extra: str = "") -> Path:
+    (folder / f"{name}.mtl").write_text(f"newmtl paint\nKd {kd}\nNs 100\n{extra}", "utf-8")
+    path = folder / f"{name}.obj"
+    path.write_text(
+        f"mtllib {name}.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl paint\n"
+        "f 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 1/1 4/3 3/3\nf 2/2 3/3 4/1\n",
+        "utf-8",
+    )
+    return path
+
+
+@pytest.mark.parametrize("loaded", [False, True])
+def test_the_red_of_an_obj_arrives_through_a_script(loaded, tmp_path):
+    """By its path or as what trimesh makes of it, with its texture coordinates."""
+    path = write_obj(tmp_path, "red", "1 0 0")
+    content, _ = exported(trimesh.load(path) if loaded else path, tmp_path)
+    (material,) = content["materials"]
+    assert material["name"] == "paint" and material["color"] == [*RED]
+    assert material["smoothness"] == pytest.approx(1.0 - np.sqrt(2.0 / 102.0))
+    assert "uv" in content["meshes"][0]
+
+
+def test_two_files_may_call_different_looks_by_one_name(tmp_path):
+    scene = kinefab.Scene()
+    for name, kd in (("red", "1 0 0"), ("blue", "0 0 1")):
+        scene.add_part(name, write_obj(tmp_path, name, kd), grounded=True)
+    result = kinefab.export(scene, tmp_path / "two.kinefab")
+    assert colors(json.loads(result.path.read_text("utf-8"))) == [[1, 0, 0, 1], [0, 0, 1, 1]]
+
+
+def test_colours_of_faces_become_surfaces(tmp_path):
+    """A submesh for each colour, sRGB to linear; no triangle is lost."""
+    box = trimesh.creation.box((1, 1, 1))
+    box.visual.face_colors = [[255, 0, 0, 255]] * 2 + [[0, 128, 255, 255]] * 9 + [[255, 0, 0, 255]]
+    content, _ = exported(box, tmp_path)
+    assert np.allclose(colors(content), [[1, 0, 0, 1], [0, 0.21586, 1, 1]], atol=1e-5)
+    assert [s["indexCount"] for s in content["meshes"][0]["submeshes"]] == [9, 27]
+    (renderer,) = (
+        c for o in content["gameObjects"] for c in o.get("components", ()) if c["type"] == "MeshRenderer"
+    )
+    assert renderer["materials"] == [0, 1]
+
+
+def test_one_colour_of_all_vertices_is_a_surface_many_are_told(tmp_path):
+    """.kinefab has no place for colours of vertices: dropped, by name; the mesh in Unity's terms has them."""
+    ball = trimesh.creation.icosphere(subdivisions=1)
+    ball.visual.vertex_colors = [255, 0, 0, 255]
+    content, _ = exported(ball, tmp_path)
+    assert colors(content) == [[1, 0, 0, 1]]
+    ball.visual.vertex_colors = np.arange(len(ball.vertices) * 4).reshape(-1, 4).astype(np.uint8)
+    _, result = exported(ball, tmp_path)
+    assert result.unity.meshes[0].colors.shape == (len(ball.vertices), 4)
+    assert any(
+        o.outcome is Outcome.DROPPED and o.code == "TARGET_FIELD_DROPPED" and "colors" in o.message
+        for o in result.report.outcomes
+    )
+
+
+def test_more_colours_than_surfaces_stay_apart_at_the_corners(tmp_path):
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    ball.visual.face_colors = np.column_stack([np.arange(320) % 256, np.arange(320) // 256] * 2).astype(
+        np.uint8
+    )
+    _, result = exported(ball, tmp_path)
+    mesh = result.unity.meshes[0]
+    of_faces = mesh.colors[mesh.triangles]
+    assert np.ptp(of_faces, axis=1).max() == 0.0 and len(np.unique(of_faces[:, 0], axis=0)) == 320
+
+
+def painted(**more) -> trimesh.Trimesh:
+    box = trimesh.creation.box((1, 1, 1))
+    material = PBRMaterial(
+        name="lacquer", baseColorFactor=[51, 102, 153, 255], metallicFactor=0.25, roughnessFactor=0.4,
+        emissiveFactor=[0.0, 0.5, 1.0], doubleSided=True, alphaMode="MASK", alphaCutoff=0.3, **more,
+    )  # fmt: skip
+    box.visual = trimesh.visual.TextureVisuals(uv=np.array(box.vertices)[:, :2] + 0.5, material=material)
+    return box
+
+
+@pytest.mark.parametrize("through_file", [False, True])
+def test_a_pbr_material_arrives_whole(through_file, tmp_path):
+    """Factors, modes and textures, from a script's mesh or through a GLB."""
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    shades = {
+        f"{role}Texture": image.new("RGB", (2, 2), (i, 7, 9))
+        for i, role in enumerate(("baseColor", "metallicRoughness", "normal", "emissive", "occlusion"))
+    }
+    part = painted(**shades)
+    if through_file:
+        part.export(tmp_path / "p.glb")
+        part = tmp_path / "p.glb"
+    _, result = exported(part, tmp_path)
+    (found,) = result.unity.materials
+    assert found.name == "lacquer"
+    assert np.allclose(found.color, (0.2, 0.4, 0.6, 1.0)) and found.metallic == 0.25
+    assert found.smoothness == pytest.approx(0.6) and found.emission == (0.0, 0.5, 1.0)
+    analysed = result.content.scene.surfaces[0]
+    assert analysed.alpha_mode is AlphaMode.MASK and analysed.alpha_cutoff == 0.3 and analysed.double_sided
+    textures = (
+        analysed.color_texture, analysed.metallic_roughness_texture, analysed.normal_texture,
+        analysed.emission_texture, analysed.occlusion_texture,
+    )  # fmt: skip
+    assert all(t.data.startswith(b"\x89PNG") and t.media_type == "image/png" for t in textures)
+    assert len({t.name for t in textures}) == 5
+    assert result.unity.meshes[0].uvs[0].shape == (len(result.unity.meshes[0].vertices), 2)
+    told = {o.message for o in result.report.outcomes if o.outcome is Outcome.DROPPED}
+    assert sum("Texture of" in message for message in told) == 5
+
+
+def test_an_obj_s_textures_are_named_or_told(tmp_path):
+    """A picture beside it is kept with its scale and offset; one outside, one missing and a height map are told."""
+    (tmp_path / "wood.png").write_bytes(b"\x89PNG")
+    path = write_obj(
+        tmp_path, "o", "0.5 0.5 0.5",
+        "map_Kd -s 2 3 1 -o 0.25 wood.png\nmap_Ke ../secret.png\nnorm gone.png\nmap_Bump high.png\n",
+    )  # fmt: skip
+    report = Report()
+    file = read_mesh_file(path, report, "here")
+    surface = file.surfaces["paint"]
+    assert surface.color_texture.path == tmp_path / "wood.png" and surface.color == (0.5, 0.5, 0.5, 1.0)
+    assert surface.color_texture.scale == (2.0, 3.0) and surface.color_texture.offset == (0.25, 0.0)
+    assert surface.normal_texture is None and surface.emission_texture is None
+    lost = [o for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"]
+    assert [o.feature for o in lost] == [f"texture {n}" for n in ("../secret.png", "gone.png", "high.png")]
+    assert all(o.outcome is Outcome.DROPPED for o in lost)
+
+
+def test_a_picture_that_a_gltf_cannot_read_is_told(tmp_path):
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    files = painted(baseColorTexture=image.new("RGB", (2, 2))).export(file_type="gltf", merge_buffers=True)
+    text = trimesh.Scene(painted(baseColorTexture=image.new("RGB", (2, 2)))).export(file_type="gltf")
+    del files
+    for name, data in text.items():
+        if name.endswith(".gltf"):
+            document = json.loads(data)
+            document["images"] = [{"uri": "gone.png"}]
+            data = json.dumps(document).encode()
+        (tmp_path / name).write_bytes(data)
+    report = Report()
+    assert read_mesh_file(tmp_path / "model.gltf", report, "here") is not None
+    assert [(o.feature, o.code) for o in report.outcomes] == [("texture gone.png", "TEXTURE_UNREADABLE")]

@@ -1,0 +1,59 @@
+"""The instances of a PointInstancer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Array
+from .api import Tf, Usd, UsdGeom
+from .stage import OpenStage, matrix
+
+MAX_INSTANCES = 1_000_000
+
+
+def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[int, Any, Array]]:
+    """For each shown instance its number, its prototype and what stands between the instancer and the prototype's own
+    transform, shape (4, 4)."""
+    instancer = UsdGeom.PointInstancer(prim)
+    time = Usd.TimeCode.Default()
+    if instancer.GetPositionsAttr().Get(time) is None:
+        time = Usd.TimeCode.EarliestTime()
+    indices = instancer.GetProtoIndicesAttr().Get(time)
+    targets = instancer.GetPrototypesRel().GetForwardedTargets()
+    where = opened.place(prim)
+    if not indices or not targets:
+        return
+    if len(indices) > MAX_INSTANCES:
+        report.dropped(
+            f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=f"{len(indices)} instances"
+        )
+        return
+    detail = ""
+    found: Any = None
+    try:
+        found = instancer.ComputeInstanceTransformsAtTime(
+            time, time, UsdGeom.PointInstancer.ExcludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
+        )
+    except Tf.ErrorException as error:
+        detail = str(error)
+    if found is None or len(found) != len(indices):
+        detail = detail or "its arrays have different lengths"
+        report.dropped(f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=detail)
+        return
+    mask = instancer.ComputeMaskAtTime(time) or [True] * len(indices)
+    for number, (index, shown) in enumerate(zip(indices, mask)):
+        if not shown:
+            continue
+        prototype = prim.GetStage().GetPrimAtPath(targets[index]) if 0 <= index < len(targets) else None
+        placing = matrix(found[number])
+        if not prototype or not np.isfinite(placing).all():
+            report.dropped(
+                f"instance {prim.GetPath()}[{number}]", "USD_FEATURE_DROPPED", where,
+                detail=f"prototype {index} is missing or its place is not finite",
+            )  # fmt: skip
+            continue
+        yield number, prototype, placing

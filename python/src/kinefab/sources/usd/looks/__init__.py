@@ -1,0 +1,1 @@
+"""What is drawn: triangles of meshes and gprims, surfaces and their textures."""

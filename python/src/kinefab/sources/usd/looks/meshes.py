@@ -1,0 +1,284 @@
+"""A UsdGeom.Mesh as triangles with normals, texture coordinates, colours and submeshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ....diagnostics import Report
+from ....spatial import Array
+from ..api import Usd, UsdGeom
+from ..stage import OpenStage
+from .triangulate import triangles
+
+MAX_UVS = 8
+"""Texture coordinate sets of a Unity mesh."""
+MAX_COORDINATE = 1e15
+
+
+@dataclass(slots=True, eq=False)
+class Polygons:
+    """Triangles in the prim's own axes and units.
+
+    vertices: shape (n, 3).  faces: shape (m, 3), counter-clockwise from outside.  normals: shape (n, 3) or None.
+    uvs: arrays of shape (n, 2), with their names.  colors: linear RGBA, shape (n, 4), or None.
+    face_counts, subsets: number of faces and GeomSubset prim (None: the mesh's own) of each submesh.
+    """
+
+    vertices: Array
+    faces: np.ndarray
+    normals: Array | None = None
+    uvs: tuple[Array, ...] = ()
+    uv_names: tuple[str, ...] = ()
+    colors: Array | None = None
+    face_counts: tuple[int, ...] = ()
+    subsets: tuple[Any, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Primvar:
+    """values: shape (k, d).  indices: into values for each element of ``interpolation``."""
+
+    name: str
+    values: Array
+    indices: np.ndarray
+    interpolation: str
+
+
+def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
+    """The cage of a mesh; None, and a loss in the report, where it cannot be drawn."""
+    mesh = UsdGeom.Mesh(prim)
+    time = _time(mesh, opened, report)
+    points = _array(mesh.GetPointsAttr().Get(time), 3)
+    counts = _integers(mesh.GetFaceVertexCountsAttr().Get(time))
+    corners = _integers(mesh.GetFaceVertexIndicesAttr().Get(time))
+    detail = _unsound(points, counts, corners)
+    where = opened.place(prim)
+    if detail:
+        report.dropped(f"mesh {prim.GetPath()}", "USD_MESH_UNSOUND", where, detail=detail)
+        return None
+    assert points is not None
+    tri, owner = triangles(points, counts, corners)
+    holes = _integers(mesh.GetHoleIndicesAttr().Get(time))
+    if len(holes):
+        keep = ~np.isin(owner, holes)
+        tri, owner = tri[keep], owner[keep]
+    if not len(tri):
+        report.dropped(f"mesh {prim.GetPath()}", "USD_MESH_UNSOUND", where, detail="it has no faces")
+        return None
+    if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+        tri = tri[:, ::-1]
+    tri, owner, face_counts, subsets = _submeshes(mesh, tri, owner, len(counts), opened, report)
+    if mesh.GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none:
+        report.approximated(f"subdivision of {prim.GetPath()}", "USD_SUBDIVISION", where)
+    return _indexed(
+        prim, mesh, points, corners, len(counts), tri, owner, face_counts, subsets, time, opened, report
+    )
+
+
+def _time(mesh: Any, opened: OpenStage, report: Report) -> Any:
+    attribute = mesh.GetPointsAttr()
+    prim = mesh.GetPrim()
+    if attribute.GetNumTimeSamples() > 1 or prim.HasAttribute("primvars:skel:jointIndices"):
+        report.approximated(f"deformation of {prim.GetPath()}", "USD_DEFORMATION", opened.place(prim))
+    time = Usd.TimeCode.Default()
+    return Usd.TimeCode.EarliestTime() if attribute.Get(time) is None else time
+
+
+def _array(value: Any, width: int) -> Array | None:
+    if value is None:
+        return None
+    try:
+        found = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):  # of another type than the schema's
+        return None
+    return found.reshape(-1, width) if found.size % width == 0 else None
+
+
+def _integers(value: Any) -> np.ndarray:
+    """Empty where there are none, or something else than numbers."""
+    try:
+        return np.array([] if value is None else value, dtype=np.int64).ravel()
+    except (TypeError, ValueError, OverflowError):
+        return np.zeros(0, dtype=np.int64)
+
+
+def _unsound(points: Array | None, counts: np.ndarray, corners: np.ndarray) -> str:
+    """What is wrong with a mesh, "" for nothing."""
+    if points is None or not len(points):
+        return "it has no points"
+    if not (np.abs(points) <= MAX_COORDINATE).all():
+        return "a point is no finite number"
+    if not len(counts):
+        return "it has no faces"
+    if (counts < 0).any() or counts.sum() != len(corners):
+        return "its faces name another number of corners than it has"
+    if len(corners) and (corners.min() < 0 or corners.max() >= len(points)):
+        return "a face names a point that it does not have"
+    return ""
+
+
+def _submeshes(
+    mesh: Any, tri: np.ndarray, owner: np.ndarray, count: int, opened: OpenStage, report: Report
+) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[Any, ...]]:
+    """Triangles ordered by the material subsets; what is in none comes last."""
+    subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
+    if not subsets:
+        return tri, owner, (), (None,)
+    of_face = np.full(count, len(subsets), dtype=np.int64)
+    for number, subset in enumerate(subsets):
+        named = _integers(subset.GetIndicesAttr().Get())
+        sound = named[(named >= 0) & (named < count)]
+        taken = of_face[sound] != len(subsets)
+        if len(sound) < len(named) or taken.any():
+            report.approximated(
+                f"subset {subset.GetPath()}", "USD_SUBSET_UNSOUND", opened.place(subset.GetPrim()),
+                faces=len(named) - len(sound) + int(taken.sum()),
+            )  # fmt: skip
+        of_face[sound[~taken]] = number
+    order = np.argsort(of_face[owner], kind="stable")
+    sizes = np.bincount(of_face[owner], minlength=len(subsets) + 1)
+    chosen = [*(subset.GetPrim() for subset in subsets), None]
+    used = [i for i in range(len(subsets) + 1) if sizes[i]]
+    face_counts = tuple(int(sizes[i]) for i in used) if len(used) > 1 else ()
+    return tri[order], owner[order], face_counts, tuple(chosen[i] for i in used)
+
+
+def _indexed(
+    prim: Any, mesh: Any, points: Array, corners: np.ndarray, faces: int, tri: np.ndarray, owner: np.ndarray,
+    face_counts: tuple[int, ...], subsets: tuple[Any, ...], time: Any, opened: OpenStage, report: Report,
+) -> Polygons:  # fmt: skip
+    """Corners that agree in everything become one vertex."""
+    sizes = {
+        "constant": 1,
+        "uniform": faces,
+        "varying": len(points),
+        "vertex": len(points),
+        "faceVarying": len(corners),
+    }
+    primvars = _primvars(prim, mesh, sizes, time, opened, report)
+    element = {
+        "constant": np.zeros(tri.size, dtype=np.int64),
+        "uniform": np.repeat(owner, 3),
+        "vertex": corners[tri].ravel(),
+        "varying": corners[tri].ravel(),
+        "faceVarying": tri.ravel(),
+    }
+    split = [p for p in primvars if p.interpolation in ("faceVarying", "uniform")]
+    if not split:
+        used = element["vertex"]
+        kept = np.arange(len(points))
+        first, inverse = None, used
+        if len(np.unique(used)) < len(points):
+            kept, inverse = np.unique(used, return_inverse=True)
+        chosen = kept
+    else:
+        keys = element["vertex"].astype(np.uint64)
+        for p in split:
+            keys = keys * np.uint64(0x9E3779B97F4A7C15) + _identities(p)[p.indices[element[p.interpolation]]]
+            keys ^= keys >> np.uint64(29)
+        _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+        # In the order of their first use, so that equal meshes have equal vertices.
+        rank = np.argsort(np.argsort(first, kind="stable"), kind="stable")
+        first, inverse = np.sort(first), rank[inverse]
+        chosen = element["vertex"][first]
+    found = Polygons(points[chosen], inverse.reshape(-1, 3), face_counts=face_counts, subsets=subsets)
+    colours: dict[str, Array] = {}
+    for p in primvars:
+        at = (
+            element[p.interpolation][first]
+            if first is not None
+            else chosen
+            if p.interpolation in ("vertex", "varying")
+            else np.zeros(len(chosen), dtype=np.int64)
+        )
+        values = p.values[p.indices[at]]
+        if p.name == "normals":
+            lengths = np.linalg.norm(values, axis=1)
+            if (lengths > 0.0).all():
+                found.normals = values / lengths[:, None]
+        elif p.name in ("displayColor", "displayOpacity"):
+            colours[p.name] = values
+        else:
+            found.uvs += (values,)
+            found.uv_names += (p.name,)
+    if colours:
+        rgb = colours.get("displayColor", np.ones((len(chosen), 3)))
+        alpha = colours.get("displayOpacity", np.ones((len(chosen), 1)))
+        found.colors = np.clip(np.column_stack([rgb, alpha]), 0.0, 1.0)
+    return found
+
+
+def _identities(primvar: _Primvar) -> np.ndarray:
+    """A number for each value, the same for equal ones, shape (k,)."""
+    bits = (
+        np.ascontiguousarray(primvar.values.astype(np.float32) + np.float32(0.0))
+        .view(np.uint32)
+        .astype(np.uint64)
+    )
+    mixed = np.zeros(len(bits), dtype=np.uint64)
+    for column in bits.T:
+        mixed = (mixed ^ column) * np.uint64(0xBF58476D1CE4E5B9)
+        mixed ^= mixed >> np.uint64(31)
+    return mixed
+
+
+def _primvars(
+    prim: Any, mesh: Any, sizes: dict[str, int], time: Any, opened: OpenStage, report: Report
+) -> list[_Primvar]:
+    """Normals, texture coordinates ("st" first) and colours that differ over the mesh."""
+    api = UsdGeom.PrimvarsAPI(prim)
+    found: list[_Primvar] = []
+    normals = api.GetPrimvar("normals")
+    if normals and normals.HasAuthoredValue():
+        found += _primvar("normals", normals, 3, sizes, time, opened, report)
+    elif mesh.GetNormalsAttr().HasAuthoredValue():
+        values = _array(mesh.GetNormalsAttr().Get(time), 3)
+        interpolation = str(mesh.GetNormalsInterpolation())
+        if values is not None and len(values) == sizes.get(interpolation) and np.isfinite(values).all():
+            found.append(_Primvar("normals", values, np.arange(len(values)), interpolation))
+        elif values is not None and len(values):
+            _report_primvar("normals", opened, prim, report)
+    coordinates: list[tuple[bool, str, Any]] = []
+    for primvar in api.FindPrimvarsWithInheritance():
+        kind, name = str(primvar.GetTypeName()), primvar.GetPrimvarName()
+        if kind.startswith("texCoord2") or (
+            kind in ("float2[]", "double2[]", "half2[]") and name.startswith(("st", "uv", "UV"))
+        ):
+            coordinates.append((name != "st", name, primvar))
+        elif name in ("displayColor", "displayOpacity") and primvar.GetInterpolation() != "constant":
+            found += _primvar(name, primvar, 3 if name == "displayColor" else 1, sizes, time, opened, report)
+    for number, (_, name, primvar) in enumerate(sorted(coordinates, key=lambda entry: entry[:2])):
+        if number == MAX_UVS:
+            report.dropped(
+                f"uv sets of {prim.GetPath()}",
+                "USD_FEATURE_DROPPED",
+                opened.place(prim),
+                detail=f"Unity has {MAX_UVS}, the mesh {len(coordinates)}",
+            )
+            break
+        found += _primvar(name, primvar, 2, sizes, time, opened, report)
+    return found
+
+
+def _primvar(
+    name: str, primvar: Any, width: int, sizes: dict[str, int], time: Any, opened: OpenStage, report: Report
+) -> list[_Primvar]:
+    """The primvar, or none and a loss in the report where it does not fit the mesh."""
+    interpolation = str(primvar.GetInterpolation())
+    raw = primvar.Get(time)
+    values = _array(raw if raw is not None else primvar.Get(Usd.TimeCode.EarliestTime()), width)
+    if values is None or not len(values):
+        return []
+    indices = _integers(primvar.GetIndices(time)) if primvar.IsIndexed() else np.arange(len(values))
+    sound = len(indices) == sizes.get(interpolation) and np.isfinite(values).all()
+    if not sound or (len(indices) and (indices.min() < 0 or indices.max() >= len(values))):
+        _report_primvar(name, opened, primvar.GetAttr().GetPrim(), report)
+        return []
+    return [_Primvar(name, values, indices, interpolation)]
+
+
+def _report_primvar(name: str, opened: OpenStage, prim: Any, report: Report) -> None:
+    report.dropped(f"primvar {name} of {prim.GetPath()}", "USD_PRIMVAR_UNSOUND", opened.place(prim, name))

@@ -1,0 +1,164 @@
+"""UsdUVTexture: the image, how it repeats and which coordinates it takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ....diagnostics import Report
+from ....model import Texture, Wrap
+from ..api import Ar, UsdShade
+from ..stage import OpenStage
+
+MEDIA = {
+    ".png": ("image/png", b"\x89PNG"),
+    ".jpg": ("image/jpeg", b"\xff\xd8"),
+    ".jpeg": ("image/jpeg", b"\xff\xd8"),
+    ".bmp": ("image/bmp", b"BM"),
+    ".exr": ("image/x-exr", b"\x76\x2f\x31\x01"),
+    ".hdr": ("image/vnd.radiance", b"#?"),
+    ".psd": ("image/vnd.adobe.photoshop", b"8BPS"),
+    ".tga": ("image/x-tga", b""),
+    ".tif": ("image/tiff", b""),
+    ".tiff": ("image/tiff", b""),
+}
+"""Media type and first bytes by ending: what Unity imports."""
+MAX_BYTES = 256 * 2**20
+WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "black": Wrap.CLAMP}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sampler:
+    """texture; output: 'rgb', 'r', 'g', 'b' or 'a'.  tint: linear RGB that the image is multiplied by."""
+
+    texture: Texture
+    output: str
+    tint: tuple[float, float, float]
+
+
+def read_sampler(
+    shader: Any, output: str, uv_names: tuple[str, ...], opened: OpenStage, report: Report
+) -> Sampler | None:
+    """None, and a loss in the report, where the image is not there or is none."""
+    prim = shader.GetPrim()
+    where, feature = opened.place(prim, "inputs:file"), f"texture {prim.GetPath()}"
+    given = _input(shader, "file")
+    if given is None:
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
+        return None
+    image, detail = _image(str(given.path), str(given.resolvedPath), opened)
+    if image is None:
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=given.path, detail=detail)
+        return None
+    name, path, data, media = image
+    uv_set, scale, offset, rotation = _coordinates(shader, uv_names, opened, report)
+    wraps = {str(_input(shader, key) or "useMetadata") for key in ("wrapS", "wrapT")}
+    wrap = next((WRAPS[w] for w in sorted(wraps) if w in WRAPS), Wrap.REPEAT)
+    if len(wraps) > 1 or "black" in wraps:
+        report.approximated(
+            feature,
+            "USD_FEATURE_APPROXIMATED",
+            where,
+            detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
+        )
+    tint = _floats(_input(shader, "scale"), (1.0, 1.0, 1.0, 1.0))[:3]
+    bias = _floats(_input(shader, "bias"), (0.0, 0.0, 0.0, 0.0))[:3]
+    normal_map = tint == (2.0, 2.0, 2.0) and bias == (-1.0, -1.0, -1.0)
+    if any(bias) and not normal_map:
+        report.approximated(
+            feature, "USD_FEATURE_APPROXIMATED", where, detail=f"the bias {bias} was left out"
+        )
+    if normal_map:
+        tint = (1.0, 1.0, 1.0)
+    texture = Texture(name, path, data, media, wrap, uv_set, scale, offset, rotation)
+    return Sampler(texture, output, (tint[0], tint[1], tint[2]))
+
+
+def _input(shader: Any, name: str) -> Any:
+    given = shader.GetInput(name)
+    if not given:
+        return None
+    producing = given.GetValueProducingAttributes()
+    return producing[0].Get() if producing else None
+
+
+def _floats(value: Any, default: tuple[float, ...]) -> tuple[float, ...]:
+    """As many finite numbers as the default has, the default where there are none."""
+    try:
+        found = tuple(float(c) for c in value)
+    except TypeError:
+        return default
+    return found if len(found) == len(default) and all(map(math.isfinite, found)) else default
+
+
+def _image(
+    named: str, resolved: str, opened: OpenStage
+) -> tuple[tuple[str, Path | None, bytes | None, str] | None, str]:
+    """(name, path, data, media type), or None and what is wrong."""
+    inner = resolved.rpartition("[")[2].rstrip("]") if resolved.endswith("]") else ""
+    shown = Path(inner or named)
+    if shown.suffix.lower() not in MEDIA:
+        return None, "it is no image that Unity reads"
+    if not inner and Path(named).is_absolute():
+        return None, "it is named by an absolute path"
+    if not resolved:
+        return None, "the file is not there"
+    media, magic = MEDIA[shown.suffix.lower()]
+    try:
+        if inner:
+            asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(resolved))
+            if asset is None or asset.GetSize() > MAX_BYTES:
+                return None, "the package does not hold it" if asset is None else "it is too large"
+            data = bytes(asset.GetBuffer())
+            head = data[:8]
+        else:
+            data = None
+            with Path(resolved).open("rb") as stream:
+                head = stream.read(8)
+    except (OSError, RuntimeError) as error:
+        return None, getattr(error, "strerror", None) or str(error)
+    if not head.startswith(magic) or not head:
+        return None, f"its bytes are not {media}"
+    name = _relative(inner or resolved, opened, bool(inner))
+    return (name, None if inner else Path(resolved), data, media), ""
+
+
+def _relative(path: str, opened: OpenStage, packed: bool) -> str:
+    """A name that is the same wherever the stage lies."""
+    if not packed and opened.folder is not None:
+        try:
+            return Path(path).resolve().relative_to(opened.folder).as_posix()
+        except ValueError:
+            return Path(path).name
+    return path if packed else Path(path).name
+
+
+def _coordinates(
+    shader: Any, uv_names: tuple[str, ...], opened: OpenStage, report: Report
+) -> tuple[int, tuple[float, float], tuple[float, float], float]:
+    """Which uv set, and scale, offset and rotation (radians) of it."""
+    scale, offset, rotation = (1.0, 1.0), (0.0, 0.0), 0.0
+    name = ""
+    given = shader.GetInput("st")
+    for _ in range(8):  # reader behind transforms; a circle ends here
+        producing: Any = given.GetValueProducingAttributes() if given else []
+        source: Any = UsdShade.Shader(producing[0].GetPrim()) if producing else None
+        kind = "" if not source else str(source.GetIdAttr().Get() or "")
+        if kind == "UsdTransform2d":
+            s, t = _floats(_input(source, "scale"), scale), _floats(_input(source, "translation"), offset)
+            scale, offset = (s[0], s[1]), (t[0], t[1])
+            rotation = math.radians(_floats([_input(source, "rotation") or 0.0], (0.0,))[0])
+            given = source.GetInput("in")
+            continue
+        if kind.startswith("UsdPrimvarReader"):
+            name = str(_input(source, "varname") or "")
+        break
+    if name and name not in uv_names:
+        prim = shader.GetPrim()
+        report.approximated(
+            f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", opened.place(prim),
+            detail=f"the mesh has no coordinates '{name}'; its first were taken",
+        )  # fmt: skip
+    return (uv_names.index(name) if name in uv_names else 0), scale, offset, rotation

@@ -1,0 +1,232 @@
+"""Bodies, static prims and the groups above them as nodes of the scene."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...model import Body, Collider, Combine, Dynamics, Node, NodeKind, PhysicsMaterial, Site
+from ...spatial import Array, Pose
+from .api import UsdShade
+from .looks.library import Library
+from .looks.surfaces import Surfaces
+from .physics.colliders import Colliders
+from .physics.mass import ROUND, Weighed, body_mass
+from .stage import OpenStage
+from .transforms import Stand, rotation_of, stand, taken_apart
+from .values import Values, schemas, title
+from .walk import Found, Part, Piece
+
+DEFAULT_PURPOSES = ("default", "render")
+COMBINE = {
+    "average": Combine.AVERAGE,
+    "min": Combine.MINIMUM,
+    "multiply": Combine.MULTIPLY,
+    "max": Combine.MAXIMUM,
+}
+
+
+class Parts:
+    """Makes the nodes.  stands: their rigid frames in the source, by node.  nodes: for each part its node."""
+
+    def __init__(
+        self,
+        opened: OpenStage,
+        values: Values,
+        found: Found,
+        groups: dict[str, str],
+        purposes: tuple[str, ...],
+        report: Report,
+    ):
+        """groups: collision group of each collider's path.  purposes: those that are drawn."""
+        self._opened, self._values, self._found, self._report = opened, values, found, report
+        self._groups, self._purposes = groups, purposes or DEFAULT_PURPOSES
+        self.library = Library(opened, values, report)
+        self.looks = Surfaces(opened, values, report)
+        self._colliders = Colliders(opened, values, self.library, report)
+        self._materials: dict[str, tuple[PhysicsMaterial | None, float]] = {}
+        self._bound: dict[str, Any] = {}
+        self.stands: dict[int, Stand] = {}
+        self.nodes: list[int] = [len(found.groups) + i for i in range(len(found.parts))]
+
+    def read(self) -> list[Node]:
+        """The nodes: groups, then parts."""
+        found = self._found
+        nodes: list[Node] = []
+        for number, group in enumerate(found.groups):
+            at = stand(group.world, self._opened.frame)
+            self.stands[number] = at
+            nodes.append(
+                Node(
+                    group.id, title(group.prim), NodeKind.ASSEMBLY, None if group.parent < 0 else group.parent,
+                    at.pose, flexible=True, where=self._opened.place(group.prim),
+                )
+            )  # fmt: skip
+        self._resolve()
+        for number, part in enumerate(found.parts):
+            at = stand(part.world, self._opened.frame)
+            self.stands[self.nodes[number]] = at
+            nodes.append(self._node(part, at))
+        return nodes
+
+    def _resolve(self) -> None:
+        """Materials of everything at once."""
+        pieces = [piece for part in self._found.parts for piece in part.pieces]
+        self.looks.resolve({str(p.prim.GetPath()): p.prim for p in pieces if self._drawn(p)}.values())
+        colliding = list({str(p.prim.GetPath()): p.prim for p in pieces if p.collides}.values())
+        if colliding:
+            materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(colliding, "physics")
+            for prim, material in zip(colliding, materials):
+                self._bound[str(prim.GetPath())] = material.GetPrim() if material else None
+
+    def _drawn(self, piece: Piece) -> bool:
+        return piece.purpose in self._purposes
+
+    def _node(self, part: Part, at: Stand) -> Node:
+        opened, values, prim = self._opened, self._values, part.prim
+        moves = part.body and part.enabled
+        kinematic = moves and values.flag(prim, "physics:kinematicEnabled", False)
+        bodies: list[Body] = []
+        colliders: list[Collider] = []
+        weighed: list[Weighed] = []
+        for piece in part.pieces:
+            if self._drawn(piece) and (body := self._body(piece, at)) is not None:
+                bodies.append(body)
+            if not piece.collides:
+                continue
+            material, density = self._material(piece.prim)
+            group = self._groups.get(str(piece.prim.GetPath()), "")
+            made = self._colliders.of(piece, at, moves and not kinematic, material, group)
+            colliders += made
+            kind = str(piece.prim.GetTypeName())
+            solid = values.word(piece.prim, "physics:approximation", "none") if kind == "Mesh" else ""
+            weighed += [
+                Weighed(c, piece.prim, piece.world, density, kind if kind in ROUND else solid) for c in made
+            ]
+        mass = None
+        if moves:
+            mass = body_mass(prim, part.world, at, weighed, self.library.meshes, values, opened, self._report)
+        return Node(
+            part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, at.pose,
+            bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),
+            dynamics=self._dynamics(prim, at, kinematic) if moves else Dynamics(),
+            sites=tuple(
+                Site(title(p), Pose(at.axes(rotation_of(w[:3, :3]) @ opened.frame.turn.T), at.point(w[:3, 3])), opened.place(p))
+                for p, w in part.sites
+            ),
+            where=opened.place(prim),
+        )  # fmt: skip
+
+    def _body(self, piece: Piece, at: Stand) -> Body | None:
+        linear = at.linear(piece.world)
+        stretch = taken_apart(linear)
+        feature, where = f"body {piece.id}", self._opened.place(piece.prim)
+        if stretch is None:
+            self._report.dropped(feature, "USD_SCALE_ZERO", where)
+            return None
+        shared = self.library.shared(piece.prim, stretch.bake)
+        if shared is None:
+            return None
+        if stretch.bake is not None:
+            self._report.kept(feature, where, "USD_SHEAR_BAKED" if stretch.sheared else "USD_MIRROR_BAKED")
+        colored = self.library.meshes[shared.mesh].colors is not None
+        turn = self._opened.frame.turn
+        scale = np.abs(turn) @ stretch.scale
+        return Body(
+            title(piece.prim) if "[" not in piece.id else piece.id.rpartition("/")[2],
+            shared.mesh,
+            self.looks.of(piece.prim, shared.subsets, shared.uv_names, colored),
+            pose=Pose(at.turned(stretch.rotation), at.point(piece.world[:3, 3])),
+            scale=(float(scale[0]), float(scale[1]), float(scale[2])),
+            visible=piece.visible,
+            weighed=False,
+        )
+
+    def _material(self, prim: Any) -> tuple[PhysicsMaterial | None, float]:
+        """The physics material bound to a prim, and its density in the stage's units, 0 for none."""
+        material = self._bound.get(str(prim.GetPath()))
+        if material is None or "PhysicsMaterialAPI" not in schemas(material):
+            return None, 0.0
+        key = str(material.GetPath())
+        if key not in self._materials:
+            self._materials[key] = self._read_material(material)
+        return self._materials[key]
+
+    def _read_material(self, prim: Any) -> tuple[PhysicsMaterial, float]:
+        get = self._values.number
+        found = {
+            name: get(prim, f"physics:{name}", 0.0)
+            for name in ("dynamicFriction", "staticFriction", "restitution", "density")
+        }
+        for name, value in found.items():
+            if value < 0.0:
+                self._values.wrong(prim, f"physics:{name}", f"{value:g}")
+        combine = [
+            COMBINE.get(
+                self._values.word(prim, f"physxMaterial:{what}CombineMode", "average"), Combine.AVERAGE
+            )
+            for what in ("friction", "restitution")
+        ]
+        bounce = found["restitution"]
+        if bounce > 1.0:
+            self._report.approximated(
+                f"physics material {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim),
+                detail=f"its restitution {bounce:g} became 1",
+            )  # fmt: skip
+        material = PhysicsMaterial(
+            title(prim), max(0.0, found["dynamicFriction"]), max(0.0, found["staticFriction"]),
+            min(1.0, max(0.0, bounce)), combine[0], combine[1],
+        )  # fmt: skip
+        return material, max(0.0, found["density"])
+
+    def _dynamics(self, prim: Any, at: Stand, kinematic: bool) -> Dynamics:
+        values, frame = self._values, self._opened.frame
+        turned = frame.turn @ at.rotation
+        velocity = values.vector(prim, "physics:velocity", (0.0, 0.0, 0.0)) * frame.length
+        spin = values.vector(prim, "physics:angularVelocity", (0.0, 0.0, 0.0)) * self._opened.degree
+        if values.flag(prim, "physics:startsAsleep", False):
+            self._report.dropped(
+                f"startsAsleep of {prim.GetPath()}", "USD_FEATURE_DROPPED", self._opened.place(prim),
+                detail="Unity's Rigidbody has no such setting",
+            )  # fmt: skip
+        damping: list[float | None] = []
+        for name in ("linearDamping", "angularDamping"):
+            key = f"physxRigidBody:{name}"
+            damping.append(max(0.0, values.number(prim, key, 0.0)) if values.authored(prim, key) else None)
+        return Dynamics(
+            kinematic,
+            not values.flag(prim, "physxRigidBody:disableGravity", False),
+            damping[0],
+            damping[1],
+            _given(turned @ velocity),
+            _given(turned @ spin),
+        )
+
+
+def _given(vector: Array) -> Array | None:
+    return vector if np.abs(vector).max() > 0.0 else None
+
+
+def gravity(found: Found, opened: OpenStage, values: Values, report: Report) -> tuple[float, float, float]:
+    """m/s^2 in the scene's frame, of the first PhysicsScene."""
+    down = np.zeros(3)
+    down["XYZ".index(opened.up)] = -1.0
+    magnitude = 9.81 / opened.frame.length
+    for number, prim in enumerate(found.scenes):
+        if number:
+            report.dropped(
+                f"scene {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim),
+                detail="Unity has one physics scene; the first was taken",
+            )  # fmt: skip
+            continue
+        direction = values.vector(prim, "physics:gravityDirection", (0.0, 0.0, 0.0))
+        stated = values.number(prim, "physics:gravityMagnitude", -math.inf, open_ended=True)
+        if (length := float(np.linalg.norm(direction))) > 0.0:
+            down = direction / length
+        if stated >= 0.0:
+            magnitude = stated
+    vector = opened.frame.turn @ down * (magnitude * opened.frame.length)
+    return (float(vector[0]) + 0.0, float(vector[1]) + 0.0, float(vector[2]) + 0.0)

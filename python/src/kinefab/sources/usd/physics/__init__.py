@@ -1,0 +1,1 @@
+"""What UsdPhysics and vendors state: colliders, masses, joints, couplings, collision filters."""

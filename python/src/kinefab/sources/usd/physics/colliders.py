@@ -1,0 +1,194 @@
+"""CollisionAPI prims as colliders of a node."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ....diagnostics import Report
+from ....model import Collider, ColliderKind, PhysicsMaterial
+from ....spatial import Array, Pose
+from ..looks.gprims import axis_turn
+from ..looks.library import Library
+from ..stage import OpenStage
+from ..transforms import Stand, Stretch, taken_apart
+from ..values import Values, identity
+from ..walk import Piece
+
+THICKNESS = 0.01
+"""Metres of the box that stands for a plane."""
+EVEN = 1e-6
+"""Scales closer than this share are one."""
+HULLS = frozenset(("convexHull", "convexDecomposition", "sdf", "sphereFill"))
+KNOWN = frozenset(("none", "meshSimplification", "boundingSphere", "boundingCube")) | HULLS
+
+
+class Colliders:
+    """Makes the colliders of pieces.  Shapes are those that PhysX makes of them: it takes the largest of uneven scales."""
+
+    def __init__(self, opened: OpenStage, values: Values, library: Library, report: Report):
+        self._opened, self._values, self._library, self._report = opened, values, library, report
+
+    def of(
+        self, piece: Piece, stand: Stand, dynamic: bool, material: PhysicsMaterial | None, group: str
+    ) -> list[Collider]:
+        """dynamic: the body moves, so that a mesh must be convex."""
+        prim = piece.prim
+        kind = str(prim.GetTypeName())
+        stretch = taken_apart(stand.linear(piece.world))
+        where = self._opened.place(prim)
+        if stretch is None:
+            self._report.dropped(f"collider {prim.GetPath()}", "USD_SCALE_ZERO", where)
+            return []
+        common = Collider(
+            ColliderKind.BOX,
+            name=piece.id,
+            material=material,
+            enabled=self._values.flag(prim, "physics:collisionEnabled", True),
+            group=group,
+            where=where,
+        )
+        at = Pose(stand.turned(stretch.rotation), stand.point(piece.world[:3, 3]))
+        if kind == "Mesh":
+            return self._mesh(piece, common, at, stretch, dynamic)
+        if kind == "Points":
+            return self._points(piece, common, stand, stretch)
+        if stretch.sheared or kind in ("Cone", "Capsule_1", "Cylinder_1"):
+            return self._hull(prim, common, at, stretch)
+        found = self._shape(kind, prim, common, at, stretch)
+        if found is None:
+            self._dropped(prim, f"a {kind or 'prim without type'} has no shape")
+            return []
+        return [found]
+
+    def _shape(self, kind: str, prim: Any, common: Collider, at: Pose, stretch: Stretch) -> Collider | None:
+        length, turn = self._opened.frame.length, self._opened.frame.turn
+        scale = stretch.scale
+        if kind == "Cube":
+            size = np.abs(turn) @ (self._size(prim, "size", 2.0) * scale * length)
+            return replace(common, kind=ColliderKind.BOX, pose=at, size=_triple(size))
+        if kind == "Sphere":
+            if np.ptp(scale) > EVEN * scale.max():
+                self._approximated(
+                    prim, f"a sphere scaled by {_shown(scale)} collides with its largest radius"
+                )
+            radius = self._size(prim, "radius", 1.0) * scale.max() * length
+            return replace(common, kind=ColliderKind.SPHERE, pose=at, radius=float(radius))
+        if kind in ("Capsule", "Cylinder"):
+            word = self._values.word(prim, "axis", "Z")
+            axis = "XYZ".find(word) if len(word) == 1 and word in "XYZ" else 2
+            across = np.delete(scale, axis)
+            if np.ptp(across) > EVEN * across.max():
+                self._approximated(
+                    prim, f"a {kind.lower()} scaled by {_shown(scale)} collides with its largest radius"
+                )
+            radius = self._size(prim, "radius", 0.5 if kind == "Capsule" else 1.0) * across.max() * length
+            height = self._size(prim, "height", 1.0 if kind == "Capsule" else 2.0) * scale[axis] * length
+            # The shape's own Z is the prim's axis, turned like the world.
+            pose = Pose(at.rotation @ turn @ axis_turn("XYZ"[axis]), at.translation)
+            made = ColliderKind.CAPSULE if kind == "Capsule" else ColliderKind.CYLINDER
+            return replace(common, kind=made, pose=pose, radius=float(radius), length=float(height))
+        if kind == "Plane":
+            return self._plane(prim, common, at, scale)
+        return None
+
+    def _plane(self, prim: Any, common: Collider, at: Pose, scale: Array) -> Collider:
+        """A thin box below the plane."""
+        length, turn = self._opened.frame.length, self._opened.frame.turn
+        word = self._values.word(prim, "axis", "Z")
+        axis = "XYZ".find(word) if len(word) == 1 and word in "XYZ" else 2
+        extents = np.zeros(3)
+        width, long = self._size(prim, "width", 2.0), self._size(prim, "length", 2.0)
+        extents[2 if axis == 0 else 0] = width
+        extents[2 if axis == 1 else 1] = long
+        extents = extents * scale * length
+        extents[axis] = THICKNESS
+        normal = turn[:, axis]
+        self._approximated(
+            prim, f"a plane, endless in most engines, became a box of its size, {THICKNESS:g} m thick"
+        )
+        pose = Pose(at.rotation, at.point(-0.5 * THICKNESS * normal))
+        return replace(common, kind=ColliderKind.BOX, pose=pose, size=_triple(np.abs(turn) @ extents))
+
+    def _points(self, piece: Piece, common: Collider, stand: Stand, stretch: Stretch) -> list[Collider]:
+        points, widths = self._values.array(piece.prim, "points", 3), self._values.array(piece.prim, "widths")
+        if points is None or not np.isfinite(points).all():
+            self._dropped(piece.prim, "it has no points")
+            return []
+        world = points @ piece.world[:3, :3].T + piece.world[:3, 3]
+        radii = 0.5 * (np.ones(1) if widths is None or not np.isfinite(widths).all() else np.abs(widths))
+        if len(radii) != len(world):
+            radii = np.full(len(world), radii[0])
+        radii = radii * stretch.scale.max() * self._opened.frame.length
+        return [
+            replace(common, kind=ColliderKind.SPHERE, pose=Pose(np.eye(3), stand.point(p)), radius=float(r), name=f"{common.name}[{i}]")
+            for i, (p, r) in enumerate(zip(world, radii))
+        ]  # fmt: skip
+
+    def _hull(self, prim: Any, common: Collider, at: Pose, stretch: Stretch) -> list[Collider]:
+        shared = self._library.shared(prim, stretch.bake)
+        if shared is None:
+            return []
+        return [
+            replace(common, kind=ColliderKind.HULL, pose=at, mesh=shared.mesh, scale=self._scale(stretch))
+        ]
+
+    def _mesh(
+        self, piece: Piece, common: Collider, at: Pose, stretch: Stretch, dynamic: bool
+    ) -> list[Collider]:
+        prim = piece.prim
+        shared = self._library.shared(prim, stretch.bake)
+        if shared is None:
+            return []
+        wanted = self._values.word(prim, "physics:approximation", "none")
+        scale = self._scale(stretch)
+        if wanted not in KNOWN:
+            self._approximated(prim, f"the unknown approximation '{wanted}' was taken for none")
+            wanted = "none"
+        if wanted.startswith("bounding"):
+            vertices = self._library.meshes[shared.mesh].vertices * np.array(scale)
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+            middle = 0.5 * (low + high)
+            pose = Pose(at.rotation, at.point(middle))
+            if wanted == "boundingCube":
+                return [replace(common, kind=ColliderKind.BOX, pose=pose, size=_triple(high - low))]
+            radius = float(np.linalg.norm(vertices - middle, axis=1).max())
+            return [replace(common, kind=ColliderKind.SPHERE, pose=pose, radius=radius)]
+        hull = wanted in HULLS
+        if hull and wanted != "convexHull":
+            self._approximated(prim, f"one convex hull stands for the approximation '{wanted}'")
+        elif not hull and dynamic:
+            self._approximated(
+                prim,
+                f"a body that moves needs a convex collider; a hull stands for the approximation '{wanted}'",
+            )
+        elif wanted == "meshSimplification":
+            self._approximated(prim, "the mesh itself stands for its simplification")
+        kind = ColliderKind.HULL if hull or dynamic else ColliderKind.MESH
+        return [replace(common, kind=kind, pose=at, mesh=shared.mesh, scale=scale)]
+
+    def _scale(self, stretch: Stretch) -> tuple[float, float, float]:
+        return _triple(np.abs(self._opened.frame.turn) @ stretch.scale)
+
+    def _size(self, prim: Any, name: str, default: float) -> float:
+        return abs(self._values.number(prim, name, default))
+
+    def _approximated(self, prim: Any, detail: str) -> None:
+        self._report.approximated(
+            f"collider {identity(prim)}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim), detail=detail
+        )
+
+    def _dropped(self, prim: Any, detail: str) -> None:
+        self._report.dropped(
+            f"collider {identity(prim)}", "USD_FEATURE_DROPPED", self._opened.place(prim), detail=detail
+        )
+
+
+def _triple(values: Array) -> tuple[float, float, float]:
+    return (float(values[0]), float(values[1]), float(values[2]))
+
+
+def _shown(scale: Array) -> str:
+    return " ".join(f"{s:g}" for s in scale)

@@ -1,0 +1,74 @@
+"""Which colliders do not collide: groups and filtered pairs."""
+
+from __future__ import annotations
+
+from ....diagnostics import Report
+from ..api import UsdPhysics
+from ..stage import OpenStage
+from ..values import Values
+from ..walk import Found
+
+
+def collision_groups(found: Found) -> dict[str, str]:
+    """The group of each collider's path; of several the first."""
+    groups: dict[str, str] = {}
+    queries = [
+        (
+            str(prim.GetPath())[1:],
+            UsdPhysics.CollisionGroup(prim).GetCollidersCollectionAPI().ComputeMembershipQuery(),
+        )
+        for prim in found.collision_groups
+    ]
+    if not queries:
+        return groups
+    for part in found.parts:
+        for piece in part.pieces:
+            path = piece.prim.GetPath()
+            for name, query in queries:
+                if piece.collides and query.IsPathIncluded(path):
+                    groups.setdefault(str(path), name)
+    return groups
+
+
+def filters(found: Found, opened: OpenStage, values: Values, report: Report) -> dict[str, object]:
+    """What a script may set up by Physics.IgnoreCollision: a scene file has no room for it but the extras.
+
+    ignoreCollision: pairs of ids.  collisionGroups: for each group the groups that it ignores.
+    """
+    extras: dict[str, object] = {}
+    pairs: list[list[str]] = []
+    for prim in found.filtered:
+        for target in values.targets(prim, "physics:filteredPairs"):
+            if not opened.stage.GetPrimAtPath(target):
+                report.dropped(
+                    f"filtered pair of {prim.GetPath()}",
+                    "USD_TARGET_MISSING",
+                    opened.place(prim),
+                    path=str(target),
+                )
+                continue
+            pairs.append([str(prim.GetPath())[1:], str(target)[1:]])
+    for first, second in pairs:
+        report.approximated(
+            f"filtered pair {first} and {second}", "USD_COLLISION_FILTER", opened.place(f"/{first}")
+        )
+    if pairs:
+        extras["ignoreCollision"] = pairs
+    if found.collision_groups:
+        table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(opened.stage)
+        ignored: dict[str, list[str]] = {}
+        for prim in found.collision_groups:
+            own = prim.GetPath()
+            others = [o for o in table.GetGroups() if not table.IsCollisionEnabled(own, o)]
+            ignored[str(own)[1:]] = [str(o)[1:] for o in others]
+            if others:
+                report.approximated(
+                    f"collision group {str(own)[1:]}", "USD_COLLISION_FILTER", opened.place(prim)
+                )
+        extras["collisionGroups"] = ignored
+    return extras
+
+
+def offered(opened: OpenStage) -> dict[str, tuple[str, ...]]:
+    """What else the stage can give, by option."""
+    return {"variant": opened.variants} if opened.variants else {}

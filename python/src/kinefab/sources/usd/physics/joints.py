@@ -1,0 +1,343 @@
+"""UsdPhysics joints as joints of the scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ....diagnostics import Report
+from ....model import (
+    FREE,
+    LOCKED,
+    RX,
+    RY,
+    RZ,
+    TX,
+    TZ,
+    Freedom,
+    Joint,
+    JointKind,
+    Motion,
+    freedoms_of,
+    kind_of,
+    unlocked_of,
+)
+from ....spatial import Array, Pose, rotation_about
+from ..api import Sdf, UsdPhysics
+from ..stage import OpenStage
+from ..transforms import Stand, local_of, placed, rotation_of
+from ..values import Values, identity, schemas, title
+from ..walk import Found, body_above
+from .freedoms import DOFS, Freedoms, turned_round
+from .vendor import passive_of
+
+MAIN = {"X": [0, 1, 2], "Y": [1, 2, 0], "Z": [2, 0, 1]}
+"""Which of the joint frame's axes become X Y Z, by the axis token: a cyclic change, so that X is the main one."""
+HALF_TURN = np.diag([-1.0, 1.0, -1.0])
+GROUND = -1
+ROUNDED = 1e-6
+"""Share of a length, and radians, that the 32-bit numbers of frames and poses may be apart by."""
+COUPLINGS = ("PhysxPhysicsGearJoint", "PhysxPhysicsRackAndPinionJoint")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Side:
+    """One side of a joint.  node: GROUND for the world.  axes, origin: joint frame in the source's world."""
+
+    node: int
+    axes: Array
+    origin: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Draft:
+    """freedoms: in the order tx .. rz, of body1 against body0, along the axes that ``order`` picks."""
+
+    freedoms: tuple[Freedom, ...]
+    order: list[int]
+    extras: dict[str, object]
+
+
+@dataclass(slots=True, eq=False)
+class Readings:
+    """How the freedoms of a joint prim are read on the joint: by its id, for each of the prim's the joint's and the sense.
+    Joints that are not listed have them as they stand."""
+
+    turned: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = field(
+        default_factory=dict[str, tuple[tuple[int, ...], tuple[int, ...]]]
+    )
+
+    def of(self, joint: str, freedom: int) -> tuple[int, float]:
+        """Freedom of the joint and sense, +1 or -1."""
+        if joint not in self.turned or freedom < 0:
+            return freedom, 1.0
+        names, senses = self.turned[joint]
+        where = names.index(freedom % 3)
+        return where + freedom // 3 * 3, float(senses[where])
+
+    def sense(self, joint: str, freedom: int) -> float:
+        """Of a freedom of the joint itself."""
+        return float(self.turned[joint][1][freedom % 3]) if joint in self.turned else 1.0
+
+
+class Joints:
+    """Reads joint prims.  nodes: for each part of ``found`` its node, GROUND for what does not move.
+    stands: of the nodes by number."""
+
+    def __init__(
+        self, opened: OpenStage, values: Values, found: Found, nodes: list[int], stands: dict[int, Stand], report: Report
+    ):  # fmt: skip
+        self._opened, self._values, self._found, self._report = opened, values, found, report
+        self._nodes, self._stands = nodes, stands
+        self._world = Stand(np.eye(3), np.zeros(3), opened.frame)
+        self._freedoms = Freedoms(opened, values, report)
+        self.readings = Readings()
+
+    def read(self, prim: Any) -> Joint | None:
+        """None, with its reason in the report, where there is no joint to make."""
+        feature, where = f"joint {identity(prim)}", self._opened.place(prim)
+        if str(prim.GetTypeName()) in COUPLINGS:
+            return None  # no joint between bodies: read apart
+        if not prim.IsA(UsdPhysics.Joint):
+            self._report.dropped(feature, "USD_JOINT_UNKNOWN", where, kind=prim.GetTypeName())
+            return None
+        first, second = self._side(prim, 0), self._side(prim, 1)
+        if first is None or second is None:
+            return None
+        if first.node == second.node:
+            what = "the world" if first.node == GROUND else "one body"
+            self._report.dropped(feature, "USD_JOINT_ENDS_EQUAL", where, what=what)
+            return None
+        draft = self._draft(prim)
+        if draft is None:
+            return None
+        freedoms, order = draft.freedoms, draft.order
+        first = replace(first, axes=first.axes[:, order])
+        second = replace(second, axes=second.axes[:, order])
+        freedoms, first = _held(freedoms, first, self._opened.frame.length)
+        if second.node == GROUND:
+            freedoms, first, second = self._swapped(prim, freedoms, first, second)
+        kind = kind_of(unlocked_of(freedoms))
+        if kind is JointKind.FIXED and _meet(first, second):
+            first = replace(first, axes=second.axes, origin=second.origin)
+        if tuple(i for i in unlocked_of(freedoms) if i >= RX) == (RY, RZ):
+            self._approximated(prim, "its two swings without twist became the two axes of a universal joint")
+        breaks = [
+            self._values.number(prim, f"physics:break{what}", math.inf, open_ended=True) * self._freedoms.units.force(turns)
+            for what, turns in (("Force", False), ("Torque", True))
+        ]  # fmt: skip
+        extras = draft.extras
+        if self._values.flag(prim, "physics:excludeFromArticulation", False):
+            extras["excludeFromArticulation"] = True
+        return Joint(
+            identity(prim), kind,
+            None if first.node == GROUND else first.node, second.node,
+            self._frame(first), self._frame(second), freedoms,
+            name=title(prim),
+            break_force=breaks[0], break_torque=breaks[1],
+            enabled=self._values.flag(prim, "physics:jointEnabled", True),
+            collide=self._values.flag(prim, "physics:collisionEnabled", False),
+            where=where, extras=extras,
+        )  # fmt: skip
+
+    def _side(self, prim: Any, number: int) -> Side | None:
+        """None, and the joint is lost, where what it names is not there."""
+        name = f"physics:body{number}"
+        targets = self._values.targets(prim, name)
+        position = self._values.vector(prim, f"physics:localPos{number}", (0.0, 0.0, 0.0))
+        turn = self._values.rotation(prim, f"physics:localRot{number}")
+        rotation = np.eye(3) if turn is None else turn
+        if len(targets) > 1:
+            self._approximated(prim, f"{name} names {len(targets)} prims; the first was taken")
+        if not targets:
+            return Side(GROUND, rotation, position)
+        path = targets[0].GetPrimPath()
+        target = self._opened.stage.GetPrimAtPath(path)
+        if not target:
+            self._report.dropped(
+                f"joint {identity(prim)}",
+                "USD_TARGET_MISSING",
+                self._opened.place(prim, name),
+                path=str(path),
+            )
+            return None
+        world = self._world_of(path)
+        part = body_above(path, self._found)
+        node = GROUND if part < 0 else self._nodes[part]
+        return Side(node, rotation_of(world[:3, :3]) @ rotation, world[:3, :3] @ position + world[:3, 3])
+
+    def _world_of(self, path: Any) -> Array:
+        known = self._found.worlds.get(str(path))
+        if known is not None:
+            return known
+        if path == Sdf.Path.absoluteRootPath or path.isEmpty:
+            return np.eye(4)
+        prim = self._opened.stage.GetPrimAtPath(path)
+        above = self._world_of(path.GetParentPath())
+        return placed(above, local_of(prim)) if prim else above
+
+    def _frame(self, side: Side) -> Pose:
+        stand = self._world if side.node == GROUND else self._stands[side.node]
+        return Pose(stand.axes(side.axes), stand.point(side.origin))
+
+    def _draft(self, prim: Any) -> _Draft | None:
+        axis = self._values.word(prim, "physics:axis", "X")
+        order = MAIN.get(axis, MAIN["X"])
+        extras: dict[str, object] = {}
+        if prim.IsA(UsdPhysics.FixedJoint):
+            return _Draft(freedoms_of(JointKind.FIXED), MAIN["X"], extras)
+        for schema, turns, main, instance in (
+            (UsdPhysics.RevoluteJoint, True, RX, "angular"),
+            (UsdPhysics.PrismaticJoint, False, TX, "linear"),
+        ):
+            if prim.IsA(schema):
+                lower = self._values.number(prim, "physics:lowerLimit", -math.inf, open_ended=True)
+                upper = self._values.number(prim, "physics:upperLimit", math.inf, open_ended=True)
+                freedom = self._freedoms.limited(prim, lower, upper, turns, instance)
+                freedom = self._freedoms.with_drive(freedom, prim, instance, turns)
+                freedom = passive_of(freedom, prim, turns, instance, self._values, self._freedoms.units)
+                self._other_instances(prim, {instance})
+                return _Draft(tuple(freedom if i == main else LOCKED for i in range(6)), order, extras)
+        if prim.IsA(UsdPhysics.SphericalJoint):
+            return _Draft(self._spherical(prim), order, extras)
+        if prim.IsA(UsdPhysics.DistanceJoint):
+            return _Draft(self._distance(prim), MAIN["X"], extras)
+        if prim.GetTypeName() != "PhysicsJoint":
+            self._report.dropped(
+                f"joint {identity(prim)}",
+                "USD_JOINT_UNKNOWN",
+                self._opened.place(prim),
+                kind=prim.GetTypeName(),
+            )
+            return None
+        return _Draft(self._generic(prim), MAIN["X"], extras)
+
+    def _spherical(self, prim: Any) -> tuple[Freedom, ...]:
+        """Cones as PhysX has them: angle 0 bounds the turn about the axis after the main one, angle 1 the next."""
+        angles = [
+            self._values.number(prim, f"physics:coneAngle{i}Limit", -1.0, open_ended=True) for i in (0, 1)
+        ]
+        if angles[0] < 0.0 or angles[1] < 0.0 or math.isinf(angles[0]) or math.isinf(angles[1]):
+            if max(angles) >= 0.0 and min(angles) < 0.0:
+                self._approximated(
+                    prim, "only one cone angle is stated, which limits nothing in PhysX either"
+                )
+            return freedoms_of(JointKind.SPHERICAL)
+        if angles[0] != angles[1]:
+            self._approximated(
+                prim,
+                "its cone has two angles, which the schema and PhysX name the other way round; PhysX was followed",
+            )
+        swings = [self._freedoms.limited(prim, -angle, angle, True, "cone") for angle in angles]
+        return freedoms_of(JointKind.SPHERICAL, ry=swings[0], rz=swings[1])
+
+    def _distance(self, prim: Any) -> tuple[Freedom, ...]:
+        """At most so far apart: a ball for the slides.  Nothing of Unity's joints keeps bodies apart."""
+        least = self._values.number(prim, "physics:minDistance", -1.0, open_ended=True)
+        most = self._values.number(prim, "physics:maxDistance", -1.0, open_ended=True)
+        if least > 0.0:
+            self._approximated(prim, f"its least distance {least:g} was left out")
+        return self._ball(prim, most)
+
+    def _ball(self, prim: Any, most: float) -> tuple[Freedom, ...]:
+        if most < 0.0 or math.isinf(most):
+            return (FREE,) * 6
+        if most == 0.0:
+            return freedoms_of(JointKind.SPHERICAL)
+        slide = self._freedoms.limited(prim, -most, most, False, "distance")
+        stiffness = self._values.number(prim, "physxPhysicsDistanceJoint:springStiffness", 0.0)
+        damping = self._values.number(prim, "physxPhysicsDistanceJoint:springDamping", 0.0)
+        if self._values.flag(prim, "physxPhysicsDistanceJoint:springEnabled", False):
+            gain = self._freedoms.units.gain(False)
+            slide = replace(slide, stiffness=stiffness * gain, damping=damping * gain)
+        return (slide,) * 3 + (FREE,) * 3
+
+    def _generic(self, prim: Any) -> tuple[Freedom, ...]:
+        found: list[Freedom] = []
+        for i, name in enumerate(DOFS):
+            freedom = self._freedoms.with_drive(self._freedoms.of_limit(prim, i), prim, name, i >= RX)
+            found.append(passive_of(freedom, prim, i >= RX, name, self._values, self._freedoms.units))
+        known = {*DOFS, "distance"}
+        if "PhysicsLimitAPI:distance" in schemas(prim):
+            most = self._values.number(prim, "limit:distance:physics:high", math.inf, open_ended=True)
+            if self._values.number(prim, "limit:distance:physics:low", -math.inf, open_ended=True) > 0.0:
+                self._approximated(prim, "its least distance was left out")
+            ball = self._ball(prim, most if most >= 0.0 else math.inf)
+            found[:3] = [b if f.motion is Motion.FREE else f for f, b in zip(found, ball)]
+        self._other_instances(prim, known)
+        return tuple(found)
+
+    def _other_instances(self, prim: Any, known: set[str]) -> None:
+        for schema in schemas(prim):
+            name, _, instance = schema.partition(":")
+            if name in ("PhysicsLimitAPI", "PhysicsDriveAPI") and instance not in known:
+                self._report.dropped(
+                    f"{schema} of {identity(prim)}", "USD_FEATURE_DROPPED", self._opened.place(prim),
+                    detail=f"a {prim.GetTypeName()} has no freedom of that name",
+                )  # fmt: skip
+
+    def _swapped(
+        self, prim: Any, freedoms: tuple[Freedom, ...], first: Side, second: Side
+    ) -> tuple[tuple[Freedom, ...], Side, Side]:
+        """The world as the first side.  Axes are turned so that coordinates keep their sense where they can.
+
+        The inverse of T = Trans(t) R has -t and the turns in the other order; with all axes turned round (and two turns
+        exchanged) both read as before.
+        """
+        turns = [i for i in unlocked_of(freedoms) if i >= RX]
+        slides = [i for i in unlocked_of(freedoms) if i < RX]
+        if not turns and len(slides) != 1:
+            axes, names, senses = np.eye(3), (0, 1, 2), (-1, -1, -1)
+        elif len(turns) == 2:
+            i, j = turns[0] - RX, turns[1] - RX
+            swap = [j if k == i else i if k == j else k for k in range(3)]
+            axes, names, senses = -np.eye(3)[:, swap], tuple(swap), (1, 1, 1)
+        else:
+            main = (turns or slides)[0] % 3
+            across = (main + 1) % 3
+            axes, names = -np.eye(3), (0, 1, 2)
+            axes[across, across] = 1.0
+            senses = tuple(-1 if k == across else 1 for k in range(3))
+        self.readings.turned[identity(prim)] = (names, senses)
+        other = [i for i in slides if [i + RX] != turns]
+        if turns and any(freedoms[i].motion is Motion.LIMITED or freedoms[i].drive for i in other):
+            self._approximated(
+                prim, "its second body is the world; its slides were taken along the other body's axes"
+            )
+        found: list[Freedom] = []
+        for i in range(6):
+            freedom = freedoms[names[i % 3] + (i // 3) * 3]
+            found.append(turned_round(freedom) if senses[i % 3] < 0 else freedom)
+        return tuple(found), replace(second, axes=second.axes @ axes), replace(first, axes=first.axes @ axes)
+
+    def _approximated(self, prim: Any, detail: str) -> None:
+        self._report.approximated(
+            f"joint {identity(prim)}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim), detail=detail
+        )
+
+
+def _meet(first: Side, second: Side) -> bool:
+    """Whether two frames are one but for the rounding of the 32 bits that USD keeps them in."""
+    reach = max(float(np.abs(first.origin).max()), float(np.abs(second.origin).max()))
+    apart = float(np.abs(first.origin - second.origin).max())
+    return apart <= ROUNDED * reach and float(np.abs(first.axes - second.axes).max()) <= ROUNDED
+
+
+def _held(freedoms: tuple[Freedom, ...], first: Side, length: float) -> tuple[tuple[Freedom, ...], Side]:
+    """Ranges of one value as locked freedoms of a first frame that is moved there.  length: metres of a stage's unit."""
+    single = [i for i, f in enumerate(freedoms) if f.motion is Motion.LIMITED and f.lower == f.upper]
+    if not single:
+        return freedoms, first
+    axes, origin = first.axes, first.origin
+    offset = np.zeros(3)
+    for i in single:
+        if i <= TZ:
+            offset[i] = freedoms[i].lower / length
+    origin = origin + axes @ offset
+    for i in reversed([i for i in single if i >= RX]):  # R = Rz Ry Rx, the outermost first
+        axes = axes @ rotation_about(np.eye(3)[i - RX], freedoms[i].lower)
+    kept = tuple(LOCKED if i in single else f for i, f in enumerate(freedoms))
+    return kept, replace(first, axes=axes, origin=origin)

@@ -1,0 +1,262 @@
+"""MassAPI of bodies and colliders, as ``UsdPhysics.RigidBodyAPI.ComputeMassProperties`` adds it up.
+
+Precedence: mass before density; a collider's own before the body's, before its material's, before 1000 kg/m^3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ....diagnostics import Report
+from ....geometry.closure import is_closed, welded
+from ....geometry.hulls import hull_of_points
+from ....geometry.mass import combined, moved, principal, solid_properties
+from ....model import Collider, ColliderKind, MassProperties, Mesh
+from ....spatial import Array, Pose
+from ..looks.gprims import axis_turn
+from ..stage import OpenStage
+from ..transforms import Stand, rotation_of
+from ..values import Values, identity, schemas
+
+WATER = 1000.0
+"""kg/m^3 of what states nothing."""
+POINT = 0.1
+"""Metres: radius of the sphere whose inertia a body without colliders has."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Weighed:
+    """A collider with the prim that it comes from.  world: the prim's matrix.  density: of its physics material, stage
+    units, 0 for none.  solid: what its volume is that of: an approximation of a mesh, or a type of round prim."""
+
+    collider: Collider
+    prim: Any
+    world: Array
+    density: float
+    solid: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stated:
+    """What a MassAPI says, SI; None for nothing.  axes: of the principal frame in the prim's, scene axes."""
+
+    mass: float | None = None
+    density: float | None = None
+    center: Array | None = None
+    moments: Array | None = None
+    axes: Array | None = None
+
+
+def body_mass(
+    prim: Any, world: Array, stand: Stand, solids: Sequence[Weighed], meshes: Sequence[Mesh], values: Values, opened: OpenStage, report: Report
+) -> MassProperties:  # fmt: skip
+    """Mass of a body, kg; centre and inertia in its node's frame."""
+    stated = _stated(prim, world, values, opened)
+    counted = [s for s in solids if s.collider.enabled]
+    if stated.mass is not None and stated.center is not None and stated.moments is not None:
+        axes = np.eye(3) if stated.axes is None else stated.axes
+        return MassProperties(stated.mass, stated.center, axes @ np.diag(stated.moments) @ axes.T)
+    parts = [_solid(s, stated.density, meshes, values, opened, report) for s in counted]
+    parts = [p for p in parts if p is not None and p.mass > 0.0]
+    if not parts:
+        return _without_solids(prim, stated, opened, report)
+    total = combined(parts)
+    mass, inertia, center = total.mass, total.inertia, total.center
+    if stated.mass is not None:
+        mass, inertia = stated.mass, inertia * (stated.mass / total.mass)
+    if stated.center is not None:
+        inertia = inertia + _steiner(mass, stated.center - center)
+        center = stated.center
+    moments, axes = principal(inertia)
+    moments = moments if stated.moments is None else stated.moments
+    axes = axes if stated.axes is None else stated.axes
+    return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
+
+
+def _without_solids(prim: Any, stated: _Stated, opened: OpenStage, report: Report) -> MassProperties:
+    mass = opened.frame.mass if stated.mass is None else stated.mass
+    if stated.mass is None or stated.moments is None:
+        what = "mass and inertia" if stated.mass is None else "inertia"
+        report.approximated(
+            f"mass {identity(prim)}", "USD_MASS_ASSUMED", opened.place(prim),
+            node=identity(prim), what=what, mass=f"{mass:g}", radius=f"{POINT:g}",
+        )  # fmt: skip
+    moments = np.full(3, 0.4 * mass * POINT**2) if stated.moments is None else stated.moments
+    axes = np.eye(3) if stated.axes is None else stated.axes
+    center = np.zeros(3) if stated.center is None else stated.center
+    return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
+
+
+def _stated(prim: Any, world: Array, values: Values, opened: OpenStage) -> _Stated:
+    if "PhysicsMassAPI" not in schemas(prim):
+        return _Stated()
+    frame = opened.frame
+    mass = values.number(prim, "physics:mass", 0.0)
+    density = values.number(prim, "physics:density", 0.0)
+    moments = values.vector(prim, "physics:diagonalInertia", (0.0, 0.0, 0.0))
+    for name, found in (
+        ("physics:mass", mass),
+        ("physics:density", density),
+        ("physics:diagonalInertia", moments.min()),
+    ):
+        if found < 0.0:
+            values.wrong(prim, name, f"{found:g}")
+    center = None
+    raw = values.array(prim, "physics:centerOfMass")
+    if raw is not None and len(raw) == 3 and np.isfinite(raw).all():
+        # In the prim's own space, its scale too.
+        scale = rotation_of(world[:3, :3]).T @ world[:3, :3]
+        center = frame.turn @ (scale @ raw) * frame.length
+    elif raw is not None and (len(raw) != 3 or np.isnan(raw).any()):
+        values.wrong(prim, "physics:centerOfMass", raw)
+    axes = values.rotation(prim, "physics:principalAxes")
+    inertia = None
+    if moments.max() > 0.0:  # pxr takes what is below 1e-5 for unset, which small bodies in metres are
+        inertia = moments * frame.mass * frame.length**2
+    tensor = values.array(prim, "newton:inertia")
+    if tensor is not None and len(tensor) == 6 and np.isfinite(tensor).all():
+        xx, yy, zz, xy, xz, yz = (float(v) for v in tensor)
+        inertia, axes = principal(
+            np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * frame.mass * frame.length**2
+        )
+    return _Stated(
+        mass * frame.mass if mass > 0.0 else None,
+        density * frame.mass / frame.length**3 if density > 0.0 else None,
+        center,
+        inertia,
+        None if axes is None else frame.turn @ axes,
+    )
+
+
+def _solid(
+    solid: Weighed, body_density: float | None, meshes: Sequence[Mesh], values: Values, opened: OpenStage, report: Report
+) -> MassProperties | None:  # fmt: skip
+    """Of one collider in the node's frame; None where it has no volume."""
+    if solid.solid in ROUND:
+        unit = round_solid(solid, values, opened)
+    else:
+        unit = unit_solid(solid.collider, meshes, solid.solid)
+    if unit is None:
+        return None
+    frame = opened.frame
+    stated = _stated(solid.prim, solid.world, values, opened)
+    material = solid.density * frame.mass / frame.length**3
+    density = stated.density or body_density or material or WATER
+    if stated.mass is not None:
+        mass, inertia = stated.mass, unit.inertia * (stated.mass / unit.mass)
+    else:
+        mass, inertia = unit.mass * density, unit.inertia * density
+    own = Pose(
+        solid.collider.pose.rotation @ _to_prim(solid.collider, solid, frame.turn),
+        solid.collider.pose.translation,
+    )
+    if stated.moments is not None:
+        axes = np.eye(3) if stated.axes is None else frame.turn.T @ stated.axes
+        turned = own.rotation @ (frame.turn @ axes)
+        inertia = turned @ np.diag(stated.moments) @ turned.T
+        at = own.point(stated.center) if stated.center is not None else solid.collider.pose.point(unit.center)
+        return MassProperties(mass, at, inertia)
+    placed = moved(MassProperties(mass, unit.center, inertia), solid.collider.pose)
+    if stated.center is None:
+        return placed
+    at = own.point(stated.center)
+    return MassProperties(mass, at, placed.inertia + _steiner(mass, at - placed.center))
+
+
+def _to_prim(collider: Collider, solid: Weighed, turn: Array) -> Array:
+    """Rotation from the prim's (turned) axes to the collider's, whose Z may be another axis of the prim."""
+    if collider.kind not in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
+        return np.eye(3)
+    word = str(solid.prim.GetAttribute("axis").Get() or "Z")
+    return (turn @ axis_turn(word)).T
+
+
+def unit_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str = "") -> MassProperties | None:
+    """Volume (as mass), centre and inertia at density 1 of a collider in its own frame; None where it is flat."""
+    zero = np.zeros(3)
+    if collider.kind is ColliderKind.BOX:
+        a, b, c = collider.size
+        volume = a * b * c
+        inertia = volume / 12.0 * np.diag([b * b + c * c, a * a + c * c, a * a + b * b])
+    elif collider.kind is ColliderKind.SPHERE:
+        r = collider.radius
+        volume = 4.0 / 3.0 * np.pi * r**3
+        inertia = 0.4 * volume * r * r * np.eye(3)
+    elif collider.kind in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
+        r, h = collider.radius, collider.length
+        tube = np.pi * r * r * h
+        across, along = tube * (3.0 * r * r + h * h) / 12.0, 0.5 * tube * r * r
+        volume = tube
+        if collider.kind is ColliderKind.CAPSULE:
+            ball = 4.0 / 3.0 * np.pi * r**3
+            volume += ball
+            along += 0.4 * ball * r * r
+            across += ball * (0.4 * r * r + 0.375 * r * h + 0.25 * h * h)
+        inertia = np.diag([across, across, along])
+    else:
+        return _mesh_solid(collider, meshes, approximation)
+    return MassProperties(float(volume), zero, inertia) if volume > 0.0 else None
+
+
+def _mesh_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str) -> MassProperties | None:
+    """Of the mesh itself where it is closed and stands for itself, else of its hull."""
+    assert collider.mesh is not None, "hulls and meshes name their mesh"
+    mesh = meshes[collider.mesh]
+    vertices = mesh.vertices * np.array(collider.scale)
+    if approximation not in ("convexHull", "") and is_closed(welded(vertices, mesh.faces)):
+        found = solid_properties(vertices, mesh.faces, 1.0)
+        if found.mass < 0.0:
+            found = MassProperties(-found.mass, found.center, -found.inertia)
+        if found.mass > 0.0:
+            return found
+    hull = hull_of_points(vertices)
+    return None if hull is None else solid_properties(*hull, 1.0)
+
+
+ROUND = frozenset(("Cone", "Cylinder_1", "Capsule_1"))
+"""Bodies of revolution that no collider of the model is: a hull stands for them, their mass is exact."""
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
+"""Exact for the polynomials up to the seventh degree that a cone or a ball gives."""
+
+
+def round_solid(solid: Weighed, values: Values, opened: OpenStage) -> MassProperties | None:
+    """As ``unit_solid`` for a prim of ROUND: moments of its discs, stretched by the collider's scale."""
+    prim, kind, frame = solid.prim, solid.solid, opened.frame
+    size = {
+        name: abs(values.number(prim, name, default)) * frame.length
+        for name, default in (("radius", 1.0), ("radiusBottom", 0.5), ("radiusTop", 0.5), ("height", 2.0))
+    }
+    bottom, top = (size["radius"], 0.0) if kind == "Cone" else (size["radiusBottom"], size["radiusTop"])
+    half = 0.5 * size["height"]
+    pieces: list[tuple[float, float, Callable[[Array], Array]]] = [
+        (-half, half, lambda z: (bottom + (top - bottom) * (z + half) / (2.0 * half or 1.0)) ** 2)
+    ]
+    if kind == "Capsule_1":
+        pieces.append((-half - bottom, -half, lambda z: bottom**2 - (z + half) ** 2))
+        pieces.append((half, half + top, lambda z: top**2 - (z - half) ** 2))
+    volume, first, across, along = 0.0, 0.0, 0.0, 0.0
+    for low, high, square in pieces:
+        z, w = 0.5 * (high + low) + 0.5 * (high - low) * NODES, 0.5 * (high - low) * WEIGHTS
+        area = np.pi * square(z)
+        volume += float(w @ area)
+        first += float(w @ (area * z))
+        across += float(w @ (area * square(z))) / 4.0
+        along += float(w @ (area * z * z))
+    if not volume > 0.0:
+        return None
+    turned = frame.turn @ axis_turn(values.word(prim, "axis", "Z"))
+    scale = np.diag(solid.collider.scale)
+    volume_scale = float(np.prod(solid.collider.scale))
+    center = scale @ turned @ np.array([0.0, 0.0, first / volume])
+    second = scale @ turned @ np.diag([across, across, along]) @ turned.T @ scale * volume_scale
+    volume *= volume_scale
+    second = second - volume * np.outer(center, center)
+    return MassProperties(volume, center, np.trace(second) * np.eye(3) - second)
+
+
+def _steiner(mass: float, offset: Array) -> Array:
+    return mass * ((offset @ offset) * np.eye(3) - np.outer(offset, offset))

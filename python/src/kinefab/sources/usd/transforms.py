@@ -1,0 +1,134 @@
+"""Where prims stand: matrices with scale, taken apart into what a rigid scene can hold.
+
+A prim's matrix is A v + t.  A node takes the rotation of A alone; what is left of A goes to the meshes and colliders below.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...spatial import Array, Pose
+from ..reading.source_frame import SourceFrame
+from .api import Usd, UsdGeom
+from .stage import matrix
+
+SQUARE = 1e-6
+"""Axes whose cosines are below this are at right angles; files carry float32."""
+EXACT = 1e-12
+MIRROR = np.diag([-1.0, 1.0, 1.0])
+
+
+def rotation_of(linear: Array) -> Array:
+    """The rotation in A, shape (3, 3): its polar factor; of a mirrored A that of -A, as Gf's and PhysX's factoring has it."""
+    if np.abs(linear.T @ linear - np.eye(3)).max() <= EXACT:
+        return linear if np.linalg.det(linear) > 0.0 else -linear
+    lengths = np.linalg.norm(linear, axis=0)
+    if (lengths > 0.0).all():
+        axes = linear / lengths
+        if np.abs(axes.T @ axes - np.eye(3)).max() <= EXACT:  # its own columns: no digit is lost
+            return axes if np.linalg.det(axes) > 0.0 else -axes
+    left, _, right = np.linalg.svd(linear)
+    return left @ right * np.sign(np.linalg.det(left) * np.linalg.det(right))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """A linear map taken apart: rotation @ diag(scale) @ bake.
+
+    bake: None, or what must go into the vertices: a mirror, a shear; shape (3, 3).  sheared: whether it is a shear.
+    """
+
+    rotation: Array
+    scale: Array
+    bake: Array | None
+    sheared: bool
+
+
+def taken_apart(linear: Array) -> Stretch | None:
+    """None where the map is flat (a scale of zero)."""
+    mirrored = np.linalg.det(linear) < 0.0
+    own = linear @ MIRROR if mirrored else linear
+    lengths = np.linalg.norm(own, axis=0)
+    if not (lengths > 0.0).all() or abs(np.linalg.det(own)) <= 1e-12 * lengths.prod():
+        return None
+    axes = own / lengths
+    off = np.abs(axes.T @ axes - np.eye(3)).max()
+    if off <= SQUARE:
+        rotation = axes if off <= EXACT else rotation_of(axes)
+        return Stretch(rotation, _plain(lengths), MIRROR if mirrored else None, False)
+    rotation = rotation_of(linear)
+    return Stretch(rotation, np.ones(3), rotation.T @ linear, True)
+
+
+def _plain(lengths: Array) -> Array:
+    """Scales that are one but for rounding are one."""
+    return np.where(np.abs(lengths - 1.0) <= 1e-9, 1.0, lengths)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Local:
+    """A prim's matrix in its parent's, and whether it ignores the parent."""
+
+    matrix: Array
+    resets: bool
+
+
+IDENTITY = Local(np.eye(4), False)
+
+
+def local_of(prim: Any, time: Any = None) -> Local:
+    """time: None for the exported pose: default values, and the first sample of what has samples only."""
+    xform = UsdGeom.Xformable(prim)
+    if not xform or not prim.GetAttribute("xformOpOrder").HasAuthoredValue():
+        return IDENTITY
+    if time is None:
+        time = Usd.TimeCode.Default()
+        ops = xform.GetOrderedXformOps()
+        if any(op.GetNumTimeSamples() and op.GetAttr().Get(time) is None for op in ops):
+            time = Usd.TimeCode.EarliestTime()
+    return Local(matrix(xform.GetLocalTransformation(time)), xform.GetResetXformStack())
+
+
+def placed(parent: Array, local: Local) -> Array:
+    return local.matrix if local.resets else parent if local is IDENTITY else parent @ local.matrix
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stand:
+    """A rigid frame of the source: of a node, or the world's.
+
+    rotation, origin: in the source's world and units, shapes (3, 3) and (3,).
+    """
+
+    rotation: Array
+    origin: Array
+    frame: SourceFrame
+
+    @property
+    def pose(self) -> Pose:
+        """In the scene's world."""
+        turn = self.frame.turn
+        return Pose(turn @ self.rotation @ turn.T, turn @ self.origin * self.frame.length)
+
+    def linear(self, world: Array) -> Array:
+        """The linear part of a prim's matrix, seen from here, source axes, shape (3, 3)."""
+        return self.rotation.T @ world[:3, :3]
+
+    def point(self, world: Array) -> Array:
+        """A point of the source's world in the scene's node frame, metres."""
+        return self.frame.turn @ (self.rotation.T @ (world - self.origin)) * self.frame.length
+
+    def turned(self, linear: Array) -> Array:
+        """A map between source axes as a map between the scene's axes."""
+        return self.frame.turn @ linear @ self.frame.turn.T
+
+    def axes(self, world: Array) -> Array:
+        """Axes (columns) of the source's world in the scene's node frame."""
+        return self.frame.turn @ (self.rotation.T @ world)
+
+
+def stand(world: Array, frame: SourceFrame) -> Stand:
+    return Stand(rotation_of(world[:3, :3]), world[:3, 3].copy(), frame)

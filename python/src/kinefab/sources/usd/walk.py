@@ -1,0 +1,262 @@
+"""One walk over the stage: what is a body, what hangs on it, what is a joint, and where everything stands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Array
+from .api import Sdf, Usd, UsdGeom, UsdPhysics
+from .instancer import instances
+from .stage import OpenStage
+from .transforms import IDENTITY, Local, local_of, placed
+from .values import Values, schemas
+
+PREDICATE = Usd.TraverseInstanceProxies()
+MAX_PRIMS = 5_000_000
+"""Most prims that are looked at: a small file may multiply itself by nested instances."""
+LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderProduct RenderVar".split())
+SKIPPED = frozenset("Skeleton SkelAnimation BlendShape".split())
+LIGHTS = frozenset(
+    "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight".split()
+)
+
+
+@dataclass(slots=True, eq=False)
+class Piece:
+    """A drawn or colliding prim.  world: its matrix.  copy: which instance of a PointInstancer, -1 for none.
+    visible: whether it and all above it are shown.  purpose: default, render, proxy or guide."""
+
+    prim: Any
+    id: str
+    world: Array
+    visible: bool
+    purpose: str
+    collides: bool
+
+
+@dataclass(slots=True, eq=False)
+class Part:
+    """What becomes one node: a rigid body with all below it, or a static prim.
+
+    body: it has a RigidBodyAPI.  enabled: the API is switched on.  parent: of the assemblies, -1 for none.
+    """
+
+    prim: Any
+    id: str
+    world: Array
+    parent: int
+    body: bool
+    enabled: bool = True
+    visible: bool = True
+    pieces: list[Piece] = field(default_factory=list[Piece])
+    sites: list[tuple[Any, Array]] = field(default_factory=list[tuple[Any, Array]])
+
+
+@dataclass(slots=True, eq=False)
+class Group:
+    """A prim above parts: an Xform or Scope.  parent: an earlier group, -1 for none."""
+
+    prim: Any
+    id: str
+    world: Array
+    parent: int
+
+
+@dataclass(slots=True, eq=False)
+class Found:
+    """Everything of interest, in the order of the stage.
+
+    animated: prims whose transform has several time samples, by path.  worlds: matrix of each prim by its path.  body_of: for each path below or at a body the part's number.
+    """
+
+    groups: list[Group] = field(default_factory=list[Group])
+    parts: list[Part] = field(default_factory=list[Part])
+    joints: list[Any] = field(default_factory=list[Any])
+    scenes: list[Any] = field(default_factory=list[Any])
+    collision_groups: list[Any] = field(default_factory=list[Any])
+    filtered: list[Any] = field(default_factory=list[Any])
+    articulations: list[Any] = field(default_factory=list[Any])
+    vendor: list[Any] = field(default_factory=list[Any])
+    worlds: dict[str, Array] = field(default_factory=dict[str, Array])
+    body_of: dict[str, int] = field(default_factory=dict[str, int])
+    animated: dict[str, Any] = field(default_factory=dict[str, Any])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Context:
+    """What a prim inherits.  group: pending prims above without a group yet, from the outermost; chain: number of the
+    innermost group that exists."""
+
+    world: Array
+    pending: tuple[tuple[Any, str, Array], ...]
+    group: int
+    part: int
+    visible: bool
+    purpose: str
+    id: str
+
+
+def walk(opened: OpenStage, values: Values, report: Report) -> Found:
+    """Look at every prim below the root that is asked for.  Raises KinefabError when there are too many."""
+    found = Found()
+    root = opened.root
+    above = np.eye(4)
+    for prim in reversed(list(_ancestors(root))):
+        above = placed(above, local_of(prim))
+    start = _Context(above, (), -1, -1, True, "default", "")
+    chosen = [root] if not root.IsPseudoRoot() else list(root.GetFilteredChildren(PREDICATE))
+    pending = [(prim, start) for prim in reversed(chosen)]
+    count = 0
+    groups_of: dict[str, int] = {}
+    while pending:
+        prim, context = pending.pop()
+        count += 1
+        if count > MAX_PRIMS:
+            report.add("USD_TOO_MANY_PRIMS", opened.name, limit=MAX_PRIMS)
+            report.raise_for_errors()
+        below = _look(prim, context, found, groups_of, opened, values, report)
+        if below is None:
+            continue
+        if prim.GetTypeName() == "PointInstancer":  # what lies below it is prototypes
+            pending += _instanced(prim, below, opened, report)
+        else:
+            pending += [(child, below) for child in reversed(prim.GetFilteredChildren(PREDICATE))]
+    return found
+
+
+def _ancestors(prim: Any) -> Iterator[Any]:
+    """Above a prim, from the nearest."""
+    while not prim.IsPseudoRoot() and not (prim := prim.GetParent()).IsPseudoRoot():
+        yield prim
+
+
+def _look(
+    prim: Any,
+    context: _Context,
+    found: Found,
+    groups_of: dict[str, int],
+    opened: OpenStage,
+    values: Values,
+    report: Report,
+) -> _Context | None:
+    """Note what a prim is; what its children inherit, or None where nothing below matters."""
+    kind = str(prim.GetTypeName())
+    if kind in LOOKS or kind in SKIPPED:
+        return None
+    applied = schemas(prim)
+    if prim.IsA(UsdPhysics.Scene):
+        found.scenes.append(prim)
+        return None
+    if prim.IsA(UsdPhysics.CollisionGroup):
+        found.collision_groups.append(prim)
+        return None
+    if "PhysicsFilteredPairsAPI" in applied:
+        found.filtered.append(prim)
+    if "PhysicsArticulationRootAPI" in applied:
+        found.articulations.append(prim)
+    if prim.IsA(UsdPhysics.Joint) or kind.endswith("Joint") or "PhysicsJoint" in kind:
+        found.joints.append(prim)
+        return context
+    if kind in LIGHTS:
+        report.dropped(
+            f"light {prim.GetPath()}",
+            "USD_FEATURE_DROPPED",
+            opened.place(prim),
+            detail="lights are not carried over",
+        )
+        return None
+    if kind.startswith(("Mjc", "Newton", "Physx")):
+        found.vendor.append(prim)
+        return None
+    local = local_of(prim)
+    if not np.isfinite(local.matrix).all():
+        values.wrong(prim, "xformOpOrder", "a transform that is not finite")
+        local = Local(np.eye(4), local.resets)
+    world = placed(context.world, local)
+    # An instance of a PointInstancer has an id of its own beside the prototype's path.
+    path = str(prim.GetPath())
+    own = f"{context.id}/{prim.GetName()}" if context.id else path[1:]
+    found.worlds.setdefault(path, world)
+    if local is not IDENTITY and UsdGeom.Xformable(prim).TransformMightBeTimeVarying():
+        found.animated[path] = prim
+    visible, purpose = context.visible, context.purpose
+    imageable = UsdGeom.Imageable(prim)
+    if imageable:
+        visible = visible and imageable.GetVisibilityAttr().Get() != "invisible"
+        attribute = imageable.GetPurposeAttr()
+        if attribute.HasAuthoredValue():
+            purpose = str(attribute.Get())
+    part = context.part
+    below = _Context(world, context.pending, context.group, part, visible, purpose, own if context.id else "")
+    collides = "PhysicsCollisionAPI" in applied
+    if "PhysicsRigidBodyAPI" in applied and prim.IsA(UsdGeom.Xformable):
+        enabled = values.flag(prim, "physics:rigidBodyEnabled", True)
+        group = _outer_group(context, found, groups_of)
+        found.parts.append(Part(prim, own, world, group, True, enabled, visible))
+        part = len(found.parts) - 1
+        below = _Context(world, (), group, part, visible, purpose, below.id)
+    if part >= 0:
+        found.body_of.setdefault(path, part)
+    if prim.IsA(UsdGeom.Gprim):
+        if part < 0:
+            group = _outer_group(context, found, groups_of)
+            found.parts.append(Part(prim, own, world, group, False, True, visible))
+            holder = found.parts[-1]
+            part_below = -1
+        else:
+            holder = found.parts[part]
+            part_below = part
+        holder.pieces.append(Piece(prim, own, world, visible, purpose, collides))
+        return _Context(world, below.pending, below.group, part_below, visible, purpose, below.id)
+    if collides and kind != "PointInstancer":
+        report.dropped(
+            f"collider {path}", "USD_FEATURE_DROPPED", opened.place(prim),
+            detail="a CollisionAPI stands on a prim without geometry of its own",
+        )  # fmt: skip
+    if part >= 0 and prim.IsA(UsdGeom.Xformable) and prim != found.parts[part].prim:
+        if not prim.GetFilteredChildren(PREDICATE) and kind != "PointInstancer":
+            found.parts[part].sites.append((prim, world))
+        return below
+    if part < 0:
+        return _Context(
+            world, (*context.pending, (prim, own, world)), context.group, -1, visible, purpose, below.id
+        )
+    return below
+
+
+def _outer_group(context: _Context, found: Found, groups_of: dict[str, int]) -> int:
+    """The group right above a part; those that are pending are made now, as there is something below them."""
+    group = context.group
+    for prim, own, world in context.pending:
+        if own not in groups_of:
+            found.groups.append(Group(prim, own, world, group))
+            groups_of[own] = len(found.groups) - 1
+        group = groups_of[own]
+    return group
+
+
+def _instanced(prim: Any, context: _Context, opened: OpenStage, report: Report) -> list[tuple[Any, _Context]]:
+    """The prototypes of a PointInstancer, once for each of its instances, last first."""
+    copies: list[tuple[Any, _Context]] = []
+    for number, prototype, placing in instances(prim, opened, report):
+        world = context.world @ placing
+        own = f"{prim.GetPath()}"[1:] + f"[{number}]"
+        below = _Context(
+            world, context.pending, context.group, context.part, context.visible, context.purpose, own
+        )
+        copies.append((prototype, below))
+    return copies[::-1]
+
+
+def body_above(path: Any, found: Found) -> int:
+    """The part of the nearest body at or above a path, -1 for none."""
+    while path and path != Sdf.Path.absoluteRootPath:
+        if (part := found.body_of.get(str(path))) is not None:
+            return part
+        path = path.GetParentPath()
+    return -1

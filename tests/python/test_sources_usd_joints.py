@@ -1,0 +1,265 @@
+"""Joints of UsdPhysics: frames, senses, ranges, drives and units, held against numbers worked out by hand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from kinefab.model import RX, RY, RZ, TX, TY, TZ, JointKind, Motion
+from usd_stages import body, codes, joint, scene_of, stage
+
+pytest.importorskip("pxr", reason="usd-core is not installed")
+
+DEGREE = math.pi / 180.0
+LIMITS = "float physics:lowerLimit = -10\nfloat physics:upperLimit = 80"
+
+
+def joint_of(tmp_path, text: str, **units):
+    scene, report = scene_of(tmp_path, stage(text, **units))
+    assert scene is not None, report.diagnostics
+    (found,) = scene.joints
+    return found, scene, report
+
+
+def coordinate(scene, found, freedom: int) -> float:
+    """A joint's coordinate at the exported pose."""
+    here = (scene.pose(found.a) @ found.frame_a).inverse() @ (scene.pose(found.b) @ found.frame_b)
+    if freedom < RX:
+        return float(here.translation[freedom])
+    i, j = (freedom - RX + 1) % 3, (freedom - RX + 2) % 3
+    return math.atan2(here.rotation[j, i], here.rotation[j, j])
+
+
+def turned(name: str, degrees: float, about: str = "Z", at=(0, 0, 0), inside: str = "") -> str:
+    """A body that is turned by ``degrees``."""
+    text = body(name, at, inside)
+    text = text.replace('["xformOp:translate"]', f'["xformOp:translate", "xformOp:rotate{about}"]')
+    return text.replace("uniform token[]", f"double xformOp:rotate{about} = {degrees}\n uniform token[]", 1)
+
+
+@pytest.mark.parametrize("up", ["Y", "Z"])
+@pytest.mark.parametrize("axis", ["X", "Y", "Z"])
+@pytest.mark.parametrize("world", [0, 1])
+def test_a_hinge_reads_its_angle_by_the_right_hand_whichever_side_is_the_world(tmp_path, up, axis, world):
+    """Body 1 against body 0: with the world as body 1 the body turns the other way for the same coordinate."""
+    sides = {"body0": "/B", "body1": ""} if world else {"body0": "", "body1": "/B"}
+    turn = -30.0 if world else 30.0
+    text = turned("B", turn, axis) + joint(
+        "PhysicsRevoluteJoint", inside=f'uniform token physics:axis = "{axis}"\n{LIMITS}', **sides
+    )
+    found, scene, _ = joint_of(tmp_path, text, up=up)
+    assert found.kind is JointKind.REVOLUTE and found.a is None
+    assert coordinate(scene, found, RX) == pytest.approx(30.0 * DEGREE, abs=1e-9)
+    assert (found.freedoms[RX].lower, found.freedoms[RX].upper) == pytest.approx((-10 * DEGREE, 80 * DEGREE))
+
+
+@pytest.mark.parametrize("world", [0, 1])
+@pytest.mark.parametrize("metres", [1.0, 0.01, 0.001])
+def test_a_slide_counts_in_metres(tmp_path, world, metres):
+    sides = {"body0": "/B", "body1": ""} if world else {"body0": "", "body1": "/B"}
+    text = body("B", at=(0, -3 if world else 3, 0)) + joint(
+        "PhysicsPrismaticJoint", inside=f'uniform token physics:axis = "Y"\n{LIMITS}', **sides
+    )
+    found, scene, _ = joint_of(tmp_path, text, metres=metres)
+    assert found.kind is JointKind.PRISMATIC
+    assert coordinate(scene, found, TX) == pytest.approx(3 * metres)
+    assert (found.freedoms[TX].lower, found.freedoms[TX].upper) == pytest.approx((-10 * metres, 80 * metres))
+
+
+def test_frames_stand_in_scaled_bodies_with_their_scale(tmp_path):
+    scaled = (
+        body("B", at=(1, 0, 0))
+        .replace('["xformOp:translate"]', '["xformOp:translate", "xformOp:scale"]')
+        .replace("uniform token[]", "float3 xformOp:scale = (2, 3, 4)\n uniform token[]", 1)
+    )
+    text = scaled + joint(
+        "PhysicsRevoluteJoint",
+        inside="point3f physics:localPos1 = (0.5, 1, 0.25)\npoint3f physics:localPos0 = (2, 3, 1)",
+    )
+    found, scene, _ = joint_of(tmp_path, text, up="Y")
+    assert np.allclose(found.frame_b.translation, [1.0, 3.0, 1.0])
+    assert np.allclose(coordinate(scene, found, TX), 0.0)
+    assert np.allclose(scene.pose(found.b).point(found.frame_b.translation), [2, 3, 1])
+
+
+def test_a_target_below_a_body_is_the_body_and_one_below_none_the_world(tmp_path):
+    site = 'def Xform "Site" { double3 xformOp:translate = (0, 0, 0.5)\n uniform token[] xformOpOrder = ["xformOp:translate"]\n }'
+    text = (
+        body("B", at=(0, 2, 0), inside=site)
+        + 'def Xform "Hall" {}\n'
+        + joint("PhysicsRevoluteJoint", body0="/Hall", body1="/B/Site")
+    )
+    found, scene, _ = joint_of(tmp_path, text, up="Y")
+    assert found.a is None and scene.nodes[found.b].id == "B"
+    assert np.allclose(found.frame_b.translation, [0, 0, 0.5])
+    assert [site.name for site in scene.nodes[found.b].sites] == ["Site"]
+
+
+@pytest.mark.parametrize("low, high, motion", [
+    ("1", "-1", Motion.LOCKED), ("inf", "-inf", Motion.LOCKED), ("0", "0", Motion.LOCKED),
+    ("-inf", "inf", Motion.FREE), ("-3.4e38", "3.4e38", Motion.FREE), ("-2", "3", Motion.LIMITED),
+])  # fmt: skip
+def test_ranges_of_a_generic_joint(tmp_path, low, high, motion):
+    inside = f"float limit:rotY:physics:low = {low}\nfloat limit:rotY:physics:high = {high}"
+    inside += "".join(
+        f"\nfloat limit:trans{a}:physics:low = 1\nfloat limit:trans{a}:physics:high = -1" for a in "XYZ"
+    )
+    schemas = ", ".join(f'"PhysicsLimitAPI:{name}"' for name in ("rotY", "transX", "transY", "transZ"))
+    found, _, _ = joint_of(tmp_path, body("B") + joint("PhysicsJoint", inside=inside, schemas=schemas))
+    assert [found.freedoms[i].motion for i in (TX, TY, TZ)] == [Motion.LOCKED] * 3
+    assert found.freedoms[RY].motion is motion
+    assert found.freedoms[RX].motion is found.freedoms[RZ].motion is Motion.FREE
+    if motion is Motion.LIMITED:
+        assert (found.freedoms[RY].lower, found.freedoms[RY].upper) == pytest.approx(
+            (-2 * DEGREE, 3 * DEGREE)
+        )
+
+
+def test_a_locked_value_away_from_zero_moves_the_frame(tmp_path):
+    locked = "".join(
+        f"float limit:{n}:physics:low = {v}\nfloat limit:{n}:physics:high = {v}\n"
+        for n, v in (("transX", 2), ("transY", 0), ("transZ", 0), ("rotX", 0), ("rotY", 30))
+    )
+    schemas = ", ".join(f'"PhysicsLimitAPI:{n}"' for n in ("transX", "transY", "transZ", "rotX", "rotY"))
+    text = turned("B", 30.0, "Y", at=(2, 0, 0)) + joint("PhysicsJoint", inside=locked, schemas=schemas)
+    found, scene, _ = joint_of(tmp_path, text, up="Y", metres=0.1)
+    here = (scene.pose(found.a) @ found.frame_a).inverse() @ (scene.pose(found.b) @ found.frame_b)
+    assert np.allclose(here.rotation, np.eye(3), atol=1e-7) and np.allclose(here.translation, 0, atol=1e-7)
+    assert found.unlocked == (RZ,)
+
+
+@pytest.mark.parametrize(
+    "kind, force",
+    [
+        ("PhysicsRevoluteJoint", "force"),
+        ("PhysicsRevoluteJoint", "acceleration"),
+        ("PhysicsPrismaticJoint", "force"),
+        ("PhysicsPrismaticJoint", "acceleration"),
+    ],
+)
+def test_drives_and_breaking_in_centimetres_and_grams(tmp_path, kind, force):
+    name = "angular" if "Revolute" in kind else "linear"
+    p = f"drive:{name}:physics:"
+    inside = f'uniform token {p}type = "{force}"\nfloat {p}stiffness = 6\nfloat {p}damping = 4\nfloat {p}maxForce = 5\nfloat {p}targetPosition = 20\nfloat {p}targetVelocity = -7\nfloat physics:breakForce = 8\nfloat physics:breakTorque = 9'
+    text = stage(
+        body("B") + joint(kind, inside=inside, schemas=f'"PhysicsDriveAPI:{name}"'),
+        metres=0.01,
+        more="kilogramsPerUnit = 0.001",
+    )
+    scene, _ = scene_of(tmp_path, text)
+    found = scene.joints[0]
+    drive = found.freedoms[RX if name == "angular" else TX].drive
+    torque, newton = 0.001 * 0.01**2, 0.001 * 0.01
+    per_degree = 180.0 / math.pi
+    gain = {
+        ("angular", "force"): torque * per_degree,
+        ("angular", "acceleration"): per_degree,
+        ("linear", "force"): 0.001,
+        ("linear", "acceleration"): 1.0,
+    }[name, force]
+    unit = DEGREE if name == "angular" else 0.01
+    assert (drive.stiffness, drive.damping) == pytest.approx((6 * gain, 4 * gain))
+    assert (drive.target, drive.target_velocity) == pytest.approx((20 * unit, -7 * unit))
+    assert drive.max_force == pytest.approx(5 * (torque if name == "angular" else newton))
+    assert drive.acceleration == (force == "acceleration")
+    assert (found.break_force, found.break_torque) == pytest.approx((8 * newton, 9 * torque))
+
+
+def test_a_ball_has_the_cone_of_physx_and_a_rope_its_length(tmp_path):
+    cone = 'uniform token physics:axis = "Z"\nfloat physics:coneAngle0Limit = 30\nfloat physics:coneAngle1Limit = 30'
+    found, _, _ = joint_of(tmp_path, body("B") + joint("PhysicsSphericalJoint", inside=cone))
+    assert found.kind is JointKind.SPHERICAL and found.freedoms[RX].motion is Motion.FREE
+    assert [found.freedoms[i].upper for i in (RY, RZ)] == pytest.approx([30 * DEGREE] * 2)
+    found, _, report = joint_of(
+        tmp_path,
+        body("B")
+        + joint(
+            "PhysicsDistanceJoint", inside="float physics:minDistance = 0.5\nfloat physics:maxDistance = 2"
+        ),
+        metres=0.01,
+    )
+    assert [found.freedoms[i].upper for i in (TX, TY, TZ)] == pytest.approx([0.02] * 3)
+    assert codes(report) == {"USD_FEATURE_APPROXIMATED"}
+
+
+def test_what_is_switched_off_or_said_of_loops_and_contacts_is_kept(tmp_path):
+    inside = "bool physics:jointEnabled = 0\nbool physics:collisionEnabled = 1\nuniform bool physics:excludeFromArticulation = 1"
+    found, _, _ = joint_of(tmp_path, body("B") + joint("PhysicsRevoluteJoint", inside=inside))
+    assert not found.enabled and found.collide and found.extras["excludeFromArticulation"]
+
+
+def test_newton_s_and_physx_s_attributes_need_no_plug_in(tmp_path):
+    inside = (
+        "float newton:armature = 3\nfloat newton:friction = 2\nfloat newton:damping = 0.5\nfloat newton:velocityLimit = 90\nfloat physxLimit:angular:stiffness = 4\n"
+        + LIMITS
+    )
+    found, _, _ = joint_of(
+        tmp_path,
+        body("B")
+        + joint("PhysicsRevoluteJoint", inside=inside, schemas='"NewtonJointAPI", "PhysxLimitAPI:angular"'),
+        metres=0.1,
+    )
+    passive = found.freedoms[RX].passive
+    assert (passive.armature, passive.friction, passive.damping) == pytest.approx(
+        (0.03, 0.02, 0.005 / DEGREE)
+    )
+    assert passive.speed == pytest.approx(90 * DEGREE)
+    assert found.freedoms[RX].stiffness == pytest.approx(0.04 / DEGREE)
+
+
+TWO = body("A") + body("B") + joint("PhysicsRevoluteJoint", "J1", body1="/A")
+
+
+@pytest.mark.parametrize("schema, inside, ratio, offset", [
+    ("NewtonMimicAPI", "rel newton:mimicJoint = </J1>\nfloat newton:mimicCoef0 = 5\nfloat newton:mimicCoef1 = -2", -2.0, 5 * DEGREE),
+    ("PhysxMimicJointAPI:rotX", "rel physxMimicJoint:rotX:referenceJoint = </J1>\nfloat physxMimicJoint:rotX:gearing = 2\nfloat physxMimicJoint:rotX:offset = -5", -2.0, 5 * DEGREE),
+])  # fmt: skip
+@pytest.mark.parametrize("slide", [False, True])
+def test_mimics_of_newton_and_physx_say_the_same(tmp_path, schema, inside, ratio, offset, slide):
+    kind = "PhysicsPrismaticJoint" if slide else "PhysicsRevoluteJoint"
+    scene, report = scene_of(
+        tmp_path, stage(TWO + joint(kind, "J2", inside=inside, schemas=f'"{schema}"'), metres=0.01)
+    )
+    (found,) = scene.couplings
+    assert (found.joint, found.terms[0].joint) == ("J2", "J1")
+    assert found.terms[0].ratio == pytest.approx(ratio * (0.01 / DEGREE if slide else 1.0))
+    assert found.offset == pytest.approx(offset / DEGREE * 0.01 if slide else offset)
+
+
+@pytest.mark.parametrize("named, sense", [("/B", -1.0), ("", 1.0)])
+def test_a_gear_turns_its_wheels_against_each_other(tmp_path, named, sense):
+    """PhysX: R w0 + w1 = 0 for the bodies that the gear names; named by the hinge's other body it turns round."""
+    gear = (
+        'def PhysxPhysicsGearJoint "G" { rel physics:body0 = </A>\n '
+        + f"rel physics:body1 = <{named or '/C'}>"
+        + "\n rel physics:hinge0 = </J1>\n rel physics:hinge1 = </J2>\n float physics:gearRatio = 3\n }"
+    )
+    hinge = joint("PhysicsRevoluteJoint", "J2", body0="" if named else "/C", body1="/B")
+    scene, _ = scene_of(tmp_path, stage(body("C") + TWO + hinge + gear))
+    (found,) = scene.couplings
+    assert (found.joint, found.terms[0].joint, found.terms[0].ratio) == (
+        "J2",
+        "J1",
+        pytest.approx(3.0 * sense),
+    )
+
+
+def test_a_rack_rolls_on_its_pinion(tmp_path):
+    """Degrees for a centimetre; the rack lies below the pinion (seen along its axis) and so runs the other way."""
+    rack = joint(
+        "PhysicsPrismaticJoint",
+        "J2",
+        body1="/B",
+        inside='point3f physics:localPos0 = (0, -2, 0)\npoint3f physics:localPos1 = (0, -2, 0)\nuniform token physics:axis = "X"',
+    )
+    pinion = (
+        body("A")
+        + body("B")
+        + joint("PhysicsRevoluteJoint", "J1", body1="/A", inside='uniform token physics:axis = "Z"')
+    )
+    tie = 'def PhysxPhysicsRackAndPinionJoint "R" { rel physics:body0 = </A>\n rel physics:body1 = </B>\n rel physics:hinge = </J1>\n rel physics:prismatic = </J2>\n float physics:ratio = 30\n }'
+    scene, _ = scene_of(tmp_path, stage(pinion + rack + tie, up="Y", metres=0.01))
+    (found,) = scene.couplings
+    # z x (0, -2, 0) = (2, 0, 0): the pinion's lowest point runs along +X as it turns by the right hand.
+    assert (found.joint, found.terms[0].ratio) == ("J1", pytest.approx(30 * DEGREE / 0.01))

@@ -1,0 +1,106 @@
+"""What is wrong with a stage, or cannot be kept of it, is told by a code with its place; nothing raises."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from usd_stages import body, codes, joint, scene_of, stage
+
+pytest.importorskip("pxr", reason="usd-core is not installed")
+
+MESH = "int[] faceVertexCounts = [3]; int[] faceVertexIndices = [0, 1, 2]; point3f[] points = [(0,0,0),(1,0,0),(0,1,0)]"
+HINGE = joint("PhysicsRevoluteJoint")
+REFUSED = {
+    "USD_UNREADABLE": "#usda 1.0\ndef Xform {{{",
+    "SOURCE_EMPTY": "#usda 1.0\n",
+    "USD_UNIT_IMPOSSIBLE": stage(body("B"), metres=-1.0),
+    "USD_VALUE_IMPOSSIBLE": stage(body("B", mass="float physics:mass = -2")),
+    "USD_VARIANT_UNKNOWN": stage(body("B")),
+    "USD_ROOT_UNKNOWN": stage(body("B")),
+}
+OPTIONS = {"USD_VARIANT_UNKNOWN": {"variant": ("physics=on",)}, "USD_ROOT_UNKNOWN": {"root": "/Nothing"}}
+
+
+@pytest.mark.parametrize("code", REFUSED)
+def test_a_stage_that_cannot_be_read_is_refused(code, tmp_path):
+    scene, report = scene_of(tmp_path, REFUSED[code], **OPTIONS.get(code, {}))
+    assert scene is None
+    assert {d.code for d in report.diagnostics if d.severity.value == "error"} == {code}
+    assert all(d.where for d in report.diagnostics)
+
+
+TOLD = {
+    "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
+    "USD_WITHOUT_BODIES": 'def Sphere "S" {}',
+    "USD_TARGET_MISSING": body("B") + joint("PhysicsRevoluteJoint", body0="/Gone"),
+    "USD_JOINT_UNKNOWN": body("B") + joint("DistancePhysicsJoint"),
+    "USD_JOINT_ENDS_EQUAL": body("B") + joint("PhysicsRevoluteJoint", body0="/B"),
+    "USD_FEATURE_DROPPED": body("B") + 'def SphereLight "Sun" {}',
+    "USD_FEATURE_APPROXIMATED": body("B") + joint("PhysicsSphericalJoint", inside="float physics:coneAngle0Limit = 30\nfloat physics:coneAngle1Limit = 40"),
+    "USD_MASS_ASSUMED": body("B", mass=""),
+    "USD_SCALE_ZERO": body("B", inside='def Cube "C" { double3 xformOp:scale = (1, 0, 1)\n uniform token[] xformOpOrder = ["xformOp:scale"]\n }'),
+    "USD_MESH_UNSOUND": body("B", inside='def Mesh "M" { int[] faceVertexCounts = [3]; int[] faceVertexIndices = [0, 1, 7]; point3f[] points = [(0,0,0)]\n }'),
+    "USD_PRIMVAR_UNSOUND": body("B", inside=f'def Mesh "M" {{ {MESH}\n normal3f[] normals = [(0,0,1)] (interpolation = "vertex")\n }}'),
+    "USD_SUBSET_UNSOUND": body("B", inside=f'def Mesh "M" {{ {MESH}\n def GeomSubset "S" {{ uniform token elementType = "face"; uniform token familyName = "materialBind"; int[] indices = [0, 5]\n }}\n }}'),
+    "USD_SUBDIVISION": body("B", inside=f'def Mesh "M" {{ {MESH}\n }}'),
+    "USD_DEFORMATION": body("B", inside='def Mesh "M" { int[] faceVertexCounts = [3]; int[] faceVertexIndices = [0, 1, 2]; point3f[] points.timeSamples = { 0: [(0,0,0),(1,0,0),(0,1,0)], 1: [(0,0,0),(2,0,0),(0,1,0)] }\n }'),
+    "USD_MATERIAL_UNKNOWN": body("B", inside='def Sphere "S" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M>\n }') + 'def Material "M" { token outputs:mdl:surface.connect = </M/S.outputs:out>\n def Shader "S" { token outputs:out\n }\n }',
+    "USD_TEXTURE_MISSING": body("B", inside='def Sphere "S" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M>\n }') + 'def Material "M" { token outputs:surface.connect = </M/S.outputs:surface>\n def Shader "S" { uniform token info:id = "UsdPreviewSurface"; token outputs:surface; color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>\n }\n def Shader "T" { uniform token info:id = "UsdUVTexture"; asset inputs:file = @gone.png@; float3 outputs:rgb\n }\n }',
+    "USD_COLLISION_FILTER": body("A") + body("B").replace('"PhysicsMassAPI"]', '"PhysicsMassAPI", "PhysicsFilteredPairsAPI"]').replace("float physics:mass", "rel physics:filteredPairs = </A>\n float physics:mass"),
+    "USD_MIRROR_BAKED": body("B", inside='def Cube "C" { double3 xformOp:scale = (-1, 2, 1)\n uniform token[] xformOpOrder = ["xformOp:scale"]\n }'),
+    "USD_SHEAR_BAKED": body("B", inside='def Cube "C" { matrix4d xformOp:transform = ((1,0,0,0),(0.5,1,0,0),(0,0,1,0),(0,0,0,1))\n uniform token[] xformOpOrder = ["xformOp:transform"]\n }'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("code", TOLD)
+def test_what_is_not_kept_is_told(code, tmp_path):
+    scene, report = scene_of(tmp_path, stage(TOLD[code]))
+    assert scene is not None, report.diagnostics
+    assert codes(report) - {"USD_SUBDIVISION"} == {code} - {"USD_SUBDIVISION"}
+    assert code in codes(report)
+    (found, *_) = (d for d in report.diagnostics if d.code == code)
+    assert found.where.startswith("stage.usda")
+
+
+def test_a_layer_in_other_units_is_told(tmp_path):
+    (tmp_path / "part.usda").write_text(stage('def Xform "P" { def Sphere "S" {}\n }', metres=0.01), "utf-8")
+    scene, report = scene_of(tmp_path, stage(body("B") + 'def Xform "R" (references = @part.usda@</P>) {}'))
+    assert scene is not None and codes(report) == {"USD_UNITS_DIFFER"}
+    assert scene.source.files[0].uri == "part.usda"
+
+
+def test_payloads_that_are_left_out_are_told(tmp_path):
+    (tmp_path / "part.usda").write_text(stage(body("P")), "utf-8")
+    text = stage('def Xform "R" (payload = @part.usda@</P>) {}')
+    scene, report = scene_of(tmp_path, text, load="none")
+    assert scene is not None and not scene.nodes
+    assert codes(report) == {"USD_PAYLOAD_UNLOADED", "USD_WITHOUT_BODIES"}
+    assert "/R" in next(d for d in report.diagnostics if d.code == "USD_WITHOUT_BODIES").remedy
+    scene, report = scene_of(tmp_path, text)
+    assert scene is not None and [node.id for node in scene.nodes] == ["R"]
+
+
+def test_a_stage_that_multiplies_itself_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("kinefab.sources.usd.walk.MAX_PRIMS", 3)
+    scene, report = scene_of(tmp_path, stage("".join(f'def Sphere "S{i}" {{}}\n' for i in range(4))))
+    assert scene is None and "USD_TOO_MANY_PRIMS" in codes(report)
+
+
+def test_the_line_of_a_syntax_error_is_its_place(tmp_path):
+    _, report = scene_of(tmp_path, '#usda 1.0\ndef Xform "A" {\n float3 x = oops\n}\n')
+    assert report.diagnostics[0].where.startswith("stage.usda:3")
+
+
+def test_no_mutation_of_a_stage_is_a_traceback(tmp_path, fuzz_count):
+    """Every one is read or refused by diagnostics; ``--fuzz N`` tries N of them, a run without it a few."""
+    count = fuzz_count if fuzz_count >= 1000 else fuzz_count // 4
+    script = Path(__file__).with_name("usd_mutations.py")
+    done = subprocess.run(
+        [sys.executable, str(script), str(tmp_path), str(count), "14"], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    accepted, refused = map(int, done.stdout.split())
+    assert accepted + refused == count and min(accepted, refused) > 0

@@ -1,0 +1,141 @@
+"""Pinocchio on URDF: the base is fixed to the world, floating and planar joints move as they are."""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from . import EngineJoint, Mass, Pose, Refused, without_prefixes
+
+NAME = "pinocchio"
+FORMATS = ("URDF",)
+ROS = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+
+
+class PinocchioModel:
+    """A URDF file in Pinocchio.  Mimics are applied here: Pinocchio's own reader takes them or not by version."""
+
+    turn, length = ROS, 1.0
+
+    def __init__(self, path: Path) -> None:
+        import pinocchio
+
+        self.pin = pinocchio
+        text = path.read_text(encoding="utf-8", errors="replace")
+        try:
+            self.model = pinocchio.buildModelFromXML(
+                re.sub(r"<mimic\b[^>]*?(/>|>.*?</mimic>)", "", text, flags=re.S)
+            )
+        except Exception as error:
+            raise Refused(str(error)) from None
+        if self.model.njoints == 1 and self.model.nframes <= 1:
+            raise Refused("no links")
+        self.mimics = _mimics(text)
+        held = [i for i in range(1, self.model.njoints) if self._is_held(i)]
+        if held:  # a range of one value is no motion: what it holds moves as one
+            at = self._configuration({})
+            self.model = pinocchio.buildReducedModel(self.model, held, at)
+            self.mimics = {k: v for k, v in self.mimics.items() if self.model.existJointName(k)}
+        self.data = self.model.createData()
+        self.start = self._configuration({})
+        self.joints = [j for i in range(1, self.model.njoints) for j in self._coordinates(i)]
+        self.mobility = self.model.nv - len(self.mimics)
+
+    def _coordinates(self, index: int) -> list[EngineJoint]:
+        joint, name = self.model.joints[index], self.model.names[index]
+        if name in self.mimics or joint.nv != 1:
+            return []
+        pin = self.pin
+        pin.computeJointJacobians(self.model, self.data, self.start)
+        column = pin.getJointJacobian(self.model, self.data, index, pin.LOCAL_WORLD_ALIGNED)[:, joint.idx_v]
+        is_angle = np.linalg.norm(column[3:]) > 0.5
+        low, high = self._limits(joint)
+        axis = column[3:] if is_angle else column[:3]
+        start = self._resting(name)
+        return [EngineJoint(name, name, self._child(index), bool(is_angle), axis, low, high, start)]
+
+    def _is_held(self, index: int) -> bool:
+        joint, name = self.model.joints[index], self.model.names[index]
+        while name in self.mimics:
+            if self.mimics[name][1] == 0.0 or not self.model.existJointName(self.mimics[name][0]):
+                return True
+            name = self.mimics[name][0]
+            joint = self.model.joints[self.model.getJointId(name)]
+        return joint.nq == 1 and self._limits(joint)[0] == self._limits(joint)[1]
+
+    def _limits(self, joint) -> tuple[float, float]:
+        if joint.nq != 1:
+            return -math.inf, math.inf
+        return float(self.model.lowerPositionLimit[joint.idx_q]), float(
+            self.model.upperPositionLimit[joint.idx_q]
+        )
+
+    def _resting(self, name: str) -> float:
+        """Zero, or the end of the range next to it."""
+        if not self.model.existJointName(name):
+            return 0.0
+        joint = self.model.joints[self.model.getJointId(name)]
+        if joint.nq == 1 and name not in self.mimics:
+            low, high = self._limits(joint)
+            return min(max(0.0, low), high)
+        return 0.0
+
+    def _child(self, index: int) -> str:
+        return next(f.name for f in self.model.frames if f.parentJoint == index and f.type == self.pin.BODY)
+
+    def _configuration(self, values: Mapping[str, float]) -> np.ndarray:
+        known = {name: self._resting(name) for name in self.model.names[1:]} | dict(values)
+        for name in self.mimics:
+            known[name] = _followed(name, self.mimics, known)
+        q = self.pin.neutral(self.model)
+        for name, value in known.items():
+            joint = self.model.joints[self.model.getJointId(name)]
+            if joint.nq == 1:
+                q[joint.idx_q] = value
+            elif joint.nq == 2:
+                q[joint.idx_q : joint.idx_q + 2] = math.cos(value), math.sin(value)
+        return q
+
+    def poses(self, values: Mapping[str, float]) -> dict[str, Pose]:
+        self.pin.framesForwardKinematics(self.model, self.data, self._configuration(values))
+        return {
+            frame.name: (self.data.oMf[i].rotation.copy(), self.data.oMf[i].translation.copy())
+            for i, frame in enumerate(self.model.frames)
+            if frame.type == self.pin.BODY
+        }
+
+    def masses(self) -> dict[str, Mass]:
+        self.pin.forwardKinematics(self.model, self.data, self._configuration({}))
+        found = {}
+        for index in range(1, self.model.njoints):
+            inertia, place = self.model.inertias[index], self.data.oMi[index]
+            turned = place.rotation @ inertia.inertia @ place.rotation.T
+            center = place.rotation @ inertia.lever + place.translation
+            found[self._child(index)] = Mass(inertia.mass, center, turned)
+        return found
+
+
+def _mimics(text: str) -> dict[str, tuple[str, float, float]]:
+    """Joint to the one that it follows, multiplier and offset."""
+    found = {}
+    for joint in ElementTree.fromstring(without_prefixes(text).encode("utf-8", "replace")).iter("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None and joint.get("type") in ("revolute", "continuous", "prismatic"):
+            numbers = (float(mimic.get("multiplier", 1.0)), float(mimic.get("offset", 0.0)))
+            found[joint.get("name", "")] = (mimic.get("joint", ""), *numbers)
+    return found
+
+
+def _followed(name: str, mimics: Mapping[str, tuple[str, float, float]], known: Mapping[str, float]) -> float:
+    leader, multiplier, offset = mimics[name]
+    value = _followed(leader, mimics, known) if leader in mimics else known.get(leader, 0.0)
+    return multiplier * value + offset
+
+
+def load(path: Path, packages: tuple[Path, ...]) -> PinocchioModel:
+    return PinocchioModel(path)

@@ -1,0 +1,189 @@
+"""A scene file held against the engine that owns its source: poses, limits, mass, mobility."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import subprocess
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from engines import Engine, Pose
+from scene_kinematics import (
+    LINEAR,
+    Coordinate,
+    SceneKinematics,
+    compose,
+    difference,
+    random_values,
+    unity_inertia,
+    unity_point,
+    unity_pose,
+)
+
+TOOL = "dotnet-kinefab"
+CLOSE = 1e-6
+
+
+def scored(target: Path, engine: Engine | None, configurations: int, told: set[str]) -> dict[str, Any]:
+    """What was counted and measured; ``wrong``: what of it is a defect, in words.
+
+    told: features of the source that the report calls approximated or dropped ("joint elbow", "inertia hand"): their
+    limits and inertias are not compared, everything else is.
+    """
+    motion = SceneKinematics.load(target)
+    found: dict[str, Any] = {
+        "joints": len(motion.joints),
+        "couplings": len(motion.document.get("couplings", ())),
+    }
+    wrong: list[str] = []
+    if shutil.which(TOOL):
+        found |= _tool(target, engine, wrong)
+    if engine is not None:
+        found |= _against(motion, engine, configurations, told, wrong)
+    return found | {"wrong": wrong}
+
+
+def _tool(target: Path, engine: Engine | None, wrong: list[str]) -> dict[str, Any]:
+    checked = subprocess.run(
+        [TOOL, "validate", str(target), "--strict"], capture_output=True, text=True, timeout=120
+    )
+    valid = checked.returncode == 0 and ", 0 warnings" in checked.stdout
+    if not valid:
+        wrong.append(f"validate: {checked.stdout[:400]}")
+    said = subprocess.run(
+        [TOOL, "mobility", str(target), "--json"], capture_output=True, text=True, timeout=120
+    )
+    counted = json.loads(said.stdout).get("mobility") or {}
+    findings = json.loads(said.stdout).get("diagnostics", ())
+    found = {
+        "valid": valid,
+        "mobility_findings": sorted({d["code"] for d in findings}),
+        "mobility": counted.get("mobility"),
+        "loops": sum(i.get("loops", 0) for i in counted.get("islands", ())),
+    }
+    if engine is not None and engine.mobility is not None:
+        found |= {
+            "engine_mobility": engine.mobility,
+            "mobility_right": counted.get("mobility") == engine.mobility,
+        }
+        if not found["mobility_right"]:
+            wrong.append(f"mobility {counted.get('mobility')}, the engine's {engine.mobility}")
+    return found
+
+
+def _against(
+    motion: SceneKinematics, engine: Engine, configurations: int, told: set[str], wrong: list[str]
+) -> dict[str, Any]:
+    chosen: dict[Coordinate, tuple[str, float, float, bool]] = {}
+    ranges, limits_wrong = [], []
+    for joint in engine.joints:
+        axis = unity_point(joint.axis, engine.turn)
+        read = motion.reading(joint.name, axis, joint.is_angle, joint.child)
+        if read is None:
+            if joint.lower < joint.upper:
+                wrong.append(f"joint {joint.name} has no coordinate in the scene")
+            continue
+        coordinate, sense = read
+        unit = 180.0 / math.pi if joint.is_angle else engine.length
+        ends = sorted(sense * unit * (end - joint.start) for end in (joint.lower, joint.upper))
+        has = motion.range_of(coordinate)
+        if f"joint {joint.name}" not in told and any(
+            a != b and abs(a - b) > CLOSE * max(1.0, abs(a)) for a, b in zip(ends, has)
+        ):
+            limits_wrong.append(f"{joint.name}: {has}, the engine's {tuple(ends)}")
+        chosen[coordinate] = (joint.key, sense * unit, joint.start, joint.is_angle)
+        ranges.append(
+            (coordinate, (max(ends[0], -720.0), min(ends[1], 720.0)) if joint.is_angle else tuple(ends))
+        )
+    generator = np.random.default_rng(14)
+    worst = [0.0, 0.0]
+    for number in range(configurations + 1):
+        values = random_values(ranges, generator) if number else {}
+        asked = {chosen[c][0]: v / chosen[c][1] + chosen[c][2] for c, v in values.items()}
+        expected = engine.poses(asked)
+        roots, held = _carried(motion, expected, engine, worst)
+        poses = motion.poses(motion.coupled(values), roots, held)
+        for name, (r, t) in expected.items():
+            try:
+                here = motion.pose_of(name, poses)
+            except KeyError as error:
+                wrong.append(str(error))
+                continue
+            for i, value in enumerate(difference(unity_pose(r, t, engine.turn, engine.length), here)):
+                worst[i] = max(worst[i], value)
+        if wrong:
+            break
+    if max(worst) > CLOSE:
+        wrong.append(f"poses differ by {worst[0]:.3g} m, {worst[1]:.3g} rad")
+    if limits_wrong:
+        wrong.append(f"limits: {limits_wrong[:3]}")
+    return {"fk": worst, "limits_wrong": limits_wrong} | _masses(motion, engine, told, wrong)
+
+
+def _carried(
+    motion: SceneKinematics, expected: Mapping[str, Pose], engine: Engine, worst: list[float]
+) -> tuple[dict[int, Any], dict[tuple[int, int], Any]]:
+    """Where free bodies stand, and how components with slides and other freedoms, or three turns, do: they are plain
+    enough to be counted from either side, so it is the engine's bodies that must keep what they hold."""
+    unity = {}
+    for name, (r, t) in expected.items():
+        try:
+            unity[motion.object(name)] = unity_pose(r, t, engine.turn, engine.length)
+        except KeyError:
+            continue  # told by the poses
+    poses = [unity.get(i, placed) for i, placed in enumerate(motion.placed)]
+    held = {}
+    for joint in motion.joints:
+        names = [c.name for c in joint.coordinates]
+        linear = [n for n in names if n in LINEAR]
+        if len(names) < 2 or (not linear and len(names) < 3) or joint.game_object not in unity:
+            continue
+        if joint.connected is not None and joint.connected not in unity:
+            continue
+        held[joint.game_object, joint.index] = motion.c(joint, poses)
+        if not joint.closure:
+            for i, value in enumerate(motion.gap(joint, poses)):
+                worst[i] = max(worst[i], value)
+    return unity, held
+
+
+def _masses(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list[str]) -> dict[str, Any]:
+    worst, where = 0.0, ""
+    for name, expected in engine.masses().items():
+        if not expected.mass > 0.0:
+            continue  # the engine lets it move without mass; Unity does not
+        try:
+            body = motion.body_of[motion.object(name)]
+        except KeyError:
+            continue  # told by the poses
+        if body is None:
+            continue
+        if any(f"{what} {motion.objects[body]['name']}" in told for what in ("inertia", "mass")):
+            continue
+        mass, center, inertia = motion.mass(body)
+        r, t = motion.placed[body]
+        size = max(float(np.abs(expected.inertia).max()), 1e-12)
+        reach = max(float(np.linalg.norm(expected.center)), 1e-3)
+        errors = (
+            abs(mass - expected.mass) / expected.mass,
+            float(
+                np.linalg.norm(
+                    compose((r, t), (np.eye(3), center))[1]
+                    - unity_point(expected.center, engine.turn, engine.length)
+                )
+            )
+            / reach,
+            float(np.abs(r @ inertia @ r.T - unity_inertia(expected.inertia, engine.turn)).max()) / size,
+        )
+        if max(errors) > worst:
+            worst, where = (
+                max(errors),
+                f"{name}: mass, centre, inertia off by {', '.join(f'{e:.2g}' for e in errors)}",
+            )
+    if worst > CLOSE:
+        wrong.append(where)
+    return {"mass_error": worst}

@@ -1,0 +1,245 @@
+"""MuJoCo: a file compiled, with stand-ins for what files are missing, and posed.
+
+The library has no types of its own, so here its objects are Any, once for all.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import warnings
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Array, Pose
+from ..robots.packages import Found, Packages
+from ..robots.rigid_links import unique
+from .files import Files
+
+STAND_IN_RADIUS = 0.05
+"""Metres of the ball that stands in for a mesh whose file is missing, so that a body without other shapes has a mass."""
+FOLDERS = ("meshdir", "texturedir", "assetdir")
+HIDDEN = 5
+"""Group of geoms that are not drawn."""
+
+
+@dataclass(slots=True, eq=False)
+class Compiled:
+    """mujoco: the module.  model: MjModel.  data: MjData at the exported pose.  ctrl: the actuators' controls there.
+    lost: ids of geoms that stand in for missing meshes.  textures: file of each texture by its name; None where it is
+    made by numbers.  names: of bodies, by id, each of them one."""
+
+    mujoco: Any
+    model: Any
+    data: Any
+    files: Files
+    ctrl: Array
+    lost: frozenset[int]
+    textures: dict[str, Path | None]
+    bodies: list[str]
+    joints: list[str]
+    keyframes: tuple[str, ...]
+
+    def name(self, kind: str, index: int) -> str:
+        """What the file calls an element; "" where it does not."""
+        return str(getattr(self.model, kind)(index).name)
+
+    def body_pose(self, body: int) -> Pose:
+        """In the world at the exported pose, MuJoCo's axes."""
+        return Pose(np.array(self.data.xmat[body]).reshape(3, 3), np.array(self.data.xpos[body]))
+
+    def where(self, kind: str, name: str) -> str:
+        return self.files.where(kind, name)
+
+
+def pose_of(position: Any, quaternion: Any) -> Pose:
+    """From MuJoCo's numbers; its quaternions are (w, x, y, z)."""
+    from ...spatial import matrix_from_quaternion
+
+    w, x, y, z = (float(v) for v in quaternion)
+    return Pose(matrix_from_quaternion(np.array([x, y, z, w])), np.array(position, dtype=np.float64))
+
+
+def compile_model(files: Files, packages: Packages, keyframe: str, report: Report) -> Compiled:
+    """The model as MuJoCo compiles it.  keyframe: "" for the reference pose.  Raises KinefabError."""
+    mujoco = import_module("mujoco")
+    library = _Library(mujoco, files, packages, report)
+    model = library.compiled()
+    lost = frozenset(i for i in range(model.ngeom) if model.geom(i).name in library.lost)
+    return _posed(mujoco, model, files, keyframe, lost, library.textures, report)
+
+
+@dataclass(slots=True, eq=False)
+class _Library:
+    """From files to a compiled model."""
+
+    mujoco: Any
+    files: Files
+    packages: Packages
+    report: Report
+    lost: set[str] = field(default_factory=set[str])
+    folders: list[str] = field(default_factory=list[str])
+    textures: dict[str, Path | None] = field(default_factory=dict[str, "Path | None"])
+
+    def compiled(self) -> Any:
+        spec = self._tried(lambda: self.mujoco.MjSpec.from_file(str(self.files.path)))
+        # What memory a simulation reserves is no matter here, and could be asked for without end.
+        for size in ("memory", "nstack", "njmax", "nconmax"):
+            setattr(spec, size, -1)
+        self._mend_textures(spec)
+        self._mend_meshes(spec)
+        self._mend_heightfields(spec)
+        model = self._tried(spec.compile)
+        self._check_numbers(model)
+        return model
+
+    def _tried(self, call: Any) -> Any:
+        found: Any = None
+        # MuJoCo writes its warnings into a file of the working folder, and the newest raise Python's too.
+        quiet = getattr(self.mujoco, "set_mju_user_warning", None)
+        try:
+            if quiet is not None:
+                quiet(_say_nothing)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = call()
+        except Exception as error:  # whatever MuJoCo raises is what it has against the file
+            said = " ".join(str(error).split())
+            line = re.search(r"line (\d+)", said)
+            where = f"{self.files.path.name}:{line[1]}" if line else self.files.path.name
+            self.report.add("MJCF_REFUSED", where, detail=said[:400] or type(error).__name__)
+        finally:
+            if quiet is not None:
+                quiet(None)
+        self.report.raise_for_errors()
+        return found
+
+    def _check_numbers(self, model: Any) -> None:
+        arrays = (
+            "body_pos body_quat body_mass body_inertia body_ipos body_iquat jnt_pos jnt_axis qpos0 geom_pos geom_quat "
+            "geom_size site_pos site_quat eq_data key_qpos dof_damping dof_armature mesh_vert"
+        )
+        for name in arrays.split():
+            if not np.isfinite(getattr(model, name)).all():
+                self.report.add(
+                    "MJCF_REFUSED", self.files.path.name, detail=f"{name} holds numbers that are not finite"
+                )
+        self.report.raise_for_errors()
+
+    # What is not there .................................................................................................
+
+    def _found(self, spec: Any, folder: str, file: str) -> Found:
+        """In the folder that the model states; of attached models, in those that they state, from where they lie."""
+        name = PurePosixPath(file.replace("\\", "/")).name if spec.strippath else file
+        if not self.folders:
+            stated = [e.attributes.get(k, "") for e in self.files.all("compiler") for k in FOLDERS]
+            self.folders = ["", *stated]
+        places = dict.fromkeys((folder, *self.folders))
+        homes = dict.fromkeys(("", *(str(PurePosixPath(f.uri).parent) for f in self.files.read)))
+        first: Found | None = None
+        for candidate in (os.path.join(home, place, name) for home in homes for place in places):
+            found = self.packages.find(candidate)
+            if found.path is not None:
+                return found
+            first = first or found
+        return first or Found(None)
+
+    def _tell(self, kind: str, name: str, file: str, found: Found) -> None:
+        feature, where = f"{kind} {name or file}", self.files.where(kind, name)
+        if kind == "texture":
+            self.report.dropped(feature, "TEXTURE_NOT_FOUND", where, file=file)
+        else:
+            code = "MESH_OUTSIDE" if found.outside else "MESH_NOT_FOUND"
+            self.report.dropped(feature, code, where, file=file)
+
+    def _mend_textures(self, spec: Any) -> None:
+        """Images are not read here: the scene names the files."""
+        flat = self.mujoco.mjtBuiltin.mjBUILTIN_FLAT
+        for texture in spec.textures:
+            sides = [str(f) for f in texture.cubefiles if f]
+            if not texture.file and not sides:
+                continue
+            file = str(texture.file) or sides[0]
+            found = self._found(spec, spec.texturedir, file)
+            if found.path is None:
+                self._tell("texture", texture.name, file, found)
+            name = texture.name or PurePosixPath(file).stem
+            texture.name = name
+            self.textures[name] = found.path if texture.file else None
+            texture.file, texture.builtin = "", flat
+            for i in range(len(texture.cubefiles)):
+                texture.cubefiles[i] = ""
+            texture.width = texture.height = 1
+            texture.gridsize = [1, 1]
+
+    def _mend_meshes(self, spec: Any) -> None:
+        sphere = self.mujoco.mjtGeom.mjGEOM_SPHERE
+        for mesh in list(spec.meshes):
+            if not mesh.file:
+                continue
+            found = self._found(spec, spec.meshdir, mesh.file)
+            if found.path is not None:
+                continue
+            name = mesh.name or PurePosixPath(mesh.file).stem
+            self._tell("mesh", name, mesh.file, found)
+            for geom in spec.geoms:
+                if geom.meshname == name:
+                    geom.meshname, geom.type, geom.size = "", sphere, [STAND_IN_RADIUS, 0.0, 0.0]
+                    geom.contype = geom.conaffinity = 0
+                    geom.group = HIDDEN
+                    geom.name = geom.name or unique({g.name: g for g in spec.geoms}, f"missing {name}")
+                    self.lost.add(geom.name)
+            spec.delete(mesh)
+
+    def _mend_heightfields(self, spec: Any) -> None:
+        for field_ in spec.hfields:
+            if not field_.file:
+                continue
+            found = self._found(spec, spec.meshdir, field_.file)
+            if found.path is None:
+                self._tell("hfield", field_.name, field_.file, found)
+                field_.file, field_.nrow, field_.ncol = "", 2, 2
+                field_.userdata = [0.0] * 4
+
+
+def _say_nothing(text: str) -> None:
+    """Instead of MuJoCo's log."""
+
+
+def _posed(
+    mujoco: Any,
+    model: Any,
+    files: Files,
+    keyframe: str,
+    lost: frozenset[int],
+    textures: dict[str, Path | None],
+    report: Report,
+) -> Compiled:
+    data = mujoco.MjData(model)
+    keyframes = tuple(str(model.key(i).name) or str(i) for i in range(model.nkey))
+    ctrl = np.zeros(model.nu)
+    if keyframe:
+        if keyframe in keyframes:
+            number = keyframes.index(keyframe)
+        elif keyframe.isdigit() and int(keyframe) < len(keyframes):
+            number = int(keyframe)
+        else:
+            report.add("MJCF_KEYFRAME", files.path.name, name=keyframe, known=", ".join(keyframes) or "none")
+            report.raise_for_errors()
+            raise AssertionError("an unknown keyframe is an error")
+        mujoco.mj_resetDataKeyframe(model, data, number)
+        ctrl = np.array(model.key_ctrl[number])
+    mujoco.mj_kinematics(model, data)
+    bodies: dict[str, None] = {}
+    for i in range(model.nbody):
+        bodies[unique(bodies, str(model.body(i).name) or f"body{i}")] = None
+    owners, joints = list(bodies), dict[str, None]()
+    for i in range(model.njnt):
+        owner = owners[int(model.jnt_bodyid[i])]
+        joints[unique(joints, str(model.joint(i).name) or f"{owner} joint")] = None
+    return Compiled(mujoco, model, data, files, ctrl, lost, textures, list(bodies), list(joints), keyframes)

@@ -1,0 +1,109 @@
+"""Materials and the colours of geoms as surfaces."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...model import AlphaMode, Surface, Texture
+from .engine import Compiled
+
+UNCOLOURED = (0.5, 0.5, 0.5, 1.0)
+"""MuJoCo's colour of a geom that states none: then its material's counts."""
+RGB = 1
+"""Role of a texture that colours (mjtTextureRole)."""
+
+
+@dataclass(slots=True)
+class Looks:
+    """surfaces: the scene's, which grow; one for each material and colour."""
+
+    compiled: Compiled
+    surfaces: list[Surface]
+    report: Report
+    _known: dict[tuple[object, ...], int] = field(default_factory=dict[tuple[object, ...], int])
+
+    def of(self, geom: int, has_uvs: bool) -> tuple[int, ...]:
+        m = self.compiled.model
+        material = int(m.geom_matid[geom])
+        rgba = tuple(round(float(v), 7) for v in m.geom_rgba[geom])
+        if material >= 0 and rgba == UNCOLOURED:
+            rgba = tuple(round(float(v), 7) for v in m.mat_rgba[material])
+        texture = self._texture_of(material) if material >= 0 else -1
+        plain = int(self.compiled.mujoco.mjtTexture.mjTEXTURE_2D)
+        if texture >= 0 and not (has_uvs and int(m.tex_type[texture]) == plain):
+            name = self.compiled.name("tex", texture) or f"texture {texture}"
+            self.report.dropped(
+                f"texture {name} on {self.compiled.name('geom', geom) or f'geom {geom}'}",
+                "MJCF_TEXTURE",
+                self.compiled.where("texture", name),
+                texture=name,
+            )
+            texture = -1
+        key = (material, rgba, texture)
+        if key not in self._known:
+            self._known[key] = len(self.surfaces)
+            self.surfaces.append(self._surface(material, rgba, texture))
+        return (self._known[key],)
+
+    def _texture_of(self, material: int) -> int:
+        """Of those that colour; -1 without one."""
+        ids = np.atleast_1d(self.compiled.model.mat_texid[material])
+        return int(ids[RGB]) if len(ids) > RGB else int(ids[0])
+
+    def _surface(self, material: int, rgba: tuple[float, ...], texture: int) -> Surface:
+        m = self.compiled.model
+        red, green, blue, alpha = (min(1.0, max(0.0, v)) for v in rgba)
+        mode = AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE
+        if material < 0:
+            name = "Color " + "".join(f"{round(255 * v):02X}" for v in (red, green, blue, alpha))
+            return Surface(name, (red, green, blue, alpha), alpha_mode=mode)
+        name = self.compiled.name("mat", material) or f"material{material}"
+        metallic, roughness = float(m.mat_metallic[material]), float(m.mat_roughness[material])
+        shine = 1.0 - roughness if roughness >= 0.0 else float(m.mat_shininess[material])
+        glow = float(m.mat_emission[material])
+        return Surface(
+            name,
+            (red, green, blue, alpha),
+            min(1.0, max(0.0, metallic)),
+            min(1.0, max(0.0, shine)),
+            mode,
+            emission=(glow * red, glow * green, glow * blue),
+            color_texture=None if texture < 0 else self._texture(material, texture),
+        )
+
+    def _texture(self, material: int, index: int) -> Texture | None:
+        m = self.compiled.model
+        name = self.compiled.name("tex", index) or f"texture{index}"
+        across, up = (float(v) for v in m.mat_texrepeat[material])
+        if name in self.compiled.textures:
+            path = self.compiled.textures[name]
+            return None if path is None else Texture(path.name, path, scale=(across, up))
+        width, height = int(m.tex_width[index]), int(m.tex_height[index])
+        channels, start = int(m.tex_nchannel[index]), int(m.tex_adr[index])
+        pixels = np.array(m.tex_data[start : start + width * height * channels], dtype=np.uint8)
+        data = png(pixels.reshape(height, width, channels)[:, :, :3])
+        return Texture(f"{name}.png", data=data, media_type="image/png", scale=(across, up))
+
+
+def png(pixels: np.ndarray) -> bytes:
+    """Of 8-bit RGB, shape (height, width, 3), the first row on top.  Source: PNG specification, third edition, section 5."""
+    height, width, _ = pixels.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)], axis=1)
+
+    def chunk(kind: bytes, content: bytes) -> bytes:
+        return (
+            struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        )
+
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", head)
+        + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
+        + chunk(b"IEND", b"")
+    )

@@ -1,0 +1,150 @@
+"""Where the files are that a robot names: ``package://``, ``model://``, ``file://`` and plain relative names.
+
+A name is looked for in the folders that the user gave, then in those of the environment, then upwards from the source.
+What is found must lie inside the package (or beside the source), so that a robot from elsewhere reads no other files.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+from ...options import FormatOption
+
+PACKAGE_PATH = FormatOption(
+    "package_path",
+    "Folder that holds the packages or models which package:// and model:// name (or is one of them); may be repeated.",
+    Path,
+    repeated=True,
+    metavar="DIR",
+)
+MANIFESTS = ("package.xml", "model.config", "manifest.xml")
+UPWARDS = 8
+"""Folders above the source that are looked into."""
+BESIDE = 2
+"""Folders above the source that a relative name may climb where no package is found around it."""
+_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """path: the file, None where there is none.  outside: it, or what was asked for, lies out of the package."""
+
+    path: Path | None
+    outside: bool = False
+
+
+@dataclass(slots=True)
+class Packages:
+    """folder: of the source.  given: the user's ``--package-path``.  environment: by name, as ``os.environ``."""
+
+    folder: Path
+    given: tuple[Path, ...] = ()
+    environment: Mapping[str, str] = field(default_factory=lambda: os.environ)
+    _known: dict[str, Path | None] = field(default_factory=dict[str, "Path | None"])
+
+    def find(self, uri: str) -> Found:
+        """The file that a source names."""
+        match = re.match(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", uri.strip(), re.DOTALL)
+        scheme, rest = (match[1].lower(), match[2]) if match else ("", uri.strip())
+        rest = rest.replace("\\", "/")
+        if scheme in ("package", "model"):
+            name, _, inner = rest.partition("/")
+            package = self.package(name)
+            return Found(None) if package is None else _inside(package, unquote(inner))
+        if scheme not in ("", "file"):
+            return Found(None)
+        plain = unquote(rest) if scheme else rest
+        if "\0" in plain:
+            return Found(None)
+        if PurePosixPath(plain).is_absolute() or re.match(r"[A-Za-z]:", plain):
+            inside = next((r for r in (*self.given, self._home()) if _is_inside(Path(plain), r)), None)
+            return Found(
+                Path(plain) if inside is not None and Path(plain).is_file() else None, inside is None
+            )
+        found = _inside(self.folder, plain, self._home())
+        if found.path is None:  # a name from the package's own folder, or from one that was given
+            for root in (self._home(), *self.given):
+                other = _inside(root, plain)
+                if other.path is not None:
+                    return other
+        return found
+
+    def package(self, name: str) -> Path | None:
+        """The folder of a package or model."""
+        if name not in self._known:
+            self._known[name] = self._search(name) if _is_name(name) else None
+        return self._known[name]
+
+    def _search(self, name: str) -> Path | None:
+        for root in self.given:
+            if (found := _package_in(root, name)) is not None:
+                return found
+        for variable in ("ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"):
+            for root in filter(None, self.environment.get(variable, "").split(os.pathsep)):
+                if (found := _package_in(Path(root), name)) is not None:
+                    return found
+        for prefix in filter(None, self.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
+            if (found := Path(prefix) / "share" / name).is_dir():
+                return found
+        for above in _upwards(self.folder):
+            if _is_package(above, name) or above.name == name:
+                return above
+            if (above / name).is_dir():
+                return above / name
+        return None
+
+    def _home(self) -> Path:
+        """The package that the source lies in; without one the folder a little above it."""
+        line = _upwards(self.folder)
+        for above in line:
+            if any((above / manifest).is_file() for manifest in MANIFESTS):
+                return above
+        return line[min(BESIDE, len(line) - 1)]
+
+
+def _is_name(name: str) -> bool:
+    return bool(name) and name not in (".", "..") and not re.search(r"[\0/\\:]", name)
+
+
+def _upwards(folder: Path) -> list[Path]:
+    whole = Path(os.path.abspath(folder))
+    return [whole, *whole.parents][: UPWARDS + 1]
+
+
+def _package_in(root: Path, name: str) -> Path | None:
+    """The package in a folder, which may be it, hold it, or hold folders that hold it."""
+    if _is_package(root, name) or (root.name == name and root.is_dir()):
+        return root
+    for candidate in (root / name, *sorted(root.glob(f"*/{name}"))):
+        if candidate.is_dir():
+            return candidate
+    return next((m.parent for m in sorted(root.glob("*/package.xml")) if _is_package(m.parent, name)), None)
+
+
+def _is_package(folder: Path, name: str) -> bool:
+    try:
+        with (folder / "package.xml").open("rb") as stream:
+            match = _NAME.search(stream.read(65536))
+    except OSError:
+        return False
+    return match is not None and match[1].decode("utf-8", "replace") == name
+
+
+def _inside(folder: Path, name: str, home: Path | None = None) -> Found:
+    """A file by its name in a folder; not where it leads out of ``home`` (the folder itself)."""
+    path = Path(os.path.normpath(os.path.join(os.path.abspath(folder), name)))
+    if not _is_inside(path, folder if home is None else home):
+        return Found(None, outside=True)
+    try:
+        return Found(path if path.is_file() else None)
+    except OSError:  # a name that no file system takes
+        return Found(None)
+
+
+def _is_inside(path: Path, root: Path) -> bool:
+    return Path(os.path.normpath(path)).is_relative_to(os.path.abspath(root))

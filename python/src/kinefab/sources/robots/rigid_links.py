@@ -1,0 +1,200 @@
+"""Links of a robot as nodes of a scene: those that fixed joints hold together are one node, their names its sites."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...geometry.mass import combined, moved, solid_properties
+from ...model import Body, Collider, MassProperties, Node, NodeKind, PhysicsMaterial, Scene, Site
+from ...spatial import Pose
+from .inertial import STAND_IN_DENSITY, Inertial, weighed_together
+from .robot_frame import placed
+from .shapes import Shape, Shapes
+
+STAND_IN_SHARE = 0.1
+"""Mass of a link that has none against the lightest that it is joined to; what solvers of joints take well."""
+STAND_IN_RADIUS = 0.05
+"""Metres: its inertia is that of a ball of this radius."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """A shape of a link.  pose: in the link's frame, source axes.  surfaces: of one that is drawn.
+    material, group: of one that is touched."""
+
+    name: str
+    shape: Shape
+    pose: Pose
+    surfaces: tuple[int, ...] = ()
+    material: PhysicsMaterial | None = None
+    group: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class Link:
+    """pose: in the world at the exported pose, source axes.  id: unique path.  parent: index of its assembly's node.
+    frames: further named frames, in the link's own.  extras: kept with the node."""
+
+    id: str
+    name: str
+    pose: Pose
+    where: str
+    inertial: Inertial | None = None
+    drawn: list[Part] = field(default_factory=list[Part])
+    touched: list[Part] = field(default_factory=list[Part])
+    grounded: bool = False
+    parent: int | None = None
+    frames: dict[str, Pose] = field(default_factory=dict[str, Pose])
+    gravity: bool = True
+    kinematic: bool = False
+    extras: dict[str, object] = field(default_factory=dict[str, object])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Carrier:
+    """Which node moves a link, and the link's frame in that node's, turned into the scene."""
+
+    node: int
+    pose: Pose
+
+
+def add_links(
+    scene: Scene,
+    links: Sequence[Link],
+    fixed: Iterable[tuple[int, int]],
+    joined: Iterable[tuple[int, int]],
+    report: Report,
+) -> list[Carrier]:
+    """Add a node for each rigid group of links, the first of them its carrier; where each link went.
+
+    fixed, joined: pairs of indices of links that fixed joints, and that other joints connect.
+    """
+    groups = _groups(len(links), fixed)
+    neighbours: dict[int, set[int]] = {}
+    for a, b in joined:
+        first, second = groups[a], groups[b]
+        neighbours.setdefault(first, set()).add(second)
+        neighbours.setdefault(second, set()).add(first)
+    members: dict[int, list[int]] = {}
+    for index, group in enumerate(groups):
+        members.setdefault(group, []).append(index)
+    shapes = Shapes(scene.meshes, report)
+    first_node = len(scene.nodes)
+    carriers: list[Carrier | None] = [None] * len(links)
+    light: list[int] = []
+    for group, indices in members.items():
+        own = links[group]
+        inside = [own.pose.inverse() @ links[i].pose for i in indices]
+        for i, pose in zip(indices, inside):
+            carriers[i] = Carrier(len(scene.nodes), placed(pose))
+        together = [links[i] for i in indices]
+        node = _node(own, together, inside, shapes, report)
+        if node.mass is None and not node.grounded and not any(body.weighed for body in node.bodies):
+            light.append(len(scene.nodes))
+        scene.nodes.append(node)
+    node_of = {group: first_node + i for i, group in enumerate(members)}
+    group_of = {node: group for group, node in node_of.items()}
+    for index in light:
+        beside = [scene.nodes[node_of[g]].mass for g in neighbours.get(group_of[index], ())]
+        _stand_in(scene, index, [m.mass for m in beside if m is not None], report)
+    return [carrier for carrier in carriers if carrier is not None]
+
+
+def _groups(count: int, fixed: Iterable[tuple[int, int]]) -> list[int]:
+    """For each link the first of those that it is fixed to."""
+    leader = list(range(count))
+
+    def find(i: int) -> int:
+        while leader[i] != i:
+            leader[i] = leader[leader[i]]
+            i = leader[i]
+        return i
+
+    for a, b in fixed:
+        a, b = find(a), find(b)
+        leader[max(a, b)] = min(a, b)
+    return [find(i) for i in range(count)]
+
+
+def _node(
+    own: Link, together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes, report: Report
+) -> Node:
+    inertials = [(link.inertial, pose) for link, pose in zip(together, inside) if link.inertial is not None]
+    mass = weighed_together(inertials, own.name, own.where, report)
+    grounded = any(link.grounded for link in together)
+    weighed = False
+    if mass is None and not grounded:
+        mass = _of_touched(together, inside, shapes)
+        weighed = mass is None and any(link.drawn for link in together)
+        if mass is not None or weighed:
+            report.approximated(f"mass {own.name}", "MASS_FROM_GEOMETRY", own.where, link=own.name)
+    bodies: list[Body] = []
+    colliders: list[Collider] = []
+    sites: list[Site] = []
+    for link, pose in zip(together, inside):
+        prefix = "" if link is own else f"{link.name}/"
+        if link is not own:
+            sites.append(Site(link.name, placed(pose), link.where))
+        sites += [Site(name, placed(pose @ frame), link.where) for name, frame in link.frames.items()]
+        for part in link.drawn:
+            bodies.append(
+                shapes.body(prefix + part.name, part.shape, pose @ part.pose, part.surfaces, weighed)
+            )
+        for part in link.touched:
+            at = pose @ part.pose
+            colliders.append(shapes.collider(prefix + part.name, part.shape, at, part.material, part.group))
+    extras: dict[str, object] = {}
+    for link in together:
+        extras |= {key: value for key, value in link.extras.items() if key not in extras}
+    node = Node(
+        own.id,
+        own.name,
+        NodeKind.PART,
+        own.parent,
+        placed(own.pose),
+        bodies=tuple(bodies),
+        mass=mass,
+        grounded=grounded,
+        colliders=tuple(colliders),
+        sites=tuple(sites),
+        where=own.where,
+        extras=extras,
+    )
+    dynamics = replace(node.dynamics, gravity=own.gravity, kinematic=own.kinematic)
+    return replace(node, dynamics=dynamics)
+
+
+def _of_touched(together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes) -> MassProperties | None:
+    """Of the shapes that are touched; None where there are none, or one is a file that is not loaded yet."""
+    parts = [(part, pose) for link, pose in zip(together, inside) for part in link.touched]
+    if not parts or any(part.shape.file is not None or part.shape.kind == "plane" for part, _ in parts):
+        return None
+    found: list[MassProperties] = []
+    for part, pose in parts:
+        body = shapes.body(part.name, part.shape, pose @ part.pose, (), False)
+        assert body.mesh is not None
+        mesh = shapes.meshes[body.mesh]
+        found.append(moved(solid_properties(mesh.vertices, mesh.faces, STAND_IN_DENSITY), body.pose))
+    return combined(found)
+
+
+def _stand_in(scene: Scene, index: int, beside: Sequence[float], report: Report) -> None:
+    """Give a node without mass and shape a light one: a body cannot be without."""
+    node = scene.nodes[index]
+    mass = STAND_IN_SHARE * min(beside, default=1.0)
+    weight = MassProperties(mass, np.zeros(3), 0.4 * mass * STAND_IN_RADIUS**2 * np.eye(3))
+    scene.nodes[index] = replace(node, mass=weight)
+    report.approximated(f"mass {node.name}", "MASS_STAND_IN", node.where, link=node.name, mass=f"{mass:g}")
+
+
+def unique(names: Mapping[str, object], wanted: str) -> str:
+    """``wanted``, with the first number that makes it new."""
+    name, count = wanted, 1
+    while name in names:
+        count += 1
+        name = f"{wanted}_{count}"
+    return name

@@ -1,0 +1,210 @@
+"""XML as elements that know their line, read within limits; whatever is wrong with it becomes a diagnostic at its place.
+
+No entity of the file's own is taken, inside or outside: such a file can grow without end or read others.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TypeVar
+from xml.parsers import expat
+
+from ...diagnostics import Report
+from ..reading.record import MAX_NUMBER, is_encodable, shown
+
+T = TypeVar("T")
+
+MAX_DEPTH = 128
+MAX_ELEMENTS = 2_000_000
+
+
+@dataclass(slots=True, eq=False)
+class Element:
+    """One element.  text: what stands in it, without its children.  path: the file's name.  line: from 1.
+
+    What is wrong with a value is added to ``report``; the accessors then return a harmless one (zeros, the default).
+    """
+
+    tag: str
+    attributes: Mapping[str, str]
+    path: str
+    line: int
+    report: Report
+    children: list[Element] = field(default_factory=list["Element"])
+    text: str = ""
+
+    @property
+    def where(self) -> str:
+        return f"{self.path}:{self.line}"
+
+    # Children .........................................................................................................
+
+    def child(self, tag: str) -> Element | None:
+        """The first child of that name."""
+        return next((child for child in self.children if child.tag == tag), None)
+
+    def all(self, *tags: str) -> Iterator[Element]:
+        """The children of these names, in order."""
+        return (child for child in self.children if child.tag in tags)
+
+    def content(self, tag: str) -> str:
+        """The text of the first child of that name, stripped; "" without one."""
+        child = self.child(tag)
+        return "" if child is None else child.text.strip()
+
+    # Faults ...........................................................................................................
+
+    def fault(self, code: str, **values: object) -> None:
+        self.report.add(code, self.where, **values)
+
+    def wrong(self, name: str, wanted: str, found: str) -> None:
+        self.fault("XML_VALUE", element=shown(self.tag), field=name, wanted=wanted, found=shown(found))
+
+    # Values ...........................................................................................................
+
+    def name(self, key: str = "name") -> str:
+        """A name that must be there; "" after a fault."""
+        value = self.attributes.get(key, "").strip()
+        if not value:
+            self.fault("XML_MISSING", element=shown(self.tag), field=key)
+        elif not is_encodable(value) or not value.isprintable():
+            self.wrong(key, "a name of printable characters", value)
+            return ""
+        return value
+
+    def number(self, key: str, default: float = 0.0, infinite: bool = False) -> float:
+        """An attribute.  infinite: whether it may be."""
+        given = self.attributes.get(key)
+        if given is None or not given.strip():
+            return default
+        found = self.parsed(key, given, 1, infinite)
+        return default if found is None else found[0]
+
+    def numbers(self, key: str, count: int, default: tuple[float, ...]) -> tuple[float, ...]:
+        """An attribute of ``count`` numbers, between blanks."""
+        given = self.attributes.get(key)
+        if given is None or not given.strip():
+            return default
+        found = self.parsed(key, given, count)
+        return default if found is None else found
+
+    def value(self, default: float = 0.0, infinite: bool = False) -> float:
+        """The text as a number."""
+        found = self.values(1, (default,), infinite)
+        return found[0]
+
+    def values(self, count: int, default: tuple[float, ...], infinite: bool = False) -> tuple[float, ...]:
+        """The text as ``count`` numbers."""
+        if not self.text.strip():
+            return default
+        found = self.parsed("text", self.text, count, infinite)
+        return default if found is None else found
+
+    def parsed(self, name: str, text: str, count: int, infinite: bool = False) -> tuple[float, ...] | None:
+        words = text.replace(",", " ").split() if count > 1 else [text.strip()]
+        wanted = "a number" if count == 1 else f"{count} numbers"
+        try:
+            found = tuple(map(_number, words))
+        except ValueError:
+            self.wrong(name, wanted, text.strip())
+            return None
+        if len(found) != count:
+            self.wrong(name, wanted, text.strip())
+            return None
+        if infinite:  # 1e16 is how some formats write it
+            found = tuple(math.copysign(math.inf, v) if abs(v) > MAX_NUMBER else v for v in found)
+        for number in found:
+            if not (abs(number) <= MAX_NUMBER or (infinite and math.isinf(number))):
+                self.wrong(name, f"{wanted}, none beyond {MAX_NUMBER:g}", text.strip())
+                return None
+        return found
+
+    def choice(self, name: str, word: str, words: Mapping[str, T]) -> T | None:
+        """What ``word``, the value called ``name``, stands for; None after a fault."""
+        if word in words:
+            return words[word]
+        self.wrong(name, "one of: " + ", ".join(words), word)
+        return None
+
+
+def near_matches(name: str, known: Mapping[str, object] | set[str]) -> str:
+    """For a message: names that look like ``name``, or "none"."""
+    return ", ".join(difflib.get_close_matches(name, list(known), 3)) or "none"
+
+
+def _number(word: str) -> float:
+    if "_" in word:  # Python's digit separator is nobody else's
+        raise ValueError(word)
+    return float(word)
+
+
+class _Refused(Exception):
+    """Raised in a callback to end the parsing; the report says why."""
+
+
+class _Builder:
+    """Takes the parser's events."""
+
+    def __init__(self, name: str, report: Report) -> None:
+        self.name, self.report = name, report
+        self.root: Element | None = None
+        self.open: list[Element] = []
+        self.pieces: list[list[str]] = []
+        self.count = 0
+        self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.end
+        self.parser.CharacterDataHandler = self.characters
+        self.parser.EntityDeclHandler = self.entity
+        self.parser.SkippedEntityHandler = self.entity
+        self.parser.ExternalEntityRefHandler = self.entity
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        self.count += 1
+        if len(self.open) >= MAX_DEPTH or self.count > MAX_ELEMENTS:
+            limit = f"{MAX_DEPTH} levels" if len(self.open) >= MAX_DEPTH else f"{MAX_ELEMENTS} elements"
+            self.refuse("XML_TOO_LARGE", limit=limit)
+        element = Element(tag, attributes, self.name, self.parser.CurrentLineNumber, self.report)
+        if self.open:
+            self.open[-1].children.append(element)
+        else:
+            self.root = element
+        self.open.append(element)
+        self.pieces.append([])
+
+    def end(self, tag: str) -> None:
+        self.open.pop().text = "".join(self.pieces.pop())
+
+    def characters(self, text: str) -> None:
+        if self.pieces:
+            self.pieces[-1].append(text)
+
+    def entity(self, *_: object) -> int:
+        self.refuse("XML_ENTITY")
+        return 0
+
+    def refuse(self, code: str, **values: object) -> None:
+        self.report.add(code, f"{self.name}:{self.parser.CurrentLineNumber}", **values)
+        raise _Refused
+
+
+def parse_xml(data: bytes, name: str, report: Report) -> Element:
+    """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
+    builder = _Builder(name, report)
+    try:
+        # Blanks before the declaration are against the rules, and every robot program reads them.
+        builder.parser.Parse(data.lstrip(), True)
+    except _Refused:
+        pass
+    except expat.ExpatError as error:
+        detail = expat.errors.messages[error.code]
+        report.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)
+    except (LookupError, ValueError) as error:  # an encoding that nobody knows, bytes that are none of it
+        report.add("XML_SYNTAX", f"{name}:1", detail=error)
+    report.raise_for_errors()
+    assert builder.root is not None
+    return builder.root

@@ -1,0 +1,169 @@
+"""Links of an SDF model: inertial, visuals, collisions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Pose, frame_from_axes
+from ..robots.inertial import Inertial, tensor
+from ..robots.rigid_links import Link, Part, unique
+from ..robots.shapes import PLANE_EXTENT, Shape, mesh_shape
+from ..robots.xml_elements import Element
+from .materials import Materials, physics_material
+from .scopes import Entry, Scope, entry_world_pose, frame_pose, pose_of, relative_to
+
+KNOWN = frozenset(
+    "pose inertial visual collision gravity kinematic self_collide must_be_base_link enable_wind".split()
+)
+ROUND = {
+    "sphere": ("radius",),
+    "cylinder": ("radius", "length"),
+    "capsule": ("radius", "length"),
+    "cone": ("radius", "length"),
+}
+
+
+@dataclass(slots=True)
+class Links:
+    """Makes links; report: of what is left out."""
+
+    materials: Materials
+    report: Report
+    _taken: dict[str, object] = field(default_factory=dict[str, object])
+
+    def link(self, entry: Entry, parent: int | None) -> Link:
+        """parent: index of the node that stands for its model."""
+        element, scope = entry.element, entry.owner
+        link = Link(f"{scope.path}/{entry.name}", entry.name, entry_world_pose(entry), element.where)
+        link.parent, link.grounded = parent, scope.static
+        link.inertial = None if scope.static else _inertial(element, entry.name)
+        label = f"link {link.id}"
+        link.drawn = self._parts(element, "visual", scope, label)
+        link.touched = self._parts(element, "collision", scope, label)
+        link.gravity = element.content("gravity") not in ("false", "0")
+        link.kinematic = element.content("kinematic") in ("true", "1")
+        for child in element.children:
+            if child.tag not in KNOWN:
+                name = child.attributes.get("name", "")
+                self.report.dropped(
+                    f"{child.tag} {name} of {label}".replace("  ", " "), "ELEMENT_DROPPED", child.where
+                )
+        return link
+
+    def _parts(self, link: Element, tag: str, scope: Scope, label: str) -> list[Part]:
+        found: dict[str, Part] = {}
+        for element in link.all(tag):
+            name = unique(found, element.attributes.get("name", "").strip() or tag)
+            feature = f"{tag} {name} of {label}"
+            geometry = element.child("geometry")
+            shaped = None if geometry is None else self._shape(geometry, feature, scope, tag)
+            if geometry is None:
+                self.report.dropped(feature, "SHAPE_EMPTY", element.where, shape=tag)
+            if shaped is None:
+                continue
+            shape, turn = shaped
+            base = relative_to(element, scope)
+            pose = pose_of(element)
+            if base:  # counted from another frame: by way of the model's
+                own = frame_pose(link.attributes.get("name", "").strip(), scope, element, feature)
+                pose = own.inverse() @ frame_pose(base, scope, element, feature) @ pose
+            surfaces = self.materials.of(element, scope.packages, feature) if tag == "visual" else ()
+            material = (
+                physics_material(element, f"{link.attributes.get('name', '')}/{name}")
+                if tag == "collision"
+                else None
+            )
+            found[name] = Part(name, shape, pose @ turn, surfaces, material)
+        return list(found.values())
+
+    def _shape(self, geometry: Element, feature: str, scope: Scope, tag: str) -> tuple[Shape, Pose] | None:
+        """The shape, and how it lies in the frame of its visual or collision."""
+        for child in geometry.children:
+            if child.tag == "empty":
+                return None
+            if child.tag == "mesh":
+                shape = self._mesh(child, feature, scope)
+                return None if shape is None else (shape, Pose())
+            if child.tag == "plane":
+                return _plane(child, tag)
+            size = _size(child)
+            if size is None:
+                code = (
+                    "ELEMENT_DROPPED"
+                    if child.tag in ("heightmap", "image", "polyline")
+                    else "ELEMENT_UNKNOWN"
+                )
+                values = {"element": child.tag, "inside": geometry.tag} if code == "ELEMENT_UNKNOWN" else {}
+                self.report.dropped(f"{child.tag} of {feature}", code, child.where, **values)
+                return None
+            if not all(v > 0.0 for v in size):
+                self.report.dropped(feature, "SHAPE_EMPTY", child.where, shape=child.tag)
+                return None
+            return Shape(child.tag, size, where=child.where), Pose()
+        return None
+
+    def _mesh(self, element: Element, feature: str, scope: Scope) -> Shape | None:
+        uri = element.content("uri")
+        if not uri:
+            element.fault("XML_MISSING", element="mesh", field="uri")
+            return None
+        scale = element.child("scale")
+        factors = (1.0, 1.0, 1.0) if scale is None else scale.values(3, (1.0, 1.0, 1.0))
+        submesh = element.child("submesh")
+        key = None if submesh is None else submesh.content("name") or None
+        if submesh is not None and submesh.content("center") in ("true", "1"):
+            self.report.dropped(f"centring of {feature}", "ELEMENT_DROPPED", submesh.where)
+        return mesh_shape(uri, factors, scope.packages, feature, element.where, self.report, key)
+
+
+def _size(element: Element) -> tuple[float, ...] | None:
+    """Metres; None for a shape that is not known here."""
+    if element.tag in ("box", "ellipsoid"):
+        child = element.child("size" if element.tag == "box" else "radii")
+        return (1.0, 1.0, 1.0) if child is None else child.values(3, (1.0, 1.0, 1.0))
+    if element.tag in ROUND:
+        children = [element.child(key) for key in ROUND[element.tag]]
+        return tuple(1.0 if child is None else child.value(1.0) for child in children)
+    return None
+
+
+def _plane(element: Element, tag: str) -> tuple[Shape, Pose] | None:
+    """A rectangle across its normal; one that is touched has no end."""
+    normal_element, size_element = element.child("normal"), element.child("size")
+    normal = np.array(
+        (0.0, 0.0, 1.0) if normal_element is None else normal_element.values(3, (0.0, 0.0, 1.0))
+    )
+    if not np.linalg.norm(normal) > 1e-9:
+        element.fault("AXIS_ZERO", field="normal")
+        return None
+    size = (1.0, 1.0) if size_element is None else size_element.values(2, (1.0, 1.0))
+    if tag == "collision":
+        size = (PLANE_EXTENT, PLANE_EXTENT)
+    if not all(v > 0.0 for v in size):
+        return None
+    upright = normal / np.linalg.norm(normal)
+    turn = np.eye(3) if upright[2] > 1.0 - 1e-12 else frame_from_axes(upright)[:, [1, 2, 0]]
+    return Shape("plane", tuple(size), where=element.where), Pose(turn)
+
+
+def _inertial(link: Element, name: str) -> Inertial | None:
+    """As stated; SDF's own default is 1 kg and 1 kg m^2.  None where it is to be had from the geometry."""
+    element = link.child("inertial")
+    if element is None:
+        return Inertial(1.0, Pose(), np.eye(3))
+    if element.attributes.get("auto", "").strip() in ("true", "1"):
+        return None
+    mass_element, inertia = element.child("mass"), element.child("inertia")
+    mass = 1.0 if mass_element is None else mass_element.value(1.0)
+    if not mass > 0.0:
+        element.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
+        return None
+    values = {"ixx": 1.0, "iyy": 1.0, "izz": 1.0, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0}
+    for key in values:
+        child = None if inertia is None else inertia.child(key)
+        if child is not None:
+            values[key] = child.value(values[key])
+    return Inertial(mass, pose_of(element), tensor(*values.values()))

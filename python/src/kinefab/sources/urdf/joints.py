@@ -1,0 +1,163 @@
+"""Joints: types, axes, limits, dynamics, mimics."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Array
+from ..robots.xml_elements import Element, near_matches
+from .links import origin, told
+from .robot import Mimic, Robot, UrdfJoint
+
+TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+KNOWN = frozenset("origin parent child axis limit dynamics mimic safety_controller calibration".split())
+AXIAL = frozenset({"revolute", "continuous", "prismatic", "planar"})
+MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
+
+
+def read_joints(robot: Robot, report: Report) -> None:
+    """Fill ``robot.joints``; links must be there."""
+    for element in robot.element.all("joint"):
+        name = element.name()
+        if not name:
+            continue
+        if name in robot.joints:
+            element.fault("SOURCE_ID_DUPLICATE", id=name, first=robot.joints[name].where)
+            continue
+        if (joint := _joint(element, name, robot, report)) is not None:
+            robot.joints[name] = joint
+    _check_mimics(robot.joints, report)
+
+
+def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoint | None:
+    feature = f"joint {name}"
+    kind = element.attributes.get("type", "").strip()
+    if not kind:
+        element.fault("XML_MISSING", element="joint", field="type")
+    elif kind not in TYPES:
+        near = ", ".join(difflib.get_close_matches(kind, TYPES, 3)) or "none"
+        element.fault("JOINT_TYPE_UNKNOWN", feature=feature, word=kind, near=near, known=", ".join(TYPES))
+    ends = [_link(element, side, feature, robot) for side in ("parent", "child")]
+    axis = _axis(element) if kind in AXIAL else np.array([1.0, 0.0, 0.0])
+    if kind not in TYPES or not all(ends):
+        return None
+    if ends[0] == ends[1]:
+        element.fault("SAME_COMPONENT", feature=feature, component=ends[0])
+        return None
+    joint = UrdfJoint(name, kind, ends[0], ends[1], origin(element), axis, element.where)
+    _limits(element, joint, feature, report)
+    if (dynamics := element.child("dynamics")) is not None:
+        joint.damping, joint.friction = (_not_negative(dynamics, key) for key in ("damping", "friction"))
+    if (mimic := element.child("mimic")) is not None:
+        followed, factor, offset = (
+            mimic.name("joint"),
+            mimic.number("multiplier", 1.0),
+            mimic.number("offset"),
+        )
+        joint.mimic = Mimic(followed, factor, offset, mimic.where)
+    for tag in ("limit", "safety_controller", "calibration"):
+        if (child := element.child(tag)) is not None:
+            joint.extras[tag] = {
+                key: child.number(key, infinite=True) for key in child.attributes if _is_number(child, key)
+            }
+    for child in element.children:
+        if child.tag not in KNOWN:
+            told(child, element, f"{child.tag} of joint {name}", report)
+    return joint
+
+
+def _is_number(element: Element, key: str) -> bool:
+    try:
+        return math.isfinite(float(element.attributes[key]))
+    except ValueError:
+        return False
+
+
+def _not_negative(element: Element, key: str) -> float:
+    value = element.number(key)
+    if value < 0.0:
+        element.wrong(key, "zero or more", element.attributes[key])
+        return 0.0
+    return value
+
+
+def _link(element: Element, side: str, feature: str, robot: Robot) -> str:
+    child = element.child(side)
+    if child is None:
+        element.fault("XML_MISSING", element="joint", field=side)
+        return ""
+    name = child.name("link")
+    if name and name not in robot.links:
+        child.fault("LINK_UNKNOWN", link=name, feature=feature, near=near_matches(name, robot.links))
+        return ""
+    return name
+
+
+def _axis(element: Element) -> Array:
+    child = element.child("axis")
+    x = np.array([1.0, 0.0, 0.0])
+    if child is None:
+        return x
+    axis = np.array(child.numbers("xyz", 3, (1.0, 0.0, 0.0)))
+    length = float(np.linalg.norm(axis))
+    if not length > 1e-9:
+        child.fault("AXIS_ZERO", field="axis")
+        return x
+    return axis / length
+
+
+def _limits(element: Element, joint: UrdfJoint, feature: str, report: Report) -> None:
+    child = element.child("limit")
+    ranged = joint.kind in ("revolute", "prismatic")
+    if child is None:
+        if ranged:
+            report.add("LIMITS_MISSING", element.where, feature=feature)
+        return
+    joint.effort = child.number("effort", math.inf, infinite=True)
+    joint.velocity = child.number("velocity", math.inf, infinite=True)
+    if not ranged:
+        return
+    joint.lower = child.number("lower", 0.0, infinite=True)
+    joint.upper = child.number("upper", 0.0, infinite=True)
+    if joint.lower > joint.upper:
+        child.fault("LIMITS_REVERSED", lower=f"{joint.lower:g}", upper=f"{joint.upper:g}")
+    elif joint.lower == joint.upper:
+        child.fault("LIMITS_AT_ZERO", feature=feature)
+
+
+def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
+    for joint in joints.values():
+        if (mimic := joint.mimic) is None:
+            continue
+        problem = ""
+        line, other = [joint.name], mimic.joint
+        if joint.kind not in MOVABLE:
+            problem = "no matter to a joint that has no one coordinate"
+        while not problem and other:
+            if other not in joints:
+                problem = "no joint" if other == mimic.joint else ""
+                break
+            if other in line:
+                problem = (
+                    "a joint that follows it in turn" if other != joint.name or len(line) > 1 else "itself"
+                )
+                break
+            if joints[other].kind in ("floating", "planar"):
+                problem = f"{joints[other].kind} and has no one coordinate"
+            line.append(other)
+            next_mimic = joints[other].mimic
+            other = next_mimic.joint if next_mimic is not None else ""
+        if problem:
+            report.add(
+                "MIMIC_UNKNOWN",
+                mimic.where,
+                feature=f"joint {joint.name}",
+                joint=mimic.joint,
+                problem=problem,
+            )
+            joint.mimic = None

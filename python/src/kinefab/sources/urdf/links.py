@@ -1,0 +1,135 @@
+"""Links: inertial frames, what is drawn and what is touched."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...diagnostics import Report
+from ...spatial import Pose
+from ..robots.inertial import Inertial, tensor
+from ..robots.packages import Packages
+from ..robots.rigid_links import Link, Part, unique
+from ..robots.robot_frame import rotation_rpy
+from ..robots.shapes import Shape, mesh_shape
+from ..robots.xml_elements import Element
+from .materials import Materials
+from .robot import Robot
+
+KNOWN = frozenset("inertial visual collision origin".split())
+DROPPED = frozenset("contact sensor gazebo self_collision_checking collision_checking".split())
+SHAPES = {
+    "box": ("size",),
+    "sphere": ("radius",),
+    "cylinder": ("radius", "length"),
+    "capsule": ("radius", "length"),
+}
+
+
+def read_links(robot: Robot, packages: Packages, materials: Materials, report: Report) -> None:
+    """Fill ``robot.links``."""
+    materials.collect(robot.element)
+    for element in robot.element.all("link"):
+        name = element.name()
+        if not name:
+            continue
+        if name in robot.links:
+            element.fault("SOURCE_ID_DUPLICATE", id=name, first=robot.links[name].where)
+            continue
+        link = Link(f"{robot.name}/{name}", name, Pose(), element.where)
+        link.inertial = _inertial(element, name)
+        link.drawn = _parts(element, "visual", name, packages, materials, report)
+        link.touched = _parts(element, "collision", name, packages, None, report)
+        for child in element.children:
+            if child.tag not in KNOWN:
+                told(child, element, f"{child.tag} of link {name}", report)
+        robot.links[name] = link
+
+
+def told(child: Element, inside: Element, feature: str, report: Report) -> None:
+    """Say of an element that it was not read: an extension that is known to have no place, or one that nobody knows."""
+    if child.tag in DROPPED or ":" in child.tag or child.tag.startswith("drake"):
+        report.dropped(feature, "ELEMENT_DROPPED", child.where)
+    else:
+        report.dropped(feature, "ELEMENT_UNKNOWN", child.where, element=child.tag, inside=inside.tag)
+
+
+def origin(element: Element) -> Pose:
+    """The pose of the ``<origin>`` in an element; without one the identity."""
+    child = element.child("origin")
+    if child is None:
+        return Pose()
+    xyz = child.numbers("xyz", 3, (0.0, 0.0, 0.0))
+    if "quat_xyzw" in child.attributes:
+        from ...spatial import matrix_from_quaternion
+
+        q = np.array(child.numbers("quat_xyzw", 4, (0.0, 0.0, 0.0, 1.0)))
+        if q @ q > 0.0:
+            return Pose(matrix_from_quaternion(q), np.array(xyz))
+        child.fault("AXIS_ZERO", field="quat_xyzw")
+    return Pose(rotation_rpy(*child.numbers("rpy", 3, (0.0, 0.0, 0.0))), np.array(xyz))
+
+
+def _inertial(link: Element, name: str) -> Inertial | None:
+    element = link.child("inertial")
+    if element is None:
+        return None
+    mass_element, inertia = element.child("mass"), element.child("inertia")
+    mass = 0.0 if mass_element is None else mass_element.number("value")
+    if mass < 0.0:
+        element.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
+        return None
+    keys = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    numbers = [0.0 if inertia is None else inertia.number(key) for key in keys]
+    return Inertial(mass, origin(element), tensor(*numbers))
+
+
+def _parts(
+    link: Element, tag: str, name: str, packages: Packages, materials: Materials | None, report: Report
+) -> list[Part]:
+    found: dict[str, Part] = {}
+    for element in link.all(tag):
+        label = unique(found, element.attributes.get("name", "").strip() or tag)
+        feature = f"{tag} {name}/{label}"
+        geometry = element.child("geometry")
+        if geometry is None:
+            element.fault("XML_MISSING", element=tag, field="geometry")
+            continue
+        shape = _shape(geometry, feature, packages, report)
+        if shape is None:
+            continue
+        surfaces = () if materials is None else materials.of(element, feature)
+        found[label] = Part(label, shape, origin(element), surfaces)
+    return list(found.values())
+
+
+def _shape(geometry: Element, feature: str, packages: Packages, report: Report) -> Shape | None:
+    """The shape; None, after a report, where there is none that can be made."""
+    for child in geometry.children:
+        if child.tag == "mesh":
+            uri = child.name("filename")
+            scale = _scale(child)
+            return mesh_shape(uri, scale, packages, feature, child.where, report) if uri else None
+        if child.tag in SHAPES:
+            count = 3 if child.tag == "box" else 1
+            before = len(report.diagnostics)
+            keys = SHAPES[child.tag]
+            for key in keys:
+                child.name(key)
+            size = tuple(v for key in keys for v in child.numbers(key, count, (0.0,) * count))
+            if len(report.diagnostics) > before:
+                return None
+            if not all(v > 0.0 for v in size):
+                report.dropped(feature, "SHAPE_EMPTY", child.where, shape=child.tag)
+                return None
+            return Shape(child.tag, size, where=child.where)
+        told(child, geometry, feature, report)
+        return None
+    geometry.fault("XML_MISSING", element="geometry", field="shape")
+    return None
+
+
+def _scale(mesh: Element) -> tuple[float, ...]:
+    text = mesh.attributes.get("scale", "1 1 1")
+    if len(text.split()) == 1:  # against the format, and understood by everybody
+        return (mesh.number("scale", 1.0),) * 3
+    return mesh.numbers("scale", 3, (1.0, 1.0, 1.0))

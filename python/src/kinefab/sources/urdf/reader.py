@@ -1,0 +1,71 @@
+"""A URDF or xacro file as a scene.
+
+The base is fixed to the world, as MuJoCo, PyBullet's and Pinocchio's readers have it, unless ``--floating-base`` says
+otherwise; every coordinate is zero at the exported pose, but for mimics with an offset.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from ...diagnostics import Report
+from ...model import Scene, Source
+from ..reading.file import read_bytes
+from ..reading.request import Request
+from ..robots.packages import Packages
+from ..robots.xml_elements import Element, parse_xml
+from .expansion import expanded, expanded_leftovers, is_xacro
+from .joints import read_joints
+from .links import read_links
+from .materials import Materials
+from .robot import Robot
+from .scene import fill_scene
+
+KNOWN = frozenset({"link", "joint", "material"})
+EXTENSIONS = frozenset(
+    "gazebo transmission sensor mujoco ros2_control plugin group group_state end_effector".split()
+)
+
+
+def read(path: Path, report: Report, request: Request = Request()) -> Scene:
+    """The scene of a ``.urdf`` or ``.xacro``.  Raises KinefabError with every error found."""
+    data = read_bytes(path, report)
+    packages = Packages(path.parent, request.paths("package_path"))
+    root = parse_xml(data, path.name, report)
+    if is_xacro(path):
+        root = expanded(path, packages, request.texts("xacro_arg"), report)
+    elif whole := expanded_leftovers(path, root, packages, request.texts("xacro_arg"), report):
+        root = whole
+    if root.tag != "robot":
+        report.add("XML_ROOT", root.where, found=root.tag, wanted="robot", format="URDF")
+        report.raise_for_errors()
+    scene = Scene(source=Source(path.name, "Z", 1.0, hashlib.sha256(data).hexdigest()))
+    robot = Robot(root.attributes.get("name", "").strip() or path.name.split(".")[0], root)
+    read_links(robot, packages, Materials(scene.surfaces, packages, report), report)
+    read_joints(robot, report)
+    if not robot.links:
+        report.add("LINKS_NONE", root.where)
+    _tell_extensions(root, report)
+    report.raise_for_errors()
+    fill_scene(scene, robot, request.flag("floating_base"), report)
+    report.raise_for_errors()
+    return scene
+
+
+def _tell_extensions(root: Element, report: Report) -> None:
+    """What a robot's file holds for other programs: left out by name."""
+    for child in root.children:
+        if child.tag in KNOWN:
+            continue
+        name = (
+            child.attributes.get("name")
+            or child.attributes.get("reference")
+            or child.attributes.get("link")
+            or ""
+        )
+        feature = f"{child.tag} {name}".strip()
+        if child.tag in EXTENSIONS or ":" in child.tag or "_" in child.tag:
+            report.dropped(feature, "ELEMENT_DROPPED", child.where)
+        else:
+            report.dropped(feature, "ELEMENT_UNKNOWN", child.where, element=child.tag, inside=root.tag)

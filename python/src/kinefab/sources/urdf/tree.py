@@ -1,0 +1,90 @@
+"""The tree of a robot's links: one root, no cycles, and the pose of every link where all joints stand at zero."""
+
+from __future__ import annotations
+
+from ...diagnostics import Report
+from ...spatial import Pose, rotation_about
+from .robot import Robot, UrdfJoint
+
+
+def root_of(robot: Robot, report: Report) -> str:
+    """The name of the link without a parent.  Raises KinefabError where the joints make no tree."""
+    parent_of: dict[str, UrdfJoint] = {}
+    for joint in robot.joints.values():
+        if (first := parent_of.setdefault(joint.child, joint)) is not joint:
+            report.add(
+                "LINK_PARENTS", joint.where, link=joint.child, first=f"joint {first.name}", second=f"joint {joint.name}",
+                format="URDF",
+            )  # fmt: skip
+    roots = [name for name in robot.links if name not in parent_of]
+    if len(roots) > 1:
+        where = robot.links[roots[1]].where
+        report.add("LINK_ROOTS", where, count=len(roots), names=", ".join(roots[:8]))
+    reached = set(roots)
+    for name in robot.links:
+        line = [name]
+        while line[-1] not in reached and line[-1] in parent_of:
+            above = parent_of[line[-1]].parent
+            if above in line:
+                path = " -> ".join([*line[line.index(above) :], above][::-1])
+                report.add("LINK_CYCLE", parent_of[above].where, path=path)
+                break
+            line.append(above)
+        reached.update(line)
+    report.raise_for_errors()
+    return roots[0]
+
+
+def from_the_root(robot: Robot, root: str) -> list[UrdfJoint]:
+    """All joints, each after the one that leads to its parent; otherwise in the file's order."""
+    below: dict[str, list[UrdfJoint]] = {}
+    for joint in robot.joints.values():
+        below.setdefault(joint.parent, []).append(joint)
+    ordered: list[UrdfJoint] = []
+    waiting = list(reversed(below.get(root, [])))
+    while waiting:
+        ordered.append(joint := waiting.pop())
+        waiting += reversed(below.get(joint.child, []))
+    return ordered
+
+
+def start_of(joint: UrdfJoint, robot: Robot) -> float:
+    """The joint's coordinate at the exported pose, radians or metres: zero, or the end of its range next to zero; of one
+    that follows another what that makes of it."""
+    factor, value = 1.0, 0.0
+    while joint.mimic is not None:
+        value += factor * joint.mimic.offset
+        factor *= joint.mimic.multiplier
+        joint = robot.joints[joint.mimic.joint]
+    return value + factor * min(max(0.0, joint.lower), joint.upper)
+
+
+def hold_followers(robot: Robot) -> None:
+    """A joint that follows one which never moves stands still too."""
+    for joint in robot.joints.values():
+        if joint.mimic is not None and _stands(joint, robot):
+            value = start_of(joint, robot)
+            joint.lower = joint.upper = value
+    for joint in robot.joints.values():
+        if joint.mimic is not None and not joint.moves:
+            joint.mimic = None
+
+
+def _stands(joint: UrdfJoint, robot: Robot) -> bool:
+    while (mimic := joint.mimic) is not None:
+        if mimic.multiplier == 0.0:
+            return True
+        joint = robot.joints[mimic.joint]
+    return not joint.moves
+
+
+def place_links(robot: Robot, root: str, ordered: list[UrdfJoint]) -> None:
+    """Fill in ``Link.pose``."""
+    robot.links[root].pose = Pose()
+    for joint in ordered:
+        start, moved = start_of(joint, robot), Pose()
+        if start and joint.kind == "prismatic":
+            moved = Pose(translation=start * joint.axis)
+        elif start:
+            moved = Pose(rotation_about(joint.axis, start))
+        robot.links[joint.child].pose = robot.links[joint.parent].pose @ joint.origin @ moved

@@ -1,0 +1,385 @@
+"""MJCF: poses, limits, signs, masses and loops against MuJoCo itself; springs, actuators, couplings, shapes and keyframes."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import kinefab
+import pytest
+from kinefab.diagnostics import Report
+from kinefab.model import ColliderKind, Combine, JointKind, Motion
+from kinefab.sources import read
+from scene_kinematics import ROS, SceneKinematics, unity_point
+
+mujoco = pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+
+sys.path.append(str(Path(__file__).parents[2] / "python" / "bench"))
+from engines.mjcf import MujocoModel  # noqa: E402
+from scoring import scored  # noqa: E402
+
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+MODELS = sorted([*(FIXTURES / "mjcf").glob("*.xml"), *(FIXTURES / "twins").glob("*.xml")])
+TOOL = shutil.which("dotnet-kinefab")
+
+
+def model(folder: Path, inner: str, head: str = "", tail: str = "") -> Path:
+    path = folder / "m.xml"
+    path.write_text(
+        f"<mujoco model='m'>\n{head}<worldbody>\n{inner}\n</worldbody>\n{tail}</mujoco>", encoding="utf-8"
+    )
+    return path
+
+
+def loaded(folder: Path, inner: str, head: str = "", tail: str = "", **options):
+    report = Report()
+    return read(model(folder, inner, head, tail), report, options=options), report
+
+
+def codes(report: Report) -> set[str]:
+    return {d.code for d in report.diagnostics}
+
+
+BALL = "<geom type='sphere' size='.1'/>"
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda p: p.stem)
+def test_it_moves_as_mujoco_moves_it(tmp_path, path):
+    """50 configurations inside the limits, every body; masses, centres and inertias; ends of every range.
+
+    The scene is moved by the forward kinematics of the tests, from its file alone.
+    """
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    told = {o.feature for o in result.report.outcomes if o.outcome.value != "kept"}
+    found = scored(result.path, MujocoModel(path), 50, told)
+    assert found["wrong"] == []
+    assert max(found["fk"]) < 1e-9 and found["mass_error"] < 1e-9
+
+
+@pytest.mark.skipif(TOOL is None, reason="dotnet-kinefab is not on the PATH")
+@pytest.mark.parametrize("path", MODELS, ids=lambda p: p.stem)
+def test_csharp_counts_mujocos_degrees_of_freedom(tmp_path, path):
+    target = kinefab.export(path, tmp_path / "scene.kinefab").path
+    said = subprocess.run([str(TOOL), "mobility", str(target), "--json"], capture_output=True, text=True)
+    assert json.loads(said.stdout)["mobility"]["mobility"] == MujocoModel(path).mobility
+
+
+def test_the_loop_closes_as_mujoco_closes_it(tmp_path):
+    """Turned by its crank, the exported four-bar is a pose in which MuJoCo's constraints are met."""
+    engine = MujocoModel(FIXTURES / "twins" / "fourbar.xml")
+    engine._place({})
+    assert engine.residual() < 1e-9
+    assert engine.mobility == 1
+
+
+def test_a_range_is_that_of_the_file_whatever_the_reference(tmp_path):
+    """``ref`` is the coordinate at the exported pose: -10 to 80 degrees from 15 leave -25 and 65."""
+    scene, _ = loaded(
+        tmp_path, f"<body><joint name='j' axis='0 3 4' pos='.1 0 .2' range='-10 80' ref='15'/>{BALL}</body>"
+    )
+    freedom = scene.joints[0].freedoms[3]
+    assert math.degrees(freedom.lower) == pytest.approx(-10.0) and math.degrees(
+        freedom.upper
+    ) == pytest.approx(80.0)
+    assert math.degrees(freedom.at) == pytest.approx(15.0)
+    target = kinefab.export(scene, tmp_path / "j.kinefab").path
+    motion = SceneKinematics.load(target)
+    coordinate, sense = motion.reading("j", unity_point([0.0, 0.6, 0.8], ROS), True, "body1")
+    assert sorted(sense * v for v in motion.range_of(coordinate)) == pytest.approx([-25.0, 65.0])
+
+
+def test_passive_terms_and_springs(tmp_path):
+    scene, _ = loaded(
+        tmp_path,
+        "<body><joint name='j' stiffness='3' springref='30' ref='10' damping='.5' armature='.02' frictionloss='.1'/>"
+        + BALL + "</body>",
+    )  # fmt: skip
+    passive = scene.joints[0].freedoms[3].passive
+    assert (passive.stiffness, passive.damping, passive.armature, passive.friction) == (3.0, 0.5, 0.02, 0.1)
+    assert math.degrees(passive.rest) == pytest.approx(30.0)
+
+
+ONE = f"<body><joint name='j'/>{BALL}</body>"
+
+
+@pytest.mark.parametrize(
+    "actuator, expected",
+    [
+        ("<position joint='j' kp='10' kv='2' gear='3'/>", (90.0, 18.0, 0.0, 0.0, math.inf)),
+        ("<velocity joint='j' kv='2' gear='3'/>", (0.0, 18.0, 0.0, 0.0, math.inf)),
+        ("<position joint='j' kp='10' forcerange='-4 4' gear='-2'/>", (40.0, 0.0, 0.0, 0.0, 8.0)),
+        ("<position joint='j' kp='10' ctrlrange='.5 2'/>", (10.0, 0.0, 0.5, 0.0, math.inf)),
+        (
+            "<general joint='j' gainprm='6' biastype='affine' biasprm='1 -5 -.5' ctrlrange='2 3'/>",
+            (5.0, 0.5, 2.6, 0.0, math.inf),
+        ),
+        (
+            "<position joint='j' kp='10'/><velocity joint='j' kv='2' ctrlrange='3 4'/>",
+            (10.0, 2.0, 0.6, 0.0, math.inf),
+        ),
+    ],
+)
+def test_actuators_are_drives_where_unitys_law_is_theirs(tmp_path, actuator, expected):
+    """force = gear (gain u + b0 + b1 gear q + b2 gear qdot), against k (target - q) + d (speed - qdot)."""
+    scene, report = loaded(tmp_path, ONE, tail=f"<actuator>{actuator}</actuator>")
+    drive = scene.joints[0].freedoms[3].drive
+    found = (drive.stiffness, drive.damping, drive.target, drive.target_velocity, drive.max_force)
+    assert found == pytest.approx(expected)
+    assert "MJCF_ACTUATOR" not in codes(report)
+
+
+@pytest.mark.parametrize(
+    "actuator, word",
+    [
+        ("<motor joint='j' gear='5' ctrlrange='-2 2'/>", "effort"),
+        ("<intvelocity joint='j' kp='3' actrange='-1 1'/>", "integrator"),
+        ("<damper joint='j' kv='3' ctrlrange='0 1'/>", "affine"),
+        ("<position joint='j' kp='3' forcerange='-1 4'/>", "both sides"),
+        ("<position joint='j' kp='3' timeconst='.1'/>", "lag"),
+        ("<motor site='s' gear='1 0 0 0 0 0'/>", "site"),
+        ("<motor tendon='t' gear='2'/>", "tendon"),
+    ],
+)
+def test_other_actuators_are_told_with_their_numbers(tmp_path, actuator, word):
+    scene, report = loaded(
+        tmp_path,
+        ONE.replace("<geom", "<site name='s'/><geom"),
+        tail=f"<tendon><fixed name='t'><joint joint='j' coef='2'/></fixed></tendon><actuator>{actuator}</actuator>",
+    )
+    (found,) = (d for d in report.diagnostics if d.code == "MJCF_ACTUATOR")
+    assert word in found.message and "gear" in found.message
+    if word == "effort":
+        assert scene.joints[0].freedoms[3].passive.effort == 10.0
+
+
+TWO = (
+    f"<body><joint name='j' ref='20'/>{BALL}</body><body pos='1 0 0'><joint name='k' ref='-5'/>{BALL}</body>"
+    f"<body pos='2 0 0'><joint name='l' type='slide'/>{BALL}</body>"
+)
+
+
+def test_joint_equalities_are_couplings(tmp_path):
+    """q_j - 20 = 0.1 rad + 2 (q_k + 5), angles of the file in degrees."""
+    scene, report = loaded(
+        tmp_path,
+        TWO,
+        tail="<equality><joint name='e' joint1='j' joint2='k' polycoef='.1 2 0 0 0'/></equality>",
+    )
+    (coupling,) = scene.couplings
+    assert (coupling.id, coupling.joint, coupling.terms[0].joint) == ("e", "j", "k")
+    assert coupling.terms[0].ratio == pytest.approx(2.0)
+    assert coupling.offset == pytest.approx(math.radians(20.0) + 0.1 + 2.0 * math.radians(5.0))
+    assert "MJCF_POLYNOMIAL" not in codes(report)
+
+
+def test_a_polynomial_is_its_tangent_and_told(tmp_path):
+    scene, report = loaded(
+        tmp_path,
+        TWO,
+        tail="<equality><joint name='e' joint1='j' joint2='k' polycoef='0 1 .5 0 0'/></equality>",
+    )
+    assert scene.couplings[0].terms[0].ratio == pytest.approx(1.0)
+    assert "MJCF_POLYNOMIAL" in codes(report)
+
+
+def test_one_joint_of_an_equality_is_held(tmp_path):
+    scene, _ = loaded(tmp_path, TWO, tail="<equality><joint joint1='l' polycoef='.25 1 0 0 0'/></equality>")
+    freedom = next(j for j in scene.joints if j.id == "l").freedoms[0]
+    assert (freedom.motion, freedom.lower, freedom.upper) == (Motion.LIMITED, 0.25, 0.25)
+
+
+def test_fixed_tendons_are_couplings_of_several_terms(tmp_path):
+    """2 j + 3 k - 4 l keeps its length: j follows the others."""
+    tail = (
+        "<tendon><fixed name='t'><joint joint='j' coef='2'/><joint joint='k' coef='3'/><joint joint='l' coef='-4'/>"
+        "</fixed></tendon><equality><tendon name='e' tendon1='t'/></equality>"
+    )
+    scene, _ = loaded(tmp_path, TWO, tail=tail)
+    (coupling,) = scene.couplings
+    assert {(t.joint, t.ratio) for t in coupling.terms} == {("k", -1.5), ("l", 2.0)}
+    assert coupling.offset == pytest.approx(math.radians(20.0) - 1.5 * math.radians(5.0))
+
+
+def test_spatial_tendons_are_told_with_their_numbers(tmp_path):
+    tail = "<tendon><spatial name='t' stiffness='7' range='0 2' limited='true'><site site='a'/><site site='b'/></spatial></tendon>"
+    inner = f"<site name='a'/><body><joint name='j'/><site name='b' pos='1 0 0'/>{BALL}</body>"
+    _, report = loaded(tmp_path, inner, tail=tail)
+    (found,) = (d for d in report.diagnostics if d.code == "MJCF_TENDON")
+    assert "range 0 2" in found.message and "stiffness 7" in found.message
+
+
+LOOP = (
+    f"<body name='a'><joint name='j'/>{BALL}</body><body name='b' pos='1 0 0'><joint name='k'/>{BALL}</body>"
+)
+
+
+@pytest.mark.parametrize(
+    "equality, kind",
+    [
+        ("<connect name='e' body1='a' body2='b' anchor='.5 .1 0'/>", JointKind.SPHERICAL),
+        ("<weld name='e' body1='a' body2='b'/>", JointKind.FIXED),
+        ("<weld name='e' body1='a' body2='b' relpose='1 0 0 .8 .6 0 0' anchor='.1 0 0'/>", JointKind.FIXED),
+        (
+            "<connect name='e' body1='a' body2='b' anchor='.5 .1 0'/><connect body1='a' body2='b' anchor='.5 .1 1'/>",
+            JointKind.REVOLUTE,
+        ),
+    ],
+)
+def test_equalities_of_bodies_are_joints_that_close_loops(tmp_path, equality, kind):
+    scene, _ = loaded(tmp_path, LOOP, tail=f"<equality>{equality}</equality>")
+    (joint,) = (j for j in scene.joints if j.id == "e")
+    assert joint.kind is kind and joint.collide
+
+
+def test_an_equality_that_is_not_active_is_a_joint_switched_off(tmp_path):
+    tail = "<equality><connect name='e' active='false' body1='a' body2='b' anchor='.5 .1 0'/></equality>"
+    scene, _ = loaded(tmp_path, LOOP, tail=tail)
+    assert [j.enabled for j in scene.joints] == [True, True, False]
+
+
+def test_several_joints_of_a_body(tmp_path):
+    """Slides and a hinge are one joint, as are two hinges at right angles; three hinges have light bodies between."""
+    inner = (
+        f"<body name='p'><joint name='x' type='slide' axis='1 0 0'/><joint name='z' type='slide' axis='0 0 1'/>"
+        f"<joint name='t' axis='0 1 0' range='-10 80'/>{BALL}"
+        f"<body name='q' pos='0 0 1'><joint name='u' axis='0 0 1'/><joint name='v' axis='1 0 0' range='-10 80'/>{BALL}"
+        f"<body name='r' pos='0 0 1'><joint name='a' axis='1 0 0' range='-5 5'/><joint name='b' axis='0 1 0' range='-10 80'/>"
+        f"<joint name='c' axis='0 0 1'/>{BALL}</body></body></body>"
+    )
+    scene, report = loaded(tmp_path, inner)
+    assert [(j.id, j.kind) for j in scene.joints] == [
+        ("x+z+t", JointKind.PLANAR),
+        ("u+v", JointKind.UNIVERSAL),
+        ("a+b", JointKind.UNIVERSAL),
+        ("c", JointKind.REVOLUTE),
+    ]
+    assert "MJCF_MIDDLE_BODY" in codes(report)
+    assert scene.joints[0].freedoms[3].upper == pytest.approx(math.radians(80.0))
+
+
+def test_a_ball_with_spring_and_limit(tmp_path):
+    scene, report = loaded(
+        tmp_path, f"<body><joint type='ball' name='j' range='0 40' stiffness='2' damping='.3'/>{BALL}</body>"
+    )
+    (joint,) = scene.joints
+    assert joint.kind is JointKind.SPHERICAL and (joint.slerp.stiffness, joint.slerp.damping) == (2.0, 0.3)
+    assert "MJCF_BALL_LIMIT" in codes(report)
+
+
+def test_shapes_say_what_is_drawn_and_what_is_touched(tmp_path):
+    head = (
+        "<asset><mesh name='t' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='3' size='1 2 .5 .1' "
+        "elevation='0 1 2 3 4 5'/></asset>"
+    )
+    inner = (
+        "<geom type='plane' size='3 4 1' name='floor'/><geom type='hfield' hfield='h' name='hill'/>"
+        "<body name='b'><freejoint/><geom name='box' type='box' size='.1 .2 .3' friction='.7' contype='2' conaffinity='5'/>"
+        "<geom name='skin' type='mesh' mesh='t' contype='0' conaffinity='0'/>"
+        "<geom name='hull' type='mesh' mesh='t' group='3'/><geom name='pill' type='capsule' size='.1 .2'/>"
+        "<geom name='egg' type='ellipsoid' size='.1 .2 .3'/><geom name='rod' type='cylinder' fromto='0 0 0 1 0 0' size='.1'/>"
+        "<geom name='ghost' size='.1' group='4' contype='0' conaffinity='0'/></body>"
+    )
+    scene, report = loaded(tmp_path, inner, head)
+    world, body = (next(n for n in scene.nodes if n.name == name) for name in ("world", "b"))
+    assert [c.kind for c in world.colliders] == [ColliderKind.BOX, ColliderKind.MESH]
+    assert scene.meshes[world.colliders[1].mesh].vertices[:, 2].max() == pytest.approx(0.5)
+    assert {b.name for b in body.bodies} == {"box", "skin", "pill", "egg", "rod"}
+    touched = {c.name: c for c in body.colliders}
+    assert set(touched) == {"box", "hull", "pill", "egg", "rod"}
+    assert touched["box"].size == (0.2, 0.4, 0.6) and touched["box"].group == "contype 2 conaffinity 5"
+    material = touched["box"].material
+    assert (material.dynamic_friction, material.friction_combine) == (0.7, Combine.MAXIMUM)
+    assert touched["hull"].kind is ColliderKind.HULL and touched["pill"].length == pytest.approx(0.4)
+    assert {"MJCF_COLLISION_FILTER", "MJCF_GEOM_UNSEEN"} <= codes(report)
+
+
+def test_contact_excludes_stand_in_the_extras(tmp_path):
+    scene, report = loaded(tmp_path, LOOP, tail="<contact><exclude body1='a' body2='b'/></contact>")
+    assert scene.extras["ignoreCollision"] == [["a", "b"]] and "MJCF_COLLISION_FILTER" in codes(report)
+
+
+KEYED = "<keyframe><key name='home' qpos='.5' ctrl='.3'/><key qpos='-.2'/></keyframe>"
+
+
+def test_a_keyframe_is_the_pose(tmp_path):
+    tail = KEYED + "<actuator><position joint='j' kp='10'/></actuator>"
+    plain, _ = loaded(tmp_path, ONE, tail=tail)
+    home, _ = loaded(tmp_path, ONE, tail=tail, keyframe="home")
+    second, _ = loaded(tmp_path, ONE, tail=tail, keyframe="1")
+    assert plain.offers == {"keyframe": ("home", "1")}
+    assert [s.joints[0].freedoms[3].at for s in (plain, home, second)] == pytest.approx([0.0, 0.5, -0.2])
+    assert home.joints[0].freedoms[3].drive.target == pytest.approx(0.3)
+
+
+def test_mocap_bodies_are_moved_by_scripts(tmp_path):
+    scene, _ = loaded(tmp_path, f"<body name='guide' mocap='true'>{BALL}</body>")
+    node = next(n for n in scene.nodes if n.name == "guide")
+    assert node.dynamics.kinematic and not node.grounded
+
+
+def test_gravity_and_bodies_that_carry_themselves(tmp_path):
+    inner = f"<body name='a' gravcomp='1'><freejoint/>{BALL}</body><body name='b' pos='1 0 0' gravcomp='.3'><freejoint/>{BALL}</body>"
+    scene, report = loaded(tmp_path, inner, "<option gravity='1 2 -3' timestep='.005'/>")
+    assert scene.physics.gravity == pytest.approx((2.0, -3.0, 1.0)) and scene.physics.fixed_timestep == 0.005
+    assert [n.dynamics.gravity for n in scene.nodes if n.name in "ab"] == [False, True]
+    assert [d.code for d in report.diagnostics if d.code == "MJCF_GRAVITY"] == ["MJCF_GRAVITY"]
+
+
+def test_textures_are_files_or_bytes(tmp_path):
+    head = (
+        "<asset><texture name='made' type='2d' builtin='checker' rgb1='1 0 0' rgb2='0 0 1' width='4' height='4'/>"
+        "<material name='m' texture='made' texrepeat='2 3' rgba='1 1 1 1' metallic='.4' roughness='.2'/>"
+        "<mesh name='t' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>"
+    )
+    inner = "<geom type='plane' size='1 1 1' material='m'/><body><freejoint/><geom type='mesh' mesh='t' material='m'/></body>"
+    scene, report = loaded(tmp_path, inner, head)
+    textured = next(s for s in scene.surfaces if s.color_texture is not None)
+    assert textured.color_texture.data.startswith(b"\x89PNG") and textured.color_texture.scale == (2.0, 3.0)
+    assert (textured.metallic, textured.smoothness) == pytest.approx((0.4, 0.8))
+    assert "MJCF_TEXTURE" in codes(report)
+
+
+def test_what_has_no_place_is_left_out_by_name(tmp_path):
+    _, report = loaded(tmp_path, ONE, tail="<sensor><jointpos name='s' joint='j'/></sensor>")
+    assert [d.message for d in report.diagnostics if d.code == "MJCF_LEFT_OUT"] == [
+        "The sensor s was left out: Unity's scenes have no place for it."
+    ]
+
+
+def test_nothing_of_the_model_is_random(tmp_path):
+    path = FIXTURES / "mjcf" / "zoo.xml"
+    for name in "ab":
+        (tmp_path / name).mkdir()
+        kinefab.export(path, tmp_path / name / "s.kinefab")
+    first, second = ({p.name: p.read_bytes() for p in (tmp_path / name).iterdir()} for name in "ab")
+    assert first == second and len(first) == 2
+
+
+def test_a_bent_damper_is_told(tmp_path):
+    """MuJoCo 4 takes polynomials; older ones refuse the second number."""
+    if not hasattr(mujoco.MjModel, "dof_dampingpoly"):
+        pytest.skip("this mujoco has straight dampers only")
+    _, report = loaded(tmp_path, f"<body><joint name='j' damping='1 .5'/>{BALL}</body>")
+    assert "MJCF_NONLINEAR" in codes(report)
+
+
+def test_a_weld_that_is_not_kept_holds_the_bodies_as_they_stand(tmp_path):
+    tail = "<equality><weld name='e' body1='a' body2='b' relpose='2 0 0 1 0 0 0'/></equality>"
+    scene, report = loaded(tmp_path, LOOP, tail=tail)
+    (joint,) = (j for j in scene.joints if j.id == "e")
+    ends = [scene.pose(n) @ f for n, f in ((joint.a, joint.frame_a), (joint.b, joint.frame_b))]
+    assert ends[0].translation == pytest.approx(ends[1].translation)
+    (found,) = (d for d in report.diagnostics if d.code == "MJCF_WELD_APART")
+    assert "1 m" in found.message
+
+
+def test_what_mujocos_parser_does_not_mind_is_read(tmp_path):
+    """No blank between attributes, two dashes in a comment."""
+    scene, _ = loaded(
+        tmp_path, "<!-- a -- b -->" + ONE.replace("<joint name='j'/>", "<joint name='j'axis='0 1 0'/>")
+    )
+    assert [j.id for j in scene.joints] == ["j"]

@@ -1,0 +1,186 @@
+"""What is wrong with an MJCF file is found with its code and its place; what is missing is told, and the rest converts."""
+
+from __future__ import annotations
+
+import importlib.util
+import random
+from pathlib import Path
+
+import kinefab
+import pytest
+from kinefab.diagnostics import KinefabError, Report
+from kinefab.sources import read
+
+INSTALLED = importlib.util.find_spec("mujoco") is not None
+needs_mujoco = pytest.mark.skipif(not INSTALLED, reason="mujoco (pip install mujoco) is not installed")
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+
+BODY = "<body name='a'><joint name='j'/><geom size='.1'/></body>"
+
+
+def world(inner: str, rest: str = "") -> str:
+    return f"<mujoco>\n<worldbody>\n{inner}\n</worldbody>\n{rest}</mujoco>"
+
+
+BOMB = "<!DOCTYPE m [<!ENTITY a 'xxxxxxxx'><!ENTITY b '&a;&a;&a;&a;'>]>\n" + world("<body name='&b;'/>")
+OUTSIDE = "<!DOCTYPE m [<!ENTITY x SYSTEM 'file:///etc/passwd'>]>\n" + world("<body name='&x;'/>")
+
+REFUSED = {
+    "cut off": ("XML_SYNTAX", 4, world(BODY)[:-10]),
+    "bomb": ("XML_ENTITY", 1, BOMB),
+    "external entity": ("XML_ENTITY", 1, OUTSIDE),
+    "deep": ("XML_TOO_LARGE", 1, "<mujoco >" + "<body>" * 200 + "</body>" * 200 + "</mujoco>"),
+    "unknown element": ("MJCF_REFUSED", 3, world("<bodi/>")),
+    "unknown default": ("MJCF_REFUSED", 3, world("<body><geom size='.1' class='x'/></body>")),
+    "negative mass": ("MJCF_REFUSED", 3, world(BODY.replace("size", "mass='-1' size"))),
+    "no mass": ("MJCF_REFUSED", 3, world("<body name='a'><joint/></body>")),
+    "twice": ("MJCF_REFUSED", 4, world(BODY + "\n" + BODY)),
+    "no such joint": ("MJCF_REFUSED", 6, world(BODY, "<actuator>\n<motor joint='k'/></actuator>")),
+    "nan": ("MJCF_REFUSED", None, world(BODY.replace("<joint", "<joint pos='0 nan 0'"))),
+    "infinite": ("MJCF_REFUSED", None, world(BODY.replace("<joint", "<joint pos='0 inf 0'"))),
+    "include missing": ("MJCF_INCLUDE", 6, world(BODY, "\n<include file='b.xml'/>")),
+    "include outside": ("MJCF_INCLUDE", 5, world(BODY, "<include file='../../../../../../etc/passwd'/>")),
+    "include absolute": ("MJCF_INCLUDE", 5, world(BODY, "<include file='/etc/passwd'/>")),
+    "include itself": ("MJCF_INCLUDE", 5, world(BODY, "<include file='m.xml'/>")),
+    "copies": ("MJCF_TOO_LARGE", 3, world("<replicate count='1000000000'>" + BODY + "</replicate>")),
+    "pixels": (
+        "MJCF_TOO_LARGE",
+        5,
+        world(BODY, "<asset><texture type='2d' builtin='flat' width='100000' height='100000'/></asset>"),
+    ),
+}
+
+
+@needs_mujoco
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_wrong_is_found_at_its_line(tmp_path, name):
+    code, line, text = REFUSED[name]
+    path = tmp_path / "m.xml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(KinefabError) as refused:
+        kinefab.export(path, tmp_path / "m.kinefab")
+    found = [(d.code, d.where) for d in refused.value.diagnostics]
+    assert any(c == code and (line is None or where.endswith(f":{line}")) for c, where in found), found
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_another_root_is_not_taken_for_mjcf(tmp_path):
+    path = tmp_path / "m.xml"
+    path.write_text("<mujocoinclude/>", encoding="utf-8")
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    assert [d.code for d in refused.value.diagnostics] == ["SOURCE_FORMAT_UNKNOWN"]
+
+
+@needs_mujoco
+def test_includes_of_each_other_end(tmp_path):
+    (tmp_path / "m.xml").write_text(world("<include file='b.xml'/>"), encoding="utf-8")
+    (tmp_path / "b.xml").write_text(
+        "<mujocoinclude>\n<include file='b.xml'/></mujocoinclude>", encoding="utf-8"
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(tmp_path / "m.xml", Report())
+    assert [(d.code, d.where) for d in refused.value.diagnostics] == [("MJCF_INCLUDE", "b.xml:2")]
+
+
+@needs_mujoco
+def test_without_its_mesh_the_rest_converts(tmp_path):
+    """A file that is not there, one out of the folder, a picture: left out by name; a body of nothing else has a stand-in."""
+    text = world(
+        BODY
+        + "<body name='b'><joint name='k'/><geom type='mesh' mesh='m'/><geom type='mesh' mesh='n'/></body>"
+        "<geom type='plane' size='1 1 1' material='p'/>",
+        "<asset><mesh name='m' file='m.stl'/><mesh name='n' file='../../../../../etc/n.stl'/>"
+        "<texture name='t' type='2d' file='t.png'/><material name='p' texture='t'/></asset>",
+    )
+    path = tmp_path / "m.xml"
+    path.write_text(text, encoding="utf-8")
+    result = kinefab.export(path, tmp_path / "m.kinefab")
+    lost = {(o.feature, o.code) for o in result.report.outcomes if o.outcome.value == "dropped"}
+    assert {
+        ("mesh m", "MESH_NOT_FOUND"),
+        ("mesh n", "MESH_OUTSIDE"),
+        ("texture t", "TEXTURE_NOT_FOUND"),
+    } <= lost
+    assert {j.id for j in read(path, Report()).joints} == {"j", "k"}
+
+
+@needs_mujoco
+def test_an_unknown_keyframe_names_the_known(tmp_path):
+    path = tmp_path / "m.xml"
+    path.write_text(world(BODY, "<keyframe><key name='home' qpos='1'/></keyframe>"), encoding="utf-8")
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report(), options={"keyframe": "hom"})
+    (found,) = refused.value.diagnostics
+    assert found.code == "MJCF_KEYFRAME" and "home" in found.message
+
+
+def test_without_mujoco_it_is_said_which_extra_brings_it(tmp_path, monkeypatch):
+    """A diagnostic, not an import error."""
+    from kinefab import sources
+
+    monkeypatch.setattr(sources, "find_spec", lambda name: None)
+    path = tmp_path / "m.xml"
+    path.write_text(world(BODY), encoding="utf-8")
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "SOURCE_LIBRARY_MISSING" and "mujoco" in found.message + found.remedy
+
+
+MUTATIONS = 300
+"""Of each run; with ``KINEFAB_MUTATIONS`` in the environment that many."""
+WORDS = [
+    b"nan",
+    b"-1",
+    b"1e308",
+    b"0",
+    b"inf",
+    b"''",
+    b"<body>",
+    b"/>",
+    b"&#0;",
+    b"joint",
+    b"99999999",
+    b"-",
+    b"1e-320",
+]
+
+
+@needs_mujoco
+def test_mutated_files_give_a_scene_or_findings(tmp_path, capfd):
+    """Nothing else: no traceback, no half-written file."""
+    import os
+
+    generator = random.Random(14)
+    seeds = [path.read_bytes() for path in sorted((FIXTURES / "mjcf").glob("*.xml"))]
+    path, target = tmp_path / "m.xml", tmp_path / "out" / "m.kinefab"
+    target.parent.mkdir()
+    refused = 0
+    for _ in range(int(os.environ.get("KINEFAB_MUTATIONS", MUTATIONS))):
+        data = bytearray(generator.choice(seeds))
+        for _ in range(generator.randint(1, 4)):
+            at, kind = generator.randrange(len(data)), generator.random()
+            if kind < 0.4:
+                data[at : at + generator.randint(0, 12)] = generator.choice(WORDS)
+            elif kind < 0.7:
+                data[at] = generator.choice(b'0123456789.- "<>=/ex')
+            else:
+                del data[at : at + generator.randint(1, 30)]
+        path.write_bytes(bytes(data))
+        try:
+            kinefab.export(path, target)
+            for written in target.parent.iterdir():
+                written.unlink()
+        except KinefabError as error:
+            refused += 1
+            assert error.diagnostics
+            assert list(target.parent.iterdir()) == []
+    assert refused > 20
+
+
+@needs_mujoco
+def test_a_long_licence_hides_no_model(tmp_path):
+    path = tmp_path / "m.xml"
+    path.write_text("<!-- " + "all rights " * 900 + "-->\n" + world(BODY), encoding="utf-8")
+    assert [joint.id for joint in read(path, Report()).joints] == ["j"]

@@ -1,0 +1,228 @@
+"""What is wrong with a URDF file is found with its code and its line; what cannot be kept is told by name."""
+
+from __future__ import annotations
+
+import importlib.util
+import random
+from pathlib import Path
+
+import kinefab
+import pytest
+from kinefab.diagnostics import KinefabError, Report
+from kinefab.sources import read
+
+HEAVY = "<inertial><mass value='2'/><inertia ixx='0.1' iyy='0.2' izz='0.25'/></inertial>"
+LINK = "<link name='{}'>" + HEAVY + "</link>"
+A, B, C = (LINK.format(name) for name in "abc")
+PAIR = A + "\n" + B + "\n"
+
+
+def joint(inner="", kind="continuous", name="j", parent="a", child="b") -> str:
+    return f"<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/>{inner}</joint>\n"
+
+
+def robot(inner: str) -> str:
+    return f"<robot name='r'>\n{inner}\n</robot>"
+
+
+BOMB = "<!DOCTYPE r [<!ENTITY a 'xxxxxxxx'><!ENTITY b '&a;&a;&a;&a;'>]>\n" + robot("<link name='&b;'/>")
+OUTSIDE = "<!DOCTYPE r [<!ENTITY x SYSTEM 'file:///etc/passwd'>]>\n" + robot("<link name='&x;'/>")
+
+REFUSED = {
+    "cut off": ("XML_SYNTAX", 3, robot(PAIR)[:-20]),
+    "no XML": ("XML_SYNTAX", 1, "solid cube"),
+    "encoding": ("XML_SYNTAX", 1, "<?xml version='1.0' encoding='nonsense'?><robot/>"),
+    "bomb": ("XML_ENTITY", 1, BOMB),
+    "external entity": ("XML_ENTITY", 1, OUTSIDE),
+    "deep": ("XML_TOO_LARGE", 1, "<robot>" + "<link>" * 200 + "</link>" * 200 + "</robot>"),
+    "other root": ("XML_ROOT", 1, "<sdf version='1.9'/>"),
+    "no links": ("LINKS_NONE", 1, "<robot name='r'/>"),
+    "nameless link": ("XML_MISSING", 2, robot("<link/>" + A)),
+    "link twice": ("SOURCE_ID_DUPLICATE", 3, robot(A + "\n" + A)),
+    "joint twice": ("SOURCE_ID_DUPLICATE", 5, robot(PAIR + joint() + joint())),
+    "unknown type": ("JOINT_TYPE_UNKNOWN", 4, robot(PAIR + joint(kind="revolut"))),
+    "no type": ("XML_MISSING", 4, robot(PAIR + joint(kind=""))),
+    "unknown link": ("LINK_UNKNOWN", 4, robot(PAIR + joint(child="bb"))),
+    "no child": ("XML_MISSING", 3, robot(A + "\n<joint name='j' type='fixed'><parent link='a'/></joint>")),
+    "itself": ("SAME_COMPONENT", 4, robot(PAIR + joint(child="a"))),
+    "two roots": ("LINK_ROOTS", 3, robot(PAIR)),
+    "two parents": ("LINK_PARENTS", 6, robot(PAIR + C + "\n" + joint(child="c") + joint(name="k", parent="b", child="c"))),
+    "cycle": ("LINK_CYCLE", 6, robot(PAIR + C + "\n" + joint(parent="b", child="c") + joint(name="k", parent="c", child="b"))),
+    "only a cycle": ("LINK_CYCLE", 5, robot(PAIR + joint() + joint(name="k", parent="b", child="a"))),
+    "nan": ("XML_VALUE", 4, robot(PAIR + joint("<origin xyz='0 nan 0'/>"))),
+    "infinite": ("XML_VALUE", 4, robot(PAIR + joint("<origin xyz='0 inf 0'/>"))),
+    "two numbers": ("XML_VALUE", 4, robot(PAIR + joint("<axis xyz='0 1'/>"))),
+    "a word": ("XML_VALUE", 2, robot(A.replace("'2'", "'heavy'"))),
+    "no axis": ("AXIS_ZERO", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
+    "negative mass": ("MASS_IMPOSSIBLE", 2, robot(A.replace("'2'", "'-2'"))),
+    "negative damping": ("XML_VALUE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
+    "limits reversed": ("LIMITS_REVERSED", 4, robot(PAIR + joint("<limit lower='1' upper='-1'/>", "revolute"))),
+    "follows nobody": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='k'/>"))),
+    "follows itself": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='j'/>"))),
+    "follow each other": (
+        "MIMIC_UNKNOWN",
+        5,
+        robot(PAIR + C + "\n" + joint("<mimic joint='k'/>") + joint("<mimic joint='j'/>", name="k", child="c")),
+    ),
+    "follows a floating one": (
+        "MIMIC_UNKNOWN",
+        6,
+        robot(PAIR + C + "\n" + joint(kind="floating") + joint("<mimic joint='j'/>", name="k", child="c")),
+    ),
+}  # fmt: skip
+
+SHAPE = "<link name='a'>{}</link>"
+TOLD = {
+    "limits missing": ("LIMITS_MISSING", 4, robot(PAIR + joint(kind="revolute"))),
+    "limits at zero": ("LIMITS_AT_ZERO", 4, robot(PAIR + joint("<limit effort='1' velocity='1'/>", "revolute"))),
+    "inertia": ("INERTIA_MENDED", 3, robot(PAIR.replace("'0.25'", "'0.9'") + joint())),
+    "no inertia": ("INERTIA_MENDED", 3, robot(A + "\n<link name='b'><inertial><mass value='1'/></inertial></link>" + joint())),
+    "no mass, a shape": (
+        "MASS_FROM_GEOMETRY",
+        3,
+        robot(A + "\n<link name='b'><visual><geometry><box size='1 2 3'/></geometry></visual></link>" + joint()),
+    ),
+    "no mass, no shape": ("MASS_STAND_IN", 3, robot(A + "\n<link name='b'/>" + joint())),
+    "mesh missing": (
+        "MESH_NOT_FOUND",
+        2,
+        robot(SHAPE.format("<visual><geometry><mesh filename='package://r/a.stl'/></geometry></visual>")),
+    ),
+    "mesh outside": (
+        "MESH_OUTSIDE",
+        2,
+        robot(SHAPE.format("<visual><geometry><mesh filename='../../../../../../etc/a.stl'/></geometry></visual>")),
+    ),
+    "absolute": (
+        "MESH_OUTSIDE",
+        2,
+        robot(SHAPE.format("<collision><geometry><mesh filename='file:///etc/passwd'/></geometry></collision>")),
+    ),
+    "texture missing": (
+        "TEXTURE_NOT_FOUND",
+        2,
+        robot(
+            SHAPE.format(
+                "<visual><geometry><sphere radius='1'/></geometry>"
+                "<material name='m'><texture filename='t.png'/></material></visual>"
+            )
+        ),
+    ),
+    "material": (
+        "MATERIAL_NOT_STATED",
+        2,
+        robot(SHAPE.format("<visual><geometry><sphere radius='1'/></geometry><material name='m'/></visual>")),
+    ),
+    "empty shape": ("SHAPE_EMPTY", 2, robot(SHAPE.format("<visual><geometry><sphere radius='0'/></geometry></visual>"))),
+    "transmission": ("ELEMENT_DROPPED", 3, robot(A + "\n<transmission name='t'/>")),
+    "gazebo": ("ELEMENT_DROPPED", 3, robot(A + "\n<gazebo reference='a'/>")),
+    "unknown element": ("ELEMENT_UNKNOWN", 3, robot(A + "\n<lnik name='b'/>")),
+}  # fmt: skip
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "r.urdf"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_a_wrong_file_is_refused_at_its_line(tmp_path, case):
+    code, line, text = REFUSED[case]
+    with pytest.raises(KinefabError) as refused:
+        kinefab.export(written(tmp_path, text), tmp_path / "r.kinefab")
+    found = {(d.code, d.where.rsplit(":", 1)[-1]) for d in refused.value.diagnostics}
+    assert (code, str(line)) in found
+    assert not (tmp_path / "r.kinefab").exists()
+
+
+@pytest.mark.parametrize("case", TOLD)
+def test_a_loss_is_told_at_its_line_and_the_rest_converts(tmp_path, case):
+    code, line, text = TOLD[case]
+    result = kinefab.export(written(tmp_path, text), tmp_path / "r.kinefab")
+    found = {(d.code, d.where) for d in result.report.diagnostics}
+    assert (code, f"r.urdf:{line}") in found
+    assert result.path.exists()
+
+
+def test_a_mesh_that_cannot_be_read_is_left_out_and_told(tmp_path):
+    """Both where it is drawn and where it is touched; the link keeps its mass and its joint."""
+    (tmp_path / "broken.stl").write_bytes(b"solid nothing of the kind")
+    mesh = "<geometry><mesh filename='broken.stl'/></geometry>"
+    text = robot(A.replace("</link>", f"<visual>{mesh}</visual><collision>{mesh}</collision></link>"))
+    result = kinefab.export(written(tmp_path, text), tmp_path / "r.kinefab")
+    lost = [o for o in result.report.outcomes if o.code == "MESH_UNREADABLE"]
+    assert len(lost) == 2 and all(o.outcome.value == "dropped" for o in lost)
+
+
+def test_xacro_without_its_package_is_an_error_that_names_it(tmp_path, monkeypatch):
+    path = tmp_path / "r.xacro"
+    path.write_text(robot(A), encoding="utf-8")
+    real = importlib.util.find_spec
+    monkeypatch.setattr(
+        "kinefab.sources.urdf.expansion.find_spec", lambda name: None if name == "xacro" else real(name)
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "SOURCE_LIBRARY_MISSING" and "xacro" in found.message and "urdf" in found.remedy
+
+
+def test_a_xacro_that_fails_says_why(tmp_path):
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    path = tmp_path / "r.xacro"
+    path.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><link name='${undefined_thing}'/></robot>",
+        encoding="utf-8",
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    assert [d.code for d in refused.value.diagnostics] == ["XACRO_FAILED"]
+    assert "undefined_thing" in refused.value.diagnostics[0].message
+
+
+def mutated(text: str, chance: random.Random) -> bytes:
+    """The text with a few bytes, words or lines changed, doubled, cut or exchanged."""
+    data = bytearray(text.encode("utf-8"))
+    for _ in range(chance.randint(1, 4)):
+        at = chance.randrange(len(data))
+        kind = chance.randrange(6)
+        if kind == 0:
+            data[at] = chance.randrange(256)
+        elif kind == 1:
+            del data[at : at + chance.randint(1, 40)]
+        elif kind == 2:
+            data[at:at] = data[at : at + chance.randint(1, 60)]
+        elif kind == 3:
+            data[at:at] = chance.choice(
+                [b"nan", b"-", b"1e400", b"<", b"&x;", b"\0", b"\xff", b"'", b"<link/>"]
+            )
+        elif kind == 4:
+            other = chance.randrange(len(data))
+            size = chance.randint(1, 30)
+            data[at : at + size] = data[other : other + size]
+        else:
+            lines = bytes(data).split(b"\n")
+            chance.shuffle(lines) if chance.random() < 0.1 else lines.insert(
+                chance.randrange(len(lines)), chance.choice(lines)
+            )
+            data = bytearray(b"\n".join(lines))
+        if not data:
+            return b""
+    return bytes(data)
+
+
+def test_no_mutation_of_a_file_is_a_traceback(tmp_path, fuzz_count):
+    """Every one is read or refused by diagnostics; ``--fuzz N`` tries N of them."""
+    arm = (Path(__file__).parents[2] / "fixtures" / "twins" / "arm.urdf").read_text(encoding="utf-8")
+    chance = random.Random(14)
+    path = tmp_path / "r.urdf"
+    refused = 0
+    for _ in range(fuzz_count):
+        path.write_bytes(mutated(arm, chance))
+        try:
+            read(path, Report())
+        except KinefabError as error:
+            refused += 1
+            assert error.diagnostics
+    assert 0 < refused < fuzz_count

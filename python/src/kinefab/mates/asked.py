@@ -1,0 +1,33 @@
+"""What a user asks about mates when a file is read: none, those found, or those of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..diagnostics import Report
+from ..model import Scene
+from .apply import with_found
+from .find import find_mates
+from .mates_file import with_file
+
+
+def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
+    """The scene with the mates asked for; where none are, and the scene states nothing that moves, that is told.
+
+    asked: the source's options; ``mates`` ("auto" or a path) and ``ground`` are looked at.
+    Raises KinefabError for a mates file that is wrong.
+    """
+    choice, ground = str(asked.get("mates", "")), str(asked.get("ground", ""))
+    if choice == "auto":
+        found = find_mates(scene, ground)
+        if ground and found.ground_reason != "named":
+            report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
+        return with_found(scene, found, report)
+    if choice:
+        return with_file(scene, Path(choice), report)
+    silent = not (scene.joints or scene.constraints or scene.dof_records)
+    exact = sum(any(body.boundary for body in node.bodies) for node in scene.nodes)
+    if silent and exact > 1:
+        report.add("MATES_NOT_ASKED", scene.source.uri, count=exact)
+    return scene

@@ -1,0 +1,1 @@
+"""What is one body, and which joint each pair of bodies has: ``decide`` reads like a sentence."""

@@ -1,0 +1,90 @@
+"""Parts joined to rigid bodies step by step, and the contacts between the bodies."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...spatial import Array
+from ..shapes.features import Shape
+from ..touching.contact import Contact
+from .freedom import Freedom, Scale, freedom_of
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fixing:
+    """Why two parts are one body.  confidence: 0..1.  contacts: those that say so."""
+
+    first: int
+    second: int
+    reason: str
+    confidence: float
+    contacts: tuple[Contact, ...] = ()
+
+
+@dataclass(slots=True, eq=False)
+class Bodies:
+    """shapes: of each part, WORLD.  contacts: of the parts, those that are still believed in."""
+
+    shapes: list[Shape]
+    contacts: list[Contact]
+    fixings: list[Fixing] = field(default_factory=list[Fixing])
+    _leader: list[int] = field(default_factory=list[int])
+
+    def __post_init__(self) -> None:
+        self._leader = list(range(len(self.shapes)))
+
+    def of(self, part: int) -> int:
+        """The body of a part: the number of its first part."""
+        while self._leader[part] != part:
+            self._leader[part] = self._leader[self._leader[part]]
+            part = self._leader[part]
+        return part
+
+    def fix(
+        self, first: int, second: int, reason: str, confidence: float, contacts: tuple[Contact, ...] = ()
+    ) -> bool:
+        """Make two parts one body; whether they were two."""
+        a, b = self.of(first), self.of(second)
+        if a == b:
+            return False
+        self._leader[max(a, b)] = min(a, b)
+        self.fixings.append(Fixing(first, second, reason, confidence, contacts))
+        return True
+
+    def members(self) -> dict[int, list[int]]:
+        found: defaultdict[int, list[int]] = defaultdict(list)
+        for part in range(len(self.shapes)):
+            found[self.of(part)].append(part)
+        return dict(found)
+
+    def pairs(self) -> dict[tuple[int, int], list[Contact]]:
+        """Contacts between different bodies, by the bodies, lower number first; in order."""
+        found: defaultdict[tuple[int, int], list[Contact]] = defaultdict(list)
+        for contact in self.contacts:
+            a, b = self.of(contact.first), self.of(contact.second)
+            if a != b:
+                found[min(a, b), max(a, b)].append(contact)
+        return dict(sorted(found.items()))
+
+    def freedom(self, pair: tuple[int, int], contacts: list[Contact]) -> tuple[Freedom, Scale]:
+        """What contacts leave free of the second body of a pair against the first."""
+        scale = scale_of(contacts)
+        flips = [self.of(contact.first) != pair[0] for contact in contacts]
+        return freedom_of(contacts, flips, scale), scale
+
+
+def scale_of(contacts: list[Contact]) -> Scale:
+    """A centre and a length to which the contacts' lever arms compare."""
+    points = [c.points for c in contacts if len(c.points)]
+    everything = np.concatenate(points) if points else np.zeros((1, 3))
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    length = float(np.linalg.norm(high - low))
+    radii = [s.radius for c in contacts for s in (c.a, c.b)]
+    return Scale(0.5 * (low + high), max(length, max(radii, default=0.0), 1e-9))
+
+
+def spread(points: Array) -> float:
+    return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0

@@ -1,0 +1,332 @@
+"""Which joint each pair of bodies has, judged by what the whole assembly leaves free.
+
+A contact that holds one way only may be a seat (a link lying on its neighbour) or a stop (a closed drawer).  Everything
+is first taken as a seat; where the machine then cannot move, what stops it is taken as a stop.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...spatial import Array, cross
+from ..touching.contact import Contact, ContactKind
+from .bodies import Bodies
+from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fix_pins
+from .freedom import RANK, Scale, freedom_of, null_space
+from .rolling import join_races
+
+DENSE = 400
+"""Bodies of a connected piece up to which its mobility is counted; beyond, seats stay seats."""
+
+
+@dataclass(slots=True, eq=False)
+class Edge:
+    """A pair of bodies with its contacts.  space: twists left free, chosen.  otherwise: what it would be as the doubtful
+    case, None where there is no doubt.  one_sided: nothing in it holds both ways."""
+
+    pair: tuple[int, int]
+    contacts: list[Contact]
+    scale: Scale
+    space: Array
+    confidence: float
+    reason: str
+    otherwise: Array | None = None
+    one_sided: bool = False
+    area: float = 0.0
+
+
+@dataclass(slots=True, eq=False)
+class Decided:
+    """bodies: with all fixings.  edges: the joints between them, those left out not among them."""
+
+    bodies: Bodies
+    edges: list[Edge]
+    stops: list[Edge] = field(default_factory=list[Edge])
+
+
+def decide(bodies: Bodies, parts: Parts) -> Decided:
+    join_races(bodies)
+    bolted = fasten(bodies, parts)
+    single = _bolt_groups(bodies, bolted)
+    _clamp(bodies)
+    fix_pins(bodies, parts)
+    _fix_held(bodies)
+    edges = _edges(bodies, single)
+    return _settled(bodies, edges)
+
+
+def _bolt_groups(bodies: Bodies, bolted: Sequence[Bolted]) -> list[Bolted]:
+    """Fix parts that two or more bolts hold together; the bolts that are alone."""
+    while True:
+        groups: defaultdict[tuple[int, int], list[Bolted]] = defaultdict(list)
+        for b in bolted:
+            pair = bodies.of(b.host), bodies.of(b.other)
+            if pair[0] != pair[1]:
+                groups[min(pair), max(pair)].append(b)
+        several = [
+            g
+            for _, g in sorted(groups.items())
+            if axes_apart([b.contact for b in g]) >= 2 or len({b.bolt for b in g}) >= 2
+        ]
+        if not several:
+            return [b for _, g in sorted(groups.items()) for b in g]
+        for group in several:
+            for b in group:
+                bodies.fix(b.host, b.other, "bolted", 0.95, (b.contact,))
+
+
+def _clamp(bodies: Bodies) -> None:
+    """What two halves grip that are drawn together over a gap: a pipe in its clamp."""
+    touching = {
+        (min(c.first, c.second), max(c.first, c.second))
+        for c in bodies.contacts
+        if c.kind is ContactKind.FLAT and c.touching
+    }
+    grips: defaultdict[int, list[Contact]] = defaultdict(list)
+    for contact in bodies.contacts:
+        if contact.kind is ContactKind.ARC and contact.touching:
+            grips[contact.inner].append(contact)
+    for part, contacts in sorted(grips.items()):
+        halves = sorted({c.other(part) for c in contacts})
+        for i, a in enumerate(halves):
+            for b in halves[i + 1 :]:
+                if bodies.of(a) == bodies.of(b) != bodies.of(part) and (a, b) not in touching:
+                    bodies.fix(part, a, "clamped", 0.85, tuple(contacts))
+
+
+def _fix_held(bodies: Bodies) -> None:
+    """Join bodies that cannot move against each other in any direction, until there are none."""
+    known: dict[
+        tuple[int, int], int
+    ] = {}  # contacts of a pair when it was last looked at: more can hold more
+    while True:
+        found = False
+        for pair, contacts in bodies.pairs().items():
+            if known.get(pair) == len(contacts):
+                continue
+            if pair != (bodies.of(pair[0]), bodies.of(pair[1])):
+                continue  # one of them has just been joined to another
+            known[pair] = len(contacts)
+            freedom, _ = bodies.freedom(pair, contacts)
+            if freedom.held.shape[1] == 0:
+                first = contacts[0]
+                found |= bodies.fix(first.first, first.second, "held", 0.85, tuple(contacts))
+        if not found:
+            return
+
+
+def _edges(bodies: Bodies, single: Sequence[Bolted]) -> list[Edge]:
+    alone: defaultdict[tuple[int, int], list[Bolted]] = defaultdict(list)
+    for b in single:
+        pair = bodies.of(b.host), bodies.of(b.other)
+        if pair[0] != pair[1]:
+            alone[min(pair), max(pair)].append(b)
+    found: list[Edge] = []
+    for pair, contacts in bodies.pairs().items():
+        edge = _edge(bodies, pair, contacts, bool(alone.get(pair)))
+        if edge is not None:
+            found.append(edge)
+    return found
+
+
+def _edge(bodies: Bodies, pair: tuple[int, int], contacts: list[Contact], bolted: bool) -> Edge | None:
+    freedom, scale = bodies.freedom(pair, contacts)
+    kept, held = freedom.kept, freedom.held
+    area = sum(c.area for c in contacts if c.touching)
+    nothing = np.zeros((6, 0))
+    if held.shape[1] == 6:
+        if kept.shape[1] == 6:
+            return None  # near, and nothing touches
+        confidence = 0.6 if kept.shape[1] else 0.55
+        return Edge(pair, contacts, scale, kept, confidence, "rests", None, True, area)
+    screw = _screw(contacts, kept, scale)
+    if screw is not None:
+        return Edge(pair, contacts, scale, nothing, 0.6, "thread", screw, False, area)
+    if bolted:
+        return Edge(
+            pair, contacts, scale, nothing, 0.6, "one bolt", kept if kept.shape[1] else held, False, area
+        )
+    if not _has_turn(kept) and _has_turn(held) or not kept.shape[1]:
+        seats = [c for c in contacts if c.two_sided or not c.touching or _is_shoulder(c, contacts)]
+        without, _ = bodies.freedom(pair, seats)
+        if without.kept.shape[1] and held.shape[1] <= 2 and _has_turn(held):
+            return Edge(
+                pair,
+                contacts,
+                scale,
+                _in_scale(bodies, pair, seats, scale),
+                0.75,
+                "fits, at a stop",
+                None,
+                False,
+                area,
+            )
+        if not kept.shape[1]:
+            return Edge(pair, contacts, scale, nothing, 0.6, "seated", held, False, area)
+    if kept.shape[1] == held.shape[1]:
+        return Edge(pair, contacts, scale, held, 0.9, "fits", None, False, area)
+    return Edge(pair, contacts, scale, kept, 0.8, "fits and rests", None, False, area)
+
+
+def _screw(contacts: Sequence[Contact], kept: Array, scale: Scale) -> Array | None:
+    """The twist of a thread: of two bodies that turn and slide on one axis, where the shaft is drawn larger than its
+    bore.  A bore at the core tells the pitch, P = (d - D) / 1.0825 (ISO 68-1); the thread is right-handed."""
+    threads = [c for c in contacts if c.kind is ContactKind.FIT and c.gap < -PRESSED * c.a.radius]
+    if not threads or kept.shape[1] not in (1, 2) or not _has_turn(kept):
+        return None
+    thread = max(threads, key=lambda c: c.reach)
+    pitch = -2.0 * thread.gap / 1.0825
+    axis, turn = thread.axis, 1.0 / scale.length
+    # v = lead / 2 pi along the axis, and w x (center - p) about it
+    arm = cross(axis, scale.center - thread.a.point)
+    twist = np.concatenate([axis * pitch / (2.0 * np.pi) + arm, axis / turn])
+    return (twist / np.linalg.norm(twist))[:, None]
+
+
+def _in_scale(bodies: Bodies, pair: tuple[int, int], contacts: list[Contact], scale: Scale) -> Array:
+    """What contacts leave free, about another centre than their own."""
+    return freedom_of(contacts, [bodies.of(c.first) != pair[0] for c in contacts], scale).kept
+
+
+def _has_turn(space: Array) -> bool:
+    return bool(space.shape[1]) and float(np.abs(space[3:]).max()) > RANK
+
+
+def _is_shoulder(contact: Contact, contacts: Iterable[Contact]) -> bool:
+    """Whether a flat stands across the axis of a fit of the same two bodies."""
+    if contact.kind is not ContactKind.FLAT:
+        return False
+    return any(c.is_axial and abs(float(contact.normals[0] @ c.axis)) > 1.0 - 1e-6 for c in contacts)
+
+
+def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
+    """Take what rests as joined where nothing else joins it; take back what stops the machine."""
+    sure = [e for e in edges if not e.one_sided]
+    resting = sorted(
+        (e for e in edges if e.one_sided), key=lambda e: (e.space.shape[1], -round(e.area, 12), e.pair)
+    )
+    piece = _Pieces(len(bodies.shapes))
+    for edge in sure:
+        piece.join(*edge.pair)
+    chosen, inside = list(sure), list[Edge]()
+    for edge in resting:
+        if piece.join(*edge.pair):
+            chosen.append(edge)
+        else:
+            inside.append(edge)
+    stops: list[Edge] = []
+    final: list[Edge] = []
+    for own, others in _parted(len(bodies.shapes), chosen, inside):
+        kept, stopped = _settle_piece(own, others)
+        final += kept
+        stops += stopped
+    return Decided(bodies, sorted(final, key=lambda e: e.pair), stops)
+
+
+def _parted(count: int, chosen: list[Edge], inside: list[Edge]) -> list[tuple[list[Edge], list[Edge]]]:
+    """Edges by machine: what hangs together without the body that most others hang on.  Seen from that body, one
+    machine's motions are no other's affair."""
+    whole, apart = _Pieces(count), _Pieces(count)
+    degree: Counter[int] = Counter()
+    for edge in chosen:
+        whole.join(*edge.pair)
+        degree.update(edge.pair)
+    hubs: dict[int, int] = {}
+    for body in sorted(degree):
+        key = whole.of(body)
+        hubs[key] = max(hubs.get(key, body), body, key=lambda b: (degree[b], -b))
+    for edge in [*chosen, *inside]:
+        if hubs[whole.of(edge.pair[0])] not in edge.pair:
+            apart.join(*edge.pair)
+    found: dict[int, tuple[list[Edge], list[Edge]]] = {}
+    for edges, place in ((chosen, 0), (inside, 1)):
+        for edge in edges:
+            hub = hubs[whole.of(edge.pair[0])]
+            body = edge.pair[0] if edge.pair[0] != hub else edge.pair[1]
+            found.setdefault(apart.of(body), ([], []))[place].append(edge)
+    return [found[key] for key in sorted(found)]
+
+
+def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], list[Edge]]:
+    members = sorted({b for e in [*edges, *resting] for b in e.pair})
+    if len(members) > DENSE:
+        return [*edges, *resting], []
+    doubtful = [e for e in edges if e.otherwise is not None]
+    motions = _motions(members, edges)
+    if doubtful and not motions.shape[1]:
+        for edge in doubtful:
+            _swap(edge)
+        moving = _motions(members, edges)
+        for edge in doubtful:
+            if not _moves(members, edge, moving):
+                _swap(edge)
+        motions = _motions(members, edges)
+    stops: list[Edge] = []
+    base = edges[0].scale
+    for edge in resting:
+        left = motions @ null_space(_held_rows(members, edge, base) @ motions)
+        if motions.shape[1] and not left.shape[1]:
+            stops.append(edge)
+            continue
+        edges.append(edge)
+        motions = left
+    return edges, stops
+
+
+def _swap(edge: Edge) -> None:
+    if edge.otherwise is not None:
+        edge.space, edge.otherwise = edge.otherwise, edge.space
+
+
+def _held_rows(members: list[int], edge: Edge, base: Scale) -> Array:
+    """What an edge holds, as rows on the twists of all members about ``base``."""
+    held = null_space(edge.space.T).T if edge.space.shape[1] else np.eye(6)
+    moved = held @ _shift(edge.scale, base)
+    block = np.zeros((len(moved), 6 * len(members)))
+    a, b = (6 * members.index(body) for body in edge.pair)
+    block[:, b : b + 6], block[:, a : a + 6] = moved, -moved
+    return block
+
+
+def _motions(members: list[int], edges: Sequence[Edge]) -> Array:
+    """Twists of all bodies, the first one still, about the first edge's centre; shape (6 n, k)."""
+    rows = np.concatenate([_held_rows(members, edge, edges[0].scale) for edge in edges])[:, 6:]
+    moving = null_space(rows)
+    return np.vstack([np.zeros((6, moving.shape[1])), moving])
+
+
+def _shift(own: Scale, base: Scale) -> Array:
+    """What takes a twist about ``base`` to one about ``own``: v' = v + w x (c' - c), w' = w L'/L."""
+    offset = own.center - base.center
+    x, y, z = offset / base.length
+    matrix = np.eye(6)
+    # w x d = -[d]x w
+    matrix[:3, 3:] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+    matrix[3:, 3:] *= own.length / base.length
+    return matrix
+
+
+def _moves(members: list[int], edge: Edge, motions: Array) -> bool:
+    index = {body: i for i, body in enumerate(members)}
+    a, b = (6 * index[body] for body in edge.pair)
+    return bool(motions.shape[1]) and float(np.abs(motions[b : b + 6] - motions[a : a + 6]).max()) > 1e-6
+
+
+class _Pieces:
+    def __init__(self, count: int) -> None:
+        self._leader = list(range(count))
+
+    def of(self, i: int) -> int:
+        while self._leader[i] != i:
+            self._leader[i] = self._leader[self._leader[i]]
+            i = self._leader[i]
+        return i
+
+    def join(self, a: int, b: int) -> bool:
+        a, b = self.of(a), self.of(b)
+        self._leader[max(a, b)] = min(a, b)
+        return a != b

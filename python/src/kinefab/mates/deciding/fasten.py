@@ -1,0 +1,216 @@
+"""What holds parts together for good: bolts, nuts, washers, pressed and lined fits, pins in the part that carries them.
+
+Judged by shape and clearance, by a name only where that says bolt, nut or washer.  A pin is a turned part inside two or
+more bodies: that it spins cannot be seen, so it is fixed to the body that it sits tightest in.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...spatial import cross
+from ..shapes.turned import Turned
+from ..touching.contact import Contact, ContactKind
+from .bodies import Bodies
+
+THIN = 0.6
+"""Thickness of a washer, as a share of its bore's diameter, at most."""
+PRESSED = 0.01
+"""Share of the radius by which a pressed shaft may be larger than its bore; beyond, a thread is drawn so."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bolted:
+    """A bolt that goes from the body it is fixed in to another part.  contact: its fit there, or its head's flat."""
+
+    bolt: int
+    host: int
+    other: int
+    contact: Contact
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parts:
+    """What is known of single parts.  turned: or None.  named: whether the name says fastener."""
+
+    turned: Sequence[Turned | None]
+    named: Sequence[bool]
+
+    def is_fastener(self, part: int) -> bool:
+        form = self.turned[part]
+        return form is not None and (form.has_grip or self.named[part])
+
+
+def fits_of(bodies: Bodies) -> dict[int, list[Contact]]:
+    """The fits of each part, arcs left out."""
+    found: defaultdict[int, list[Contact]] = defaultdict(list)
+    for contact in bodies.contacts:
+        if contact.kind is ContactKind.FIT:
+            found[contact.first].append(contact)
+            found[contact.second].append(contact)
+    return found
+
+
+def fasten(bodies: Bodies, parts: Parts) -> list[Bolted]:
+    """Fix what is fastened; the bolts that hold two parts, for the assembly to judge."""
+    fits = fits_of(bodies)
+    flats: defaultdict[int, list[Contact]] = defaultdict(list)
+    for contact in bodies.contacts:
+        if contact.kind in (ContactKind.FLAT, ContactKind.CONE) and contact.touching:
+            flats[contact.first].append(contact)
+            flats[contact.second].append(contact)
+    _nuts(bodies, parts, fits)
+    _washers(bodies, parts, fits)
+    bolted = _bolts(bodies, parts, fits, flats)
+    _pressed(bodies, fits)
+    _liners(bodies, parts, fits)
+    return bolted
+
+
+def _by_gap(contacts: list[Contact]) -> list[Contact]:
+    return sorted(contacts, key=lambda c: (round(c.gap, 9), c.first, c.second))
+
+
+def _nuts(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
+    for part, form in enumerate(parts.turned):
+        if (
+            form is None
+            or not form.bore
+            or not (form.sides >= 4 or (parts.named[part] and not form.has_grip))
+        ):
+            continue
+        round_it = [c for c in fits.get(part, ()) if c.inner != part and parts.turned[c.inner] is not None]
+        inside = [c for c in fits.get(part, ()) if c.inner == part]
+        if round_it and not inside and not _is_thin(form):
+            contact = _by_gap(round_it)[0]
+            bodies.fix(part, contact.inner, "nut", 0.9, (contact,))
+
+
+def _is_thin(form: Turned) -> bool:
+    return bool(form.bore) and form.length <= THIN * 2.0 * form.bore
+
+
+def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
+    for part, form in enumerate(parts.turned):
+        if form is None or not _is_thin(form) or form.sides:
+            continue
+        round_it = [c for c in fits.get(part, ()) if c.inner != part]
+        if round_it and not any(c.inner == part for c in fits.get(part, ())):
+            contact = _by_gap(round_it)[0]
+            bodies.fix(part, contact.inner, "washer", 0.8, (contact,))
+
+
+def _bolts(
+    bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]], flats: dict[int, list[Contact]]
+) -> list[Bolted]:
+    found: list[Bolted] = []
+    for part in range(len(parts.turned)):
+        form = parts.turned[part]
+        if form is None or not parts.is_fastener(part):
+            continue
+        inside = _by_gap(
+            [c for c in fits.get(part, ()) if c.inner == part and not parts.is_fastener(c.other(part))]
+        )
+        if not inside:
+            continue
+        host = inside[0].other(part)
+        bodies.fix(part, host, "bolt", 0.9, (inside[0],))
+        seen = {host}
+        for contact in inside[1:] + [c for c in flats.get(part, ()) if not parts.is_fastener(c.other(part))]:
+            other = contact.other(part)
+            if other not in seen:
+                seen.add(other)
+                found.append(Bolted(part, host, other, contact))
+    return found
+
+
+def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
+    """A part with play in one bore and none in another was made so on purpose: where there is none it is pressed."""
+    for _, contacts in sorted(fits.items()):
+        tight = [c for c in contacts if c.touching and c.gap >= -PRESSED * c.a.radius]
+        loose = [c for c in contacts if not c.touching]
+        if tight and loose:
+            for contact in tight:
+                bodies.fix(contact.first, contact.second, "pressed", 0.8, (contact,))
+        for contact in tight:
+            if contact.gap < -1e-4 * contact.a.radius:
+                bodies.fix(contact.first, contact.second, "pressed", 0.9, (contact,))
+
+
+def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
+    """A bushing sits in the bore that it lines."""
+    for part, form in enumerate(parts.turned):
+        if form is None or not form.bore or form.has_grip:
+            continue
+        inside = [c for c in fits.get(part, ()) if c.inner == part]
+        around = [c for c in fits.get(part, ()) if c.inner != part]
+        if not inside or not around or len({c.other(part) for c in around}) != 1:
+            continue
+        if len({bodies.of(c.other(part)) for c in inside}) != 1 or bodies.of(part) == bodies.of(
+            inside[0].other(part)
+        ):
+            continue
+        if min(c.gap for c in inside) <= min(c.gap for c in around) + 1e-12 and form.radius < 2.0 * form.bore:
+            bodies.fix(part, inside[0].other(part), "bushing", 0.8, tuple(inside))
+
+
+def fix_pins(bodies: Bodies, parts: Parts) -> None:
+    """Fix each turned part that sits in two or more bodies to the one that holds it tightest."""
+    fits = fits_of(bodies)
+    for part, form in enumerate(parts.turned):
+        if form is None or form.bore:
+            continue
+        inside = [c for c in fits.get(part, ()) if c.inner == part]
+        if any(c.gap < -PRESSED * c.a.radius for c in inside):
+            continue  # a thread: whether it is driven, the assembly tells
+        by_body: defaultdict[int, list[Contact]] = defaultdict(list)
+        for contact in inside:
+            body = bodies.of(contact.other(part))
+            if body != bodies.of(part):
+                by_body[body].append(contact)
+        alone = sum(bodies.of(other) == bodies.of(part) for other in range(len(parts.turned))) == 1
+        if len(by_body) < 2 or not alone:
+            continue
+
+        host = min(by_body, key=lambda body: _looseness(by_body[body], body))  # noqa: B023 (called at once)
+        gaps = {round(min(c.gap for c in own), 9) for own in by_body.values()}
+        bodies.fix(
+            part, by_body[host][0].other(part), "pin", 0.8 if len(gaps) > 1 else 0.7, tuple(by_body[host])
+        )
+
+
+def _looseness(contacts: Sequence[Contact], body: int) -> tuple[float, int, int, float, int]:
+    """How loosely a body holds a pin: by its play, then by how few of the pin's ends and places are in it."""
+    gap = min(round(c.gap, 9) for c in contacts)
+    places = sum(len(c.spans) for c in contacts)
+    return gap, -sum(map(_ends, contacts)), -places, -round(sum(c.reach for c in contacts), 9), body
+
+
+def _ends(contact: Contact) -> int:
+    """How many ends of the whole shaft are in the bore, or flush with it."""
+    low, high = contact.shaft_span
+    slack = 0.05 * (high - low)
+    return int(contact.span[0] <= low + slack) + int(contact.span[1] >= high - slack)
+
+
+def axes_apart(contacts: Sequence[Contact]) -> int:
+    """How many different axes the fits among contacts have."""
+    lines: list[Contact] = []
+    for contact in contacts:
+        if not contact.is_axial:
+            continue
+        same = False
+        for other in lines:
+            offset = contact.a.point - other.a.point
+            off = float(np.linalg.norm(cross(offset, other.axis)))
+            same |= (
+                off < 1e-2 * max(contact.a.radius, 1e-9)
+                and abs(float(contact.axis @ other.axis)) > 1.0 - 1e-6
+            )
+        if not same:
+            lines.append(contact)
+    return len(lines)

@@ -1,0 +1,115 @@
+"""The mates of an assembly that states none, read like a sentence: shapes, contacts, what is fastened, what moves."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from ..model import NodeKind, Scene
+from ..rigid import active_nodes, rigid_groups
+from .deciding.bodies import Bodies
+from .deciding.decide import Decided, decide
+from .deciding.fasten import Parts
+from .from_decided import mate_of_fixing, mate_of_mesh, mates_of_edge
+from .mate import Mates
+from .shapes.features import Shape, placed, shape_of
+from .shapes.gears import Wheel, meshes, wheel_of
+from .shapes.turned import Turned, is_named_fastener, turned
+from .touching.search import contacts_of, near_parts
+
+
+def find_mates(scene: Scene, ground: str = "") -> Mates:
+    """The mates of all active parts with exact faces, numbered.
+
+    ground: id, or the last part of the id, of the node that stands still; "" takes what the scene states, else the hub
+    of the contacts.  Joints and constraints that the scene states are not looked at.
+    """
+    nodes, shapes, forms, named, wheels = _parts(scene)
+    if not nodes:
+        return Mates((), None)
+    pairs = near_parts(shapes)
+    meshing = meshes(wheels, pairs)
+    teeth = {(mesh.first, mesh.second) for mesh in meshing}
+    bodies = Bodies(shapes, contacts_of(shapes, [pair for pair in pairs if pair not in teeth]))
+    _join_stated(scene, nodes, bodies)
+    decided = decide(bodies, Parts(forms, named))
+    middles = [0.5 * (shape.low + shape.high) for shape in shapes]
+    found = [
+        mate_of_fixing(fixing, nodes, middles)
+        for fixing in decided.bodies.fixings
+        if fixing.reason != "stated"
+    ]
+    for edge in decided.edges:
+        found += mates_of_edge(edge, nodes, middles)
+    found += [mate for mesh in meshing if (mate := mate_of_mesh(mesh, decided, nodes)) is not None]
+    numbered = tuple(replace(mate, number=i) for i, mate in enumerate(found, 1))
+    still, reason = _ground(scene, nodes, shapes, decided, ground)
+    held = {side.node for mate in numbered for side in mate.sides} | {still}
+    return Mates(numbered, still, reason, tuple(node for node in nodes if node not in held))
+
+
+def _parts(
+    scene: Scene,
+) -> tuple[list[int], list[Shape], list[Turned | None], list[bool], list[Wheel | None]]:
+    """Nodes with exact faces; their features in the world; the turned ones; whether a name says fastener; the wheels."""
+    active = active_nodes(scene)
+    known: dict[int, tuple[Shape, Turned | None, Wheel | None]] = {}
+    wheels: list[Wheel | None] = []
+    nodes: list[int] = []
+    shapes: list[Shape] = []
+    forms: list[Turned | None] = []
+    named: list[bool] = []
+    for i, node in enumerate(scene.nodes):
+        if not active[i] or node.kind is not NodeKind.PART or not any(body.boundary for body in node.bodies):
+            continue
+        key = (
+            id(node.bodies[0].boundary)
+            if len(node.bodies) == 1
+            else hash(tuple(id(b.boundary) for b in node.bodies))
+        )
+        if key not in known:
+            shape = shape_of(node)
+            assert shape is not None
+            known[key] = shape, turned(shape), wheel_of(shape)
+        own, form, wheel = known[key]
+        nodes.append(i)
+        shapes.append(placed(own, node.pose))
+        forms.append(form)
+        wheels.append(None if wheel is None else wheel.placed(node.pose))
+        named.append(is_named_fastener(node.name) or is_named_fastener(node.definition or ""))
+    return nodes, shapes, forms, named, wheels
+
+
+def _join_stated(scene: Scene, nodes: list[int], bodies: Bodies) -> None:
+    """What the source itself says is one rigid body."""
+    groups = rigid_groups(scene)
+    first: dict[int, int] = {}
+    for part, node in enumerate(nodes):
+        group = groups.group_of[node]
+        if group is not None:
+            bodies.fix(first.setdefault(group, part), part, "stated", 1.0)
+
+
+def _ground(
+    scene: Scene, nodes: list[int], shapes: list[Shape], decided: Decided, name: str
+) -> tuple[int, str]:
+    """The part that stands still: named, stated, else the largest part of the body with most neighbours."""
+    if name:
+        for node in nodes:
+            if name in (scene.nodes[node].id, scene.nodes[node].name):
+                return node, "named"
+    for node in nodes:
+        if scene.nodes[node].grounded:
+            return node, "stated"
+    bodies = decided.bodies
+    neighbours: Counter[int] = Counter()
+    for edge in decided.edges:
+        neighbours.update(edge.pair)
+    volumes = [shape.volume for shape in shapes]
+    members = bodies.members()
+
+    def rank(body: int) -> tuple[int, float, int]:
+        return neighbours[body], round(sum(volumes[p] for p in members[body]), 15), -body
+
+    hub = max(members, key=rank)
+    return nodes[max(members[hub], key=lambda part: (volumes[part], -part))], "hub"

@@ -1,0 +1,233 @@
+"""From what was decided to mates: one constraint for each fixing and each joint, with the geometry of its faces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..model import ConstraintKind, FeatureKind, JointKind
+from ..spatial import Array, cross
+from .deciding.bodies import Fixing
+from .deciding.decide import Decided, Edge
+from .deciding.freedom import null_space
+from .deciding.pairs import Pair, pair_of
+from .mate import Mate, MateSide
+from .shapes.gears import Mesh, Wheel
+from .touching.contact import Contact, ContactKind
+
+MOST_FACES = 8
+"""Faces that a mate lists of each part."""
+SNAP = 1e-4
+"""Share of the pair's length, and sine, by which a joint's axis may miss a fit's and still is that fit's."""
+
+
+def mate_of_fixing(fixing: Fixing, nodes: Sequence[int], shapes_middle: Sequence[Array]) -> Mate:
+    sides = tuple(
+        MateSide(nodes[part], FeatureKind.BODY, shapes_middle[part], faces=_faces(fixing.contacts, part))
+        for part in (fixing.first, fixing.second)
+    )
+    return Mate(0, ConstraintKind.LOCK, sides, "fixed", fixing.reason, fixing.confidence)
+
+
+def mates_of_edge(edge: Edge, nodes: Sequence[int], middles: Sequence[Array]) -> list[Mate]:
+    """Usually one; several where no lower pair has the freedoms that are left."""
+    pair = pair_of(edge.space, edge.scale)
+    main = _main(edge, pair)
+    first, second = main.first, main.second
+    if pair.kind is JointKind.FIXED:
+        sides = tuple(
+            MateSide(nodes[part], FeatureKind.BODY, middles[part], faces=_faces(edge.contacts, part))
+            for part in (first, second)
+        )
+        return [Mate(0, ConstraintKind.LOCK, sides, "fixed", edge.reason, edge.confidence)]
+    pair = _snapped(pair, edge)
+    if pair.kind is JointKind.PIN_SLOT and pair.second is not None:
+        slot = next((c for c in edge.contacts if c.kind is ContactKind.LINE), main)
+        pin = slot.inner if slot.inner >= 0 else slot.second
+        sides = (
+            MateSide(
+                nodes[slot.other(pin)],
+                FeatureKind.LINE,
+                pair.point,
+                pair.second,
+                faces=_faces(edge.contacts, slot.other(pin)),
+            ),
+            MateSide(nodes[pin], FeatureKind.LINE, pair.point, pair.axis, faces=_faces(edge.contacts, pin)),
+        )
+        return [Mate(0, ConstraintKind.PIN_SLOT, sides, "pin_slot", edge.reason, edge.confidence)]
+    if pair.kind not in _LOWER:
+        return _single_contacts(edge, nodes)
+    kind, geometry = _LOWER[pair.kind]
+    turned = geometry not in (FeatureKind.POINT,)
+    sides = tuple(
+        MateSide(
+            nodes[part], geometry, pair.point, pair.axis if turned else None,
+            radius=main.side(part).radius if main.is_axial else 0.0, faces=_faces(edge.contacts, part),
+        )
+        for part in (first, second)
+    )  # fmt: skip
+    if geometry is FeatureKind.PLANE:
+        sides = (sides[0], replace(sides[1], direction=-pair.axis))
+    value = pair.pitch * 2.0 * np.pi if pair.kind is JointKind.SCREW else 0.0
+    return [Mate(0, kind, sides, pair.kind.value, edge.reason, edge.confidence, value)]
+
+
+def mate_of_mesh(mesh: Mesh, decided: Decided, nodes: Sequence[int]) -> Mate | None:
+    """Two wheels in mesh, counted from what carries both: a body on which the one turns, and which turns about the
+    other's axis or carries that too.  None where there is no such body, or both wheels are one."""
+    bodies = decided.bodies
+    a, b = bodies.of(mesh.first), bodies.of(mesh.second)
+    carriers = _turning_on(decided, a, mesh.a) + _turning_on(decided, b, mesh.b)
+    for carrier in carriers:
+        if carrier in (a, b) or a == b:
+            continue
+        others = [w for body, w in ((a, mesh.a), (b, mesh.b)) if carrier not in _turning_on(decided, body, w)]
+        if all(_turns_about(decided, carrier, wheel) for wheel in others):
+            sides = tuple(
+                MateSide(
+                    nodes[part],
+                    FeatureKind.LINE,
+                    wheel.point,
+                    mesh.a.axis,
+                    radius=0.5 * (wheel.low + wheel.high),
+                )
+                for part, wheel in ((mesh.first, mesh.a), (mesh.second, mesh.b))
+            )
+            whole = (*sides, MateSide(nodes[carrier], FeatureKind.BODY, mesh.a.point))
+            reason = f"teeth {mesh.a.teeth} and {mesh.b.teeth}"
+            return Mate(0, ConstraintKind.GEAR, whole, "gear", reason, 0.8, mesh.ratio)
+    return None
+
+
+def _turning_on(decided: Decided, body: int, wheel: Wheel) -> list[int]:
+    """Bodies that a body turns against about a wheel's axis."""
+    found: list[int] = []
+    for edge in decided.edges:
+        if body in edge.pair and edge.space.shape[1] and _is_about(edge, wheel):
+            found.append(edge.pair[1] if edge.pair[0] == body else edge.pair[0])
+    return found
+
+
+def _turns_about(decided: Decided, body: int, wheel: Wheel) -> bool:
+    return bool(_turning_on(decided, body, wheel))
+
+
+def _is_about(edge: Edge, wheel: Wheel) -> bool:
+    pair = pair_of(edge.space, edge.scale)
+    if pair.kind not in (JointKind.REVOLUTE, JointKind.CYLINDRICAL):
+        return False
+    if float(np.linalg.norm(cross(pair.axis, wheel.axis))) > SNAP:
+        return False
+    return float(np.linalg.norm(cross(pair.point - wheel.point, wheel.axis))) < SNAP * max(
+        wheel.high, edge.scale.length
+    )
+
+
+_LOWER = {
+    JointKind.REVOLUTE: (ConstraintKind.INSERT, FeatureKind.CIRCLE),
+    JointKind.CYLINDRICAL: (ConstraintKind.CONCENTRIC, FeatureKind.CYLINDER),
+    JointKind.SCREW: (ConstraintKind.SCREW, FeatureKind.LINE),
+    JointKind.PRISMATIC: (ConstraintKind.SLIDER, FeatureKind.LINE),
+    JointKind.PLANAR: (ConstraintKind.COINCIDENT, FeatureKind.PLANE),
+    JointKind.SPHERICAL: (ConstraintKind.COINCIDENT, FeatureKind.POINT),
+}
+"""The constraint and geometry that leave just a lower pair."""
+
+
+def _main(edge: Edge, pair: Pair) -> Contact:
+    """The contact that says most about a joint: a fit on its axis, else a ball, else the largest flat."""
+
+    def weight(c: Contact) -> tuple[bool, bool, bool, float, float]:
+        on_axis = c.is_axial and _off(c, pair) < SNAP * max(edge.scale.length, 1e-12)
+        return on_axis, c.kind is ContactKind.BALL, c.is_axial, c.area, c.reach
+
+    return max(edge.contacts, key=weight)
+
+
+def _off(contact: Contact, pair: Pair) -> float:
+    """How far a fit's axis is from the pair's; infinite where they are not parallel."""
+    if float(np.linalg.norm(cross(contact.axis, pair.axis))) > SNAP:
+        return float("inf")
+    return float(np.linalg.norm(cross(pair.point - contact.a.point, contact.axis)))
+
+
+def _snapped(pair: Pair, edge: Edge) -> Pair:
+    """The pair with the exact axis of a fit or the centre of a ball, where it is that."""
+    main = _main(edge, pair)
+    if pair.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.SCREW) and main.is_axial:
+        if _off(main, pair) < SNAP * max(edge.scale.length, 1e-12):
+            middle = main.a.point + main.axis * (0.5 * (main.span[0] + main.span[1]))
+            sign = 1.0 if float(main.axis @ pair.axis) > 0.0 else -1.0
+            return replace(pair, point=middle, axis=main.axis, pitch=pair.pitch * sign * sign)
+    if pair.kind is JointKind.SPHERICAL and main.kind is ContactKind.BALL:
+        return replace(pair, point=main.a.point)
+    if pair.kind in (JointKind.PRISMATIC, JointKind.PLANAR):
+        point = np.mean(np.concatenate([c.points for c in edge.contacts if len(c.points)]), axis=0)
+        return replace(pair, point=point, axis=_exact_direction(pair, edge))
+    return pair
+
+
+def _exact_direction(pair: Pair, edge: Edge) -> Array:
+    """A fit's axis or a flat's normal where the direction is one, the cross product of two normals where it is that."""
+    normals = [c.normals[0] for c in edge.contacts if c.kind is ContactKind.FLAT]
+    axes = [c.axis for c in edge.contacts if c.is_axial]
+    for direction in axes + (normals if pair.kind is JointKind.PLANAR else []):
+        if float(np.linalg.norm(cross(direction, pair.axis))) < SNAP:
+            return direction
+    for i, a in enumerate(normals):
+        for b in normals[i + 1 :]:
+            along = cross(a, b)
+            length = float(np.linalg.norm(along))
+            if length > 0.1 and float(np.linalg.norm(cross(along / length, pair.axis))) < SNAP:
+                return along / length
+    return pair.axis
+
+
+def _single_contacts(edge: Edge, nodes: Sequence[int]) -> list[Mate]:
+    """Contact by contact, those that the others do not already say."""
+    found: list[Mate] = []
+    rows = np.zeros((0, 6))
+    rank = 0
+    for contact in sorted(edge.contacts, key=lambda c: (not c.two_sided, not c.touching)):
+        if contact.kind not in _SINGLE or not len(contact.points):
+            continue
+        more = np.concatenate([rows, edge.scale.rows(contact.points, contact.normals)])
+        if (
+            edge.space.shape[1]
+            and float(np.abs(edge.scale.rows(contact.points, contact.normals) @ edge.space).max()) > 1e-4
+        ):
+            continue  # it would stop what was found to move
+        now = 6 - null_space(more).shape[1]
+        if now == rank:
+            continue
+        rows, rank = more, now
+        kind = _SINGLE[contact.kind]
+        sides = tuple(
+            MateSide(
+                nodes[part], side.kind, side.point, side.direction, None, side.radius, side.faces[:MOST_FACES]
+            )
+            for part, side in ((contact.first, contact.a), (contact.second, contact.b))
+        )
+        found.append(Mate(0, kind, sides, contact.kind.value, edge.reason, edge.confidence))
+    return found
+
+
+_SINGLE = {
+    ContactKind.FIT: ConstraintKind.CONCENTRIC,
+    ContactKind.CONE: ConstraintKind.CONCENTRIC,
+    ContactKind.BALL: ConstraintKind.COINCIDENT,
+    ContactKind.TUBE: ConstraintKind.COINCIDENT,
+    ContactKind.FLAT: ConstraintKind.COINCIDENT,
+    ContactKind.LINE: ConstraintKind.TANGENT,
+    ContactKind.POINT: ConstraintKind.TANGENT,
+}
+
+
+def _faces(contacts: Sequence[Contact], part: int) -> tuple[str, ...]:
+    found: dict[str, None] = {}
+    for contact in contacts:
+        if part in (contact.first, contact.second):
+            found.update(dict.fromkeys(contact.side(part).faces))
+    return tuple(list(found)[:MOST_FACES])

@@ -1,0 +1,111 @@
+"""Which parts are turned about an axis, and which of those are bolts, nuts and washers, by their shape."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import FaceKind
+from ...spatial import Array, cross, perpendicular
+from .features import Round, Shape
+
+NEAR = 1e-5
+"""Share of the part's size, and sine, by which a face may be off the axis."""
+FASTENER = re.compile(
+    r"\b(bolts?|screws?|nuts?|washers?|rivets?|studs?|dowels?|schrauben?|muttern?|scheiben?|vis|[eé]crou|rondelle)\b|"
+    r"^M\d+([x.]\d+)?|\b(ISO|DIN|ANSI|EN)[ _-]*\d{3,}", re.IGNORECASE,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Turned:
+    """A part all of whose faces go round one axis, but for a spanner's flats and a thread.
+
+    point, axis: in the frame of the shape.  sides: of the hexagon (or other regular polygon), 0 where there is none.
+    threaded: it has a helical face.  length: along the axis.  radius: the largest, bore: the smallest through it, or 0.
+    """
+
+    point: Array
+    axis: Array
+    sides: int
+    threaded: bool
+    length: float
+    radius: float
+    bore: float
+
+    @property
+    def has_grip(self) -> bool:
+        """Whether a tool grips it, as one does a bolt or a nut."""
+        return self.sides >= 4 or self.threaded
+
+
+def is_named_fastener(name: str) -> bool:
+    return FASTENER.search(name.replace("_", " ")) is not None
+
+
+def turned(shape: Shape) -> Turned | None:
+    """The part as a turned one, or None."""
+    axial = [r for r in shape.rounds if r.kind is not FaceKind.SPHERE]
+    if not axial:
+        return None
+    main = max(axial, key=lambda r: len(r.faces) * 0 + (r.span[1] - r.span[0]) * max(r.radius, r.minor, 1e-9))
+    point, axis = main.point, main.direction
+    if not all(_on_axis(r, point, axis, shape.size) for r in shape.rounds):
+        return None
+    sides: list[tuple[float, Array]] = []
+    for flat in shape.flats:
+        along = abs(float(flat.normal @ axis))
+        if along > 1.0 - NEAR:
+            continue
+        if along > NEAR:
+            return None
+        sides.append((float((flat.point - point) @ flat.normal), flat.normal))
+    count = _polygon(sides)
+    if sides and not count:
+        return None
+    threaded = len(shape.others) > 0 and _is_helical(shape.others, point, axis)
+    if len(shape.others) and not threaded:
+        return None
+    heights = [h for r in shape.rounds for h in _heights(r, point, axis)]
+    heights += [float((f.corners[0, 0] - point) @ axis) for f in shape.flats]
+    radius = max((r.radius if r.kind is FaceKind.CYLINDER else 0.0) for r in shape.rounds)
+    bores = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER and r.hollow]
+    return Turned(point, axis, count, threaded, max(heights) - min(heights), radius, min(bores, default=0.0))
+
+
+def _on_axis(r: Round, point: Array, axis: Array, size: float) -> bool:
+    apart = float(np.linalg.norm(cross(r.point - point, axis)))
+    if apart > NEAR * size:
+        return False
+    return r.kind is FaceKind.SPHERE or float(np.linalg.norm(cross(r.direction, axis))) < NEAR
+
+
+def _heights(r: Round, point: Array, axis: Array) -> tuple[float, float]:
+    heights = (r.corners - point) @ axis
+    return float(heights.min()), float(heights.max())
+
+
+def _polygon(sides: list[tuple[float, Array]]) -> int:
+    """Sides of the regular polygon that the flats along the axis make, 0 where they make none."""
+    distances = sorted({round(abs(d) * 1e7) for d, _ in sides})
+    count = len(sides)
+    if len(distances) != 1 or count not in (4, 6, 8, 12) or distances[0] == 0:
+        return 0
+    normals = np.array([n for _, n in sides])
+    x = normals[0]
+    cosines = np.sort(normals @ x)
+    wanted = np.sort(np.cos(2.0 * math.pi * np.arange(count) / count))
+    return count if np.allclose(cosines, wanted, atol=1e-4) else 0
+
+
+def _is_helical(points: Array, point: Array, axis: Array) -> bool:
+    """Whether faces on no elementary surface lie about the axis at nearly one radius: a thread's flanks."""
+    x = perpendicular(axis)
+    offset = points - point
+    radii = np.hypot(offset @ x, offset @ cross(axis, x))
+    middle = np.abs(np.mean(offset - np.outer(offset @ axis, axis), axis=0)).max()
+    low, high = float(radii.min()), float(radii.max())
+    return low > 0.5 * high and middle < 0.2 * high

@@ -1,0 +1,1 @@
+"""Where two parts touch or are held apart by a clearance."""

@@ -1,0 +1,72 @@
+"""All contacts of an assembly: near parts by their boxes, then feature by feature; what a part between them rules out."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..shapes.features import Shape
+from ..shapes.nearby import near_pairs
+from .contact import Contact, ContactKind
+from .flat_contacts import flat_contacts
+from .round_contacts import round_contacts
+
+NEAR = 0.02
+"""Share of the smaller part's size up to which flats that face each other may be a clearance apart."""
+TOUCH = 2e-5
+"""Share of the smaller part's size up to which there is no clearance."""
+
+
+def near_parts(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
+    """Pairs of parts whose boxes come near each other, lower number first, in order."""
+    lows, highs = (
+        np.array([s.low for s in shapes]).reshape(-1, 3),
+        np.array([s.high for s in shapes]).reshape(-1, 3),
+    )
+    return near_pairs(lows, highs, [NEAR * s.size for s in shapes])
+
+
+def contacts_of(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]]) -> list[Contact]:
+    """Contacts between these pairs of parts.  shapes: WORLD."""
+    found: list[Contact] = []
+    for i, j in pairs:
+        a, b = shapes[i], shapes[j]
+        size = min(a.size, b.size)
+        near, touch = NEAR * size, TOUCH * size
+        low, high = np.maximum(a.low, b.low) - near, np.minimum(a.high, b.high) + near
+        found += round_contacts(i, j, a, b, low, high, near, touch)
+        found += flat_contacts(i, j, a, b, low, high, near, touch)
+    return _without_lined(found)
+
+
+def _without_lined(contacts: list[Contact]) -> list[Contact]:
+    """Fits whose bore is lined by another part are none: the shaft turns in the bushing, the bushing sits in the bore.
+
+    Of the shafts in one bore at one place only the widest is kept, and of the bores round one shaft the narrowest.
+    """
+    fits = [c for c in contacts if c.kind in (ContactKind.FIT, ContactKind.ARC)]
+    dropped: set[int] = set()
+    for by_inner in (False, True):
+        groups: defaultdict[tuple[int, tuple[str, ...]], list[Contact]] = defaultdict(list)
+        for c in fits:
+            part = c.inner if by_inner else c.other(c.inner)
+            groups[part, c.side(part).faces].append(c)
+        for group in groups.values():
+            for c in group:
+                if any(other.gap < c.gap - 1e-9 and _overlap(c, other) for other in group):
+                    dropped.add(id(c))
+    return [c for c in contacts if id(c) not in dropped]
+
+
+def _overlap(a: Contact, b: Contact) -> bool:
+    """Whether two fits on one axis are at one place along it: b is over half of where a is."""
+    sign = 1.0 if float(a.axis @ b.axis) > 0.0 else -1.0
+    shift = float((b.a.point - a.a.point) @ a.axis)
+    common = 0.0
+    for low, high in a.spans:
+        for other in b.spans:
+            first, last = sorted((shift + sign * other[0], shift + sign * other[1]))
+            common += max(0.0, min(high, last) - max(low, first))
+    return common > 0.5 * a.reach

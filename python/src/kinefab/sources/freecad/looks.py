@@ -1,0 +1,187 @@
+"""Colours of GuiDocument.xml, face by face, and the densities of materials that a document holds.
+
+FreeCAD's colours are those of the screen, the scene's are linear.  Its numbers are 0xRRGGBBAA; transparency is a number
+of its own.  Without GuiDocument.xml (a document saved without a window) parts take the exporter's own look.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Callable
+from xml.etree.ElementTree import Element
+
+from ...diagnostics import KinefabError, Report
+from ...model import AlphaMode, Scene, Surface
+from ..reading.xml_text import parse_xml
+from .archive import ArchiveError
+from .document import Document, Target, Thing
+from .parts import ShownShape
+
+Look = tuple[int, int, int, float, float]
+"""Red, green, blue 0..255, opacity and shininess 0..1."""
+
+DENSITY = re.compile(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([a-z]*)\s*/\s*(mm|cm|dm|m)\^?3\s*$")
+KILOGRAMS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
+CUBIC_METRES = {"mm": 1e-9, "cm": 1e-6, "dm": 1e-3, "m": 1.0}
+
+
+class Looks:
+    """Finds looks; adds each to the scene's surfaces once.  follow: a link's target."""
+
+    def __init__(self, scene: Scene, report: Report, follow: Callable[[Thing, Target], Thing | None]):
+        self._scene, self._report, self._follow = scene, report, follow
+        self._views: dict[int, dict[str, dict[str, Element]]] = {}
+        self._surfaces: dict[Look, int] = {}
+
+    def of(self, shape: ShownShape, faces: int) -> list[int]:
+        """Surfaces of a shape's faces: one for each, one for all, or none where no look is saved."""
+        by = shape.by.thing
+        override = self._view(by)
+        if (
+            by is not shape.owner
+            and (flag := override.get("OverrideMaterial")) is not None
+            and flag.get("value") == "true"
+        ):
+            found = self._material(override.get("ShapeMaterial"))
+        else:
+            found = self._looks(shape.owner)
+        if len(found) != faces:
+            found = found[:1]
+        return [self._surface(look) for look in found]
+
+    def density(self, shape: ShownShape) -> float | None:
+        """kg/m^3 of the material object that the shape's owner, or a container above, links to."""
+        holders = [shape.owner]
+        above = shape.by
+        while above is not None:
+            holders += [above.thing, *([above.target] if above.target is not None else [])]
+            above = above.parent
+        for holder in holders:
+            target = holder.target("Material")
+            material = None if target is None else self._follow(holder, target)
+            if material is not None and material.has("Material"):
+                for item in material.values["Material"].iter("Item"):
+                    if item.get("key") == "Density" and (match := DENSITY.match(item.get("value", ""))):
+                        density = float(match[1]) * KILOGRAMS.get(match[2], 0.0) / CUBIC_METRES[match[3]]
+                        if 0.0 < density < 1e9:
+                            return density
+        return None
+
+    def _view(self, thing: Thing) -> dict[str, Element]:
+        """The view properties of an object, by name."""
+        document = thing.document
+        if id(document) not in self._views:
+            self._views[id(document)] = self._read(document)
+        return self._views[id(document)].get(thing.name, {})
+
+    def _read(self, document: Document) -> dict[str, dict[str, Element]]:
+        if "GuiDocument.xml" not in document.archive:
+            return {}
+        own = Report()
+        try:
+            content = document.archive.read("GuiDocument.xml")
+            root = parse_xml(content, f"{document.path.name}/GuiDocument.xml", own)
+        except (ArchiveError, KinefabError) as error:
+            where = f"{document.path.name}/GuiDocument.xml"
+            self._report.add(
+                "FREECAD_VALUE", where, object=document.path.name, property="colours", detail=str(error)
+            )
+            return {}
+        found: dict[str, dict[str, Element]] = {}
+        for provider in root.iter("ViewProvider"):
+            properties = found.setdefault(provider.get("name", ""), {})
+            for entry in provider.iterfind("Properties/Property"):
+                if (value := next(iter(entry), None)) is not None:
+                    properties[entry.get("name", "")] = value
+        return found
+
+    def _looks(self, owner: Thing) -> list[Look]:
+        view = self._view(owner)
+        if (listed := view.get("ShapeAppearance")) is not None:
+            return self._appearance(owner, listed)
+        opacity = 1.0 - _share(view.get("Transparency")) / 100.0
+        if (listed := view.get("DiffuseColor")) is not None and listed.get("file"):
+            content = self._member(owner, listed.get("file", ""))
+            count = min((len(content) - 4) // 4, 10_000_000)
+            colours = struct.unpack_from(f"<{count}I", content, 4) if count > 0 else ()
+            if colours:
+                return [(*_rgb(colour), opacity, 0.5) for colour in colours]
+        if (colour := view.get("ShapeColor")) is not None:
+            return [(*_rgb(_packed(colour.get("value", ""))), opacity, 0.5)]
+        return self._material(view.get("ShapeMaterial"))
+
+    def _material(self, value: Element | None) -> list[Look]:
+        if value is None or not value.get("diffuseColor"):
+            return []
+        opacity = 1.0 - min(1.0, max(0.0, _number(value.get("transparency", "0"))))
+        shine = min(1.0, max(0.0, _number(value.get("shininess", "0.5"))))
+        return [(*_rgb(_packed(value.get("diffuseColor", ""))), opacity, shine)]
+
+    def _appearance(self, owner: Thing, listed: Element) -> list[Look]:
+        """FreeCAD 1.0's list: a count, then for each face four colours, shininess and transparency; texts stand behind."""
+        content = self._member(owner, listed.get("file", ""))
+        found: list[Look] = []
+        try:
+            (count,) = struct.unpack_from("<I", content, 0)
+            at = 4
+            for _ in range(min(count, 10_000_000)):
+                _, diffuse, _, _, shine, transparency = struct.unpack_from("<4I2f", content, at)
+                at += 24
+                if not (0.0 <= shine <= 1.0 and 0.0 <= transparency <= 1.0):
+                    break
+                found.append((*_rgb(diffuse), 1.0 - round(transparency, 4), round(shine, 4)))
+        except struct.error:
+            self._report.add(
+                "FREECAD_VALUE",
+                owner.where,
+                object=owner.label,
+                property="ShapeAppearance",
+                detail="its list is cut short",
+            )
+        return found
+
+    def _member(self, owner: Thing, name: str) -> bytes:
+        try:
+            return owner.document.archive.read(name) if name else b""
+        except ArchiveError as error:
+            self._report.add(
+                "FREECAD_VALUE", owner.where, object=owner.label, property="colours", detail=str(error)
+            )
+            return b""
+
+    def _surface(self, look: Look) -> int:
+        if look not in self._surfaces:
+            red, green, blue, opacity, shine = look
+            self._surfaces[look] = len(self._scene.surfaces)
+            name = f"#{red:02X}{green:02X}{blue:02X}" + (f" {opacity:.0%}" if opacity < 1.0 else "")
+            alpha = AlphaMode.BLEND if opacity < 1.0 else AlphaMode.OPAQUE
+            color = (linear(red), linear(green), linear(blue), opacity)
+            self._scene.surfaces.append(Surface(name, color, smoothness=shine, alpha_mode=alpha))
+        return self._surfaces[look]
+
+
+def linear(channel: int) -> float:
+    """A channel of the screen, 0..255, as linear light 0..1 (IEC 61966-2-1)."""
+    value = channel / 255.0
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def _rgb(packed: int) -> tuple[int, int, int]:
+    return packed >> 24 & 255, packed >> 16 & 255, packed >> 8 & 255
+
+
+def _packed(text: str) -> int:
+    return int(text) & 0xFFFFFFFF if text.isdecimal() and len(text) < 12 else 0xCCCCCC00
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        return 0.0
+    return number if abs(number) < 1e9 else 0.0
+
+
+def _share(value: Element | None) -> float:
+    return 0.0 if value is None else min(100.0, max(0.0, _number(value.get("value", "0"))))

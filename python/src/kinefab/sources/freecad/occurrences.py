@@ -1,0 +1,268 @@
+"""What stands where: the tree of a document with its links followed.  Poses are FreeCAD's own, millimetres, Z up."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...spatial import Array, Pose, matrix_from_quaternion
+from ..reading.record import MAX_NUMBER
+from .archive import ArchiveError
+from .document import Target, Thing
+from .links import Documents
+
+ASSEMBLY, SUB_ASSEMBLY, LINK, ELEMENT = (
+    "Assembly::AssemblyObject", "Assembly::AssemblyLink", "App::Link", "App::LinkElement",
+)  # fmt: skip
+LINKS = frozenset({LINK, ELEMENT, "App::LinkGroup"})
+GROUPS = frozenset({"App::DocumentObjectGroup", "App::DocumentObjectGroupPython"})
+"""Folders in the tree: they have no place of their own."""
+PARTS = frozenset({"App::Part", ASSEMBLY, SUB_ASSEMBLY})
+"""Containers with a place of their own."""
+NO_PART = (
+    "App::Origin", "App::Line", "App::Plane", "App::Point", "App::LocalCoordinateSystem", "App::Datum",
+    "App::FeaturePython", "App::Annotation", "App::Text", "App::Variable", "App::VarSet", "App::Property",
+    "Assembly::JointGroup", "Assembly::ViewGroup", "Assembly::BomGroup", "Assembly::BomObject",
+    "Assembly::SimulationGroup", "PartDesign::CoordinateSystem", "PartDesign::Plane", "PartDesign::Line",
+    "PartDesign::Point", "PartDesign::ShapeBinder", "PartDesign::SubShapeBinder", "Part::Datum", "Part::LocalCoordinateSystem",
+    "Sketcher::", "Spreadsheet::", "TechDraw::", "Image::", "Path::", "Fem::", "Measure::", "Material::",
+)  # fmt: skip
+"""Beginnings of the types that show no body: datums, sketches, sheets, drawings."""
+MAX_OCCURRENCES = 200_000
+"""Most objects of a tree: links to links to links make a small file large."""
+MAX_LEVELS = 60
+
+
+class TooManyError(Exception):
+    """The tree is larger than any assembly."""
+
+
+@dataclass(slots=True, eq=False)
+class Occurrence:
+    """An object at a place.
+
+    thing: what stands in the tree.  target: what it shows, its links followed; None where they lead nowhere.
+    name: by which a path in the document goes through it.  pose: its frame in the world, the one that joints mean.
+    inner: the frame that its target's insides stand in; another one only through a link that keeps its target's place.
+    scale: of its link, along its own axes.  shown: whether it and everything above it is visible.
+    array: an array of links, its elements below it.  movable: whether its elements can move apart.
+    """
+
+    thing: Thing
+    target: Thing | None
+    name: str
+    pose: Pose
+    inner: Pose
+    parent: Occurrence | None = None
+    children: list[Occurrence] = field(default_factory=list["Occurrence"])
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    shown: bool = True
+    array: bool = False
+    movable: bool = True
+    label: str = ""
+
+    @property
+    def type(self) -> str:
+        return "" if self.target is None else self.target.type
+
+    @property
+    def is_group(self) -> bool:
+        return self.thing.type in GROUPS
+
+    @property
+    def is_container(self) -> bool:
+        return self.type in PARTS or self.array
+
+    def walk(self) -> Iterator[Occurrence]:
+        """This one and everything below, parents first."""
+        waiting: list[Occurrence] = [self]
+        while waiting:
+            found = waiting.pop()
+            yield found
+            waiting += reversed(found.children)
+
+
+class Tree:
+    """Builds occurrences.  Raises TooManyError."""
+
+    def __init__(self, documents: Documents):
+        self._documents = documents
+        self._count = 0
+
+    def occurrence(self, thing: Thing, parent: Occurrence | None) -> Occurrence:
+        """An object of a container, and everything below it."""
+        return self._build(
+            thing, parent, thing.placement(), thing.name, thing.label, thing.flag("Visibility", True), ()
+        )
+
+    def _build(
+        self,
+        thing: Thing,
+        parent: Occurrence | None,
+        placed: Pose,
+        name: str,
+        label: str,
+        visible: bool,
+        above: tuple[tuple[object, str], ...],
+    ) -> Occurrence:
+        self._count += 1
+        if self._count > MAX_OCCURRENCES or len(above) > MAX_LEVELS:
+            raise TooManyError
+        outer = Pose() if parent is None else parent.inner
+        pose = (
+            outer
+            if thing.type in GROUPS
+            else Pose(outer.rotation @ placed.rotation, outer.point(placed.translation * _scale(parent)))
+        )
+        target, inner = self._resolved(thing, pose)
+        here = Occurrence(
+            thing, target, name, pose, inner, parent,
+            scale=self._scaled(thing, parent), label=label,
+            shown=visible and (parent is None or parent.shown),
+        )  # fmt: skip
+        if target is None:
+            return here
+        if (target.key in above) or (thing.key in above):
+            self._documents.broken(thing, Target(target.name), "which holds it itself")
+            here.target = None
+            return here
+        path = (*above, target.key)
+        if thing.type == LINK and thing.count("ElementCount") > 0:
+            self._elements(here, thing, path)
+        elif target.type in PARTS or target.type in GROUPS:
+            self._children(here, target, path)
+        return here
+
+    def _resolved(self, thing: Thing, pose: Pose) -> tuple[Thing | None, Pose]:
+        """What an object shows, and the frame of its insides."""
+        inner, seen = pose, {thing.key}
+        shown: Thing | None = thing
+        while shown is not None and shown.type in LINKS:
+            target = shown.target("LinkedObject")
+            below = None if target is None else self._documents.follow(shown, target)
+            if below is not None and shown.flag("LinkTransform"):
+                inner = inner @ below.placement()
+            if below is not None and below.key in seen:
+                assert target is not None
+                self._documents.broken(thing, target, "which leads back to it")
+                return None, inner
+            if below is not None:
+                seen.add(below.key)
+            shown = below
+        return shown, inner
+
+    def _children(self, here: Occurrence, target: Thing, path: tuple[tuple[object, str], ...]) -> None:
+        for entry in target.targets("Group"):
+            child = self._documents.follow(target, entry)
+            if child is None or child.type.startswith(NO_PART):
+                continue
+            here.children.append(
+                self._build(
+                    child,
+                    here,
+                    child.placement(),
+                    child.name,
+                    child.label,
+                    child.flag("Visibility", True),
+                    path,
+                )
+            )
+
+    def _elements(self, here: Occurrence, thing: Thing, path: tuple[tuple[object, str], ...]) -> None:
+        """The elements of an array: objects of their own, or a list of places."""
+        here.array = True
+        seen = thing.text("VisibilityList")
+        elements = [self._documents.follow(thing, entry) for entry in thing.targets("ElementList")]
+        here.inner = here.pose
+        for number, element in enumerate(elements):
+            if element is not None:
+                visible = element.flag("Visibility", True) and seen[number : number + 1] != "0"
+                child = self._build(
+                    element, here, element.placement(), element.name, element.label, visible, path[:-1]
+                )
+                here.children.append(child)
+        if elements:
+            return
+        here.movable = False
+        count = thing.count("ElementCount")
+        if count > MAX_OCCURRENCES:
+            raise TooManyError
+        places, scales = placement_list(thing, count), scale_list(thing, count)
+        for number in range(count):
+            self._count += 1
+            if self._count > MAX_OCCURRENCES:
+                raise TooManyError
+            pose = here.pose @ places[number]
+            target, inner = self._resolved(thing, pose)
+            s = here.scale
+            child = Occurrence(
+                thing, target, str(number), pose, inner, here,
+                scale=(s[0] * scales[number][0], s[1] * scales[number][1], s[2] * scales[number][2]),
+                shown=here.shown and seen[number : number + 1] != "0",
+                label=f"{thing.label}:{number}",
+            )  # fmt: skip
+            here.children.append(child)
+            if target is not None and target.type in PARTS:
+                self._children(child, target, path)
+
+    def _scaled(self, thing: Thing, parent: Occurrence | None) -> tuple[float, float, float]:
+        x, y, z = (1.0, 1.0, 1.0) if parent is None else parent.scale
+        if thing.type not in LINKS or not thing.has("ScaleVector"):
+            return x, y, z
+        value = thing.values["ScaleVector"]
+        own = [_positive(value.get(f"value{axis}", "1")) for axis in "XYZ"]
+        return x * own[0], y * own[1], z * own[2]
+
+
+def _scale(parent: Occurrence | None) -> Array:
+    return np.ones(3) if parent is None else np.array(parent.scale)
+
+
+def _positive(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        return 1.0
+    return number if 1e-9 < abs(number) < 1e9 else 1.0
+
+
+def placement_list(thing: Thing, count: int) -> list[Pose]:
+    """The places of an array's elements, ``count`` of them; the identity where fewer are saved."""
+    found: list[Pose] = []
+    for x, y, z, *q in _rows(thing, "PlacementList", 7, count):
+        turn = np.array(q)
+        rotation = matrix_from_quaternion(turn) if 1e-6 < float(np.linalg.norm(turn)) < 1e6 else np.eye(3)
+        found.append(Pose(rotation, np.array([x, y, z])))
+    return found + [Pose()] * (count - len(found))
+
+
+def scale_list(thing: Thing, count: int) -> list[tuple[float, float, float]]:
+    """The scales of an array's elements, along their axes."""
+    found = [
+        (x, y, z) if min(abs(x), abs(y), abs(z)) > 1e-9 else (1.0, 1.0, 1.0)
+        for x, y, z in _rows(thing, "ScaleList", 3, count)
+    ]
+    return found + [(1.0, 1.0, 1.0)] * (count - len(found))
+
+
+def _rows(thing: Thing, name: str, width: int, most: int) -> list[tuple[float, ...]]:
+    """A list that is saved in a member of its own: a count, and as many rows of doubles, little-endian."""
+    file = thing.file(name)
+    if not file:
+        return []
+    try:
+        content = thing.document.archive.read(file)
+    except ArchiveError as error:
+        thing.document.fault(thing, name, str(error))
+        return []
+    count = min(most, (len(content) - 4) // (8 * width))
+    if count <= 0:
+        return []
+    numbers = struct.unpack_from(f"<{count * width}d", content, 4)
+    if not all(abs(number) <= MAX_NUMBER for number in numbers):
+        thing.document.fault(thing, name, "a number in it is not in range")
+        return []
+    return [numbers[i : i + width] for i in range(0, len(numbers), width)]

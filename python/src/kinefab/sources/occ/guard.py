@@ -1,0 +1,132 @@
+"""OpenCASCADE in a process of its own: a damaged file can make it crash or never end, and takes only that process along.
+
+The child answers piece by piece, so that the caller knows how far it came.  It stays for the next question, since
+loading the library takes longer than a small file.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from importlib import import_module
+from typing import IO, Any
+
+MOST_QUESTIONS = 200
+"""After so many the child is replaced: what the library never frees must not add up."""
+
+
+class GuardedCrash(Exception):
+    """The child ended before it had answered; the text says how."""
+
+
+class GuardedError(Exception):
+    """The question raised an exception in the child; the text is the exception's."""
+
+
+class _Child:
+    def __init__(self) -> None:
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(entry for entry in sys.path if entry)}
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", __name__],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+        )
+        self.questions = 0
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.communicate()
+
+
+_idle: list[_Child] = []
+
+
+def guarded(module: str, function: str, *arguments: object, seconds: float) -> Iterator[Any]:
+    """What the generator ``module.function(*arguments)`` yields, run in the child.
+
+    module: dotted, absolute.  arguments and answers are pickled.  seconds: for all answers together.
+    Raises GuardedError where the generator raises, GuardedCrash where the child dies or takes longer.
+    """
+    child = _idle.pop() if _idle else _Child()
+    late = threading.Event()
+
+    def stop() -> None:
+        late.set()
+        child.process.kill()
+
+    timer = threading.Timer(seconds, stop)
+    timer.daemon = True
+    timer.start()
+    answered = False
+    try:
+        sent, received = child.process.stdin, child.process.stdout
+        assert sent is not None and received is not None
+        pickle.dump((module, function, arguments), sent)
+        sent.flush()
+        while True:
+            word, value = pickle.load(received)
+            if word == "answer":
+                yield value
+                continue
+            answered = True
+            if word == "error":
+                raise GuardedError(value)
+            return
+    except (EOFError, OSError, pickle.UnpicklingError):
+        code = child.process.wait()
+        detail = f"it took longer than {seconds:g} s" if late.is_set() else f"it ended with code {code}"
+        raise GuardedCrash(detail) from None
+    finally:
+        timer.cancel()
+        child.questions += 1
+        if answered and not late.is_set() and child.questions < MOST_QUESTIONS:
+            _idle.append(child)
+        else:
+            child.end()
+
+
+@atexit.register
+def _end_all() -> None:
+    while _idle:
+        _idle.pop().end()
+
+
+def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
+    """The child's life: questions until there are no more."""
+    while True:
+        try:
+            module, function, arguments = pickle.load(questions)
+        except EOFError:
+            return
+        try:
+            for value in getattr(import_module(module), function)(*arguments):
+                pickle.dump(("answer", value), answers, pickle.HIGHEST_PROTOCOL)
+                answers.flush()
+            last = ("end", None)
+        except MemoryError:
+            last = ("error", "out of memory")
+        except (
+            Exception
+        ) as error:  # whatever the library raises is an answer; the caller makes a finding of it
+            last = ("error", f"{type(error).__name__}: {error}")
+        pickle.dump(last, answers)
+        answers.flush()
+
+
+def _live() -> None:
+    # The library prints on standard output: the answers get a descriptor of their own.
+    answers = os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    _answer(sys.stdin.buffer, answers)
+
+
+if __name__ == "__main__":
+    _live()

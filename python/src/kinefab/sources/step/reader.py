@@ -1,0 +1,147 @@
+"""STEP and IGES files: the assembly tree, names, instances, colours, layers and exact geometry.
+
+OpenCASCADE reads them in a process of its own (``sources.occ.guard``).  Neither format states mates; where an
+AP242 file has a kinematic mechanism its pairs are told and left out.  Z is taken to be up, as CAD programs have it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path, PurePosixPath
+
+from ...diagnostics import Report
+from ...model import Scene, Source
+from ..occ.asked import tolerance_of
+from ..occ.guard import GuardedCrash, GuardedError, guarded
+from ..occ.triangles import Tolerance
+from ..reading.file import read_bytes
+from ..reading.request import Request
+from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_scene
+from .part21 import Part21
+from .records import Begun, Shape, Tree
+from .scene import Shapes, scene_nodes
+
+MAX_BYTES = 512 * 2**20
+"""Largest file that is read."""
+SECONDS, SECONDS_PER_MEGABYTE = 20.0, 60.0
+"""How long OpenCASCADE may take."""
+MOST_CRASHES = 5
+"""Shapes that may take the reading process along before the file is given up."""
+MILLIMETRE = 1e-3
+"""OpenCASCADE's own unit: it brings every file into it."""
+
+
+def read(path: Path, report: Report, request: Request = Request()) -> Scene:
+    """The scene of a ``.step``, ``.stp``, ``.iges`` or ``.igs`` file.  Raises KinefabError with every error found.
+
+    request: ``tolerance`` and ``up``.  A shape whose geometry fails is reported and left out.
+    """
+    iges = path.suffix.lower() in (".iges", ".igs")
+    data = read_bytes(path, report, MAX_BYTES)
+    length = MILLIMETRE
+    if iges:
+        _check_iges(data, path, report)
+    else:
+        length = _check_step(Part21(data), path, report)
+    tolerance = tolerance_of(request, path, report)
+    report.raise_for_errors()
+    up = request.text("up", "Z")
+    frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
+    scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
+    _fill(scene, path, iges, tolerance, len(data), frame, report, request)
+    report.raise_for_errors()
+    return scene
+
+
+def _fill(
+    scene: Scene, path: Path, iges: bool, tolerance: Tolerance, size: int,
+    frame: SourceFrame, report: Report, request: Request,
+) -> None:  # fmt: skip
+    """Read the file into the scene; where a shape takes the process along, once more without it."""
+    tree: Tree | None = None
+    shapes: Shapes | None = None
+    done: set[int] = set()
+    begun: int | None = None
+    seconds = SECONDS + SECONDS_PER_MEGABYTE * size / 2**20
+    for _ in range(MOST_CRASHES + 1):
+        try:
+            module = f"{__package__}.xcaf"
+            for found in guarded(
+                module, "load", str(path), iges, tolerance, frozenset(done), seconds=seconds
+            ):
+                if isinstance(found, Tree) and shapes is None:
+                    tree = found
+                    scene.nodes, placement = scene_nodes(found, frame, path.name, report)
+                    shapes = Shapes(scene, found, placement)
+                elif isinstance(found, Begun):
+                    begun = found.shape
+                elif isinstance(found, Shape) and shapes is not None and tree is not None:
+                    done.add(found.number)
+                    begun = None
+                    shapes.add(found)
+                    _report_losses(found, shapes, tree, scene, report)
+                    request.progress(len(done) / len(tree.shapes))
+            if not any(node.bodies for node in scene.nodes):
+                report.add("STEP_EMPTY", path.name, path=path.name)
+            return
+        except GuardedError as error:
+            report.add("STEP_UNREADABLE", path.name, path=path.name, detail=error)
+            return
+        except GuardedCrash as crash:
+            if begun is None or shapes is None or tree is None:
+                report.add(
+                    "STEP_UNREADABLE", path.name, path=path.name, detail=f"OpenCASCADE gave up: {crash}"
+                )
+                return
+            done.add(begun)
+            failed = Shape(begun, [], f"OpenCASCADE gave up: {crash}")
+            begun = None
+            _report_losses(failed, shapes, tree, scene, report)
+    report.add(
+        "STEP_UNREADABLE",
+        path.name,
+        path=path.name,
+        detail=f"more than {MOST_CRASHES} of its shapes end OpenCASCADE",
+    )
+
+
+def _report_losses(shape: Shape, shapes: Shapes, tree: Tree, scene: Scene, report: Report) -> None:
+    name = tree.shapes[shape.number]
+    for node in shapes.users(shape.number)[:1]:
+        where = scene.nodes[node].where
+        if shape.failure:
+            report.dropped(f"shape {name}", "STEP_SHAPE_FAILED", where, name=name, detail=shape.failure)
+        for piece in shape.pieces:
+            if piece.mesh.missing:
+                report.approximated(
+                    f"shape {name}", "STEP_FACES_FAILED", where, name=name, count=piece.mesh.missing
+                )
+
+
+def _check_step(text: Part21, path: Path, report: Report) -> float:
+    """What the text itself shows to be wrong; metres in its unit."""
+    if not text.starts:
+        report.add("STEP_SYNTAX", path.name, path=path.name, detail="it does not start with ISO-10303-21")
+    elif not text.ends:
+        report.add("STEP_SYNTAX", path.name, path=path.name, detail="its end is missing (END-ISO-10303-21)")
+    elif not text.instances:
+        report.add("STEP_EMPTY", path.name, path=path.name)
+    elif dangling := text.dangling():
+        report.add("STEP_DANGLING", path.name, path=path.name, count=dangling)
+    if pairs := text.kinematic_pairs():
+        report.dropped("kinematic pairs", "STEP_PAIRS_DROPPED", path.name, count=pairs)
+    for file in text.external_files():
+        inside = PurePosixPath(file.replace("\\", "/"))
+        if inside.is_absolute() or ".." in inside.parts or file[1:2] == ":":
+            report.add("STEP_FILE_OUTSIDE", path.name, file=file)
+    return text.metres()
+
+
+def _check_iges(data: bytes, path: Path, report: Report) -> None:
+    """An IGES file has lines of 80 columns whose 73rd names the section."""
+    lines = data.splitlines()
+    sections = {line[72:73] for line in lines if len(line) >= 73}
+    if not {b"S", b"G", b"D", b"P"} <= sections:
+        report.add("STEP_SYNTAX", path.name, path=path.name, detail="sections of an IGES file are missing")
+    elif b"T" not in sections:
+        report.add("STEP_SYNTAX", path.name, path=path.name, detail="its end is missing (section T)")

@@ -1,0 +1,205 @@
+"""A STEP or IGES file through OpenCASCADE's document: the assembly tree, then shape after shape.
+
+Runs in the guarded process (``sources.occ.guard``); nothing else imports it.
+"""
+
+# OCP is a binding of C++ that need not be installed, and its stubs are not those of every version.
+# pyright: reportMissingImports=false, reportMissingModuleSource=false, reportMissingTypeStubs=false
+# pyright: reportUnknownVariableType=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+# pyright: reportAttributeAccessIssue=false, reportUnknownParameterType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.IGESCAFControl import IGESCAFControl_Reader
+from OCP.Quantity import Quantity_ColorRGBA
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_ChildIterator, TDF_Label, TDF_Tool
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_SOLID
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS_Iterator
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import XCAFDoc_ColorTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+from ..occ.faces import trsf_matrix
+from ..occ.triangles import Tolerance
+from .meshing import KINDS, Colors, linear, meshed_shape
+from .records import Begun, Color, Occurrence, Shape, Tree
+
+MOST_OCCURRENCES = 1_000_000
+"""Occurrences of a tree: a small file can nest assemblies so that they multiply without end."""
+MOST_LEVELS = 200
+
+
+def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> Iterator[Tree | Begun | Shape]:
+    """The tree; then for every shape that it began and what came of it.
+
+    skip: shapes to be left out.
+    Raises ValueError for a file that OpenCASCADE does not take.
+    """
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    reader = IGESCAFControl_Reader() if iges else STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    reader.SetColorMode(True)
+    reader.SetLayerMode(True)
+    if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise ValueError("OpenCASCADE cannot parse it")
+    if not reader.Transfer(document):
+        raise ValueError("OpenCASCADE finds no shape in it")
+    walk = _Walk(document, iges)
+    yield walk.tree
+    for number, (label, shape) in enumerate(walk.shapes):
+        if number in skip:
+            continue
+        yield Begun(number)
+        try:
+            colors = Colors(walk.colors, _label_color(label), _subshape_names(label))
+            pieces = meshed_shape(shape, walk.tree.shapes[number], colors, tolerance)
+            yield Shape(number, pieces, "" if pieces else "it holds no faces")
+        except Exception as error:  # Standard_Failure in all its forms: this shape alone is lost
+            yield Shape(number, [], f"{type(error).__name__}: {error}".splitlines()[0][:200])
+
+
+class _Walk:
+    """The document's labels as a tree of occurrences, and the labels of the shapes they show."""
+
+    def __init__(self, document: Any, iges: bool) -> None:
+        main = document.Main()
+        self._layers = XCAFDoc_DocumentTool.LayerTool_s(main)
+        self.colors = XCAFDoc_DocumentTool.ColorTool_s(main)
+        self.shapes: list[tuple[Any, Any]] = []
+        self._iges = iges
+        self._numbers: dict[str, int] = {}
+        self.tree = Tree([], [])
+        shapes = XCAFDoc_DocumentTool.ShapeTool_s(main)
+        for label in _children(shapes.BaseLabel()):
+            if XCAFDoc_ShapeTool.IsShape_s(label) and XCAFDoc_ShapeTool.IsFree_s(label):
+                self._add(label, label, None, 0)
+
+    def _add(self, occurrence: Any, product: Any, parent: int | None, level: int) -> None:
+        if level > MOST_LEVELS or len(self.tree.occurrences) >= MOST_OCCURRENCES:
+            raise ValueError("its assemblies nest too deep or multiply too often")
+        matrix = np.eye(3, 4)
+        if parent is not None or occurrence is not product:
+            matrix = trsf_matrix(XCAFDoc_ShapeTool.GetLocation_s(occurrence).Transformation())
+        elif not (location := XCAFDoc_ShapeTool.GetShape_s(product).Location()).IsIdentity():
+            matrix = trsf_matrix(location.Transformation())
+        is_assembly = XCAFDoc_ShapeTool.IsAssembly_s(product)
+        loose = [] if is_assembly or not self._iges else _loose_parts(XCAFDoc_ShapeTool.GetShape_s(product))
+        record = Occurrence(
+            name=_name(occurrence),
+            parent=parent,
+            matrix=matrix,
+            product=_name(product),
+            key=_entry(product),
+            shape=None if is_assembly or loose else self._shape(product),
+            color=None if occurrence is product and parent is None else _label_color(occurrence),
+            layers=self._layers_of(occurrence) or self._layers_of(product),
+            visible=self.colors.IsVisible_s(occurrence) if hasattr(self.colors, "IsVisible_s") else True,
+        )
+        self.tree.occurrences.append(record)
+        place = len(self.tree.occurrences) - 1
+        for number, shape in enumerate(loose, 1):
+            name = f"{record.product or 'Part'}:{number}"
+            own = Occurrence(
+                name,
+                place,
+                trsf_matrix(shape.Location().Transformation()),
+                name,
+                f"{record.key}:{number}",
+                len(self.shapes),
+            )
+            self.tree.occurrences.append(own)
+            self.shapes.append((product, shape))
+            self.tree.shapes.append(name)
+        if is_assembly:
+            for component in _children(product):
+                if not XCAFDoc_ShapeTool.IsComponent_s(component):
+                    continue
+                referred = TDF_Label()
+                if XCAFDoc_ShapeTool.GetReferredShape_s(component, referred):
+                    self._add(component, referred, place, level + 1)
+
+    def _shape(self, product: Any) -> int:
+        entry = _entry(product)
+        if entry not in self._numbers:
+            self._numbers[entry] = len(self.shapes)
+            self.shapes.append((product, XCAFDoc_ShapeTool.GetShape_s(product)))
+            self.tree.shapes.append(_name(product))
+        return self._numbers[entry]
+
+    def _layers_of(self, label: Any) -> tuple[str, ...]:
+        names = self._layers.GetLayers(label)
+        if names is None:
+            return ()
+        return tuple(names.Value(i).ToExtString() for i in range(1, names.Length() + 1))
+
+
+def _children(label: Any) -> Iterator[Any]:
+    children = TDF_ChildIterator(label, False)
+    while children.More():
+        yield children.Value()
+        children.Next()
+
+
+def _name(label: Any) -> str:
+    if not label.IsAttribute(
+        TDataStd_Name.GetID_s()
+    ):  # the binding crashes where FindAttribute finds nothing
+        return ""
+    name = TDataStd_Name()
+    label.FindAttribute(TDataStd_Name.GetID_s(), name)
+    return name.Get().ToExtString()
+
+
+def _loose_parts(shape: Any) -> list[Any]:
+    """The parts of an IGES file, which knows no assemblies: what a compound holds, several levels down where it holds
+    one thing alone; none where it is one part."""
+    while shape.ShapeType() == TopAbs_COMPOUND:
+        inside = TopoDS_Iterator(shape)
+        held: list[Any] = []
+        while inside.More():
+            held.append(inside.Value())
+            inside.Next()
+        solids = [
+            part
+            for part in held
+            if part.ShapeType() in (TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SOLID, TopAbs_SHELL)
+        ]
+        if len(held) == 1:
+            shape = held[0]
+            continue
+        return solids if len(solids) == len(held) else []
+    return []
+
+
+def _entry(label: Any) -> str:
+    entry = TCollection_AsciiString()
+    TDF_Tool.Entry_s(label, entry)
+    return entry.ToCString()
+
+
+def _label_color(label: Any) -> Color | None:
+    """The colour of a label: of its surfaces, else its general one."""
+    color = Quantity_ColorRGBA()
+    for kind in KINDS:
+        if XCAFDoc_ColorTool.GetColor_s(label, kind, color):
+            return linear(color)
+    return None
+
+
+def _subshape_names(label: Any) -> list[tuple[Any, str]]:
+    """Shapes within a part that have a name of their own: its solids."""
+    found = []
+    for child in _children(label):
+        if XCAFDoc_ShapeTool.IsSubShape_s(child) and (name := _name(child)):
+            found.append((XCAFDoc_ShapeTool.GetShape_s(child).Located(TopLoc_Location()), name))
+    return found

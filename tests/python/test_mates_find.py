@@ -1,0 +1,52 @@
+"""Mates found in machines that were built with known ones; ``python/bench/mates_bench.py`` tries many more variants."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from kinefab.diagnostics import Report
+from kinefab.sources import read
+
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "fixtures"), str(ROOT / "python" / "bench")]
+
+from mates_bench import Variant, score, variants, written  # noqa: E402
+
+FEW = (
+    "lever",
+    "four_bar",
+    "slider_crank",
+    "hinge",
+    "closed_drawer",
+    "ball_joint",
+    "pin_slot",
+    "bolted_frame",
+    "vice",
+    "gears",
+)
+"""What the suite tries as drawn: a machine for each rule."""
+TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage")
+"""And with another size, place, clearance, unit, and names without meaning."""
+
+
+def judged(name: str, variant: Variant, folder: Path):
+    path = folder / f"{name}.step"
+    machine = written(name, variant, path)
+    return score(machine, read(path, Report()))
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_a_machine_is_found_as_it_was_built(name: str, tmp_path: Path):
+    found = judged(name, Variant(), tmp_path)
+    assert (found.missed, found.wrong, found.mobility, found.locks) == (0, 0, 1, [])
+    assert found.hits > 0
+
+
+@pytest.mark.parametrize("number, name", list(enumerate(TURNED, 1)))
+def test_size_place_and_names_change_nothing(number: int, name: str, tmp_path: Path):
+    found = judged(name, variants(len(TURNED), seed=3)[number], tmp_path)
+    assert (found.missed, found.wrong, found.mobility, found.locks) == (0, 0, 1, [])

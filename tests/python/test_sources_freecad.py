@@ -1,0 +1,272 @@
+"""FreeCAD's documents: the lever is the bundle's lever, and what an assembly holds."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+
+import numpy as np
+import pytest
+from freecad_files import (
+    assembly,
+    document,
+    flag,
+    joint,
+    link,
+    links,
+    number,
+    part,
+    placement,
+    shape,
+    sub,
+    text,
+    word,
+)
+from kinefab import sources
+from kinefab.analysis import analyse
+from kinefab.diagnostics import Report
+from kinefab.model import ConstraintKind, JointKind, Motion, NodeKind
+from source_bundles import FIXTURES
+
+LEVER = FIXTURES / "lever"
+
+
+def read(path):
+    report = Report()
+    return sources.read(path, report), report
+
+
+@pytest.fixture(scope="module")
+def levers():
+    return read(LEVER / "lever.FCStd")[0], read(LEVER / "lever.bundle.json")[0]
+
+
+def test_the_lever_has_the_parts_of_the_bundle(levers):
+    """Names, hierarchy, what is rigid and what is ground, and where everything stands; FreeCAD solved to 1e-6 mm."""
+    ours, theirs = ({node.id: node for node in scene.nodes} for scene in levers)
+    assert ours.keys() == theirs.keys()
+    for key, node in theirs.items():
+        found = ours[key]
+        assert (found.kind, found.grounded, found.flexible) == (node.kind, node.grounded, node.flexible)
+        assert (found.parent is None) == (node.parent is None)
+        assert np.abs(found.pose.rotation - node.pose.rotation).max() < 1e-6
+        assert np.abs(found.pose.translation - node.pose.translation).max() < 1e-6
+        assert [body.name for body in found.bodies] in ([body.name for body in node.bodies], [])
+
+
+def test_the_lever_has_the_joints_of_the_bundle(levers):
+    """Kinds, axes in the world, limits that are switched on, and the coordinate's zero and sense."""
+    ours, theirs = ({joint.id: joint for joint in scene.joints} for scene in levers)
+    assert ours.keys() == theirs.keys()
+    for key, told in theirs.items():
+        found = ours[key]
+        assert found.kind is told.kind
+        frames = [scene.pose(j.a) @ j.frame_a for scene, j in zip(levers, (found, told))]
+        assert np.abs(frames[0].rotation[:, 0] - frames[1].rotation[:, 0]).max() < 1e-6
+        apart = frames[0].translation - frames[1].translation
+        assert np.abs(np.cross(apart, frames[1].rotation[:, 0])).max() < 1e-6
+        ranges = [
+            [(f.lower, f.upper) for f in j.freedoms if f.motion is Motion.LIMITED] for j in (found, told)
+        ]
+        assert np.allclose(*ranges, atol=1e-9)
+        here = [
+            (scene.pose(j.a) @ j.frame_a).inverse() @ scene.pose(j.b) @ j.frame_b
+            for scene, j in zip(levers, (found, told))
+        ]
+        assert np.abs(here[0].rotation - here[1].rotation).max() < 1e-6
+        assert abs(here[0].translation[0] - here[1].translation[0]) < 1e-6
+
+
+def written(tmp_path, objects, version="1.0R", **members):
+    (tmp_path / "a.FCStd").write_bytes(document(objects, version, **members))
+    scene, report = read(tmp_path / "a.FCStd")
+    return scene, [d.code for d in report.diagnostics]
+
+
+TWO = {"Base": part(), "Arm": part(Placement=placement(x=30.0))}
+
+
+def test_limits_need_their_flags(tmp_path):
+    """Numbers without a flag are no limits; one end alone is; the wrong way round they change places, as in FreeCAD."""
+    ends = {
+        "AngleMin": number(80.0),
+        "AngleMax": number(-10.0),
+        "LengthMin": number(-41.0),
+        "LengthMax": number(7.0),
+    }
+    on = {"EnableAngleMin": flag(True), "EnableAngleMax": flag(True), "EnableLengthMax": flag(True)}
+    both = {
+        "Off": joint("Cylindrical", "Base.", "Arm.", **ends),
+        "On": joint("Cylindrical", "Base.", "Arm.", **ends, **on),
+        "Other": joint("Slider", "Base.", "Arm.", **ends, EnableAngleMin=flag(True)),
+    }
+    scene, codes = written(tmp_path, assembly(TWO, both))
+    off, on_, other = scene.joints
+    assert not codes and {f.motion for f in off.freedoms} == {Motion.LOCKED, Motion.FREE}
+    tx, rx = on_.freedoms[0], on_.freedoms[3]
+    assert (tx.lower, tx.upper) == (-math.inf, pytest.approx(0.007))
+    assert (rx.lower, rx.upper) == (pytest.approx(math.radians(-10)), pytest.approx(math.radians(80)))
+    assert other.freedoms[0].motion is Motion.FREE  # an angle's limit means nothing to a slider
+
+
+def test_version_1_1(tmp_path):
+    """Its changes, written by hand: Suppressed for Activated, an Angle of its own, limits as angles and lengths."""
+    angle = {"AngleMin": number(-10.0, "App::PropertyAngle"), "EnableAngleMin": flag(True)}
+    given = {
+        "Hinge": joint("Revolute", "Base.", "Arm.", Suppressed=flag(False), **angle),
+        "Off": joint("Slider", "Base.", "Arm.", Suppressed=flag(True)),
+        "Bend": joint(
+            "Angle", "Base.", "Arm.", Angle=number(35.0, "App::PropertyAngle"), Distance=number(0.0)
+        ),
+        "Flat": joint("Angle", "Base.", "Arm.", Angle=number(360.0, "App::PropertyAngle")),
+    }
+    for name in ("Hinge", "Off"):
+        del given[name][1]["Activated"]
+    scene, codes = written(tmp_path, assembly(TWO, given), "1.1R")
+    assert codes == ["FEATURE_SUPPRESSED"] and [j.id for j in scene.joints] == ["Hinge"]
+    assert scene.joints[0].freedoms[3].lower == pytest.approx(math.radians(-10))
+    assert [(c.kind, c.value) for c in scene.constraints] == [
+        (ConstraintKind.ANGLE, pytest.approx(math.radians(35))),
+        (ConstraintKind.PARALLEL, 0.0),
+    ]
+
+
+def test_before_version_1_0(tmp_path):
+    """Object, part and element apart; another list of joint types, read by its words."""
+    old = {
+        "JointType": word("Slider", ["Slider", "Fixed", "Planar"]), "Activated": flag(True),
+        "Part1": link("Base"), "Object1": text("Base"), "Element1": text("Face6"),
+        "Part2": link("Arm"), "Object2": sub("Arm", "Face1"),
+        "Placement1": placement(x=30.0), "Placement2": placement(),
+    }  # fmt: skip
+    old["Object1"] = link("Base")
+    scene, codes = written(tmp_path, assembly(TWO, {"Old": ("App::FeaturePython", old)}), "0.22R")
+    assert not codes and [j.kind for j in scene.joints] == [JointKind.PRISMATIC]
+    assert [scene.name(n) for n in (scene.joints[0].a, scene.joints[0].b)] == [
+        "Assembly/Base",
+        "Assembly/Arm",
+    ]
+
+
+def test_z_axes_may_be_opposed(tmp_path):
+    """J upside down: the angle still counts about I's z, from x to x."""
+    c, s = math.cos(math.radians(20.0)), math.sin(math.radians(20.0))  # half of 40 degrees
+    over = (c, s, 0.0, 0.0)  # half a turn about x, then 40 degrees about z
+    given = {
+        "Hinge": joint(
+            "Revolute",
+            "Base.",
+            "Arm.",
+            Placement1=placement(x=30.0, q=(0, 0, 0, 1)),
+            Placement2=placement(q=over),
+        )
+    }
+    scene, _ = written(tmp_path, assembly(TWO, given))
+    hinge = scene.joints[0]
+    between = (scene.pose(hinge.a) @ hinge.frame_a).inverse() @ scene.pose(hinge.b) @ hinge.frame_b
+    assert between.rotation[0, 0] == pytest.approx(1.0)
+    assert math.atan2(between.rotation[2, 1], between.rotation[1, 1]) == pytest.approx(math.radians(40.0))
+
+
+def test_a_screw_without_a_slider_is_left_out(tmp_path):
+    """FreeCAD's solver does not use it either."""
+    scene, codes = written(
+        tmp_path, assembly(TWO, {"Thread": joint("Screw", "Base.", "Arm.", Distance=number(5.0))})
+    )
+    assert codes == ["FREECAD_JOINT_DROPPED"] and not scene.couplings
+
+
+def test_other_workbenches_are_told(tmp_path):
+    """A2plus: parts and what is held; its constraints are named.  Assembly4: one rigid group; attachments are named."""
+    solid = (
+        "Part::FeaturePython",
+        {"Placement": placement(), "fixedPosition": flag(True), "Shape": shape("")},
+    )
+    loose = (
+        "Part::FeaturePython",
+        {"Placement": placement(x=5.0), "fixedPosition": flag(False), "Shape": shape("")},
+    )
+    axial = (
+        "App::FeaturePython",
+        {"Type": text("axial"), "Object1": text("A"), "SubElement1": text("Face1"), "Object2": text("B")},
+    )
+    scene, codes = written(tmp_path, {"A": solid, "B": loose, "axial_001": axial})
+    assert codes == ["FREECAD_JOINT_DROPPED"] and [node.grounded for node in scene.nodes] == [True, False]
+    arm = (
+        "App::Link",
+        {
+            "LinkedObject": link("Body"),
+            "SolverId": text("Asm4EE"),
+            "AttachedTo": text("Parent Assembly#LCS_0"),
+        },
+    )
+    objects = {"Assembly": ("App::Part", {"Group": links("Arm")}), "Arm": arm, "Body": part()}
+    scene, codes = written(tmp_path, objects)
+    assert codes == ["FREECAD_JOINT_DROPPED"]
+    assert [(n.id, n.flexible) for n in scene.nodes if n.kind is NodeKind.ASSEMBLY] == [("Assembly", False)]
+
+
+def test_a_density_is_taken_where_the_document_holds_one(tmp_path):
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
+        brep = file.read("Base.Shape.brp")
+    steel = (
+        "App::MaterialObjectPython",
+        {"Material": ("App::PropertyMap", '<Map count="1"><Item key="Density" value="7.85 g/cm^3"/></Map>')},
+    )
+    base = (
+        "Part::Feature",
+        {"Shape": shape("Base.Shape.brp"), "Placement": placement(), "Material": link("Steel")},
+    )
+    scene, codes = written(tmp_path, {"Base": base, "Steel": steel}, **{"Base.Shape.brp": brep})
+    assert not codes and scene.nodes[0].bodies[0].density == pytest.approx(7850.0)
+
+
+def test_colours_are_those_of_the_screen_in_linear_light(levers):
+    """The lever's steel, 0.62 0.64 0.67 on the screen."""
+    if not levers[0].surfaces:
+        pytest.skip("OpenCASCADE is not installed: pip install kinefab[cad]")
+    colours = {surface.name: surface.color for surface in levers[0].surfaces}
+    assert colours.keys() == {"#404247", "#9EA3AB", "#C79E45", "#0D0D0D"}
+    assert colours["#9EA3AB"][:3] == pytest.approx([0.342, 0.367, 0.407], abs=2e-3)
+
+
+def test_without_opencascade_the_mechanism_is_read(monkeypatch):
+    """Joints and poses are the same; the report names the extra."""
+    from kinefab.sources.freecad import shapes
+
+    monkeypatch.setattr(shapes, "available", lambda: False)
+    scene, report = read(FIXTURES / "freecad" / "four_bar.FCStd")
+    assert len(scene.joints) == 4 and not scene.meshes
+    assert [d.code for d in report.diagnostics] == [
+        "SHAPE_NOT_READ"
+    ] and "kinefab[cad]" in report.diagnostics[0].message
+    scene, report = read(FIXTURES / "freecad" / "distance_cylinders.FCStd")
+    assert "FREECAD_JOINT_DROPPED" in [d.code for d in report.diagnostics] and not scene.constraints
+
+
+def test_a_tolerance_may_be_asked_for():
+    """Finer by --tolerance, and another word is refused as with every B-rep format."""
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    path, counts = FIXTURES / "freecad" / "revolute.FCStd", []
+    for asked in ("0.5", "0.01,5"):
+        scene = sources.read(path, Report(), options={"tolerance": asked})
+        counts.append(sum(len(mesh.faces) for mesh in scene.meshes))
+    assert counts[1] > 2 * counts[0]
+
+
+def test_the_levers_asmt_has_its_motion(levers):
+    """FreeCAD's export for its solver: the bundle's joints without geometry, its parts on the ground by a fixed joint."""
+    scene, report = read(LEVER / "lever.asmt")
+    assert [d.code for d in report.diagnostics] == ["ASMT_ASSUMED"]
+    kinds = sorted(joint.kind.value for joint in scene.joints)
+    assert kinds == ["fixed", "prismatic", "revolute", "revolute", "revolute"]
+    slide = next(joint for joint in scene.joints if joint.kind is JointKind.PRISMATIC)
+    assert (slide.freedoms[0].lower, slide.freedoms[0].upper) == (pytest.approx(0.065), pytest.approx(0.115))
+    told = {node.name: node.pose for node in levers[1].nodes}
+    for node in scene.nodes[1:]:
+        pose = told[node.name.replace("_1", ":1")]
+        assert np.abs(node.pose.translation - pose.translation).max() < 1e-6
+        assert np.abs(node.pose.rotation - pose.rotation).max() < 1e-6
+    islands = [sum(island.mobility for island in analyse(one).islands) for one in (scene, *levers)]
+    assert islands == [1, 1, 1]

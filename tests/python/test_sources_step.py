@@ -1,0 +1,306 @@
+"""STEP and IGES: the tree, names, instances, colours, units and exact faces; damaged files end in findings."""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kinefab.diagnostics import KinefabError, Report
+from kinefab.geometry.closure import is_closed, welded
+from kinefab.geometry.mass import solid_properties
+from kinefab.model import FaceKind, NodeKind
+from kinefab.sources import read
+from kinefab.sources.occ.guard import GuardedCrash, GuardedError, guarded
+from kinefab.sources.step import reader
+from kinefab.sources.step.part21 import Part21
+from kinefab.sources.step.records import Begun
+
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
+sys.path.insert(0, str(FIXTURES))
+
+from step.linkages import two_plates  # noqa: E402
+from step.writer import write_iges, write_step  # noqa: E402
+
+LEVER = FIXTURES / "lever" / "lever.step"
+PLATES = FIXTURES / "step" / "two_plates_inch_ap242.step"
+MUTATIONS = int(os.environ.get("KINEFAB_STEP_MUTATIONS", "25"))
+"""Damaged files to try; 5000 for the long run."""
+
+
+def read_whole(path: Path, **options: object):
+    report = Report()
+    return read(path, report, options=options), report
+
+
+def codes(path: Path, **options: object) -> list[str]:
+    report = Report()
+    with pytest.raises(KinefabError):
+        read(path, report, options=options)
+    return [d.code for d in report.diagnostics]
+
+
+def test_the_tree_has_the_names_and_poses_of_the_file():
+    scene, report = read_whole(PLATES)
+    assert not report.diagnostics
+    assert [(n.id, n.kind, n.parent) for n in scene.nodes] == [
+        ("Plates", NodeKind.ASSEMBLY, None),
+        ("Plates/Plate:1", NodeKind.PART, 0),
+        ("Plates/Upper", NodeKind.ASSEMBLY, 0),
+        ("Plates/Upper/Plate:2", NodeKind.PART, 2),
+    ]
+    # Z up becomes Y up: (100, 20, 5) mm is (0.1, 0.005, -0.02) m; a turn about Z is one about Y
+    np.testing.assert_allclose(scene.nodes[3].pose.translation, [0.1, 0.005, -0.02], atol=1e-9)
+    np.testing.assert_allclose(scene.nodes[3].pose.rotation @ [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], atol=1e-12)
+
+
+def test_occurrences_of_a_product_share_mesh_and_faces():
+    scene, _ = read_whole(PLATES)
+    first, second = (scene.nodes[i].bodies[0] for i in (1, 3))
+    assert first.mesh == second.mesh and first.boundary is second.boundary
+    assert scene.nodes[1].definition == scene.nodes[3].definition
+    assert len(scene.meshes) == 1
+
+
+def test_an_inch_file_is_read_in_metres():
+    scene, _ = read_whole(PLATES)
+    assert scene.source.meters_per_unit == 0.0254
+    np.testing.assert_allclose(np.ptp(scene.meshes[0].vertices, axis=0), [0.0508, 0.01, 0.0254], atol=1e-9)
+
+
+def test_colours_are_linear():
+    scene, _ = read_whole(PLATES)
+    (surface,) = scene.surfaces
+    assert surface.name == "#FF8000"
+    np.testing.assert_allclose(surface.color, (1.0, 0.2140, 0.0, 1.0), atol=1e-3)
+    assert scene.nodes[1].bodies[0].surfaces == (0,)
+
+
+@pytest.mark.parametrize("schema", ["AP203", "AP214IS", "AP242DIS"])
+def test_every_application_protocol_gives_the_same_solid(tmp_path: Path, schema: str):
+    write_step(two_plates(), tmp_path / "plates.stp", schema=schema)
+    scene, report = read_whole(tmp_path / "plates.stp", tolerance="0.001,5")
+    mesh = scene.meshes[0]
+    assert not report.diagnostics
+    assert is_closed(welded(mesh.vertices, mesh.faces))
+    volume = solid_properties(mesh.vertices, mesh.faces, 1.0).mass
+    assert volume == pytest.approx((50.8 * 25.4 - np.pi * 25.0) * 10.0 * 1e-9, rel=1e-4)
+
+
+def test_iges_gives_the_same_faces(tmp_path: Path):
+    """IGES of this kernel writes no tree that names can be held against; the geometry is the same."""
+    write_iges(two_plates(), tmp_path / "plates.igs")
+    scene, _ = read_whole(tmp_path / "plates.igs")
+    vertices = np.concatenate(
+        [n.pose.point(scene.meshes[b.mesh].vertices) for n in scene.nodes for b in n.bodies]
+    )
+    np.testing.assert_allclose(vertices.min(axis=0), [0.0, 0.0, -0.0708], atol=1e-6)
+    np.testing.assert_allclose(vertices.max(axis=0), [0.1, 0.015, 0.0], atol=1e-6)
+
+
+def test_exact_faces_say_what_they_are():
+    scene, _ = read_whole(PLATES)
+    faces = scene.nodes[1].bodies[0].boundary
+    (bore,) = [face for face in faces if face.kind is FaceKind.CYLINDER]
+    assert bore.hollow and bore.radius == pytest.approx(0.005, abs=1e-12)
+    assert abs(bore.direction[1]) == pytest.approx(1.0)
+    assert bore.along[1] - bore.along[0] == pytest.approx(0.01)
+    assert bore.around[1] - bore.around[0] == pytest.approx(2.0 * np.pi)
+    np.testing.assert_allclose(bore.point[[0, 2]], [0.01, -0.01], atol=1e-12)
+    planes = [face for face in faces if face.kind is FaceKind.PLANE]
+    middle = np.mean([face.triangles.mean(axis=(0, 1)) for face in planes], axis=0)
+    assert all((face.triangles.mean(axis=(0, 1)) - middle) @ face.direction > 0.0 for face in planes)
+
+
+def test_a_finer_tolerance_gives_more_triangles():
+    coarse, _ = read_whole(LEVER, tolerance="1,45")
+    fine, _ = read_whole(LEVER, tolerance="0.01,5")
+    assert sum(len(m.faces) for m in fine.meshes) > 3 * sum(len(m.faces) for m in coarse.meshes)
+
+
+def test_up_axis_can_be_told():
+    scene, _ = read_whole(PLATES, up="Y")
+    np.testing.assert_allclose(scene.nodes[3].pose.translation, [0.1, 0.02, 0.005], atol=1e-9)
+
+
+def test_reading_twice_gives_the_same(tmp_path: Path):
+    first, second = (read_whole(LEVER)[0] for _ in range(2))
+    for a, b in zip(first.meshes, second.meshes, strict=True):
+        np.testing.assert_array_equal(a.vertices, b.vertices)
+        np.testing.assert_array_equal(a.faces, b.faces)
+
+
+@pytest.mark.parametrize(
+    "text, code",
+    [
+        (b"solid of another kind", "STEP_SYNTAX"),
+        (LEVER.read_bytes()[:60000], "STEP_SYNTAX"),
+        (b"ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n", "STEP_EMPTY"),
+        (LEVER.read_bytes().replace(b"DATA;", b"DATA;\n#999999=DOCUMENT_FILE('../secret.step','',$,$,'','');", 1), "STEP_FILE_OUTSIDE"),
+        (LEVER.read_bytes().replace(b"MANIFOLD_SOLID_BREP(", b"MANIFOLD_NOTHING("), "STEP_EMPTY"),
+    ],
+)  # fmt: skip
+def test_a_file_that_is_none_is_refused(tmp_path: Path, text: bytes, code: str):
+    path = tmp_path / "odd.step"
+    path.write_bytes(text)
+    assert code in codes(path)
+
+
+def test_a_tolerance_that_is_none_is_refused():
+    assert codes(PLATES, tolerance="fine") == ["STEP_TOLERANCE"]
+    assert codes(PLATES, tolerance="-1") == ["STEP_TOLERANCE"]
+
+
+def test_an_iges_file_that_is_cut_off_is_refused(tmp_path: Path):
+    whole = (FIXTURES / "lever" / "lever.iges").read_bytes()
+    (tmp_path / "cut.iges").write_bytes(whole[: len(whole) // 2])
+    assert codes(tmp_path / "cut.iges") == ["STEP_SYNTAX"]
+
+
+def test_undefined_references_are_told(tmp_path: Path):
+    path = tmp_path / "dangling.step"
+    text = PLATES.read_bytes()
+    path.write_bytes(text.replace(b"DATA;", b"DATA;\n#999999=PRODUCT_CONTEXT('',#888888,'');", 1))
+    _, report = read_whole(path)
+    assert [d.code for d in report.diagnostics] == ["STEP_DANGLING"]
+
+
+def test_kinematic_pairs_are_told_as_left_out(tmp_path: Path):
+    path = tmp_path / "moving.step"
+    pair = b"DATA;\n#999999=REVOLUTE_PAIR_WITH_RANGE('hinge','',$,$,$,-0.17,1.4);"
+    path.write_bytes(PLATES.read_bytes().replace(b"DATA;", pair, 1))
+    _, report = read_whole(path)
+    assert [(o.outcome.value, o.code) for o in report.outcomes] == [("dropped", "STEP_PAIRS_DROPPED")]
+
+
+def test_a_damaged_file_ends_in_findings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Bytes flipped, lines dropped or doubled, numbers changed: read, or refused; never a traceback, never for ever."""
+    monkeypatch.setattr(reader, "SECONDS", 2.0)
+    monkeypatch.setattr(reader, "SECONDS_PER_MEGABYTE", 0.0)
+    random_source = random.Random(7)
+    path = tmp_path / "mutated.step"
+    for _ in range(MUTATIONS):
+        path.write_bytes(
+            mutated((LEVER if random_source.random() < 0.3 else PLATES).read_bytes(), random_source)
+        )
+        try:
+            read(path, Report())
+        except KinefabError as error:
+            assert error.diagnostics
+
+
+def test_a_shape_that_ends_the_process_is_left_out_and_the_rest_is_read(monkeypatch: pytest.MonkeyPatch):
+    """The process dies at the first shape; asked again without it, it gives the others."""
+    real = reader.guarded
+    asked = []
+
+    def dying(
+        module: str,
+        function: str,
+        path: str,
+        iges: bool,
+        tolerance: object,
+        skip: frozenset[int],
+        seconds: float,
+    ):
+        asked.append(skip)
+        for answer in real(module, function, path, iges, tolerance, skip, seconds=seconds):
+            yield answer
+            if isinstance(answer, Begun) and answer.shape == 0:
+                raise GuardedCrash("it ended with code -11")
+
+    monkeypatch.setattr(reader, "guarded", dying)
+    scene, report = read_whole(LEVER)
+    assert asked == [frozenset(), frozenset({0})]
+    assert [(d.code, d.where) for d in report.diagnostics] == [
+        ("STEP_SHAPE_FAILED", "lever.step#Lever/Base:1")
+    ]
+    assert [len(node.bodies) for node in scene.nodes] == [0, 0, 0, 1, 1, 1, 1, 1]
+
+
+def test_a_process_that_dies_at_once_is_told(monkeypatch: pytest.MonkeyPatch):
+    def dying(*arguments: object, **more: object):
+        raise GuardedCrash("it ended with code -11")
+        yield
+
+    monkeypatch.setattr(reader, "guarded", dying)
+    assert codes(LEVER) == ["STEP_UNREADABLE"]
+
+
+def test_faces_without_triangles_are_told(tmp_path: Path):
+    """A plate whose bore has a radius that its edges do not have: the face cannot be meshed, the others are."""
+    path = tmp_path / "torn.step"
+    text = PLATES.read_bytes()
+    assert b"CYLINDRICAL_SURFACE" in text
+    path.write_bytes(re.sub(rb"(CYLINDRICAL_SURFACE\('',#\d+),[^)]*\)", rb"\1,1.E-12)", text))
+    _, report = read_whole(path)
+    assert [d.code for d in report.diagnostics] == ["STEP_FACES_FAILED"]
+
+
+def mutated(data: bytes, source: random.Random) -> bytes:
+    lines = data.splitlines(keepends=True)
+    for _ in range(source.choice([1, 1, 2, 5, 20])):
+        i = source.randrange(len(lines))
+        what = source.randrange(6)
+        if what == 0:
+            line = bytearray(lines[i])
+            line[source.randrange(len(line))] = source.randrange(256)
+            lines[i] = bytes(line)
+        elif what == 1:
+            del lines[i]
+        elif what == 2:
+            lines.insert(i, lines[source.randrange(len(lines))])
+        elif what == 3:
+            lines[i] = lines[i].replace(b"1", source.choice([b"0", b"-1", b"1E300", b"NAN", b"7"]))
+        elif what == 4:
+            lines[i] = lines[i].replace(b"#", source.choice([b"#1", b"#0", b"$", b"*"]))
+        else:
+            j = source.randrange(len(lines))
+            lines[i], lines[j] = lines[j], lines[i]
+    return b"".join(lines)
+
+
+def crash():
+    """Ends its process as a fault in a native library does."""
+    yield "before"
+    os.abort()
+
+
+def endless():
+    while True:
+        pass
+    yield
+
+
+def failing():
+    yield "before"
+    raise ValueError("of its own")
+
+
+def test_a_crash_is_told_and_the_next_question_answered():
+    found = []
+    with pytest.raises(GuardedCrash):
+        for value in guarded(__name__, "crash", seconds=60.0):
+            found.append(value)
+    assert found == ["before"]
+    with pytest.raises(GuardedError, match="of its own"):
+        list(guarded(__name__, "failing", seconds=60.0))
+
+
+def test_what_never_ends_is_ended():
+    with pytest.raises(GuardedCrash, match="longer than"):
+        list(guarded(__name__, "endless", seconds=1.5))
+
+
+def test_part21_sees_through_strings_and_comments():
+    text = Part21(b"ISO-10303-21;\n/* #7=NOT('x'); */\n#1=A('#9;''',#2);\n#2=B();\nEND-ISO-10303-21;")
+    assert text.starts and text.ends
+    assert set(text.instances) == {1, 2}
+    assert text.dangling() == 0
+    assert text.text(1) == b"A('#9;''',#2)"

@@ -1,0 +1,156 @@
+"""What a capture gathers: the records of a bundle, meshes beside them, and what it found.
+
+Standard library only: it also runs in a CAD program's own Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..diagnostics import Report
+from .channel import MemberFailed
+
+Record = dict[str, Any]
+"""A record of ``schemas/bundle.schema.json``."""
+Numbers = Sequence[float]
+
+WRONG_ANSWER = (MemberFailed, AttributeError, TypeError, ValueError, KeyError, IndexError)
+"""What is raised where a program answers something else than its documentation says."""
+
+
+@dataclass(slots=True)
+class BodyMesh:
+    """name: of the body.  points: x y z of each corner, in the part's frame, ``length`` of the draft.
+    triangles: corners, from 0."""
+
+    name: str
+    points: list[float]
+    triangles: list[int]
+
+
+@dataclass(slots=True)
+class Draft:
+    """A bundle that is being captured; lengths in ``length``, angles in radians, masses in kilograms.
+
+    owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
+    may try.  meshes: of a definition, by its name.
+    """
+
+    program: str
+    length: str
+    up: str
+    report: Report = field(default_factory=Report)
+    version: str = ""
+    source: str = ""
+    dirty: bool = False
+    materials: dict[str, Record] = field(default_factory=dict[str, Record])
+    components: list[Record] = field(default_factory=list[Record])
+    joints: list[Record] = field(default_factory=list[Record])
+    couplings: list[Record] = field(default_factory=list[Record])
+    constraints: list[Record] = field(default_factory=list[Record])
+    dof: list[Record] = field(default_factory=list[Record])
+    owners: dict[str, str] = field(default_factory=dict[str, str])
+    meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
+    ids: set[str] = field(default_factory=set[str])
+    notes: Record = field(default_factory=dict[str, Any])
+
+    @contextmanager
+    def safely(self, feature: str) -> Generator[None, None, None]:
+        """What fails inside is told, and only this feature is lost."""
+        try:
+            yield
+        except WRONG_ANSWER as error:
+            self.failed(feature, error)
+
+    def failed(self, feature: str, error: Exception) -> None:
+        member = error.member if isinstance(error, MemberFailed) else "an answer"
+        detail = error.detail if isinstance(error, MemberFailed) else f"{type(error).__name__}: {error}"
+        self.report.dropped(
+            feature, "CAPTURE_MEMBER_FAILED", program=self.program, member=member, detail=detail
+        )
+
+    def settle(self) -> None:
+        """Leave out, and tell, what stands on a component or joint that was lost."""
+        there = {"ground", *(component["id"] for component in self.components)}
+        for records, word in ((self.joints, "joint"), (self.constraints, "constraint")):
+            for record in list(records):
+                named = [record[key] for key in "abc" if key in record]
+                ends = [end if isinstance(end, str) else end["component"] for end in named]
+                if lost := [end for end in ends if end not in there]:
+                    self._lost(records, record, word, lost[0])
+        joints = {joint["id"] for joint in self.joints}
+        for record in list(self.couplings):
+            if lost := [record[key]["joint"] for key in "ab" if record[key]["joint"] not in joints]:
+                self._lost(self.couplings, record, "coupling", lost[0])
+        self.dof = [record for record in self.dof if record["component"] in there]
+
+    def _lost(self, records: list[Record], record: Record, word: str, lost: str) -> None:
+        records.remove(record)
+        feature = f"{word} {record['id']}"
+        self.report.dropped(feature, "CAPTURE_SIDE_LOST", lost=lost, program=self.program)
+
+    def unique(self, name: str) -> str:
+        """An id that no joint or constraint has yet."""
+        found, number = name, 2
+        while found in self.ids:
+            found, number = f"{name} ({number})", number + 1
+        self.ids.add(found)
+        return found
+
+    def values(self) -> Record:
+        """The bundle as ``schemas/bundle.schema.json`` has it, without its mesh files."""
+        lists: list[tuple[str, Iterable[Record]]] = [
+            ("materials", self.materials.values()),
+            ("components", self.components),
+            ("joints", self.joints),
+            ("couplings", self.couplings),
+            ("constraints", self.constraints),
+            ("dof", self.dof),
+        ]
+        meta: Record = {
+            "format": "kinefab.bundle",
+            "version": "1.0",
+            "generator": {"name": self.program, "version": self.version, "macro": "kinefab capture"},
+            "units": {"length": self.length, "angle": "rad", "mass": "kg"},
+            "up": self.up,
+            "poseState": "dirty" if self.dirty else "solved",
+        }
+        if self.source:
+            meta["sourceFile"] = self.source
+        if self.notes:
+            meta["extras"] = self.notes
+        return {"meta": meta, **{key: list(records) for key, records in lists if records}}
+
+
+def reach(enabled: bool, value: float | None) -> float | None:
+    """An end of a range: it counts only with its flag."""
+    return float(value) if enabled and value is not None else None
+
+
+def freedom(
+    name: str, value: float | None = None, low: float | None = None, high: float | None = None
+) -> Record:
+    """A coordinate of a joint; ends that are None are no limits."""
+    ends = (("min", low), ("max", high))
+    return {
+        "name": name,
+        **({} if value is None else {"value": value}),
+        **{key: end for key, end in ends if end is not None},
+        **{f"{key}Enabled": True for key, end in ends if end is not None},
+    }
+
+
+def frame(inside: str, o: Numbers, z: Numbers, x: Numbers | None = None) -> Record:
+    return {"in": inside, "o": list(o), "z": list(z), **({} if x is None else {"x": list(x)})}
+
+
+def pose(o: Numbers, x: Numbers, y: Numbers, z: Numbers) -> Record:
+    return {"o": list(o), "x": list(x), "y": list(y), "z": list(z)}
+
+
+def pose_of_rows(m: Numbers) -> Record:
+    """Pose of a row-major 4 x 4 matrix, translation in its last column."""
+    return pose(*([m[i], m[i + 4], m[i + 8]] for i in (3, 0, 1, 2)))

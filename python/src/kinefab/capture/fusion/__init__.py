@@ -1,0 +1,1 @@
+"""Autodesk Fusion, by an add-in in its own Python."""

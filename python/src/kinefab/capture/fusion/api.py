@@ -1,0 +1,163 @@
+"""The members of Fusion's API that the capture uses, and no others.
+
+Behind each: unit | frame | page of the Fusion API help (2025) that states it.  Fusion counts in centimetres, radians and
+kilograms whatever the document's units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+# fmt: off
+
+
+class Application(Protocol):
+    version: str  # text | - | Application.version Property
+    activeDocument: Document | None  # - | - | Application.activeDocument Property
+    activeProduct: Design | None  # - | - | Application.activeProduct Property
+
+
+class Document(Protocol):
+    name: str  # text | - | Document.name Property
+    isSaved: bool  # flag | - | Document.isSaved Property
+    isModified: bool  # flag | - | Document.isModified Property
+
+
+class Design(Protocol):
+    productType: str  # text, DesignProductType | - | Product.productType Property
+    rootComponent: RootComponent  # - | - | Design.rootComponent Property
+    contactSets: Collection  # - | - | Design.contactSets Property
+
+
+class Collection(Protocol):
+    count: int  # number | - | Occurrences.count Property
+
+    def item(self, index: int) -> Any: ...  # from 0 | - | Occurrences.item Method
+
+
+class RootComponent(Protocol):
+    name: str  # text | - | Component.name Property
+    occurrences: Collection  # - | root | Component.occurrences Property
+    allJoints: Collection  # - | root | Component.allJoints Property
+    allAsBuiltJoints: Collection  # - | root | Component.allAsBuiltJoints Property
+    allRigidGroups: Collection  # - | root | Component.allRigidGroups Property
+    allAssemblyConstraints: Collection  # - | root | Component.allAssemblyConstraints Property
+
+
+class Component(Protocol):
+    name: str  # text | - | Component.name Property
+    bRepBodies: Collection  # - | component | Component.bRepBodies Property
+
+
+class Occurrence(Protocol):
+    name: str  # text | - | Occurrence.name Property
+    fullPathName: str  # text, names with + between | - | Occurrence.fullPathName Property
+    component: Component  # - | - | Occurrence.component Property
+    transform2: Matrix  # - | root | Occurrence.transform2 Property
+    childOccurrences: Collection  # - | root | Occurrence.childOccurrences Property
+    isGrounded: bool  # flag | - | Occurrence.isGrounded Property
+    isLightBulbOn: bool  # flag | - | Occurrence.isLightBulbOn Property
+
+
+class Matrix(Protocol):
+    def asArray(self) -> Sequence[float]: ...  # 16 numbers, rows, translation 3 7 11 in cm | root | Matrix3D.asArray Method
+
+
+class Vector(Protocol):
+    def asArray(self) -> Sequence[float]: ...  # unit vector | root | Vector3D.asArray Method
+
+
+class Point(Protocol):
+    def asArray(self) -> Sequence[float]: ...  # cm | root | Point3D.asArray Method
+
+
+class Body(Protocol):
+    name: str  # text | - | BRepBody.name Property
+    meshManager: MeshManager  # - | component | BRepBody.meshManager Property
+
+
+class MeshManager(Protocol):
+    def createMeshCalculator(self) -> MeshCalculator: ...  # - | - | MeshManager.createMeshCalculator Method
+
+
+class MeshCalculator(Protocol):
+    def setQuality(self, quality: int) -> bool: ...  # TriangleMeshQualityOptions | - | TriangleMeshCalculator.setQuality Method
+    def calculate(self) -> Mesh: ...  # - | - | TriangleMeshCalculator.calculate Method
+
+
+class Mesh(Protocol):
+    nodeCoordinatesAsDouble: Sequence[float]  # cm | component | TriangleMesh.nodeCoordinatesAsDouble Property
+    nodeIndices: Sequence[int]  # from 0 | - | TriangleMesh.nodeIndices Property
+
+
+class Joint(Protocol):
+    name: str  # text | - | Joint.name Property
+    occurrenceOne: Occurrence | None  # null = root | - | Joint.occurrenceOne Property
+    occurrenceTwo: Occurrence | None  # null = root | - | Joint.occurrenceTwo Property
+    geometryOneTransform: Matrix  # - | root | Joint.geometryOneTransform Property
+    geometryTwoTransform: Matrix  # - | root | Joint.geometryTwoTransform Property
+    geometry: Geometry | None  # null of a rigid one | root | AsBuiltJoint.geometry Property
+    jointMotion: Motion | None  # - | - | Joint.jointMotion Property
+    motionLinks: Collection  # - | - | Joint.motionLinks Property
+    isSuppressed: bool  # flag | - | Joint.isSuppressed Property
+    isLocked: bool  # flag | - | Joint.isLocked Property
+    healthState: int  # FeatureHealthStates | - | Joint.healthState Property
+
+
+class Geometry(Protocol):
+    origin: Point  # - | root | JointGeometry.origin Property
+    primaryAxisVector: Vector  # the frame's Z | root | JointGeometry.primaryAxisVector Property
+    secondaryAxisVector: Vector  # the frame's X | root | JointGeometry.secondaryAxisVector Property
+
+
+class Motion(Protocol):
+    jointType: int  # JointTypes | - | JointMotion.jointType Property
+    rotationAxisVector: Vector  # - | root | RevoluteJointMotion.rotationAxisVector Property
+    rotationValue: float  # rad | - | RevoluteJointMotion.rotationValue Property
+    rotationLimits: Limits  # rad | - | RevoluteJointMotion.rotationLimits Property
+    slideDirectionVector: Vector  # - | root | SliderJointMotion.slideDirectionVector Property
+    slideValue: float  # cm | - | SliderJointMotion.slideValue Property
+    slideLimits: Limits  # cm | - | SliderJointMotion.slideLimits Property
+    normalDirectionVector: Vector  # - | root | PlanarJointMotion.normalDirectionVector Property
+    primarySlideDirectionVector: Vector  # - | root | PlanarJointMotion.primarySlideDirectionVector Property
+    primarySlideValue: float  # cm | - | PlanarJointMotion.primarySlideValue Property
+    primarySlideLimits: Limits  # cm | - | PlanarJointMotion.primarySlideLimits Property
+    secondarySlideValue: float  # cm | - | PlanarJointMotion.secondarySlideValue Property
+    secondarySlideLimits: Limits  # cm | - | PlanarJointMotion.secondarySlideLimits Property
+
+
+class Limits(Protocol):
+    isMinimumValueEnabled: bool  # flag | - | JointLimits.isMinimumValueEnabled Property
+    minimumValue: float  # cm or rad | - | JointLimits.minimumValue Property
+    isMaximumValueEnabled: bool  # flag | - | JointLimits.isMaximumValueEnabled Property
+    maximumValue: float  # cm or rad | - | JointLimits.maximumValue Property
+
+
+class MotionLink(Protocol):
+    name: str  # text | - | MotionLink.name Property
+    jointOne: Joint  # - | - | MotionLink.jointOne Property
+    jointTwo: Joint | None  # null = the same joint | - | MotionLink.jointTwo Property
+    motionOne: int  # MotionTypes | - | MotionLink.motionOne Property
+    motionTwo: int  # MotionTypes | - | MotionLink.motionTwo Property
+    valueOne: Parameter  # - | - | MotionLink.valueOne Property
+    valueTwo: Parameter  # - | - | MotionLink.valueTwo Property
+    isReversed: bool  # flag | - | MotionLink.isReversed Property
+    isSuppressed: bool  # flag | - | MotionLink.isSuppressed Property
+
+
+class Parameter(Protocol):
+    value: float  # cm or rad | - | Parameter.value Property
+
+
+class RigidGroup(Protocol):
+    name: str  # text | - | RigidGroup.name Property
+    occurrences: Collection  # - | - | RigidGroup.occurrences Property
+    isSuppressed: bool  # flag | - | RigidGroup.isSuppressed Property
+
+
+class AssemblyConstraint(Protocol):
+    name: str  # text | - | AssemblyConstraint.name Property
+    occurrenceOne: Occurrence | None  # null = root | - | AssemblyConstraint.occurrenceOne Property
+    occurrenceTwo: Occurrence | None  # null = root | - | AssemblyConstraint.occurrenceTwo Property
+    isSuppressed: bool  # flag | - | AssemblyConstraint.isSuppressed Property

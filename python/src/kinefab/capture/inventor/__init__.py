@@ -1,0 +1,1 @@
+"""Autodesk Inventor, over COM."""

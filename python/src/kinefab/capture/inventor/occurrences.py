@@ -1,0 +1,168 @@
+"""Inventor's occurrences as components: poses, flags, the meshes and masses of their definitions."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import cast
+
+from ..channel import MemberFailed
+from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
+from .api import Body, Collection, Definition, MassProperties, Matrix, Occurrence
+from .geometry import numbers
+
+ASSEMBLY = 12291
+TOLERANCE = 0.005
+"""Chord of a facet, cm."""
+TINY = 1e-12
+
+
+@dataclass(slots=True)
+class Occurrences:
+    """draft: what is filled.  root: id of the document's own assembly.  flexible: (id, definition) of the assemblies
+    whose constraints count: the root and those whose parts move against each other.
+    order: how ``GetMatrixData`` lists its numbers, once a matrix has told: its documentation does not.
+    """
+
+    draft: Draft
+    root: str
+    flexible: list[tuple[str, Definition]] = field(default_factory=list[tuple[str, Definition]])
+    order: str = ""
+    definitions: dict[str, Record] = field(default_factory=dict[str, Record])
+
+    def read(self, occurrences: Collection, parent: str) -> None:
+        for index in range(1, occurrences.Count + 1):
+            with self.draft.safely(f"occurrence {index} of {parent}"):
+                self._occurrence(cast(Occurrence, occurrences.Item(index)), parent)
+
+    def _occurrence(self, occurrence: Occurrence, parent: str) -> None:
+        name = occurrence.Name
+        own = f"{parent}/{name}"
+        suppressed = bool(occurrence.Suppressed)
+        record: Record = {"id": own, "name": name, "kind": "part", "parent": parent}
+        if suppressed:
+            identity = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
+            self.draft.components.append({**record, "pose": pose_of_rows(identity), "suppressed": True})
+            return
+        is_assembly = occurrence.DefinitionDocumentType == ASSEMBLY
+        record["kind"] = "assembly" if is_assembly else "part"
+        record["pose"] = pose_of_rows(self._rows(occurrence.Transformation))
+        record["grounded"], record["visible"] = bool(occurrence.Grounded), bool(occurrence.Visible)
+        extras = {
+            word: True
+            for word, asked in (
+                ("adaptive", occurrence.Adaptive),
+                ("patternElement", occurrence.IsPatternElement),
+            )
+            if asked
+        }
+        if extras:
+            record["extras"] = extras
+        definition = occurrence.Definition
+        record["definition"] = definition.Document.DisplayName
+        self.draft.components.append(record)
+        if is_assembly:
+            record["flexible"] = bool(occurrence.Flexible)
+            if record["flexible"]:
+                self.flexible.append((own, definition))
+            self.read(occurrence.SubOccurrences, own)
+        else:
+            record.update(self._definition(record["definition"], definition))
+        if not record["grounded"]:
+            self._freedoms(occurrence, own)
+
+    def _rows(self, matrix: Matrix) -> Numbers:
+        """A matrix, row by row; ``Cell`` tells the order of the bulk call where the numbers do not."""
+        try:
+            data = [float(v) for v in matrix.GetMatrixData()]
+        except (MemberFailed, TypeError, ValueError):
+            return [float(matrix.Cell(row, column)) for row in (1, 2, 3, 4) for column in (1, 2, 3, 4)]
+        if not self.order:
+            last_column, last_row = any(data[i] for i in (3, 7, 11)), any(data[12:15])
+            skew = data[1] - data[4]
+            if last_column != last_row:
+                self.order = "rows" if last_column else "columns"
+            elif abs(skew) > TINY:
+                self.order = "rows" if abs(matrix.Cell(1, 2) - data[1]) < TINY else "columns"
+            elif abs(data[2] - data[8]) > TINY:
+                self.order = "rows" if abs(matrix.Cell(1, 3) - data[2]) < TINY else "columns"
+            elif abs(data[6] - data[9]) > TINY:
+                self.order = "rows" if abs(matrix.Cell(2, 3) - data[6]) < TINY else "columns"
+        if self.order == "columns":
+            return [data[row + 4 * column] for row in range(4) for column in range(4)]
+        return data
+
+    def _definition(self, name: str, definition: Definition) -> Record:
+        """Bodies, mesh and mass of a part, read once for all its occurrences."""
+        if name in self.definitions:
+            return self.definitions[name]
+        found: Record = {}
+        with self.draft.safely(f"meshes of {name}"):
+            bodies = [
+                cast(Body, definition.SurfaceBodies.Item(i))
+                for i in range(1, definition.SurfaceBodies.Count + 1)
+            ]
+            meshes = [_mesh(body) for body in bodies]
+            if meshes:
+                self.draft.meshes[name] = meshes
+                found["bodies"] = [{"id": m.name, "meshKey": m.name} for m in meshes]
+        with self.draft.safely(f"mass of {name}"):
+            if (mass := definition.MassProperties) is not None:
+                found["mass"] = mass_record(mass, self.draft, name)
+        self.definitions[name] = found
+        return found
+
+    def _freedoms(self, occurrence: Occurrence, own: str) -> None:
+        with self.draft.safely(f"freedoms of {own}"):
+            slides, directions, turns, axes, center = occurrence.GetDegreesOfFreedom()
+            record: Record = {"component": own}
+            if slides:
+                record["translations"] = [numbers(directions.Item(i)) for i in range(1, slides + 1)]
+            if turns:
+                record["rotations"] = [numbers(axes.Item(i)) for i in range(1, turns + 1)]
+                if center is not None:
+                    record["center"] = numbers(center)
+            self.draft.dof.append(record)
+
+
+def _mesh(body: Body) -> BodyMesh:
+    _, _, points, _, corners = body.CalculateFacets(TOLERANCE)
+    return BodyMesh(body.Name, [float(v) for v in points], [int(i) - 1 for i in corners])
+
+
+def mass_record(properties: MassProperties, draft: Draft, name: str) -> Record:
+    """Mass, centre and the tensor about it, part axes.
+
+    Whether ``XYZMomentsOfInertia`` counts from the centre or the origin, and with which sign it lists products, tells the
+    comparison with the principal moments: trace and determinant of a tensor are theirs.
+    """
+    mass, center = float(properties.Mass), numbers(properties.CenterOfMass)
+    xx, yy, zz, xy, yz, xz = (float(v) for v in properties.XYZMomentsOfInertia())
+    principal = [float(v) for v in properties.PrincipalMomentsOfInertia()]
+    best: tuple[float, str, list[float]] | None = None
+    size = max(map(abs, principal)) or 1.0
+    for words, sign in (("entries of the tensor", 1.0), ("products with the other sign", -1.0)):
+        given = [xx, yy, zz, sign * xy, sign * yz, sign * xz]
+        for where, tensor in (
+            ("about the centre", given),
+            ("about the origin", _to_center(given, mass, center)),
+        ):
+            off = abs(sum(tensor[:3]) - sum(principal)) / size
+            off += abs(_determinant(tensor) - math.prod(principal)) / size**3
+            if best is None or off < best[0] - 1e-9:
+                best = off, f"{words}, {where}", tensor
+    assert best is not None
+    if best[0] > 1e-4:
+        draft.report.add("CAPTURE_INERTIA", name=name, program=draft.program, off=f"{best[0]:.2g}")
+    return {"in": "part", "mass": mass, "center": center, "inertia": best[2], "extras": {"reading": best[1]}}
+
+
+def _to_center(tensor: list[float], m: float, c: list[float]) -> list[float]:
+    x, y, z = c
+    shift = [y * y + z * z, x * x + z * z, x * x + y * y, -x * y, -y * z, -x * z]
+    return [t - m * s for t, s in zip(tensor, shift)]
+
+
+def _determinant(tensor: list[float]) -> float:
+    xx, yy, zz, xy, yz, xz = tensor
+    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)

@@ -1,0 +1,1 @@
+"""Onshape, over its REST API or from saved answers of it."""

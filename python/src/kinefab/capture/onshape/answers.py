@@ -1,0 +1,158 @@
+"""Onshape's answers: over REST with keys from the environment, from a folder of saved JSON, or from a record.
+
+Every answer is kept by its question (``definition``, ``features``, ``matevalues``, ``name``, ``stl PARTID ...``), once.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, cast
+from urllib.parse import urlencode, urlsplit
+
+from ...diagnostics import KinefabError, Report
+from ..channel import MemberFailed, RecordBroken
+
+ADDRESS = re.compile(
+    r"/documents/(?P<did>[0-9a-zA-Z]+)/(?P<wvm>[wvm])/(?P<wid>[0-9a-zA-Z]+)/e/(?P<eid>[0-9a-zA-Z]+)"
+)
+KEYS = ("ONSHAPE_ACCESS_KEY", "ONSHAPE_SECRET_KEY")
+TRIES, LONGEST_WAIT = 3, 60.0
+SAVED = ("definition", "features", "matevalues", "name")
+
+
+@dataclass(slots=True)
+class Answers:
+    """fetch: the answer to a question that is not kept yet, JSON or bytes; None where there is no program."""
+
+    answers: dict[str, Any] = field(default_factory=dict[str, Any])
+    fetch: Callable[[str], Any] | None = None
+    calls: int = 0
+
+    @property
+    def root(self) -> Answers:
+        return self
+
+    def ask(self, question: str) -> Any:
+        """Raises MemberFailed."""
+        if question not in self.answers:
+            if self.fetch is None:
+                raise MemberFailed(question, "no such answer was saved")
+            self.calls += 1
+            found = self.fetch(question)
+            self.answers[question] = (
+                {"base64": base64.b64encode(found).decode()} if isinstance(found, bytes) else found
+            )
+        return self.answers[question]
+
+    def bytes_of(self, question: str) -> bytes:
+        return base64.b64decode(self.ask(question)["base64"])
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """An assembly behind an address of the browser.  base: scheme and host.  where: document, version and element."""
+
+    base: str
+    where: Mapping[str, str]
+    keys: tuple[str, str]
+    sleep: Callable[[float], None] = time.sleep
+
+    def fetch(self, question: str) -> Any:
+        w = self.where
+        element = "{did}/{wvm}/{wid}/e/{eid}".format_map(w)
+        if question == "definition":
+            flags = {
+                "includeMateFeatures": "true",
+                "includeMateConnectors": "true",
+                "includeNonSolids": "true",
+            }
+            return self._json(f"/api/assemblies/d/{element}?{urlencode(flags)}")
+        if question == "name":
+            listed = self._json("/api/documents/d/{did}/{wvm}/{wid}/elements".format_map(w))
+            return [e for e in cast("list[dict[str, Any]]", listed) if e.get("id") == w["eid"]]
+        if question.startswith("stl "):
+            _, did, microversion, eid, part, configuration = question.split(" ", 5)
+            asked = urlencode({"mode": "binary", "units": "meter", "configuration": configuration})
+            return self._get(f"/api/parts/d/{did}/m/{microversion}/e/{eid}/partid/{part}/stl?{asked}", "*/*")
+        return self._json(f"/api/assemblies/d/{element}/{question}")
+
+    def _json(self, path: str) -> Any:
+        try:
+            return json.loads(self._get(path, "application/json"))
+        except ValueError as error:
+            raise MemberFailed(path.partition("?")[0], f"no JSON: {error}") from error
+
+    def _get(self, path: str, accept: str) -> bytes:
+        login = base64.b64encode(":".join(self.keys).encode()).decode()
+        request = urllib.request.Request(self.base + path, headers={"Accept": accept})
+        # Not carried on by a redirect: the meshes lie at another host, which has no business with the keys.
+        request.add_unredirected_header("Authorization", f"Basic {login}")
+        member = path.partition("?")[0]
+        for attempt in range(TRIES):
+            try:
+                with urllib.request.urlopen(request, timeout=60) as answer:
+                    content: bytes = answer.read()
+                    return content
+            except urllib.error.HTTPError as error:
+                if error.code != 429 or attempt == TRIES - 1:
+                    raise MemberFailed(member, _words(error.code)) from error
+                asked = error.headers.get("Retry-After", "1")
+                self.sleep(min(LONGEST_WAIT, float(asked) if asked.isdigit() else 1.0))
+            except (urllib.error.URLError, OSError) as error:
+                raise MemberFailed(member, str(getattr(error, "reason", error))) from error
+        raise AssertionError("the last try returns or raises")
+
+
+def _words(code: int) -> str:
+    said = {
+        401: "the keys are not accepted",
+        403: "the keys have no right to this document, or the computer's clock is off",
+        404: "there is no such document, or the keys may not see it",
+        429: "too many calls for now, or the plan's yearly number is used up",
+    }
+    return f"HTTP {code}: {said.get(code, 'the server failed')}"
+
+
+def opened(source: str, environment: Mapping[str, str], report: Report) -> Answers:
+    """The answers behind an address, or of a folder of saved ones.  Raises KinefabError."""
+    if not source.startswith(("http://", "https://")):
+        return _saved(Path(source), report)
+    parts = urlsplit(source)
+    address = ADDRESS.search(parts.path)
+    if address is None:
+        raise KinefabError([report.add("CAPTURE_ADDRESS", address=source)])
+    access, secret = (environment.get(key, "") for key in KEYS)
+    if not access or not secret:
+        raise KinefabError([report.add("CAPTURE_KEYS", keys=" and ".join(KEYS))])
+    rest = Rest(f"{parts.scheme}://{parts.netloc}", address.groupdict(), (access, secret))
+    return Answers(fetch=rest.fetch)
+
+
+def _saved(folder: Path, report: Report) -> Answers:
+    """``definition.json`` and, beside it, ``features.json`` and ``matevalues.json``: answers saved by hand."""
+    files = {word: folder / f"{word}.json" for word in SAVED} if folder.is_dir() else {"definition": folder}
+    found = Answers()
+    for word, path in files.items():
+        try:
+            if path.is_file():
+                found.answers[word] = json.loads(path.read_text(encoding="utf-8-sig"))
+        except (OSError, ValueError, RecursionError) as error:
+            raise KinefabError([report.add("CAPTURE_RECORD", path.name, detail=str(error))]) from None
+    if "definition" not in found.answers:
+        raise KinefabError([report.add("SOURCE_NOT_FOUND", path=files["definition"])])
+    return found
+
+
+def replayed(answers: object) -> Answers:
+    """The answers of a record.  Raises RecordBroken."""
+    if not isinstance(answers, dict):
+        raise RecordBroken("it holds no answers by their questions")
+    return Answers(cast("dict[str, Any]", answers))

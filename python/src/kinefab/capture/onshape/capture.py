@@ -1,0 +1,41 @@
+"""An Onshape assembly: definition, features, mate values and meshes."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from ..draft import Draft, pose
+from .answers import Answers, replayed
+from .definition import Definition
+from .mates import Mates, limits_of
+
+NAME = "Onshape"
+METHODS: frozenset[str] = frozenset()
+
+
+def capture(root: Answers, draft: Draft) -> None:
+    """Fill the draft; errors that end the capture are in its report."""
+    values: Any = root.ask("definition")
+    if not isinstance(values, dict) or "rootAssembly" not in values:
+        draft.report.add("CAPTURE_NO_ASSEMBLY", program=NAME)
+        return
+    name = "Assembly"
+    if root.fetch is not None or "name" in root.answers:
+        with draft.safely("name of the assembly"):
+            name = str(root.ask("name")[0]["name"]).replace("/", "_")
+    identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    draft.components.append(
+        {"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity}
+    )
+    definition = Definition(root, draft, name, cast("dict[str, Any]", values))
+    definition.read()
+    features: dict[str, Any] = {}
+    with draft.safely("limits of the mates"):
+        features = limits_of(root.ask("features"))
+    shown: dict[str, Any] = {}
+    with draft.safely("values of the mates"):
+        shown = {entry["featureId"]: entry for entry in root.ask("matevalues").get("mateValues", [])}
+    Mates(definition, features, shown).read()
+
+
+__all__ = ["METHODS", "NAME", "capture", "replayed"]

@@ -1,0 +1,120 @@
+"""Onshape's assembly definition: instances and occurrences as components with ids that people can read."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from ..draft import BodyMesh, Draft, Record, pose_of_rows
+from .answers import Answers
+
+Json = dict[str, Any]
+IDENTITY = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
+STL_HEAD, STL_FACET = 84, 50
+
+
+@dataclass(slots=True)
+class Definition:
+    """An assembly definition.  ids: component of each path of instance ids.  subs: sub-assemblies by what they are of."""
+
+    answers: Answers
+    draft: Draft
+    root: str
+    values: Json
+    ids: dict[tuple[str, ...], str] = field(default_factory=dict[tuple[str, ...], str])
+    owners: list[tuple[tuple[str, ...], Json]] = field(default_factory=list[tuple[tuple[str, ...], Json]])
+    meshed: dict[str, str] = field(default_factory=dict[str, str])
+
+    def read(self) -> None:
+        """Fill the draft's components; ``owners`` becomes the root and every occurrence of a sub-assembly."""
+        top = self.values["rootAssembly"]
+        subs = {_key(sub): sub for sub in self.values.get("subAssemblies", [])}
+        occurrences = {tuple(o["path"]): o for o in top.get("occurrences", [])}
+        self.owners.append(((), top))
+        self._level(top, (), self.root, subs, occurrences)
+
+    def _level(
+        self,
+        assembly: Json,
+        path: tuple[str, ...],
+        parent: str,
+        subs: dict[Any, Json],
+        found: dict[tuple[str, ...], Json],
+    ) -> None:
+        names: dict[str, int] = {}
+        for instance in assembly.get("instances", []):
+            with self.draft.safely(f"an instance of {parent}"):
+                self._instance(instance, path, parent, subs, found, names)
+
+    def _instance(
+        self, instance: Json, path: tuple[str, ...], parent: str, subs: dict[Any, Json],
+        found: dict[tuple[str, ...], Json], names: dict[str, int],
+    ) -> None:  # fmt: skip
+        own_path = (*path, instance["id"])
+        name = str(instance["name"]).replace("/", "_")
+        names[name] = names.get(name, 0) + 1
+        name = name if names[name] == 1 else f"{name} ({names[name]})"
+        own = f"{parent}/{name}"
+        is_assembly = instance.get("type") == "Assembly"
+        record: Record = {
+            "id": own,
+            "name": name,
+            "kind": "assembly" if is_assembly else "part",
+            "parent": parent,
+        }
+        occurrence = found.get(own_path)
+        if instance.get("suppressed") or occurrence is None:
+            self.ids[own_path] = own
+            self.draft.components.append({**record, "pose": pose_of_rows(IDENTITY), "suppressed": True})
+            return
+        record["pose"] = pose_of_rows([float(v) for v in occurrence["transform"]])
+        self.ids[own_path] = own
+        record["grounded"] = bool(occurrence.get("fixed", False))
+        record["visible"] = not occurrence.get("hidden", False)
+        record["definition"] = " ".join(str(v) for v in (*_key(instance), instance.get("partId", "")))
+        self.draft.components.append(record)
+        if is_assembly:
+            record["flexible"] = True  # nothing in the answers says that one is rigid
+            sub = subs.get(_key(instance))
+            if sub is not None:
+                self.owners.append((own_path, sub))
+                self._level(sub, own_path, own, subs, found)
+        else:
+            self._mesh(record, instance)
+
+    def _mesh(self, record: Record, instance: Json) -> None:
+        """The part's STL, once for all its occurrences; without a program only where it was saved."""
+        name = record["definition"]
+        wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId", "partId")]
+        question = " ".join(["stl", *map(str, wanted), str(instance.get("configuration", "default"))])
+        if name not in self.meshed and (self.answers.fetch is not None or question in self.answers.answers):
+            self.meshed[name] = ""
+            with self.draft.safely(f"mesh of {record['id']}"):
+                mesh = stl(record["name"], self.answers.bytes_of(question))
+                self.draft.meshes[name] = [mesh]
+                self.meshed[name] = mesh.name
+        if key := self.meshed.get(name):
+            record["bodies"] = [{"id": key, "meshKey": key}]
+
+    def component(self, owner: tuple[str, ...], path: list[str]) -> str:
+        """Id of what a feature of ``owner`` names; an empty path is the assembly itself.  Raises KeyError."""
+        if not path:
+            return self.ids[owner] if owner else "ground"
+        return self.ids[(*owner, *path)]
+
+
+def _key(entry: Json) -> tuple[Any, ...]:
+    return tuple(entry.get(k) for k in ("documentId", "documentMicroversion", "elementId", "configuration"))
+
+
+def stl(name: str, content: bytes) -> BodyMesh:
+    """A binary STL.  Raises ValueError where it is none."""
+    count = struct.unpack_from("<I", content, STL_HEAD - 4)[0] if len(content) >= STL_HEAD else -1
+    if len(content) != STL_HEAD + STL_FACET * count:
+        raise ValueError("no binary STL")
+    points: list[float] = []
+    for facet in range(count):
+        numbers = struct.unpack_from("<12f", content, STL_HEAD + STL_FACET * facet)
+        points += cast("tuple[float, ...]", numbers)[3:]
+    return BodyMesh(" ".join(name.split()), points, list(range(3 * count)))

@@ -1,0 +1,152 @@
+"""The open assembly of a running SolidWorks: components, mates, meshes, colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ..channel import methods_of
+from ..draft import BodyMesh, Draft, Record, pose
+from . import api
+from .api import Application, Component, Feature, Model
+from .mates import UNIT, Owner, read_mate
+
+NAME, ASSEMBLY, LEAST = "SolidWorks", 2, 26
+"""Revision 26 is 2018: from there on mates have feature data."""
+FLEXIBLE, SUPPRESSED, HIDDEN, SOLID = 1, 0, 0, 0
+INTERFACES = tuple(
+    value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
+)
+METHODS = methods_of(*INTERFACES)
+
+
+def capture(application: Application, draft: Draft) -> None:
+    """Fill the draft with the open assembly; errors that end the capture are in its report."""
+    draft.version = application.RevisionNumber()
+    if int(draft.version.partition(".")[0]) < LEAST:
+        draft.report.add("CAPTURE_VERSION", program=NAME, found=draft.version, least="2018")
+        return
+    model = application.ActiveDoc
+    if model is None or model.GetType() != ASSEMBLY:
+        draft.report.add("CAPTURE_NO_ASSEMBLY", program=NAME)
+        return
+    title = model.GetTitle()
+    draft.source = model.GetPathName()
+    if not draft.source or model.GetSaveFlag():
+        draft.report.add("CAPTURE_UNSAVED", program=NAME, name=title)
+    with draft.safely("rebuild state"):
+        draft.dirty = model.Extension.NeedsRebuild2 != 0
+    root = title.rpartition(".")[0] if title.lower().endswith(".sldasm") else title
+    identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    draft.components.append(
+        {"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": identity}
+    )
+    found = Components(draft, root)
+    top = model.ConfigurationManager.ActiveConfiguration.GetRootComponent3(True)
+    found.read(top, root)
+    _mates(Owner(draft, root, "world", UNIT.get(model.LengthUnit, 1.0)), model)
+    for own, inner in found.flexible:
+        _mates(Owner(draft, own, own, UNIT.get(inner.LengthUnit, 1.0)), inner)
+
+
+@dataclass(slots=True)
+class Components:
+    """flexible: (id, document) of the sub-assemblies whose mates count."""
+
+    draft: Draft
+    root: str
+    flexible: list[tuple[str, Model]] = field(default_factory=list[tuple[str, Model]])
+    definitions: dict[str, Record] = field(default_factory=dict[str, Record])
+
+    def read(self, parent: Component, own: str) -> None:
+        for child in parent.GetChildren() or ():
+            with self.draft.safely(f"a component of {own}"):
+                self._component(child, own)
+
+    def _component(self, component: Component, parent: str) -> None:
+        path = component.Name2
+        own = f"{self.root}/{path}"
+        record: Record = {"id": own, "name": path.rpartition("/")[2], "kind": "part", "parent": parent}
+        if component.GetSuppression2() == SUPPRESSED:
+            identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+            self.draft.components.append({**record, "pose": identity, "suppressed": True})
+            return
+        transform = component.Transform2
+        if transform is None:
+            raise ValueError("a component without a transform")
+        m = [float(v) for v in transform.ArrayData]
+        record["pose"] = pose(m[9:12], m[0:3], m[3:6], m[6:9])
+        file = component.GetPathName()
+        is_assembly = file.lower().endswith(".sldasm")
+        record["definition"] = (
+            f"{file.replace(chr(92), '/').rpartition('/')[2]}:{component.ReferencedConfiguration}"
+        )
+        record["kind"] = "assembly" if is_assembly else "part"
+        record["grounded"] = bool(component.IsFixed()) and parent == self.root
+        record["visible"] = component.Visible != HIDDEN
+        copied = [
+            word
+            for word, asked in (
+                ("mirrored", component.IsMirrored()),
+                ("patternInstance", component.IsPatternInstance()),
+            )
+            if asked
+        ]
+        if copied:
+            record["extras"] = dict.fromkeys(copied, True)
+        self.draft.components.append(record)
+        if is_assembly:
+            record["flexible"] = component.Solving == FLEXIBLE
+            if record["flexible"] and (inner := component.GetModelDoc2()) is not None:
+                self.flexible.append((own, inner))
+            self.read(component, own)
+        else:
+            record.update(self._definition(record["definition"], component))
+
+    def _definition(self, name: str, component: Component) -> Record:
+        """Bodies, mesh and colour of a part, read once for all its components."""
+        if name in self.definitions:
+            return self.definitions[name]
+        found: Record = {}
+        with self.draft.safely(f"meshes of {name}"):
+            meshes = [mesh for body in component.GetBodies2(SOLID) or () if (mesh := _mesh(body)).triangles]
+            if meshes:
+                self.draft.meshes[name] = meshes
+                found["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in meshes]
+        with self.draft.safely(f"colour of {name}"):
+            model = component.GetModelDoc2()
+            values = None if model is None else model.MaterialPropertyValues
+            if values and values[0] >= 0.0 and "bodies" in found:
+                color = [min(1.0, max(0.0, float(v))) for v in (*values[:3], 1.0 - values[7])]
+                self.draft.materials[name] = {"name": name, "color": color}
+                for body in found["bodies"]:
+                    body["material"] = name
+        self.definitions[name] = found
+        return found
+
+
+def _mesh(body: api.Body) -> BodyMesh:
+    points = [float(v) for face in body.GetFaces() or () for v in face.GetTessTriangles(True) or ()]
+    return BodyMesh(body.Name, points, list(range(len(points) // 3)))
+
+
+def _mates(owner: Owner, model: Model) -> None:
+    feature = model.FirstFeature()
+    while feature is not None:
+        if feature.GetTypeName2() == "MateGroup":
+            for mate in _below(feature):
+                with owner.draft.safely(f"a mate of {owner.id}"):
+                    read_mate(owner, mate)
+        feature = feature.GetNextFeature()
+
+
+def _below(group: Feature) -> Iterator[Feature]:
+    """The mates of a group and of its folders."""
+    feature = group.GetFirstSubFeature()
+    while feature is not None:
+        kind = feature.GetTypeName2()
+        if kind == "FtrFolder":
+            yield from _below(feature)
+        elif kind != "MateInPlace":
+            yield feature
+        feature = feature.GetNextSubFeature()

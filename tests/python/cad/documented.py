@@ -1,0 +1,79 @@
+"""Records of a program, built member by member as ``members.csv`` documents them."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+TABLE = Path(__file__).with_name("members.csv")
+
+
+@cache
+def members(program: str) -> dict[tuple[str, str], dict[str, str]]:
+    with TABLE.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream, delimiter=";"))
+    return {(row["class"], row["member"]): row for row in rows if row["program"] == program}
+
+
+@dataclass(frozen=True)
+class Metres:
+    """A length of the description; the record has it in the unit that the member documents."""
+
+    value: Any
+
+
+class Answers:
+    """The objects of a record.  Index 0 is the application, set last."""
+
+    def __init__(self, program: str) -> None:
+        self.program = program
+        self.objects: list[dict[str, Any]] = [{}]
+
+    def made(self, kind: str, **answers: Any) -> dict[str, int]:
+        """A new object of a documented class; an answer of a method is given as ``name__arguments`` or a dict."""
+        self.objects.append(self._checked(kind, answers))
+        return {"object": len(self.objects) - 1}
+
+    def application(self, kind: str, **answers: Any) -> None:
+        self.objects[0] = self._checked(kind, answers)
+
+    def _checked(self, kind: str, answers: dict[str, Any]) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        table = members(self.program)
+        for name, answer in answers.items():
+            row = table[kind, name]
+            if row["kind"] == "property":
+                found[name] = scaled(answer, row["unit"])
+            elif isinstance(answer, dict) and "object" not in answer and "failed" not in answer:
+                found |= {f"{name}({key})": scaled(value, row["unit"]) for key, value in answer.items()}
+            else:
+                found[f"{name}()"] = scaled(answer, row["unit"])
+        return found
+
+    def listed(
+        self,
+        entries: list[Any],
+        kind: str = "Collection",
+        count: str = "Count",
+        item: str = "Item",
+        first: int = 1,
+    ):
+        return self.made(
+            kind, **{count: len(entries), item: {str(i + first): e for i, e in enumerate(entries)}}
+        )
+
+
+def scaled(answer: Any, unit: str) -> Any:
+    if isinstance(answer, Metres):
+        factor = 100.0 if "cm" in unit else 1.0
+        assert "cm" in unit or unit.startswith("m"), f"a length of a member in {unit!r}"
+        value = answer.value
+        return [float(v) * factor for v in value] if hasattr(value, "__len__") else float(value) * factor
+    if hasattr(answer, "tolist"):
+        return answer.tolist()
+    if isinstance(answer, (list, tuple)):
+        return [scaled(entry, unit) for entry in answer]
+    return answer

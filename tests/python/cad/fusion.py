@@ -1,0 +1,138 @@
+"""Fusion's answers for a described assembly: its joints as joints or as-built joints, its couplings as motion links."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from cad.described import Described, Part
+from cad.documented import Answers, Metres
+
+TYPES = {"rigid": 0, "revolute": 1, "slider": 2, "cylindrical": 3, "pin_slot": 4, "planar": 5, "ball": 6}
+MOTIONS = {("revolute", "rz"): 10, ("slider", "tz"): 11, ("cylindrical", "rz"): 3, ("cylindrical", "tz"): 4}
+
+
+class Fusion:
+    """as_built: names of joints that are as-built.  bodies: (double, part) to the bodies of a component."""
+
+    def __init__(self, assembly: Described, as_built: tuple[str, ...] = (), bodies: Any = None) -> None:
+        self.assembly, self.bodies = assembly, bodies
+        self.answers = Answers("fusion")
+        self.occurrences: dict[str, dict[str, int]] = {}
+        self.top = [self._occurrence(part) for part in assembly.children(assembly.root)]
+        self.joints = {j["id"]: self._joint(j, j["id"] in as_built) for j in assembly.joints}
+        links: dict[str, list[dict[str, int]]] = {name: [] for name in self.joints}
+        kinds = {j["id"]: j["type"] for j in assembly.joints}
+        for c in assembly.couplings:
+            one, two = c["a"]["joint"], c["b"]["joint"]
+            link = self.answers.made(
+                "MotionLink", name=c["id"], jointOne=self.joints[one], jointTwo=self.joints[two],
+                motionOne=MOTIONS[kinds[one], c["a"]["dof"]], motionTwo=MOTIONS[kinds[two], c["b"]["dof"]],
+                valueOne=self.answers.made("Parameter", value=2.0), valueTwo=self.answers.made("Parameter", value=2.0 * abs(c["ratio"])),
+                isReversed=c["ratio"] < 0.0, isSuppressed=False,
+            )  # fmt: skip
+            links[one].append(link)
+            links[two].append(link)
+        for name, made in self.joints.items():
+            self.answers.objects[made["object"]]["motionLinks"] = self.listed(links[name])
+        self.as_built = as_built
+
+    def listed(self, entries: list[Any]) -> dict[str, int]:
+        return self.answers.listed(entries, count="count", item="item", first=0)
+
+    def record(self, groups: tuple[Any, ...] = (), contacts: int = 0, **changes: Any) -> list[dict[str, Any]]:
+        a = self.answers
+        made = [
+            a.made(
+                "RigidGroup",
+                name=name,
+                occurrences=self.listed([self.occurrences[m] for m in members]),
+                isSuppressed=False,
+            )
+            for name, members in groups
+        ]
+        root = a.made(
+            "RootComponent", name=self.assembly.root, occurrences=self.listed(self.top),
+            allJoints=self.listed([j for n, j in self.joints.items() if n not in self.as_built]),
+            allAsBuiltJoints=self.listed([j for n, j in self.joints.items() if n in self.as_built]),
+            allRigidGroups=self.listed(made), allAssemblyConstraints=self.listed([]),
+        )  # fmt: skip
+        design = a.made(
+            "Design",
+            productType="DesignProductType",
+            rootComponent=root,
+            contactSets=self.listed([None] * contacts),
+        )
+        document = a.made(
+            "Document", **{"name": self.assembly.root, "isSaved": True, "isModified": False, **changes}
+        )
+        a.application("Application", version="2.0.20000", activeDocument=document, activeProduct=design)
+        return a.objects
+
+    def matrix(self, rotation: np.ndarray, origin: np.ndarray) -> dict[str, int]:
+        m = np.eye(4)
+        m[:3, :3], m[:3, 3] = rotation, origin * 100.0
+        return self.answers.made("Matrix", asArray=m.ravel().tolist())
+
+    def _occurrence(self, part: Part) -> dict[str, int]:
+        a = self.answers
+        children = [self._occurrence(child) for child in self.assembly.children(part.id)]
+        bodies = self.bodies(self, part) if self.bodies else []
+        made = a.made(
+            "Occurrence", name=part.name, fullPathName=part.id.removeprefix(self.assembly.root + "/").replace("/", "+"),
+            component=a.made("Component", name=part.definition, bRepBodies=self.listed(bodies)),
+            transform2=self.matrix(part.rotation, part.origin), childOccurrences=self.listed(children),
+            isGrounded=part.flags["grounded"], isLightBulbOn=part.flags["visible"],
+        )  # fmt: skip
+        self.occurrences[part.id] = made
+        return made
+
+    def vector(self, v: np.ndarray) -> dict[str, int]:
+        return self.answers.made("Vector", asArray=np.asarray(v).tolist())
+
+    def limits(self, dof: dict[str, Any]) -> dict[str, int]:
+        def value(key: str) -> Any:
+            number = dof.get(key, 0.0)
+            return Metres(number) if dof.get("name", "r")[0] == "t" else number
+
+        return self.answers.made(
+            "Limits", isMinimumValueEnabled=bool(dof.get("minEnabled")), minimumValue=value("min"),
+            isMaximumValueEnabled=bool(dof.get("maxEnabled")), maximumValue=value("max"),
+        )  # fmt: skip
+
+    def _joint(self, j: dict[str, Any], as_built: bool) -> dict[str, int]:
+        """The first occurrence moves against the second; the joint's axis is the frames' own X, the zero direction their Y."""
+        a = self.answers
+        dofs = {d["name"]: d for d in j.get("dof", [])}
+        fa, fb = j["frameA"], j.get("frameB", j["frameA"])
+        motion: dict[str, Any] = {"jointType": TYPES[j["type"]]}
+        if "rz" in dofs:
+            motion |= {
+                "rotationAxisVector": self.vector(fa["z"]),
+                "rotationValue": dofs["rz"].get("value", 0.0),
+                "rotationLimits": self.limits(dofs["rz"]),
+            }
+        if "tz" in dofs:
+            motion |= {
+                "slideDirectionVector": self.vector(fa["z"]),
+                "slideValue": Metres(dofs["tz"].get("value", 0.0)),
+                "slideLimits": self.limits(dofs["tz"]),
+            }
+        answers: dict[str, Any] = {
+            "name": j["id"], "jointMotion": a.made("Motion", **motion), "isSuppressed": False, "isLocked": False,
+            "occurrenceOne": self.occurrences[j["b"]], "occurrenceTwo": self.occurrences.get(j["a"]),
+        }  # fmt: skip
+        if as_built:
+            point = a.made("Point", asArray=Metres(fa["o"]))
+            answers["geometry"] = a.made(
+                "Geometry",
+                origin=point,
+                primaryAxisVector=self.vector(fa["z"]),
+                secondaryAxisVector=self.vector(fa["x"]),
+            )
+        else:
+            for word, at in (("One", fb), ("Two", fa)):
+                axes = np.column_stack([at["z"], at["x"], np.cross(at["z"], at["x"])])
+                answers[f"geometry{word}Transform"] = self.matrix(axes, at["o"])
+            answers["healthState"] = j.get("health", 0)
+        return a.made("Joint", **answers)

@@ -1,0 +1,125 @@
+"""Fusion's capture against its documented double, and the add-in in a Python without anything else."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import textwrap
+
+import pytest
+from cad.captures import capture, scene_differences
+from cad.described import described
+from cad.fusion import Fusion
+from kinefab.capture.fusion.install import install
+from kinefab.diagnostics import Report
+from test_capture_onshape import only_joints, rigid_crank
+
+
+@pytest.mark.parametrize("name", ["lever/lever.bundle.json", "gears"])
+def test_joints_give_the_scene_of_the_bundle(name, tmp_path):
+    """The frames' own X is the axis here, as a user may choose."""
+    values = only_joints(name)
+    values = rigid_crank(values) if "lever" in name else values
+    for coupling in values.get("couplings", []):
+        coupling["kind"] = "linear"  # Fusion's motion links do not say what they are
+    report = Report()
+    found = capture("fusion", Fusion(described(values)).record(), tmp_path, values["meta"]["up"], report)
+    assert scene_differences(values, found.path, tmp_path) == []
+    assert report.diagnostics == []
+
+
+def test_as_built_joints_are_placed_by_their_values(tmp_path):
+    values = only_joints("gears")
+    for coupling in values["couplings"]:
+        coupling["kind"] = "linear"
+    names = tuple(joint["id"] for joint in values["joints"])
+    answers = Fusion(described(values), names).record()
+    for joint in values["joints"]:
+        joint.pop("frameB")
+    values.pop("couplings")  # motion links are read from joints, not from as-built ones
+    found = capture("fusion", answers, tmp_path, values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []
+
+
+def test_rigid_groups_and_contact_sets(tmp_path):
+    values = only_joints("lever/lever.bundle.json")
+    members = [c["id"] for c in values["components"] if c.get("parent") == "Lever/Crank:1"]
+    for joint in values["joints"]:
+        joint["a"], joint["b"] = (members[0] if j == "Lever/Crank:1" else j for j in (joint["a"], joint["b"]))
+    report = Report()
+    answers = Fusion(described(values)).record(groups=(("Group", members),), contacts=2)
+    found = capture("fusion", answers, tmp_path, "Z", report)
+    held = [j for j in found.draft.joints if j["type"] == "rigid"]
+    assert [(j["a"], j["b"]) for j in held] == [(members[0], m) for m in members[1:]]
+    assert [entry.code for entry in report.diagnostics] == ["CAPTURE_KIND_RAW"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"), [({"isSaved": False}, "CAPTURE_UNSAVED"), ({"isModified": True}, "CAPTURE_UNSAVED")]
+)
+def test_unsaved(changes, code, tmp_path):
+    report = Report()
+    capture("fusion", Fusion(described(only_joints("gears"))).record(**changes), tmp_path, report=report)
+    assert [entry.code for entry in report.diagnostics] == [code]
+
+
+def test_the_add_in_runs_in_a_python_of_its_own(tmp_path):
+    """Isolated, without site packages: nothing but the standard library and what was installed."""
+    made = install(tmp_path)
+    values = only_joints("gears")
+    answers = Fusion(described(values)).record()
+    (tmp_path / "answers.json").write_text(json.dumps(answers), "utf-8")
+    program = f"""
+        import json, sys, types
+        sys.path.insert(0, {str(made)!r})
+
+        class Thing:
+            def __init__(self, answers, own):
+                self._answers, self._own = answers, own
+            def _see(self, value):
+                if isinstance(value, dict):
+                    return Thing(self._answers, value["object"])
+                return [self._see(v) for v in value] if isinstance(value, list) else value
+            def __getattr__(self, name):
+                answers = self._answers[self._own]
+                if name in answers:
+                    return self._see(answers[name])
+                if any(key.startswith(name + "(") for key in answers):
+                    return lambda *a: self._see(answers[name + "(" + ", ".join(map(json.dumps, a)) + ")"])
+                raise AttributeError(name)
+
+        answers = json.load(open({str(tmp_path / "answers.json")!r}))
+        core = types.ModuleType("adsk.core")
+        shown = []
+        class Dialog:
+            filename = {str(tmp_path / "robot.bundle.json")!r}
+            def showSave(self): return 0
+        class Window:
+            def createFileDialog(self): return Dialog()
+            def messageBox(self, text): shown.append(text)
+        application = Thing(answers, 0)
+        application.userInterface = Window()
+        core.Application = types.SimpleNamespace(get=lambda: application)
+        core.DialogResults = types.SimpleNamespace(DialogOK=0)
+        adsk = types.ModuleType("adsk")
+        adsk.core, adsk.fusion = core, types.ModuleType("adsk.fusion")
+        sys.modules.update({{"adsk": adsk, "adsk.core": core, "adsk.fusion": adsk.fusion}})
+        import KinefabCapture
+        KinefabCapture.run(None)
+        print(shown[0])
+    """
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", textwrap.dedent(program)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "kinefab capture --replay robot.record.json" in done.stdout, done.stdout
+    inside = json.loads((tmp_path / "robot.bundle.json").read_text("utf-8"))
+    from kinefab.capture.run import replay
+
+    replay(tmp_path / "robot.record.json", tmp_path / "again.bundle.json", Report())
+    outside = json.loads((tmp_path / "again.bundle.json").read_text("utf-8"))
+    assert inside == outside

@@ -1,0 +1,203 @@
+"""Onshape's capture against answers as its API documents them: by record, by folder, over HTTP."""
+
+from __future__ import annotations
+
+import json
+import struct
+import threading
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
+from cad.captures import capture, scene_differences
+from cad.described import described, mechanism
+from cad.gears import gear_pair
+from cad.onshape import answers
+from command_line import run
+from kinefab.capture.onshape.definition import stl
+from kinefab.capture.onshape.mates import quantity
+from kinefab.capture.run import capture_onshape
+from kinefab.diagnostics import KinefabError, Report
+
+DOCUMENT = f"/documents/{'d' * 24}/w/{'a' * 24}/e/e"
+
+
+def only_joints(name: str) -> dict:
+    """Onshape has mates with coordinate systems only: its scene is that of the bundle's joints."""
+    values = gear_pair() if name == "gears" else mechanism(name)
+    values.pop("constraints", None)
+    values.pop("dof", None)
+    for joint in values["joints"]:
+        joint.pop("because", None)
+    for c in values["components"]:
+        if c["kind"] == "assembly":
+            c["flexible"] = True
+    return values
+
+
+def rigid_crank(values: dict) -> dict:
+    """Of the lever: its crank's parts are held together by fastened mates, as an Onshape user has to."""
+    parts = [c["id"] for c in values["components"] if c.get("parent") == "Lever/Crank:1"]
+    at = {"in": "world", "o": [0.0, 0.0, 0.0], "z": [0.0, 0.0, 1.0], "x": [1.0, 0.0, 0.0]}
+    for joint in values["joints"]:
+        for end in "ab":
+            if joint[end] == "Lever/Crank:1":
+                joint[end] = parts[0]
+    values["joints"] += [
+        {
+            "id": f"Held {p}",
+            "name": f"Held {p}",
+            "type": "rigid",
+            "a": parts[0],
+            "b": p,
+            "frameA": at,
+            "frameB": at,
+        }
+        for p in parts[1:]
+    ]
+    return values
+
+
+@pytest.mark.parametrize("unit", ["mm", "in"])
+@pytest.mark.parametrize("name", ["lever/lever.bundle.json", "gears"])
+def test_mates_give_the_scene_of_the_joints(name, unit, tmp_path):
+    values = only_joints(name)
+    values = rigid_crank(values) if "lever" in name else values
+    found = capture("onshape", answers(described(values), unit), tmp_path, values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []
+    assert found.draft.report.diagnostics == []
+
+
+def test_saved_answers_are_a_source(tmp_path):
+    values = only_joints("gears")
+    for word, answer in answers(described(values)).items():
+        (tmp_path / f"{word}.json").write_text(json.dumps(answer), "utf-8")
+    found = capture_onshape(str(tmp_path), {}, tmp_path / "x.bundle.json", Report(), up=values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []
+
+
+class Server:
+    """Onshape on 127.0.0.1: what it is asked and what it answers."""
+
+    def __init__(self, answers: dict, first: int = 0) -> None:
+        self.asked: list[tuple[str, str]] = []
+        outer = self
+
+        class Handler(BaseHTTPRequestHandler):
+            def do_GET(self) -> None:
+                outer.asked.append((self.path, self.headers.get("Authorization", "")))
+                if first and len(outer.asked) == 1:
+                    self.send_response(first)
+                    self.send_header("Retry-After", "3")
+                    self.end_headers()
+                    return
+                word = self.path.partition("?")[0].rpartition("/")[2]
+                word = {"e": "definition", "elements": "name"}.get(word, word)
+                if word == "stl":
+                    body = b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+                elif word in answers:
+                    body = json.dumps(answers[word]).encode()
+                else:
+                    self.send_error(404)
+                    return
+                self.send_response(200)
+                self.end_headers()
+                self.wfile.write(body)
+
+            def log_message(self, *arguments: object) -> None:
+                pass
+
+        self.http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        threading.Thread(target=self.http.serve_forever, daemon=True).start()
+        self.address = f"http://127.0.0.1:{self.http.server_port}{DOCUMENT}"
+
+    def __enter__(self) -> Server:
+        return self
+
+    def __exit__(self, *why: object) -> None:
+        self.http.shutdown()
+        self.http.server_close()
+
+
+KEYS = {"ONSHAPE_ACCESS_KEY": "on-access", "ONSHAPE_SECRET_KEY": "on-secret"}
+
+
+def test_over_http_with_keys_and_a_record_without_them(tmp_path):
+    values = only_joints("gears")
+    record = tmp_path / "x.record.json"
+    with Server(answers(described(values))) as server:
+        found = capture_onshape(
+            server.address, KEYS, tmp_path / "x.bundle.json", Report(), record, up=values["meta"]["up"]
+        )
+    assert found.calls == len(server.asked)
+    assert all(login.startswith("Basic ") for _, login in server.asked)
+    parts = {c["definition"] for c in found.draft.components if c["kind"] == "part"}
+    assert found.calls == 4 + len(parts)  # definition, name, features, matevalues; a mesh for each definition
+    assert len(found.files) == 1 + len(parts)
+    assert "on-secret" not in record.read_text("utf-8") and "Basic" not in record.read_text("utf-8")
+    again = run("capture", "--replay", record, "-o", tmp_path / "y.bundle.json", "--up", values["meta"]["up"])
+    assert again.returncode == 0, again.stderr
+    one, two = (json.loads((tmp_path / f"{n}.bundle.json").read_text("utf-8")) for n in "xy")
+    assert one["joints"] == two["joints"]
+
+
+def test_a_server_that_asks_to_wait_is_waited_for(tmp_path, monkeypatch):
+    slept: list[float] = []
+    monkeypatch.setattr("time.sleep", slept.append)
+    from kinefab.capture.onshape.answers import Rest
+
+    with Server({"features": {"features": []}}, first=429) as server:
+        base = server.address.partition("/documents")[0]
+        where = {"did": "d", "wvm": "w", "wid": "a", "eid": "e"}
+        assert Rest(base, where, ("a", "b"), slept.append).fetch("features") == {"features": []}
+    assert slept == [3.0]
+
+
+@pytest.mark.parametrize(
+    ("source", "environment", "code"),
+    [
+        ("https://cad.onshape.com/documents/only", KEYS, "CAPTURE_ADDRESS"),
+        (f"https://cad.onshape.com{DOCUMENT}", {}, "CAPTURE_KEYS"),
+        ("no such folder", {}, "SOURCE_NOT_FOUND"),
+    ],
+)
+def test_what_is_in_the_way_is_a_sentence(source, environment, code, tmp_path):
+    report = Report()
+    with pytest.raises(KinefabError):
+        capture_onshape(source, environment, tmp_path / "x.bundle.json", report)
+    assert [entry.code for entry in report.diagnostics] == [code]
+
+
+def test_a_refusal_is_a_sentence_and_says_no_key(tmp_path):
+    with Server({}) as server:
+        done = run("capture", "onshape", server.address, "-o", tmp_path / "x.bundle.json", **KEYS)
+    assert done.returncode == 1 and "CAPTURE_STOPPED" in done.stderr and "404" in done.stderr
+    assert "on-secret" not in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("expression", "expected"),
+    [
+        ("45 deg", 0.7853981633974483),
+        ("-10*mm", -0.01),
+        ("2.5 in", 0.0635),
+        ("1e-3 m", 0.001),
+        (".5 rad", 0.5),
+    ],
+)
+def test_expressions_have_units(expression, expected):
+    assert quantity(expression) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("expression", ["#stroke", "2 * 3 mm", "5 furlong", ""])
+def test_a_formula_is_told_not_guessed(expression):
+    if expression:
+        with pytest.raises(ValueError, match="no number"):
+            quantity(expression)
+    else:
+        with pytest.raises(ValueError):
+            quantity(expression)
+
+
+def test_a_mesh_that_is_none():
+    with pytest.raises(ValueError):
+        stl("x", b"solid ascii")

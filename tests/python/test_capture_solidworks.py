@@ -1,0 +1,73 @@
+"""SolidWorks' capture against its documented double."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cad.captures import capture, scene, scene_differences
+from cad.described import described, mechanism
+from cad.gears import gear_pair
+from cad.inventor import Inventor
+from cad.solidworks import SolidWorks
+
+SLIDERS = ("M07", "M08", "M09")
+
+
+@pytest.mark.parametrize("name", ["lever/lever.bundle.json", "mechanisms/M04.bundle.json"])
+def test_mates_give_the_scene_of_the_constraints(name, tmp_path):
+    """SolidWorks has no joints: its scene is that of the bundle's constraints."""
+    values = mechanism(name)
+    values.pop("joints", None)
+    values.pop("dof", None)
+    found = capture("solidworks", SolidWorks(described(values)).record(), tmp_path, values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []
+
+
+def geared() -> dict:
+    """The gear pair as constraints: two inserts, and a gear whose axes the plate carries."""
+    values = gear_pair()
+    values.pop("couplings")
+    ends = {}
+    constraints = []
+    for joint in values.pop("joints"):
+        at = {"geometry": "circle", "in": "world", "p": joint["frameA"]["o"], "d": [0.0, 0.0, 1.0], "r": 0.5}
+        a, b = ({"component": joint[end], **at} for end in "ab")
+        constraints.append({"id": joint["id"], "kind": "insert", "a": a, "b": b, "sense": "aligned"})
+        ends[joint["id"]] = {**b, "geometry": "cylinder"}
+    gear = {"id": "Gear", "kind": "gear", "a": ends["Hinge A"], "b": ends["Hinge B"], "value": -2.5}
+    return values | {"constraints": [*constraints, gear]}
+
+
+@pytest.mark.parametrize("program", ["inventor", "solidworks"])
+def test_a_gear_pair_gives_the_scene_of_its_constraints(program, tmp_path):
+    values = geared()
+    double = Inventor if program == "inventor" else SolidWorks
+    found = capture(program, double(described(values)).record(), tmp_path, values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []
+    assert scene(found.path)["couplings"]
+
+
+def on_two_planes(values: dict) -> dict:
+    """A slide as neither program has it in one: two pairs of planes along it."""
+    found = []
+    for c in values["constraints"]:
+        if c["kind"] != "slider":
+            found.append(c)
+            continue
+        along = np.array(c["a"]["d"]) / np.linalg.norm(c["a"]["d"])
+        first = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+        first /= np.linalg.norm(first)
+        for i, normal in enumerate((first, np.cross(along, first))):
+            d = normal.tolist()
+            sides = {k: {**c[k], "geometry": "plane", "d": d, "p": c["a"]["p"]} for k in "ab"}
+            found.append({"id": f"{c['id']} {i}", "kind": "coincident", **sides, "sense": "aligned"})
+    return values | {"constraints": found}
+
+
+@pytest.mark.parametrize("program", ["inventor", "solidworks"])
+@pytest.mark.parametrize("name", SLIDERS)
+def test_slider_cranks_give_the_scenes_of_their_constraints(program, name, tmp_path):
+    values = on_two_planes(mechanism(f"mechanisms/{name}.bundle.json"))
+    double = Inventor if program == "inventor" else SolidWorks
+    found = capture(program, double(described(values)).record(), tmp_path, values["meta"]["up"])
+    assert scene_differences(values, found.path, tmp_path) == []

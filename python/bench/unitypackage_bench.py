@@ -1,0 +1,75 @@
+"""A large generated assembly to a ``.unitypackage`` against trimesh alone loading the same meshes and writing a GLB.
+
+    python python/bench/unitypackage_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500]
+
+The source is that of ``export_bench.py``, so that reading, finding copies, weighing and hulls are in both figures.  Each side runs in a
+process of its own; the ratio is of one run on one machine.  The arrays are what trimesh holds of the loaded meshes: vertices
+as float64 and faces as int64.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from export_bench import generate
+
+TRIMESH = """
+import resource, sys, time
+start = time.perf_counter()
+import trimesh
+scene = trimesh.load(sys.argv[1], force="scene", process=False)
+loaded = time.perf_counter()
+scene.export(sys.argv[2])
+arrays = sum(m.vertices.nbytes + m.faces.nbytes for m in scene.geometry.values())
+print(loaded - start, time.perf_counter() - loaded, arrays)
+"""
+
+EXPORT = """
+import resource, sys, time
+start = time.perf_counter()
+import kinefab
+stages = {}
+def progress(stage, fraction):
+    stages[stage] = time.perf_counter() - start
+kinefab.export(sys.argv[1], sys.argv[2], progress=progress)
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+print(time.perf_counter() - start, peak, " ".join(f"{k} until {v:.1f}" for k, v in stages.items()))
+"""
+
+
+def run(code: str, *arguments: object) -> list[str]:
+    done = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stderr)
+    return done.stdout.split(maxsplit=2)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--parts", type=int, default=10_000)
+    parser.add_argument("--triangles", type=int, default=10_000_000)
+    parser.add_argument("--definitions", type=int, default=500)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        bundle, mesh, count = generate(folder, options.parts, options.triangles, options.definitions, ".glb")
+        print(f"{options.parts} parts, {options.definitions} definitions, {count} triangles")
+        load, write, arrays = map(float, run(TRIMESH, mesh, folder / "again.glb"))
+        print(f"trimesh alone: load {load:.1f} s, write GLB {write:.1f} s, together {load + write:.1f} s")
+        target = folder / "bench.unitypackage"
+        total, peak, stages = run(EXPORT, bundle, target)
+        print(
+            f"kinefab export: {float(total):.1f} s ({stages.strip()}), {target.stat().st_size / 1e6:.0f} MB"
+        )
+        print(
+            f"ratio: {float(total) / (load + write):.2f} (export / trimesh load and GLB), "
+            f"peak memory {float(peak) / 1e9:.2f} GB, {float(peak) / arrays:.1f} times the arrays of {arrays / 1e9:.2f} GB"
+        )
+
+
+if __name__ == "__main__":
+    main()

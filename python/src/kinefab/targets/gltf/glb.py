@@ -1,0 +1,299 @@
+"""Writes ``NAME.glb``."""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ... import __version__
+from ...model import Body, Collider, ColliderKind, Mesh, Repeat, Surface
+from ...options import ColliderShape
+from ...replacing import replacing
+from ...rigid import active_nodes
+from ...spatial import Pose, quaternion_from_matrix
+from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_kinematic, place_rigidbodies
+from ...unity.joints.passive import with_passive_drives
+from ..content import Content
+from .binary import Binary
+from .looks import Looks
+from .physics import BODIES, PhysicsEntries, motion, shape_pose
+
+MAGIC, VERSION, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
+PLAIN = Surface("Default")
+"""Stands in where the source names no surface."""
+
+
+def write(content: Content, target: Path) -> tuple[Path, ...]:
+    """Write the scene; the report gets what glTF has no place for.  Raises OSError; then the old file stands."""
+    document = _Document(content)
+    values = document.built()
+    content.refuse_losses()
+    binary = document.binary
+    text = json.dumps(values, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = 12 + 8 + len(text) + (8 + binary.length if binary.length else 0)
+    with replacing(target, "glb") as file:
+        file.write(struct.pack("<III", MAGIC, VERSION, chunks))
+        file.write(struct.pack("<II", len(text), JSON_CHUNK) + text)
+        if binary.length:
+            file.write(struct.pack("<II", binary.length, BINARY_CHUNK))
+            for i, chunk in enumerate(binary.chunks):
+                file.write(chunk)
+                content.progress((i + 1) / len(binary.chunks))
+    return (target,)
+
+
+class _Document:
+    """Fills the lists of the document.  node_of: for each node of the model its glTF node."""
+
+    def __init__(self, content: Content):
+        self.content, self.scene, self.report = content, content.scene, content.report
+        self.binary = Binary()
+        self.looks = Looks(self.binary, content.report)
+        self.physics = PhysicsEntries(content.report)
+        self.nodes: list[dict[str, Any]] = []
+        self.roots: list[int] = []
+        self.meshes: list[dict[str, Any]] = []
+        self.mesh_of: dict[tuple[int, tuple[int, ...]], int] = {}
+        self.node_of: list[int] = []
+        self.active = active_nodes(content.scene)
+
+    def built(self) -> dict[str, Any]:
+        self._add_nodes()
+        self._add_bodies()
+        self._add_joints()
+        self._tell_rest()
+        values: dict[str, Any] = {"asset": {"version": "2.0", "generator": f"kinefab {__version__}"}}
+        extensions = self.physics.used()
+        used = sorted({*extensions, *self.looks.extensions, *self._node_extensions()})
+        lists = {
+            "extensionsUsed": used,
+            "extensions": extensions,
+            "scenes": [{"nodes": self.roots}] if self.roots else [],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "materials": self.looks.materials,
+            "textures": self.looks.textures,
+            "samplers": self.looks.samplers,
+            "images": self.looks.images,
+            "animations": self._animations(),
+            "accessors": self.binary.accessors,
+            "bufferViews": self.binary.views,
+            "buffers": [{"byteLength": self.binary.length}] if self.binary.length else [],
+        }
+        values |= {key: value for key, value in lists.items() if value}
+        if self.roots:
+            values["scene"] = 0
+        return values
+
+    def _node(
+        self, name: str, parent: int | None, local: Pose, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    ) -> int:
+        entry: dict[str, Any] = {"name": name}
+        if local.translation.any():
+            entry["translation"] = local.translation.tolist()
+        if not np.array_equal(local.rotation, np.eye(3)):
+            entry["rotation"] = quaternion_from_matrix(local.rotation).tolist()
+        if scale != (1.0, 1.0, 1.0):
+            entry["scale"] = list(scale)
+        self.nodes.append(entry)
+        index = len(self.nodes) - 1
+        if parent is None:
+            self.roots.append(index)
+        else:
+            self.nodes[parent].setdefault("children", []).append(index)
+        return index
+
+    def _extend(self, node: int, key: str, value: dict[str, Any]) -> None:
+        self.nodes[node].setdefault("extensions", {}).setdefault(BODIES, {})[key] = value
+
+    def _node_extensions(self) -> set[str]:
+        return {name for node in self.nodes for name in node.get("extensions", ())}
+
+    def _add_nodes(self) -> None:
+        for i, node in enumerate(self.scene.nodes):
+            local = self.scene.pose(node.parent).inverse() @ node.pose
+            parent = None if node.parent is None else self.node_of[node.parent]
+            index = self._node(node.name, parent, local)
+            self.node_of.append(index)
+            self.nodes[index]["extras"] = {"id": node.id}
+            if not self.active[i]:
+                self.report.dropped(
+                    f"part {node.id}", "COMPONENT_SUPPRESSED_DROPPED", node.where, node=node.id
+                )
+                continue
+            for site in node.sites:
+                self._node(site.name, index, site.pose)
+            for body in node.bodies:
+                if body.mesh is not None:
+                    self._add_body(i, index, body)
+            for collider in node.colliders or ():
+                self._add_collider(index, collider, self._moves(i))
+
+    def _moves(self, node: int) -> bool:
+        """Whether forces move a node's body."""
+        group = self.content.groups.group_of[node]
+        if group is None or self.content.groups.grounded[group]:
+            return False
+        return not is_kinematic(self.scene, self.content.groups.members[group])
+
+    def _add_body(self, node: int, parent: int, body: Body) -> None:
+        assert body.mesh is not None
+        own = self.scene.nodes[node]
+        index = self._node(body.name, parent, body.pose, body.scale)
+        if own.visible and body.visible:
+            self.nodes[index]["mesh"] = self._mesh(body.mesh, body.surfaces)
+        else:
+            self.report.dropped(
+                f"body {own.id}/{body.name}",
+                "TARGET_FIELD_DROPPED",
+                own.where,
+                field="visibility",
+                target=".glb",
+            )
+        if own.colliders is None and own.collision is not ColliderShape.NONE and "mesh" in self.nodes[index]:
+            geometry: dict[str, Any] = {"node": index}
+            if self._moves(node) or own.collision in (ColliderShape.BOX, ColliderShape.HULL):
+                geometry["convexHull"] = True
+            self._extend(index, "collider", {"geometry": geometry})
+
+    def _add_collider(self, parent: int, collider: Collider, moves: bool) -> None:
+        index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
+        if collider.kind in (ColliderKind.HULL, ColliderKind.MESH):
+            assert collider.mesh is not None
+            self.nodes.append(
+                {
+                    "name": f"{collider.name or collider.kind.value} shape",
+                    "mesh": self._mesh(collider.mesh, ()),
+                }
+            )
+            geometry: dict[str, Any] = {"node": len(self.nodes) - 1}
+            if collider.kind is ColliderKind.HULL or moves:
+                geometry["convexHull"] = True
+        else:
+            geometry = self.physics.geometry(collider)
+        entry: dict[str, Any] = {"geometry": geometry}
+        if collider.material is not None and not collider.trigger:
+            entry["physicsMaterial"] = self.physics.material(collider.material)
+        self._extend(index, "trigger" if collider.trigger else "collider", entry)
+
+    def _mesh(self, number: int, surfaces: tuple[int, ...]) -> int:
+        """Index of a mesh with these surfaces; its arrays are shared with the same mesh in others."""
+        if (number, surfaces) not in self.mesh_of:
+            mesh = self.scene.meshes[number]
+            self.meshes.append({"name": mesh.name, "primitives": self._primitives(mesh, surfaces)})
+            self.mesh_of[number, surfaces] = len(self.meshes) - 1
+        return self.mesh_of[number, surfaces]
+
+    def _primitives(self, mesh: Mesh, surfaces: tuple[int, ...]) -> list[dict[str, Any]]:
+        attributes = {"POSITION": self.binary.floats(mesh.vertices, bounded=True)}
+        if mesh.normals is not None:
+            lengths = np.linalg.norm(mesh.normals, axis=1, keepdims=True)
+            if (lengths > 0.0).all():
+                attributes["NORMAL"] = self.binary.floats(mesh.normals / lengths)
+        if mesh.tangents is not None:
+            attributes["TANGENT"] = self.binary.floats(mesh.tangents)
+        for i, uv in enumerate(mesh.uvs):
+            attributes[f"TEXCOORD_{i}"] = self.binary.floats(np.column_stack([uv[:, 0], 1.0 - uv[:, 1]]))
+        if mesh.colors is not None:
+            attributes["COLOR_0"] = self.binary.floats(mesh.colors)
+        found: list[dict[str, Any]] = []
+        first = 0
+        for k, count in enumerate(mesh.face_counts or (len(mesh.faces),)):
+            if count == 0:
+                continue
+            indices = self.binary.indices(mesh.faces[first : first + count], len(mesh.vertices))
+            surface = self.scene.surfaces[surfaces[k]] if k < len(surfaces) else PLAIN
+            found.append(
+                {"attributes": attributes, "indices": indices, "material": self.looks.material(surface)}
+            )
+            first += count
+        return found
+
+    def _add_bodies(self) -> None:
+        self.placed = place_rigidbodies(self.scene, self.content.groups)
+        for carrier, members in self.placed.carriers.items():
+            mass = body_mass(self.scene, carrier, members, self.report)
+            dynamics = body_dynamics(self.scene, carrier, members)
+            entry = motion(mass, kinematic=dynamics.kinematic, gravity=dynamics.gravity)
+            turned = self.scene.nodes[carrier].pose.rotation.T
+            for key, value in (
+                ("linearVelocity", dynamics.velocity),
+                ("angularVelocity", dynamics.angular_velocity),
+            ):
+                if value is not None:
+                    entry[key] = (turned @ value).tolist()
+            if dynamics.linear_damping or dynamics.angular_damping:
+                own = self.scene.nodes[carrier]
+                self.report.dropped(
+                    f"body {own.id}", "TARGET_FIELD_DROPPED", own.where, field="damping", target=".glb"
+                )
+            self._extend(self.node_of[carrier], "motion", entry)
+        for own, connected in self.placed.fixed:
+            frame = self._node("fixed", self.node_of[own], Pose())
+            local = self.scene.pose(own).inverse() @ self.scene.pose(connected)
+            other = self._node("fixed", self.node_of[connected], local.inverse())
+            locked = {
+                "limits": [
+                    {"linearAxes": [0, 1, 2], "min": 0.0, "max": 0.0},
+                    {"angularAxes": [0, 1, 2], "min": 0.0, "max": 0.0},
+                ]
+            }
+            self.physics.joints.append(locked)
+            self._extend(frame, "joint", {"connectedNode": other, "joint": len(self.physics.joints) - 1})
+
+    def _add_joints(self) -> None:
+        groups = self.content.groups
+        for joint in self.scene.joints:
+            if groups.together(joint.a, joint.b):
+                self.report.kept(f"joint {joint.id}", joint.where)
+                continue
+            if any(n is not None and groups.group_of[n] is None for n in (joint.a, joint.b)):
+                lost = next(n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None)
+                names = {"joint": joint.id, "node": self.scene.nodes[lost].id}
+                self.report.dropped(f"joint {joint.id}", "JOINT_WITHOUT_BODY", joint.where, **names)
+                continue
+            driven = with_passive_drives(joint, self.report)
+            a, b = (None if n is None else self.node_of[n] for n in (joint.a, joint.b))
+            frame = self._node(f"{joint.name or joint.id} a", a, joint.frame_a)
+            other = self._node(f"{joint.name or joint.id} b", b, joint.frame_b)
+            entry: dict[str, Any] = {"connectedNode": other, "joint": self.physics.joint(driven)}
+            if joint.collide:
+                entry["enableCollision"] = True
+            self._extend(frame, "joint", entry)
+
+    def _tell_rest(self) -> None:
+        for coupling in self.scene.couplings:
+            self.report.dropped(
+                f"coupling {coupling.id}",
+                "COUPLING_DROPPED",
+                coupling.where,
+                coupling=coupling.id,
+                target=".glb",
+            )
+
+    def _animations(self) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = []
+        for clip in self.scene.animations:
+            samplers: list[dict[str, Any]] = []
+            channels: list[dict[str, Any]] = []
+            times = self.binary.floats(clip.times, vertex=False, bounded=True)
+            for track in clip.tracks:
+                for path, values in (("translation", track.translations), ("rotation", track.rotations)):
+                    if values is None:
+                        continue
+                    output = self.binary.floats(values, vertex=False)
+                    samplers.append({"input": times, "output": output, "interpolation": "LINEAR"})
+                    goal = {"node": self.node_of[track.node], "path": path}
+                    channels.append({"sampler": len(samplers) - 1, "target": goal})
+            if channels:
+                found.append({"name": clip.name, "samplers": samplers, "channels": channels})
+            if clip.repeat is not Repeat.ONCE:
+                self.report.dropped(
+                    f"clip {clip.name}", "TARGET_FIELD_DROPPED", clip.where, field="repeat", target=".glb"
+                )
+        return found

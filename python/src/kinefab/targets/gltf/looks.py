@@ -1,0 +1,130 @@
+"""Surfaces as glTF materials, with their images in the buffer."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ...diagnostics import Report
+from ...model import AlphaMode, Surface, Texture, Wrap
+from .binary import Binary
+
+WRAPS = {Wrap.REPEAT: 10497, Wrap.CLAMP: 33071, Wrap.MIRROR: 33648}
+SIGNATURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+"""First bytes of the images that glTF holds."""
+MOST_BYTES = 256 * 2**20
+"""Of one image."""
+
+
+class Looks:
+    """The document's materials, textures, samplers and images."""
+
+    def __init__(self, binary: Binary, report: Report):
+        self._binary, self._report = binary, report
+        self.materials: list[dict[str, Any]] = []
+        self.textures: list[dict[str, Any]] = []
+        self.samplers: list[dict[str, Any]] = []
+        self.images: list[dict[str, Any]] = []
+        self.extensions: set[str] = set()
+        self._known: dict[tuple[object, ...], int] = {}
+        self._image_of: dict[tuple[object, ...], int | None] = {}
+
+    def material(self, surface: Surface) -> int:
+        """Index of a surface's material."""
+        key = ("material", id(surface))
+        if key not in self._known:
+            self.materials.append(self._entry(surface))
+            self._known[key] = len(self.materials) - 1
+        return self._known[key]
+
+    def _entry(self, surface: Surface) -> dict[str, Any]:
+        shading: dict[str, Any] = {
+            "baseColorFactor": list(surface.color),
+            "metallicFactor": surface.metallic,
+            "roughnessFactor": 1.0 - surface.smoothness,
+        }
+        entry: dict[str, Any] = {"name": surface.name, "pbrMetallicRoughness": shading}
+        for holder, name, texture in (
+            (shading, "baseColorTexture", surface.color_texture),
+            (shading, "metallicRoughnessTexture", surface.metallic_roughness_texture),
+            (entry, "normalTexture", surface.normal_texture),
+            (entry, "occlusionTexture", surface.occlusion_texture),
+            (entry, "emissiveTexture", surface.emission_texture),
+        ):
+            if texture is not None and (reference := self._texture(texture, surface.name)) is not None:
+                holder[name] = reference
+        strongest = max(surface.emission)
+        if strongest > 0.0:
+            entry["emissiveFactor"] = [c / max(1.0, strongest) for c in surface.emission]
+        if strongest > 1.0:
+            entry["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": strongest}}
+            self.extensions.add("KHR_materials_emissive_strength")
+        mode = surface.alpha_mode
+        if mode is AlphaMode.OPAQUE and surface.color[3] < 1.0:
+            mode = AlphaMode.BLEND
+        if mode is not AlphaMode.OPAQUE:
+            entry["alphaMode"] = mode.value.upper()
+        if mode is AlphaMode.MASK:
+            entry["alphaCutoff"] = surface.alpha_cutoff
+        if surface.double_sided:
+            entry["doubleSided"] = True
+        return entry
+
+    def _texture(self, texture: Texture, surface: str) -> dict[str, Any] | None:
+        image = self._image(texture, surface)
+        if image is None:
+            return None
+        wrap = WRAPS[texture.wrap]
+        sampler = self._numbered("sampler", {"wrapS": wrap, "wrapT": wrap}, self.samplers)
+        number = self._numbered("texture", {"sampler": sampler, "source": image}, self.textures)
+        reference: dict[str, Any] = {"index": number}
+        if texture.uv_set:
+            reference["texCoord"] = texture.uv_set
+        moved = (texture.scale, texture.offset, texture.rotation) != ((1.0, 1.0), (0.0, 0.0), 0.0)
+        if moved:
+            # With v turned (v' = 1 - v) a map R S uv + t becomes R' S uv' + t', R' turning the other way in its own sense.
+            s, c = math.sin(texture.rotation), math.cos(texture.rotation)
+            (sx, sy), (tx, ty) = texture.scale, texture.offset
+            offset = [tx - s * sy, 1.0 - ty - c * sy]
+            reference["extensions"] = {
+                "KHR_texture_transform": {"offset": offset, "rotation": texture.rotation, "scale": [sx, sy]}
+            }
+            self.extensions.add("KHR_texture_transform")
+        return reference
+
+    def _numbered(self, kind: str, entry: dict[str, Any], entries: list[dict[str, Any]]) -> int:
+        key = (kind, *entry.values())
+        if key not in self._known:
+            entries.append(entry)
+            self._known[key] = len(entries) - 1
+        return self._known[key]
+
+    def _image(self, texture: Texture, surface: str) -> int | None:
+        """Index of the image, None with a report where it cannot be had or glTF has no place for it."""
+        key = (texture.path, texture.data)
+        if key not in self._image_of:
+            self._image_of[key] = self._embedded(texture, surface)
+        return self._image_of[key]
+
+    def _embedded(self, texture: Texture, surface: str) -> int | None:
+        data, why = texture.data, ""
+        if data is None and texture.path is not None:
+            try:
+                if not texture.path.is_file() or texture.path.stat().st_size > MOST_BYTES:
+                    raise OSError("it is no regular file of a bounded size")
+                data = texture.path.read_bytes()
+            except OSError as error:
+                why = error.strerror or str(error)
+        kind = next((m for head, m in SIGNATURES.items() if data is not None and data.startswith(head)), None)
+        if data is None or kind is None:
+            detail = why or "glTF holds PNG and JPEG only"
+            self._report.dropped(
+                f"texture {texture.name}",
+                "TEXTURE_DROPPED",
+                texture=texture.name,
+                surface=surface,
+                detail=detail,
+            )
+            return None
+        self.images.append({"name": texture.name, "mimeType": kind, "bufferView": self._binary.view(data)})
+        return len(self.images) - 1

@@ -1,0 +1,268 @@
+"""Writes ``NAME.kinefab`` and its buffer so that whoever reads, and whenever the writer is killed, there is
+either the old pair or the new one.
+
+The buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
+their places (fsync), then the buffer is renamed, then the scene that names it, then old buffers go.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import unicodedata
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from .. import __version__, model
+from ..diagnostics import KinefabError, Report
+from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
+from ..unity.scene import Coupling, Joint, Mesh, UnityScene
+from .content import Content
+from .noun_entry import entry, unsaid
+from .numbers import plain_value, significant
+
+FORMAT_VERSION = "1.0"
+UINT16_VERTICES = 65535
+"""Most vertices that Unity's 16-bit index format counts."""
+HASH_DIGITS = 16
+"""Hexadecimal digits of the buffer's SHA-256 in its name."""
+
+Progress = Callable[[float], None]
+
+
+class _Buffer:
+    """Appends runs of values to a file, 4-byte aligned, and hashes what it writes."""
+
+    def __init__(self, file: BinaryIO):
+        self._file = file
+        self.hash = hashlib.sha256()
+        self.length = 0
+
+    def append(self, values: np.ndarray, dtype: str) -> dict[str, int]:
+        """The accessor of ``values``, written little-endian and tightly packed as ``dtype``."""
+        data = memoryview(np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<"))).cast("B")
+        offset = self.length
+        for piece in (data, bytes(-len(data) % 4)):
+            self._file.write(piece)
+            self.hash.update(piece)
+            self.length += len(piece)
+        return {"buffer": 0, "offset": offset}
+
+
+def write(content: Content, target: Path) -> tuple[Path, ...]:
+    """Write the scene and, when there are meshes, its buffer beside it; returns both paths.
+
+    The report gets what the format has no place for.  Raises OSError as the file system does; then the old files stand
+    as they were.
+    """
+    scene, report = content.unity(), content.report
+    _tell_losses(scene, report)
+    _tell_mesh_losses(content.scene.meshes, report)
+    content.refuse_losses()
+    if unsafe := _unsafe(target.name):
+        detail = f"its name {unsafe}, and the scene names its buffer after it"
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
+    buffer_path, head = None, _head(scene)
+    with one_at_a_time(target.parent), ExitStack() as stack:
+        remove_leftovers(target, "bin", "scene")
+        temporary = None
+        if len(scene.meshes):
+            file, temporary = stack.enter_context(beside(target, "bin"))
+            buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
+            head |= {"buffers": [buffer], "meshes": meshes}
+        with replacing(target, "scene") as file:
+            file.write(canonical_json(head | _tail(scene, report)).encode("utf-8"))
+            if (
+                buffer_path is not None and temporary is not None
+            ):  # last, so that what fails before leaves no buffer behind
+                file.flush()
+                os.fsync(file.fileno())
+                os.replace(temporary, buffer_path)
+                sync_directory(target.parent)
+        sync_directory(target.parent)
+        _remove_old_buffers(target, buffer_path)
+    return (target,) if buffer_path is None else (target, buffer_path)
+
+
+def _head(scene: UnityScene) -> dict[str, Any]:
+    """Everything before the meshes, in the file's order."""
+    head: dict[str, Any] = {
+        "format": "kinefab.scene",
+        "version": FORMAT_VERSION,
+        "generator": {"name": "kinefab", "version": __version__},
+    }
+    return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
+
+
+def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
+    """Everything after the meshes, in the file's order."""
+    tail: dict[str, Any] = {
+        "materials": [entry(material) for material in scene.materials],
+        "gameObjects": [entry(game_object) for game_object in scene.gameObjects],
+        "couplings": [_coupling(coupling) for coupling in scene.couplings if len(coupling.terms) == 1],
+        "animations": [entry(clip) for clip in scene.animations],
+        "constraints": [entry(constraint) for constraint in scene.constraints],
+        "analysis": None if scene.analysis is None else entry(scene.analysis),
+        "report": report_entries(report),
+        "extras": dict(scene.extras),
+    }
+    return {key: value for key, value in tail.items() if value or key == "gameObjects"}
+
+
+def _coupling(coupling: Coupling) -> dict[str, Any]:
+    """``q_b = ratio * q_a + offset``."""
+    (term,) = coupling.terms
+    found = {
+        "id": coupling.id,
+        "kind": coupling.kind,
+        "a": entry(term.coordinate),
+        "b": entry(coupling.coordinate),
+        "ratio": significant(term.ratio),
+    }
+    return found | ({"offset": offset} if (offset := plain_value(coupling.offset)) != 0 else {})
+
+
+def report_entries(report: Report) -> list[dict[str, Any]]:
+    """The loss report as the scene format holds it."""
+    entries: list[dict[str, Any]] = []
+    for o in report.outcomes:
+        told = {"feature": o.feature, "outcome": o.outcome.value}
+        if o.code:
+            told |= {"severity": o.severity.value, "code": o.code, "message": o.message}
+        if o.where:
+            told["source"] = o.where
+        entries.append(told)
+    return entries
+
+
+def _tell_losses(scene: UnityScene, report: Report) -> None:
+    """What the nouns hold and the format 1.0 has no field for."""
+
+    def told(feature: str, noun: object) -> None:
+        for name in unsaid(type(noun)):
+            value = getattr(noun, name)
+            plain = next(field.default for field in fields(type(noun)) if field.name == name)
+            if name != "id" and value != plain:
+                report.dropped(feature, "TARGET_FIELD_DROPPED", field=name, target=".kinefab")
+
+    for material in scene.materials:
+        told(f"material {material.name}", material)
+    for game_object in scene.gameObjects:
+        told(f"object {game_object.id}", game_object)
+        for component in game_object.components:
+            if not isinstance(component, Joint):
+                told(f"{type(component).__name__} of {game_object.id}", component)
+    for coupling in scene.couplings:
+        if len(coupling.terms) != 1:
+            terms = len(coupling.terms)
+            report.dropped(
+                f"coupling {coupling.id}",
+                "COUPLING_TERMS_DROPPED",
+                coupling=coupling.id,
+                terms=terms,
+                target=".kinefab",
+            )
+
+
+def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:
+    """Of the model's meshes, as Unity's are made one by one when they are written."""
+    for mesh in meshes:
+        lost = {"colors": mesh.colors is not None, "tangents": mesh.tangents is not None}
+        for name, there in (lost | {"uv sets behind the first": len(mesh.uvs) > 1}).items():
+            if there:
+                report.dropped(f"mesh {mesh.name}", "TARGET_FIELD_DROPPED", field=name, target=".kinefab")
+
+
+def _unsafe(name: str) -> str:
+    """What stands in a file name that no scene may name, as the reader would refuse it; "" where nothing does."""
+    if any("\ud800" <= character <= "\udfff" for character in name):
+        return "is not UTF-8"
+    if any(unicodedata.category(character) == "Cc" for character in name):
+        return "holds a control character"
+    return next((f"holds {character!r}" for character in ":\\" if character in name), "")
+
+
+def _write_buffer(
+    meshes: Sequence[Mesh], target: Path, file: BinaryIO, progress: Progress
+) -> tuple[Path, dict[str, Any], list[Any]]:
+    """Write the meshes; the path that is meant for them, the buffer's entry in the scene and the meshes'."""
+    entries: list[dict[str, Any]] = []
+    buffer = _Buffer(file)
+    for i, mesh in enumerate(meshes):
+        entries.append(_mesh_entry(mesh, buffer))
+        progress((i + 1) / len(meshes))
+    file.flush()
+    os.fsync(file.fileno())
+    if os.name == "nt":  # which renames no open file
+        file.close()
+    digest = buffer.hash.hexdigest()
+    path = target.with_name(f"{target.name}.{digest[:HASH_DIGITS]}.bin")
+    return path, {"uri": path.name, "byteLength": buffer.length, "sha256": digest}, entries
+
+
+def _mesh_entry(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
+    """One mesh in the buffer, and its entry in the scene."""
+    count = len(mesh.vertices)
+    low, high = (v.astype(np.float64) for v in (mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)))
+    short = count <= UINT16_VERTICES
+    found: dict[str, Any] = {
+        "name": mesh.name,
+        "vertexCount": count,
+        "bounds": plain_value(
+            {"center": (0.5 * (low + high)).tolist(), "extents": (0.5 * (high - low)).tolist()}
+        ),
+        "positions": buffer.append(mesh.vertices, "f4"),
+    }
+    if mesh.normals is not None:
+        found["normals"] = buffer.append(mesh.normals, "f4")
+    if mesh.uvs:
+        found["uv"] = buffer.append(mesh.uvs[0], "f4")
+    found["indexFormat"] = "uint16" if short else "uint32"
+    found["indices"] = buffer.append(mesh.triangles, "u2" if short else "u4")
+    starts = np.cumsum([0, *mesh.submeshes])[:-1]
+    found["submeshes"] = [
+        {"indexStart": 3 * int(s), "indexCount": 3 * int(n)} for s, n in zip(starts, mesh.submeshes)
+    ]
+    return found
+
+
+def canonical_json(content: dict[str, Any]) -> str:
+    """The document with one line for each entry of a list and for each component; keys keep their order.
+
+    Floats are written in their shortest form that reads back the same; NaN and Infinity raise ValueError.
+    """
+
+    def flat(value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(", ", ": "))
+
+    def block(lines: list[str], indent: str) -> str:
+        return "[\n" + ",\n".join(indent + line for line in lines) + "\n" + indent[:-2] + "]"
+
+    def game_object(entry: dict[str, Any]) -> str:
+        fields = [f"{flat(k)}: {flat(v)}" for k, v in entry.items() if k != "components"]
+        if components := entry.get("components"):
+            fields.append('"components": ' + block([flat(c) for c in components], "      "))
+        return "{" + ", ".join(fields) + "}"
+
+    lines: list[str] = []
+    for key, value in content.items():
+        if isinstance(value, list) and value:
+            entries = [game_object(v) if key == "gameObjects" else flat(v) for v in value]
+            lines.append(f"  {flat(key)}: " + block(entries, "    "))
+        else:
+            lines.append(f"  {flat(key)}: {flat(value)}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _remove_old_buffers(target: Path, keep: Path | None) -> None:
+    pattern = re.compile(re.escape(target.name) + rf"\.[0-9a-f]{{{HASH_DIGITS}}}\.bin")
+    for path in target.parent.iterdir():
+        if path != keep and pattern.fullmatch(path.name):
+            path.unlink(missing_ok=True)

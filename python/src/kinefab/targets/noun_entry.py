@@ -1,0 +1,100 @@
+"""Unity's nouns as entries of the scene file: by the schema's order, without what Unity would assume anyway."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache
+from typing import Any
+
+from ..diagnostics import schema_directory
+from .numbers import plain_value, significant
+
+SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio"})
+"""Fields whose size says nothing about their precision; all others are lengths, directions and angles."""
+
+RENAMED = {"Mobility": "analysis", "AnimationClip": "animation"}
+"""Nouns whose definition in the schema has another name than their own with a small initial."""
+
+LEFT_OUT_EMPTY = frozenset({"because", "localPosition", "localRotation"})
+"""Lists that are not written when there is nothing in them."""
+
+_NONE = object()
+"""The default of a field that has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Property:
+    """nested: it holds an object that may be left out when empty."""
+
+    key: str
+    default: Any
+    required: bool
+    nested: bool
+
+
+@cache
+def _definitions() -> Mapping[str, Any]:
+    schema = json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8"))
+    return schema["$defs"]
+
+
+@cache
+def definition_of(noun: type) -> str:
+    """The schema's definition of a noun: of a component its own name, of others with a small initial."""
+    name = RENAMED.get(noun.__name__, noun.__name__)
+    return name if name in _definitions() else name[0].lower() + name[1:]
+
+
+@cache
+def _properties(definition: str) -> tuple[_Property, ...]:
+    rules = _definitions()[definition]
+    required = set(rules.get("required", ()))
+    found: list[_Property] = []
+    for key, rule in rules["properties"].items():
+        reference = rule.get("$ref", "").removeprefix("#/$defs/")
+        nested = _definitions().get(reference, {}).get("type") == "object"
+        found.append(_Property(key, rule.get("default", _NONE), key in required, nested))
+    return tuple(found)
+
+
+@cache
+def unsaid(noun: type) -> tuple[str, ...]:
+    """Fields of a noun that the format has no place for."""
+    known = {rule.key for rule in _properties(definition_of(noun))}
+    return tuple(field.name for field in fields(noun) if field.name not in known)
+
+
+def entry(noun: Any) -> dict[str, Any]:
+    """A noun in the order of its definition, less the fields at the default that the definition states."""
+    definition = definition_of(type(noun))
+    if definition not in _definitions():  # stated where it is used, without defaults
+        return {field.name: _written(field.name, getattr(noun, field.name)) for field in fields(noun)}
+    found: dict[str, Any] = {"type": definition} if definition[0].isupper() else {}
+    for rule in _properties(definition):
+        if (value := getattr(noun, rule.key, None)) is None:
+            continue
+        if (
+            not value
+            and not rule.required
+            and (isinstance(value, (str, Mapping)) or rule.key in LEFT_OUT_EMPTY)
+        ):
+            continue
+        value = _written(rule.key, value)
+        if value is None or (rule.nested and not value):
+            continue
+        if rule.default is not _NONE and value == rule.default:
+            continue
+        found[rule.key] = value
+    return found
+
+
+def _written(key: str, value: Any) -> Any:
+    if key == "extras":
+        return value
+    if is_dataclass(value):
+        return entry(value)
+    if isinstance(value, tuple) and value and is_dataclass(value[0]):
+        return [entry(item) for item in value]
+    return significant(value) if key in SIGNIFICANT else plain_value(value)

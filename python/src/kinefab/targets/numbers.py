@@ -1,0 +1,36 @@
+"""Values as they stand in the file: no noise, no negative zero, no infinity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+DECIMALS = 12
+"""Decimals kept of lengths, directions and angles: a picometre, and what is left of sin(pi) is 0."""
+
+
+def plain_value(value: Any) -> Any:
+    """Lengths, directions, quaternions and angles as plain JSON values, rounded to ``DECIMALS`` decimals.
+
+    Takes a number or sequences and mappings of them; an infinite number is None, anything else passes through.
+    """
+    if isinstance(value, float):
+        return None if math.isinf(value) else _plain(round(value, DECIMALS))
+    if isinstance(value, (list, tuple)):
+        return [plain_value(item) for item in value]
+    if isinstance(value, Mapping):
+        return {key: plain_value(item) for key, item in value.items()}
+    return value
+
+
+def significant(value: Any) -> Any:
+    """Masses, inertias and gains: a number or a sequence of them rounded to ``DECIMALS`` significant digits."""
+    if isinstance(value, (list, tuple)):
+        return [significant(x) for x in value]
+    return _plain(float(f"{value:.{DECIMALS}g}"))
+
+
+def _plain(x: float) -> float | int:
+    """Whole numbers without a decimal point, so that -0.0 and 0.0 are both 0."""
+    return int(x) if abs(x) < 1e15 and x == int(x) else x

@@ -1,0 +1,33 @@
+"""``NAME.prefab`` and the folder ``NAME`` beside it: Unity's own files, which need no plug-in.
+
+``text`` knows how Unity writes, ``objects`` the GameObjects and components, ``assets`` what they refer to; ``exporting`` makes
+the files of a scene, ``folder`` puts them in place.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...diagnostics import KinefabError
+from ..content import Content
+from .exporting import prefab_files
+from .folder import put_in_place
+from .options import PrefabOptions
+
+ENDING = ".prefab"
+
+
+def write(content: Content, target: Path) -> tuple[Path, ...]:
+    """Write the prefab and its folder; returns the prefab, then every file but the ``.meta``.
+
+    Raises KinefabError where a file of somebody else's is in the way, OSError as the file system does; then the old files
+    stand as they were.
+    """
+    report = content.report
+    options = PrefabOptions.of(content.options)
+    if any("\ud800" <= character <= "\udfff" for character in target.name):
+        detail = "its name is not UTF-8"
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
+    files = prefab_files(content, target.name[: -len(ENDING)], options)
+    content.refuse_losses()
+    return put_in_place(files, target, report, content.progress)

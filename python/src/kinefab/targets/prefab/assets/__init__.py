@@ -1,0 +1,1 @@
+"""Files that a prefab refers to: meshes, materials, textures, clips."""

@@ -1,0 +1,123 @@
+"""Which textures the materials show, as files of their own: one for each use, as Unity imports a normal map otherwise than a colour."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ....diagnostics import Report
+from ....model import Texture, Wrap
+from ....unity.scene import Material
+from ..text.metas import texture_meta
+from ..text.yaml import Plain, external
+from .images import Image, ImageError, packed, read_image
+from .materials import Map, Maps
+
+TEXTURE_ID = 2800000
+IMPORTED = 3
+"""The type of a reference to what an importer made."""
+COLOR, NORMAL, DATA = "color", "normal", "data"
+"""Uses: sRGB, a normal map, linear numbers."""
+WRAPS = {Wrap.REPEAT: 0, Wrap.CLAMP: 1, Wrap.MIRROR: 2}
+
+
+@dataclass(frozen=True, slots=True)
+class TextureFile:
+    """identity: what it is in the source.  use: COLOR, NORMAL or DATA.  material: whose factors are packed in, None where none are."""
+
+    identity: str
+    name: str
+    use: str
+    wrap: Wrap
+    ending: str
+    texture: Texture
+    material: Material | None = None
+
+    def content(self) -> list[bytes]:
+        image: Image = read_image(self.texture) if self.material is None else packed(self.material)
+        return [image.data]
+
+    def meta(self, guid: str) -> str:
+        return texture_meta(guid, self.use == COLOR, self.use == NORMAL, WRAPS[self.wrap])
+
+
+@dataclass(slots=True)
+class Textures:
+    """Collects the textures of materials; the report gets what cannot be shown.  shader: its name, for the report."""
+
+    report: Report
+    shader: str
+    files: dict[str, TextureFile] = field(default_factory=dict[str, TextureFile])
+
+    def wanted(self, material: Material) -> dict[str, tuple[str, Texture]]:
+        """For each slot of ``Maps`` the identity of its file, and the texture whose place on the surface it takes."""
+        found: dict[str, tuple[str, Texture]] = {}
+        for slot, texture, use in (
+            ("color", material.colorTexture, COLOR),
+            ("normal", material.normalTexture, NORMAL),
+            ("emission", material.emissionTexture if any(material.emission) else None, COLOR),
+        ):
+            if texture is not None and (identity := self._plain(material, slot, texture, use)):
+                found[slot] = (identity, texture)
+        rough = material.metallicRoughnessTexture or material.occlusionTexture
+        if rough is not None and (identity := self._packed(material, rough)):
+            found["packed"] = (identity, rough)
+        return found
+
+    def _plain(self, material: Material, slot: str, texture: Texture, use: str) -> str | None:
+        try:
+            ending = read_image(texture).ending
+        except ImageError as error:
+            return self._lost(material, slot, texture, error)
+        self._tell_placing(material, slot, texture)
+        identity = f"{texture.name}|{use}|{texture.wrap.value}"
+        name = texture.name if use == COLOR else f"{texture.name} {use}"
+        self.files.setdefault(identity, TextureFile(identity, name, use, texture.wrap, ending, texture))
+        return identity
+
+    def _packed(self, material: Material, texture: Texture) -> str | None:
+        try:
+            ending = packed(material).ending
+        except ImageError as error:
+            return self._lost(material, "metallic, roughness or occlusion", texture, error)
+        self._tell_placing(material, "metallic and roughness", texture)
+        identity = f"{material.name}|mask|{texture.name}|{texture.wrap.value}"
+        name = f"{material.name} mask"
+        file = TextureFile(identity, name, DATA, texture.wrap, ending, texture, material)
+        self.files.setdefault(identity, file)
+        return identity
+
+    def _lost(self, material: Material, slot: str, texture: Texture, error: ImageError) -> None:
+        feature = f"{slot} texture of material {material.name}"
+        self.report.dropped(feature, "TEXTURE_NOT_WRITTEN", texture=texture.name, detail=str(error))
+
+    def _tell_placing(self, material: Material, slot: str, texture: Texture) -> None:
+        feature = f"{slot} texture of material {material.name}"
+        for told, is_plain in (("uv_set", texture.uv_set == 0), ("rotation", texture.rotation == 0.0)):
+            if not is_plain:
+                self.report.dropped(feature, "TARGET_FIELD_DROPPED", field=told, target=self.shader)
+
+
+def shown(
+    slots: Mapping[str, tuple[str, Texture]], references: Mapping[str, Plain], material: Material
+) -> Maps:
+    """references: of the files, by their identities."""
+
+    def placed(slot: str) -> Map | None:
+        if slot not in slots:
+            return None
+        identity, texture = slots[slot]
+        return Map(references[identity], texture.scale, texture.offset)
+
+    return Maps(
+        placed("color"),
+        placed("normal"),
+        placed("packed"),
+        material.metallicRoughnessTexture is not None and "packed" in slots,
+        material.occlusionTexture is not None and "packed" in slots,
+        placed("emission"),
+    )
+
+
+def reference(guid: str) -> Plain:
+    return external(TEXTURE_ID, guid, IMPORTED)

@@ -1,0 +1,230 @@
+"""From a scene in Unity's terms to the files of a prefab."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+
+from ...unity.scene import AnimationClip, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
+from ..content import Content
+from .articulation import articulated
+from .assets.clips import CLIP_ID, clip_asset
+from .assets.identities import mesh_identities, named_identities
+from .assets.materials import MATERIAL_ID, material_asset
+from .assets.meshes import MESH_ID, mesh_asset
+from .assets.physics_materials import PHYSICS_MATERIAL_ID, physics_material_asset
+from .assets.tangents import with_tangents
+from .assets.textures import TextureFile, Textures, reference, shown
+from .files import AssetFile
+from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
+from .names import file_name, folded, unique
+from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
+from .objects.hierarchy import Hierarchy, References
+from .options import PrefabOptions
+from .text.ids import guid
+from .text.metas import assembly_meta, folder_meta, native_meta, prefab_meta, script_meta
+from .text.yaml import HEADER, Plain, external
+
+NATIVE = 2
+"""The type of a reference to an asset in Unity's own YAML."""
+MESHES, MATERIALS, TEXTURES, PHYSICS, ANIMATIONS = (
+    "Meshes",
+    "Materials",
+    "Textures",
+    "Physics Materials",
+    "Animations",
+)
+
+
+def prefab_files(
+    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None = None
+) -> list[AssetFile]:
+    """Everything of the export, the prefab first, folders before what they hold.
+
+    name: of the prefab, without ending.  scripts_folder: where a script goes, by default below the prefab's folder.  The report gets what a prefab cannot say.
+    """
+    return _Export(content, name, options, scripts_folder or f"{name}/Scripts").files()
+
+
+class _Export:
+    """Collects the files; ``folder`` is the one beside the prefab."""
+
+    def __init__(self, content: Content, name: str, options: PrefabOptions, scripts_folder: str):
+        self.scripts_folder = scripts_folder
+        self.content, self.name, self.options = content, name, options
+        self.scene = content.unity()
+        self.couplings = self.scene.couplings if options.articulation else ()
+        if options.articulation:
+            stated = {joint.id: joint for joint in content.scene.joints}
+            self.scene = articulated(self.scene, stated, content.report)
+        self.dialect = options.dialect
+        self.found: list[AssetFile] = []
+
+    def files(self) -> list[AssetFile]:
+        scene, report = self.scene, self.content.report
+        tell_losses(scene, self.options, report)
+        if not self.options.scripts:
+            tell_couplings(scene.couplings, report)
+        tell_couplings(self.couplings, report)
+        hierarchy = Hierarchy(scene, self.name, self.dialect, empty_colliders(scene, report))
+        tell_names(scene, hierarchy.scene_names, report)
+        references = References(
+            self._meshes(), self._materials(), self._physics_materials(), self._clips(hierarchy)
+        )
+        hierarchy.add_components(references)
+        if references.clips:
+            hierarchy.add_clips(references.clips, plays=not _moved_by_forces(scene))
+        if self.options.scripts and scene.couplings:
+            hierarchy.add_couplings()
+            self._scripts()
+        folders = sorted({file.path.rpartition("/")[0] for file in self.found} | {self.name})
+        head = [
+            AssetFile(
+                f"{self.name}.prefab",
+                self._guid("prefab"),
+                prefab_meta(self._guid("prefab")),
+                partial(_prefab, hierarchy),
+            )
+        ]
+        for folder in folders:
+            own = (
+                guid("", "folder", folder) if folder == self.scripts_folder else self._guid("folder", folder)
+            )
+            head.append(AssetFile(folder, own, folder_meta(own)))
+        return head + self.found
+
+    def _guid(self, *identity: str) -> str:
+        return guid(self.name, *identity)
+
+    def _assets(
+        self,
+        folder: str,
+        ending: str,
+        main: int,
+        identities: Sequence[str],
+        names: Sequence[str],
+        made: Callable[[int, str], Iterable[bytes]],
+    ) -> list[Plain]:
+        """Files of one kind in a folder of their own, and the references to them.  made: content by index and name."""
+        plain = unique([(file_name(n), i) for n, i in zip(names, identities)], folded)
+        references: list[Plain] = []
+        for k, (identity, title) in enumerate(zip(identities, plain)):
+            own = self._guid(folder, identity)
+            path = f"{self.name}/{folder}/{title}{ending}"
+            self.found.append(AssetFile(path, own, native_meta(own, main), partial(made, k, title)))
+            references.append(external(main, own, NATIVE))
+        return references
+
+    def _meshes(self) -> dict[int, Plain]:
+        meshes = self.scene.meshes
+        identities = mesh_identities(self.scene, self.content.scene)
+        used = sorted(identities)
+        names = [_mesh_name(meshes, i) for i in used]
+
+        bumpy = _normal_mapped(self.scene)
+
+        def made(k: int, title: str) -> Iterator[bytes]:
+            mesh = meshes[used[k]]
+            return mesh_asset(with_tangents(mesh) if used[k] in bumpy else mesh, title)
+
+        references = self._assets(MESHES, ".asset", MESH_ID, [identities[i] for i in used], names, made)
+        return dict(zip(used, references))
+
+    def _materials(self) -> dict[int, Plain]:
+        materials, options = self.scene.materials, self.options
+        textures = Textures(self.content.report, f"the {options.pipeline.value} shader")
+        slots = [textures.wanted(material) for material in materials]
+        references = self._textures(list(textures.files.values()))
+        maps = [shown(s, references, m) for s, m in zip(slots, materials)]
+
+        def made(k: int, title: str) -> list[bytes]:
+            return [material_asset(materials[k], title, maps[k], options.pipeline, self.dialect)]
+
+        names = [material.name for material in materials]
+        found = self._assets(MATERIALS, ".mat", MATERIAL_ID, named_identities(materials), names, made)
+        return dict(enumerate(found))
+
+    def _textures(self, files: Sequence[TextureFile]) -> dict[str, Plain]:
+        """References by the identities of the files."""
+        plain = unique([(file_name(f.name), f.identity) for f in files], folded)
+        found: dict[str, Plain] = {}
+        for file, title in zip(files, plain):
+            own = self._guid(TEXTURES, file.identity)
+            path = f"{self.name}/{TEXTURES}/{title}{file.ending}"
+            self.found.append(AssetFile(path, own, file.meta(own), file.content))
+            found[file.identity] = reference(own)
+        return found
+
+    def _physics_materials(self) -> dict[int, Plain]:
+        materials = self.scene.physicsMaterials
+
+        def made(k: int, title: str) -> list[bytes]:
+            return [physics_material_asset(materials[k], title, self.dialect)]
+
+        names = [material.name or "Physics Material" for material in materials]
+        ending = ".physicMaterial" if self.dialect.physics_material == 1 else ".physicsMaterial"
+        references = self._assets(
+            PHYSICS, ending, PHYSICS_MATERIAL_ID, named_identities(materials), names, made
+        )
+        return dict(enumerate(references))
+
+    def _scripts(self) -> None:
+        """The script and its assembly, the same in every export."""
+        metas = {SCRIPT: script_meta(script_guid(SCRIPT)), ASSEMBLY: assembly_meta(script_guid(ASSEMBLY))}
+        for name, meta in metas.items():
+            path = f"{self.scripts_folder}/{name}"
+            self.found.append(AssetFile(path, script_guid(name), meta, partial(_bytes_of, name)))
+
+    def _clips(self, hierarchy: Hierarchy) -> list[Plain]:
+        clips = self.scene.animations
+
+        def made(k: int, title: str) -> list[bytes]:
+            paths = {track.gameObject: hierarchy.path(track.gameObject) for track in clips[k].tracks}
+            return [clip_asset(clips[k], title, paths, self.dialect)]
+
+        names = [clip.name for clip in clips]
+        return self._assets(ANIMATIONS, ".anim", CLIP_ID, named_identities(clips), names, made)
+
+
+def _bytes_of(name: str) -> list[bytes]:
+    return [(FOLDER / name).read_bytes()]
+
+
+def _mesh_name(meshes: Sequence[Mesh], index: int) -> str:
+    """Without mapping a mesh for it, where the scene can tell."""
+    told = getattr(meshes, "name", None)
+    return told(index) if told is not None else meshes[index].name
+
+
+def _prefab(hierarchy: Hierarchy) -> Iterator[bytes]:
+    yield HEADER.encode()
+    for document in hierarchy.documents():
+        yield document.encode("ascii")
+
+
+def _normal_mapped(scene: UnityScene) -> set[int]:
+    """Meshes that show a normal map."""
+    found: set[int] = set()
+    for entry in scene.gameObjects:
+        shown_materials = [
+            scene.materials[m] for c in entry.components if isinstance(c, MeshRenderer) for m in c.materials
+        ]
+        if any(material.normalTexture is not None for material in shown_materials):
+            found |= {c.mesh for c in entry.components if isinstance(c, MeshFilter)}
+    return found
+
+
+def _moved_by_forces(scene: UnityScene) -> bool:
+    """Whether a clip moves what the solver moves too: then the user chooses which of them does."""
+
+    def physical(clip: AnimationClip) -> bool:
+        for track in clip.tracks:
+            at: int | None = track.gameObject
+            while at is not None:
+                entry = scene.gameObjects[at]
+                if any(isinstance(c, Rigidbody) and not c.isKinematic for c in entry.components):
+                    return True
+                at = entry.parent
+        return False
+
+    return any(physical(clip) for clip in scene.animations)

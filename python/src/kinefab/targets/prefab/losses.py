@@ -1,0 +1,92 @@
+"""What a prefab cannot hold, told by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...diagnostics import Report
+from ...unity.scene import (
+    BoxCollider,
+    CapsuleCollider,
+    Collider,
+    Coupling,
+    Physics,
+    Rigidbody,
+    SphereCollider,
+    UnityScene,
+)
+from .options import PrefabOptions
+from .text.dialects import Pipeline
+
+TARGET = "a prefab"
+SETTINGS = {"gravity", "fixedTimestep", "solverIterations", "solverVelocityIterations"}
+"""Of the project: a prefab cannot change them."""
+RUNTIME = ("maxAngularVelocity", "solverIterations", "solverVelocityIterations")
+"""Of a Rigidbody, which Unity takes from a script only."""
+
+
+def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
+    for entry in scene.gameObjects:
+        for name in ("layer", "tag"):
+            if word := getattr(entry, name):
+                report.dropped(
+                    f"{name} {word} of {entry.id}", "TARGET_FIELD_DROPPED", field=name, target=TARGET
+                )
+        for component in entry.components:
+            if isinstance(component, Collider) and component.group:
+                feature = f"collision group {component.group} of {entry.id}"
+                report.dropped(feature, "TARGET_FIELD_DROPPED", field="group", target=TARGET)
+            if isinstance(component, Rigidbody) and not component.isKinematic:
+                _tell_rigidbody(component, entry.id, options, report)
+    for name in sorted(SETTINGS):
+        if getattr(scene.physics, name) != getattr(Physics(), name):
+            report.dropped(f"project setting {name}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
+    if options.pipeline is Pipeline.BUILTIN:
+        for material in scene.materials:
+            if material.doubleSided:
+                told = {"field": "doubleSided", "target": "Unity's Standard shader"}
+                report.dropped(f"material {material.name}", "TARGET_FIELD_DROPPED", **told)
+
+
+def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report: Report) -> None:
+    for name in RUNTIME:
+        if getattr(body, name) is not None:
+            report.dropped(f"Rigidbody of {owner}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
+    if not options.dialect.mass_properties:
+        report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
+
+
+def tell_couplings(couplings: Iterable[Coupling], report: Report) -> None:
+    """Unity has no component for them."""
+    for coupling in couplings:
+        report.dropped(
+            f"coupling {coupling.id}", "COUPLING_NOT_IN_PREFAB", coupling=coupling.id, kind=coupling.kind
+        )
+
+
+def empty_colliders(scene: UnityScene, report: Report) -> frozenset[tuple[int, int]]:
+    """Colliders without size, by object and component: PhysX makes none of them."""
+    found: set[tuple[int, int]] = set()
+    for i, entry in enumerate(scene.gameObjects):
+        for k, component in enumerate(entry.components):
+            if isinstance(component, Collider) and _is_empty(component):
+                told = f"{type(component).__name__} {component.id}".strip()
+                report.dropped(f"{told} of {entry.id}", "COLLIDER_EMPTY", object=entry.id)
+                found.add((i, k))
+    return frozenset(found)
+
+
+def _is_empty(collider: Collider) -> bool:
+    if isinstance(collider, BoxCollider):
+        return (
+            sorted(abs(x) for x in collider.size)[1] == 0.0
+        )  # one side may be: Unity gives a quad such a box
+    return isinstance(collider, (SphereCollider, CapsuleCollider)) and collider.radius <= 0.0
+
+
+def tell_names(scene: UnityScene, names: list[str], report: Report) -> None:
+    """names: of the scene's objects in the prefab."""
+    for entry, name in zip(scene.gameObjects, names):
+        if entry.name != name:
+            told = {"object": entry.id, "name": entry.name, "changed": name}
+            report.approximated(f"name of {entry.id}", "TARGET_NAME_CHANGED", **told)

@@ -1,0 +1,1 @@
+"""GameObjects and components as documents of a prefab."""

@@ -1,0 +1,245 @@
+"""The tree of GameObjects: Transforms, components, and the order in which the editor writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ....unity.scene import (
+    ArticulationBody,
+    Collider,
+    Component,
+    FixedJoint,
+    GameObject,
+    Joint,
+    MeshCollider,
+    MeshFilter,
+    MeshRenderer,
+    Rigidbody,
+    Transform,
+    UnityScene,
+)
+from ..names import sibling_names
+from ..text.dialects import Dialect
+from ..text.documents import HEAD, Document, component_head, version
+from ..text.ids import FileIds
+from ..text.yaml import NULL, Fields, Plain, local, vector
+from ..text.yaml import placed as rounded
+from .articulations import CLASS as ARTICULATION_CLASS
+from .articulations import articulation_fields
+from .bodies import collider_class, collider_fields, rigidbody_fields
+from .couplings import coupling_fields
+from .joints import joint_class, joint_fields
+from .rendering import animation_fields, mesh_filter_fields, mesh_renderer_fields
+
+ROOT = "kinefab:root"
+"""What the prefab's own root is, where the scene has none that could be it."""
+
+
+@dataclass(frozen=True, slots=True)
+class References:
+    """How the prefab refers to its assets, by their indices in the scene."""
+
+    meshes: Mapping[int, Plain]
+    materials: Mapping[int, Plain]
+    physics_materials: Mapping[int, Plain]
+    clips: Sequence[Plain]
+
+
+@dataclass(slots=True)
+class _Placed:
+    """A GameObject with its numbers.  order: its place among its siblings."""
+
+    name: str
+    file_id: int
+    transform_id: int
+    active: bool
+    transform: Transform
+    parent: int | None
+    order: int = 0
+    children: list[int] = field(default_factory=list[int])
+    components: list[Document] = field(default_factory=list[Document])
+
+
+class Hierarchy:
+    """Gives every object its name and its numbers, then makes the documents.
+
+    A scene with several roots, or whose root does not stand at the origin, gets one above them: a prefab has one, and the user
+    places it.
+    """
+
+    def __init__(
+        self,
+        scene: UnityScene,
+        name: str,
+        dialect: Dialect,
+        left_out: frozenset[tuple[int, int]] = frozenset(),
+    ):
+        """left_out: components that are not written, by object and component."""
+        self.scene, self.dialect, self.left_out = scene, dialect, left_out
+        self.ids = FileIds()
+        objects = scene.gameObjects
+        roots = [o for o in objects if o.parent is None]
+        self.own_root = len(roots) != 1 or roots[0].transform != Transform()
+        shift = 1 if self.own_root else 0
+        parents = [None] * shift + [
+            (o.parent + shift if o.parent is not None else 0 if self.own_root else None) for o in objects
+        ]
+        names = [name] * shift + [o.name for o in objects]
+        ids = [ROOT] * shift + [o.id for o in objects]
+        self.names = sibling_names(parents, names, ids)
+        self.scene_names = self.names[shift:]
+        self._first = shift
+        self._placed: list[_Placed] = []
+        for i, identity in enumerate(ids):
+            own = objects[i - shift] if i >= shift else None
+            file_id = self.ids.new("GameObject", identity)
+            transform_id = self.ids.new("Transform", identity)
+            active = own.active if own else True
+            transform = own.transform if own else Transform()
+            self._placed.append(_Placed(self.names[i], file_id, transform_id, active, transform, parents[i]))
+        for i, parent in enumerate(parents):
+            if parent is not None:
+                self._placed[i].order = len(self._placed[parent].children)
+                self._placed[parent].children.append(i)
+        self.component_ids: dict[tuple[int, int], int] = {}
+        self.bodies: dict[int, int] = {}
+        self.links: dict[int, int] = {}
+        self._number_components()
+
+    def _number_components(self) -> None:
+        """Each component's fileID, by the object's index in the scene and its own; Rigidbodies also by the object's alone."""
+        for i, entry in enumerate(self.scene.gameObjects):
+            for k, component in enumerate(entry.components):
+                identity = f"{entry.id}{_told(component, self.scene.gameObjects)}"
+                found = self.ids.new(type(component).__name__, identity)
+                self.component_ids[i, k] = found
+                if isinstance(component, Rigidbody):
+                    self.bodies[i] = found
+                elif isinstance(component, ArticulationBody):
+                    self.links[i] = found
+
+    def game_object_id(self, index: int) -> int:
+        return self._placed[index + self._first].file_id
+
+    def path(self, index: int) -> str:
+        """Names from below the root to an object of the scene, slashes between: how clips name what they move."""
+        found: list[str] = []
+        at: int | None = index + self._first
+        while at is not None and self._placed[at].parent is not None:
+            found.append(self._placed[at].name)
+            at = self._placed[at].parent
+        return "/".join(reversed(found))
+
+    def add(self, index: int | None, class_id: int, kind: str, file_id: int, fields: Fields) -> None:
+        """A component of an object of the scene, None for the root, after those that it has."""
+        at = 0 if index is None else index + self._first
+        self._placed[at].components.append(Document(class_id, kind, file_id, fields))
+
+    def add_components(self, references: References) -> None:
+        """What the scene's objects hold."""
+        for i, entry in enumerate(self.scene.gameObjects):
+            for k, component in enumerate(entry.components):
+                if (i, k) in self.left_out:
+                    continue
+                class_id, kind = component_class(component)
+                fields = self._component(i, component, references)
+                self.add(i, class_id, kind, self.component_ids[i, k], fields)
+
+    def add_couplings(self) -> None:
+        """The script's components, each on the object whose joint follows."""
+        for coupling in self.scene.couplings:
+            index = coupling.coordinate.gameObject
+            fields = coupling_fields(coupling, self.game_object_id(index), self.component_ids)
+            own = self.ids.new("MonoBehaviour", f"coupling {coupling.id}")
+            self.add(index, 114, "MonoBehaviour", own, fields)
+
+    def add_clips(self, clips: Sequence[Plain], plays: bool) -> None:
+        """The Animation on the root.  plays: from the start."""
+        fields = animation_fields(self._placed[0].file_id, clips, plays, self.dialect)
+        self.add(None, 111, "Animation", self.ids.new("Animation", ROOT), fields)
+
+    def _component(self, index: int, component: Component, references: References) -> Fields:
+        owner = self.game_object_id(index)
+        if isinstance(component, MeshFilter):
+            return mesh_filter_fields(owner, references.meshes.get(component.mesh, NULL))
+        if isinstance(component, MeshRenderer):
+            materials = [references.materials[m] for m in component.materials]
+            return mesh_renderer_fields(owner, component.enabled, materials, self.dialect)
+        if isinstance(component, Rigidbody):
+            return rigidbody_fields(component, owner, self.dialect)
+        if isinstance(component, Collider):
+            mesh = (
+                references.meshes.get(component.mesh, NULL) if isinstance(component, MeshCollider) else NULL
+            )
+            rubbing = NULL if component.material is None else references.physics_materials[component.material]
+            return collider_fields(component, owner, rubbing, mesh, self.dialect)
+        if isinstance(component, ArticulationBody):
+            return articulation_fields(component, owner, self.dialect)
+        other = component.connectedBody
+        connected = NULL if other is None or other in self.links else local(self.bodies[other])
+        link = local(self.links[other]) if other is not None and other in self.links else NULL
+        return joint_fields(component, owner, connected, self.dialect, link)
+
+    def documents(self) -> Iterator[str]:
+        """GameObjects by rising fileID, each before its components, as the editor writes them."""
+        for placed in sorted(self._placed, key=lambda p: p.file_id):
+            yield Document(1, "GameObject", placed.file_id, self._game_object(placed)).text()
+            yield Document(4, "Transform", placed.transform_id, self._transform(placed)).text()
+            for component in placed.components:
+                yield component.text()
+
+    def _game_object(self, placed: _Placed) -> Fields:
+        ids = [placed.transform_id, *(c.file_id for c in placed.components)]
+        return {
+            **HEAD,
+            "serializedVersion": 6,
+            "m_Component": [{"component": local(i)} for i in ids],
+            "m_Layer": 0,
+            "m_Name": placed.name,
+            "m_TagString": "Untagged",
+            "m_Icon": NULL,
+            "m_NavMeshLayer": 0,
+            "m_StaticEditorFlags": 0,
+            "m_IsActive": placed.active,
+        }
+
+    def _transform(self, placed: _Placed) -> Fields:
+        parent = None if placed.parent is None else self._placed[placed.parent]
+        order: Fields = {}
+        if self.dialect.root_order:
+            order = {"m_RootOrder": placed.order}
+        return {
+            **component_head(placed.file_id),
+            **version(self.dialect.transform),
+            "m_LocalRotation": rounded(placed.transform.localRotation),
+            "m_LocalPosition": rounded(placed.transform.localPosition),
+            "m_LocalScale": rounded(placed.transform.localScale),
+            "m_ConstrainProportionsScale": 0,
+            "m_Children": [local(self._placed[i].transform_id) for i in placed.children],
+            "m_Father": local(0 if parent is None else parent.transform_id),
+            **order,
+            "m_LocalEulerAnglesHint": vector((0.0, 0.0, 0.0)),
+        }
+
+
+def component_class(component: Component) -> tuple[int, str]:
+    """Unity's number and name of a component's class."""
+    if isinstance(component, Joint):
+        return joint_class(component)
+    if isinstance(component, Collider):
+        return collider_class(component)
+    if isinstance(component, ArticulationBody):
+        return ARTICULATION_CLASS
+    kinds = {MeshFilter: (33, "MeshFilter"), MeshRenderer: (23, "MeshRenderer"), Rigidbody: (54, "Rigidbody")}
+    return kinds[type(component)]
+
+
+def _told(component: Component, objects: Sequence[GameObject]) -> str:
+    """What a component is beside its object and its class: several joints or colliders may stand on one object."""
+    if isinstance(component, FixedJoint) and not component.id:
+        other = component.connectedBody
+        return f"->{objects[other].id}" if other is not None else ""
+    if isinstance(component, (Joint, Collider)):
+        return f"->{component.id}" if component.id else ""
+    return ""

@@ -1,0 +1,288 @@
+using System;
+using UnityEngine;
+
+namespace Kinefab
+{
+    /// <summary>
+    /// Keeps a joint coordinate at a linear function of others: gears, belts, racks, screws, mimics.
+    /// q = sum of ratio * q_term + offset, in degrees and metres, each q the motion of the joint's own body against its
+    /// connected one, zero at the pose of the prefab. Works one way: the driven joint follows, its load is not passed on.
+    /// A kinematic body is moved to its place; any other is driven there by its joint's spring.
+    /// </summary>
+    public sealed class KinefabCoupling : MonoBehaviour
+    {
+        public enum Coordinate
+        {
+            Angle = 0,
+            X = 1,
+            Y = 2,
+            Z = 3,
+            AngularX = 4,
+            AngularY = 5,
+            AngularZ = 6,
+        }
+
+        [Serializable]
+        public struct Term
+        {
+            public Joint joint;
+            public Coordinate coordinate;
+            public float ratio;
+        }
+
+        public Joint driven;
+        public Coordinate drivenCoordinate;
+        public Term[] terms = new Term[0];
+        public float offset;
+
+        /// <summary>Of the drive, for each unit of mass or inertia where the editor knows such drives (2022.2).</summary>
+        public float stiffness = 10000;
+
+        /// <summary>As stiffness; the default settles without swinging.</summary>
+        public float damping = 200;
+
+        private Reading _driven;
+        private Reading[] _terms;
+        private bool _isReady;
+
+        private void Start()
+        {
+            if (driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            {
+                return;
+            }
+
+            _driven = new Reading(driven, drivenCoordinate);
+            _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.coordinate));
+            _isReady = true;
+        }
+
+        private void FixedUpdate()
+        {
+            if (!_isReady || driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            {
+                return; // a joint may have broken
+            }
+
+            double target = offset;
+            for (int i = 0; i < terms.Length; i++)
+            {
+                target += terms[i].ratio * _terms[i].Value();
+            }
+
+            var body = driven.gameObject.GetComponent<Rigidbody>();
+            if (body.isKinematic)
+            {
+                _driven.Place(target, out Vector3 position, out Quaternion rotation);
+                body.MovePosition(position);
+                body.MoveRotation(rotation);
+            }
+            else if (driven is HingeJoint hinge)
+            {
+                Drive(hinge, target);
+            }
+            else if (driven is ConfigurableJoint configurable)
+            {
+                Drive(configurable, target);
+            }
+        }
+
+        private void Drive(HingeJoint hinge, double target)
+        {
+            // A hinge's angle is known within one turn.
+            double wrapped = hinge.useLimits ? target : target - 360 * Math.Round(target / 360);
+            hinge.useMotor = false;
+            hinge.spring = new JointSpring { spring = stiffness, damper = damping, targetPosition = (float)wrapped };
+#if UNITY_2022_2_OR_NEWER
+            hinge.useAcceleration = true;
+#endif
+            hinge.useSpring = true;
+        }
+
+        private void Drive(ConfigurableJoint joint, double target)
+        {
+            var drive = new JointDrive { positionSpring = stiffness, positionDamper = damping, maximumForce = float.MaxValue };
+#if UNITY_2022_2_OR_NEWER
+            drive.useAcceleration = true;
+#endif
+            // Unity drives the connected body against the own one, unless they are swapped.
+            double sense = joint.swapBodies ? 1 : -1;
+            int axis = (int)drivenCoordinate - 1;
+            if (axis < 3)
+            {
+                Vector3 position = joint.targetPosition;
+                float value = (float)(sense * target);
+                joint.targetPosition = new Vector3(axis == 0 ? value : position.x, axis == 1 ? value : position.y, axis == 2 ? value : position.z);
+                if (axis == 0)
+                {
+                    joint.xDrive = drive;
+                }
+                else if (axis == 1)
+                {
+                    joint.yDrive = drive;
+                }
+                else
+                {
+                    joint.zDrive = drive;
+                }
+
+                return;
+            }
+
+            double half = sense * target * Math.PI / 360;
+            var sine = (float)Math.Sin(half);
+            joint.targetRotation = new Quaternion(axis == 3 ? sine : 0, axis == 4 ? sine : 0, axis == 5 ? sine : 0, (float)Math.Cos(half));
+            joint.rotationDriveMode = RotationDriveMode.XYAndZ;
+            if (axis == 3)
+            {
+                joint.angularXDrive = drive;
+            }
+            else
+            {
+                joint.angularYZDrive = drive;
+            }
+        }
+
+        /// <summary>One coordinate of a joint: where it stands, and where its body would stand at another value.</summary>
+        private sealed class Reading
+        {
+            private readonly Joint _joint;
+            private readonly bool _isAngle;
+            private readonly Vec _axis;
+            private readonly Vec _anchor;
+            private readonly Quat _start;
+            private double _last;
+
+            public Reading(Joint joint, Coordinate coordinate)
+            {
+                _joint = joint;
+                _isAngle = coordinate == Coordinate.Angle || coordinate >= Coordinate.AngularX;
+                _axis = Axis(joint, coordinate == Coordinate.Angle ? 0 : ((int)coordinate - 1) % 3);
+                _anchor = new Vec(joint.anchor);
+                Pose(out Quat connected, out _, out Quat own, out _);
+                _start = connected.Inverse() * own;
+            }
+
+            /// <summary>Degrees, over whole turns, or metres.</summary>
+            public double Value()
+            {
+                Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt);
+                if (!_isAngle)
+                {
+                    Vec anchor = ownAt + own * _anchor;
+                    Vec other = connectedAt + connected * new Vec(_joint.connectedAnchor);
+                    return (anchor - other).Dot(Turning(connected, own) * _axis);
+                }
+
+                Quat turn = _start.Inverse() * (connected.Inverse() * own);
+                double angle = 2 * Math.Atan2(turn.V.Dot(_axis), turn.W) * 180 / Math.PI;
+                _last = angle + 360 * Math.Round((_last - angle) / 360);
+                return _last;
+            }
+
+            /// <summary>The own body's pose at a value, all other coordinates as they were at the start.</summary>
+            public void Place(double value, out Vector3 position, out Quaternion rotation)
+            {
+                Pose(out Quat connected, out Vec connectedAt, out _, out _);
+                Quat own = connected * _start;
+                Vec anchor = connectedAt + connected * new Vec(_joint.connectedAnchor);
+                if (_isAngle)
+                {
+                    double half = value * Math.PI / 360;
+                    own = own * new Quat(Math.Sin(half) * _axis, Math.Cos(half));
+                }
+                else
+                {
+                    anchor = anchor + value * (own * _axis);
+                }
+
+                Vec at = anchor - own * _anchor;
+                position = new Vector3((float)at.X, (float)at.Y, (float)at.Z);
+                rotation = new Quaternion((float)own.V.X, (float)own.V.Y, (float)own.V.Z, (float)own.W);
+            }
+
+            private Quat Turning(Quat connected, Quat own)
+            {
+                return _joint is ConfigurableJoint joint && joint.swapBodies ? connected * _start : own;
+            }
+
+            private void Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt)
+            {
+                own = new Quat(_joint.transform.rotation);
+                ownAt = new Vec(_joint.transform.position);
+                Rigidbody other = _joint.connectedBody;
+                connected = other == null ? new Quat(new Vec(0, 0, 0), 1) : new Quat(other.transform.rotation);
+                connectedAt = other == null ? new Vec(0, 0, 0) : new Vec(other.transform.position);
+            }
+
+            private static Vec Axis(Joint joint, int index)
+            {
+                Vec x = new Vec(joint.axis).Unit();
+                if (index == 0)
+                {
+                    return x;
+                }
+
+                Vec second = joint is ConfigurableJoint configurable ? new Vec(configurable.secondaryAxis) : new Vec(0, 1, 0);
+                Vec z = x.Cross(second).Unit();
+                return index == 1 ? z.Cross(x) : z;
+            }
+        }
+
+        private struct Vec
+        {
+            public readonly double X, Y, Z;
+
+            public Vec(double x, double y, double z)
+            {
+                X = x;
+                Y = y;
+                Z = z;
+            }
+
+            public Vec(Vector3 v)
+                : this(v.x, v.y, v.z)
+            {
+            }
+
+            public double Dot(Vec b) => X * b.X + Y * b.Y + Z * b.Z;
+
+            public Vec Cross(Vec b) => new Vec(Y * b.Z - Z * b.Y, Z * b.X - X * b.Z, X * b.Y - Y * b.X);
+
+            public Vec Unit() => 1 / Math.Sqrt(Dot(this)) * this;
+
+            public static Vec operator +(Vec a, Vec b) => new Vec(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
+
+            public static Vec operator -(Vec a, Vec b) => new Vec(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
+
+            public static Vec operator *(double s, Vec a) => new Vec(s * a.X, s * a.Y, s * a.Z);
+        }
+
+        private struct Quat
+        {
+            public readonly Vec V;
+            public readonly double W;
+
+            public Quat(Vec v, double w)
+            {
+                V = v;
+                W = w;
+            }
+
+            public Quat(Quaternion q)
+                : this(new Vec(q.x, q.y, q.z), q.w)
+            {
+            }
+
+            public Quat Inverse() => new Quat(-1 * V, W);
+
+            public static Quat operator *(Quat a, Quat b) => new Quat(a.W * b.V + b.W * a.V + a.V.Cross(b.V), a.W * b.W - a.V.Dot(b.V));
+
+            public static Vec operator *(Quat a, Vec b)
+            {
+                Vec twice = 2 * a.V.Cross(b);
+                return b + a.W * twice + a.V.Cross(twice);
+            }
+        }
+    }
+}

@@ -1,0 +1,1 @@
+"""How Unity writes: its YAML, its numbers for objects, its files of importer settings."""

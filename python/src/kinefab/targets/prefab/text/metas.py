@@ -1,0 +1,90 @@
+"""The ``.meta`` beside each file: its guid, and which importer reads it."""
+
+from __future__ import annotations
+
+from .yaml import Fields, Plain, lines
+
+_TAIL: Fields = {"userData": "", "assetBundleName": "", "assetBundleVariant": ""}
+_HEAD: Fields = {"externalObjects": Plain("{}")}
+
+
+def _meta(guid: str, importer: str, fields: Fields, before: str = "") -> str:
+    block = "\n".join(lines(fields))
+    return f"fileFormatVersion: 2\nguid: {guid}\n{before}{importer}:\n{block}\n"
+
+
+def folder_meta(guid: str) -> str:
+    return _meta(guid, "DefaultImporter", {**_HEAD, **_TAIL}, "folderAsset: yes\n")
+
+
+def prefab_meta(guid: str) -> str:
+    return _meta(guid, "PrefabImporter", {**_HEAD, **_TAIL})
+
+
+def native_meta(guid: str, main_object: int) -> str:
+    """Of an asset in Unity's own YAML."""
+    return _meta(guid, "NativeFormatImporter", {**_HEAD, "mainObjectFileID": main_object, **_TAIL})
+
+
+def script_meta(guid: str) -> str:
+    fields = {**_HEAD, "serializedVersion": 2, "defaultReferences": [], "executionOrder": 0}
+    return _meta(guid, "MonoImporter", {**fields, "icon": Plain("{instanceID: 0}"), **_TAIL})
+
+
+def assembly_meta(guid: str) -> str:
+    return _meta(guid, "AssemblyDefinitionImporter", {**_HEAD, **_TAIL})
+
+
+def texture_meta(guid: str, srgb: bool, normal: bool, wrap: int) -> str:
+    """srgb: whether its numbers are colours.  wrap: Unity's number of what lies beyond the edge."""
+    fields: Fields = {
+        "internalIDToNameTable": [],
+        **_HEAD,
+        "serializedVersion": 11,
+        "mipmaps": {
+            "mipMapMode": 0,
+            "enableMipMap": 1,
+            "sRGBTexture": srgb,
+            "linearTexture": 0,
+            "fadeOut": 0,
+            "borderMipMap": 0,
+            "mipMapsPreserveCoverage": 0,
+            "alphaTestReferenceValue": 0.5,
+            "mipMapFadeDistanceStart": 1,
+            "mipMapFadeDistanceEnd": 3,
+        },
+        "bumpmap": {
+            "convertToNormalMap": 0,
+            "externalNormalMap": 0,
+            "heightScale": 0.25,
+            "normalMapFilter": 0,
+        },
+        "isReadable": 0,
+        "streamingMipmaps": 0,
+        "streamingMipmapsPriority": 0,
+        "grayScaleToAlpha": 0,
+        "generateCubemap": 6,
+        "cubemapConvolution": 0,
+        "seamlessCubemap": 0,
+        "textureFormat": 1,
+        "maxTextureSize": 2048,
+        "textureSettings": {
+            "serializedVersion": 2,
+            "filterMode": 1,
+            "aniso": 1,
+            "mipBias": 0,
+            "wrapU": wrap,
+            "wrapV": wrap,
+            "wrapW": wrap,
+        },
+        "nPOTScale": 1,
+        "lightmap": 0,
+        "compressionQuality": 50,
+        "spriteMode": 0,
+        "alphaUsage": 1,
+        "alphaIsTransparency": 0,
+        "textureType": 1 if normal else 0,
+        "textureShape": 1,
+        **_TAIL,
+    }
+    return _meta(guid, "TextureImporter", fields)

@@ -1,0 +1,1 @@
+"""Meshes, materials and clips in Unity's frame."""

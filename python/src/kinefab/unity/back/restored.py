@@ -1,0 +1,228 @@
+"""The way back: the bodies and joints of a written scene as the model has them, so that they can be analysed and driven.
+
+The mirror is its own inverse, so every quantity goes through the same function of ``frames`` as on the way out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...model import (
+    FREE,
+    LOCKED,
+    RX,
+    TX,
+    Coupling,
+    CouplingKind,
+    Freedom,
+    Joint,
+    JointKind,
+    Motion,
+    Node,
+    Scene,
+    Source,
+    Term,
+    freedoms_of,
+    kind_of,
+    unlocked_of,
+)
+from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
+from .. import frames
+
+WORLD = "the world"
+"""Id of the node that stands for the world, on which joints without a connected body hang."""
+_MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
+_COORDINATES = ("x", "y", "z", "angularX", "angularY", "angularZ")
+_WORDS = {"Locked": Motion.LOCKED, "Limited": Motion.LIMITED, "Free": Motion.FREE}
+
+Entry = Mapping[str, Any]
+
+
+class _Reading:
+    """The objects of a scene in the right-handed world, and the node that each moves with."""
+
+    def __init__(self, document: Entry):
+        self.objects: Sequence[Entry] = document["gameObjects"]
+        self.poses: list[Pose] = []
+        self.scales: list[Array] = []
+        self.active: list[bool] = []
+        self.nodes: list[Node] = [Node(WORLD, WORLD, grounded=True, visible=False)]
+        self.node_of: list[int] = []
+        """The node of each object: its own Rigidbody's or that of the next one above it, 0 for the world's."""
+        for entry in self.objects:
+            self._add(entry)
+
+    def _add(self, entry: Entry) -> None:
+        local = entry.get("transform", {})
+        turn = matrix_from_quaternion(_vector(local, "localRotation", (0, 0, 0, 1)))
+        place, scale = _vector(local, "localPosition", (0, 0, 0)), _vector(local, "localScale", (1, 1, 1))
+        pose = Pose(frames.rotation(turn), frames.point(place))
+        parent = entry.get("parent")
+        active, node = bool(entry.get("active", True)), 0
+        if parent is not None:
+            above = Pose(pose.rotation, self.scales[parent] * pose.translation)
+            pose, scale = self.poses[parent] @ above, scale * self.scales[parent]
+            active, node = active and self.active[parent], self.node_of[parent]
+        self.poses.append(pose)
+        self.scales.append(scale)
+        self.active.append(active)
+        body = next((c for c in entry.get("components", ()) if c["type"] == "Rigidbody"), None)
+        if body is not None and active:
+            node = len(self.nodes)
+            held = bool(body.get("isKinematic", False))
+            self.nodes.append(Node(entry["id"], entry["name"], pose=pose, grounded=held))
+        self.node_of.append(node)
+
+    def anchor(self, which: int | None, local: Array) -> Array:
+        """An anchor of an object (None: the world) in the world."""
+        if which is None:
+            return frames.point(local)
+        return self.poses[which].point(self.scales[which] * frames.point(local))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Restored:
+    """scene: the Rigidbodies as parts, with joints and couplings; right-handed, SI, radians.
+
+    node_of: for each GameObject the node that it moves with.  poses: of the GameObjects, scales their sizes, WORLD.
+    joints: the joint of each component, by (GameObject, component).
+    """
+
+    scene: Scene
+    node_of: Sequence[int]
+    poses: Sequence[Pose]
+    scales: Sequence[Array]
+    joints: Mapping[tuple[int, int], Joint]
+
+
+def restored(document: Entry) -> Restored:
+    """The mechanism of a parsed ``.kinefab``.
+
+    The first node stands for the world.  A joint is named by its object's id, with ``[component]`` behind it where the
+    object carries several, as the C# tool names them, and keeps the name that the source gave it; its coordinate is counted as Unity counts it in the scene file, by
+    the right-hand rule about the mirrored axis.
+    """
+    reading = _Reading(document)
+    joints: list[Joint] = []
+    place: dict[tuple[int, int], Joint] = {}
+    for index, entry in enumerate(reading.objects):
+        components: Sequence[Entry] = entry.get("components", ())
+        own = [i for i, c in enumerate(components) if c["type"].endswith("Joint")]
+        for i in own:
+            if not reading.active[index] or reading.node_of[index] == 0:
+                continue
+            name = entry["id"] + (f"[{i}]" if len(own) > 1 else "")
+            joint = _joint(name, components[i], index, reading)
+            if joint.a != joint.b:
+                joints.append(joint)
+                place[index, i] = joint
+    source = Source(str(document.get("source", {}).get("uri", "")))
+    scene = Scene(nodes=reading.nodes, joints=joints, source=source)
+    for i, entry in enumerate(document.get("couplings", ())):
+        ends = [place.get((entry[end]["gameObject"], entry[end]["component"])) for end in "ab"]
+        if ends[0] is not None and ends[1] is not None:
+            scene.couplings.append(_coupling(entry, f"coupling:{i}", ends[0], ends[1], reading, scene))
+    return Restored(scene, reading.node_of, reading.poses, reading.scales, place)
+
+
+def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
+    connected: int | None = component.get("connectedBody")
+    if connected is not None and (not reading.active[connected] or reading.node_of[connected] == 0):
+        connected = connected if reading.active[connected] else None
+    hinge = component["type"] == "HingeJoint"
+    axis = _vector(component, "axis", (1, 0, 0))
+    basis = frame_from_axes(axis, None if hinge else _vector(component, "secondaryAxis", (0, 1, 0)))
+    if hinge:  # its angle keeps its sign about the axial axis
+        local = frame_from_axes(frames.axial(basis[:, 0]))
+    else:
+        local = frames.joint_basis(basis)
+    world = local if component.get("configuredInWorldSpace", False) else reading.poses[index].rotation @ local
+    at_own = reading.anchor(index, _vector(component, "anchor", (0, 0, 0)))
+    at_other = at_own
+    if not component.get("autoConfigureConnectedAnchor", True):
+        at_other = reading.anchor(connected, _vector(component, "connectedAnchor", (0, 0, 0)))
+    sides = [
+        (reading.node_of[index], at_own),
+        (0 if connected is None else reading.node_of[connected], at_other),
+    ]
+    if hinge or component.get("swapBodies", False):
+        sides.reverse()
+    (a, at_a), (b, at_b) = sides
+    freedoms = _hinge_freedoms(component) if hinge else _freedoms(component)
+    kind = JointKind.REVOLUTE if hinge else kind_of(unlocked_of(freedoms))
+    frame_a, frame_b = (
+        reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
+    )
+    because = tuple(str(source) for source in component.get("because", ()))
+    own = str(component.get("extras", {}).get("name", ""))
+    return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
+
+
+def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
+    limits: Entry = component.get("limits", {})
+    turn = FREE
+    if component.get("useLimits", False):
+        low, high = math.radians(limits.get("min", 0.0)), math.radians(limits.get("max", 0.0))
+        turn = Freedom(Motion.LIMITED, min(low, high), max(low, high))
+    return freedoms_of(JointKind.REVOLUTE, rx=turn)
+
+
+def _freedoms(component: Entry) -> tuple[Freedom, ...]:
+    """Of b against a: the connected body against the own one, or, with ``swapBodies``, the other way round."""
+    if component["type"] == "FixedJoint":
+        return (LOCKED,) * 6
+    found: list[Freedom] = []
+    for i, field in enumerate(_MOTIONS):
+        motion = _WORDS[component.get(field, "Free")]
+        found.append(_limited(component, i) if motion is Motion.LIMITED else Freedom(motion))
+    return tuple(found)
+
+
+def _limited(component: Entry, i: int) -> Freedom:
+    if i == RX:
+        low, high = (
+            float(component.get(f"{end}AngularXLimit", {}).get("limit", 0.0)) for end in ("low", "high")
+        )
+        ends = sorted(float(frames.angle(math.radians(x))) for x in (low, high))
+        return Freedom(Motion.LIMITED, ends[0], ends[1])
+    field = "linearLimit" if i < RX else "angularYLimit" if i == RX + 1 else "angularZLimit"
+    half = float(component.get(field, {}).get("limit", 0.0))
+    half = half if i < RX else math.radians(half)
+    return Freedom(Motion.LIMITED, -half, half)
+
+
+def _coupling(
+    entry: Entry, name: str, first: Joint, second: Joint, reading: _Reading, scene: Scene
+) -> Coupling:
+    (sign_a, zero_a, freedom_a), (sign_b, zero_b, freedom_b) = (
+        _reading_of(entry[end], joint, reading, scene) for end, joint in (("a", first), ("b", second))
+    )
+    unit_a, unit_b = (math.radians(1.0) if freedom >= RX else 1.0 for freedom in (freedom_a, freedom_b))
+    ratio = sign_b * sign_a * float(entry["ratio"]) * unit_b / unit_a
+    offset = zero_b + sign_b * float(entry.get("offset", 0.0)) * unit_b - ratio * zero_a
+    term = Term(first.id, freedom_a, ratio)
+    kind = CouplingKind(entry.get("kind", "linear"))
+    return Coupling(str(entry.get("id", name)), kind, second.id, freedom_b, (term,), offset)
+
+
+def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tuple[float, float, int]:
+    """Of a coordinate of the scene file, u = sign * (q - zero): sign, zero and the freedom of q."""
+    component: Entry = reading.objects[end["gameObject"]]["components"][end["component"]]
+    if component["type"] == "HingeJoint":
+        return 1.0, 0.0, RX
+    freedom = _COORDINATES.index(end["coordinate"])
+    senses = frames.Senses.of(b_in_a=bool(component.get("swapBodies", False)))
+    if freedom >= RX:
+        return senses.angular[freedom - RX], 0.0, freedom
+    a, b = (scene.pose(node) @ frame for node, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)))
+    away = a.rotation.T @ (b.translation - a.translation)
+    return senses.linear[freedom - TX], float(away[freedom]), freedom
+
+
+def _vector(entry: Entry, name: str, default: tuple[float, ...]) -> Array:
+    return np.array(entry.get(name, default), dtype=np.float64)

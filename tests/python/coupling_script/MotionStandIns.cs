@@ -1,0 +1,23 @@
+// What KinefabCoupling needs of UnityEngine beside the stand-ins that the example importer is held against.
+using System;
+
+namespace UnityEngine
+{
+    public class MonoBehaviour : Component
+    {
+    }
+
+    public sealed partial class Transform
+    {
+        public Vector3 position { get; set; }
+
+        public Quaternion rotation { get; set; } = new Quaternion(0, 0, 0, 1);
+    }
+
+    public sealed partial class Rigidbody
+    {
+        public void MovePosition(Vector3 position) => transform.position = position;
+
+        public void MoveRotation(Quaternion rotation) => transform.rotation = rotation;
+    }
+}

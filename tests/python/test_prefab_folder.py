@@ -1,0 +1,158 @@
+"""The files of a prefab in a folder of somebody's: ours come and go whole, theirs stay as they are."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import kinefab
+import pytest
+import trimesh
+from kinefab.targets.prefab.folder import MANIFEST
+
+
+def box_scene(*names: str, size: float = 0.1) -> kinefab.Scene:
+    scene = kinefab.Scene()
+    for i, name in enumerate(names):
+        mesh = trimesh.creation.box((size, size * (i + 2), size))
+        scene.add_part(name, mesh, translation=(i, 0, 0), grounded=i == 0)
+    return scene
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    """Everything in a folder but the manifest."""
+    found = sorted(p for p in folder.rglob("*") if p.is_file() and p.name != MANIFEST)
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in found}
+
+
+def hidden(folder: Path) -> list[str]:
+    return [p.name for p in folder.iterdir() if p.name.startswith(".")]
+
+
+def test_a_second_export_removes_only_what_the_first_wrote(tmp_path):
+    target = tmp_path / "Robot.prefab"
+    kinefab.export(box_scene("Base", "Arm", "Hand"), target)
+    theirs = {
+        "Robot/notes.txt": b"mine",
+        "Robot/Meshes/mine.asset": b"too",
+        "Robot/Own/deep/a.txt": b"",
+        "other.prefab": b"x",
+    }
+    for name, data in theirs.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(data)
+    (tmp_path / "Robot" / "Empty").mkdir()
+    (tmp_path / "Robot" / "link").symlink_to("notes.txt")
+    before = files(tmp_path)
+    kinefab.export(box_scene("Base", "Hand"), target)
+    after = files(tmp_path)
+    assert all(after[name] == data for name, data in theirs.items())
+    assert (tmp_path / "Robot" / "Empty").is_dir() and os.readlink(tmp_path / "Robot" / "link") == "notes.txt"
+    gone = before.keys() - after.keys()
+    assert gone and all("Arm" in name for name in gone)
+    fresh = tmp_path / "fresh"
+    fresh.mkdir()
+    kinefab.export(box_scene("Base", "Hand"), fresh / "Robot.prefab")
+    ours = files(fresh)
+    assert {k: v for k, v in after.items() if k in ours} == ours
+    assert after.keys() - ours.keys() - theirs.keys() - {k for k in after if k.startswith("fresh")} == {
+        "Robot/link"
+    }
+    assert hidden(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    "name", ["Meshes/Base.asset", "Meshes/BASE.asset", "Meshes/Base.asset.meta", "Materials"]
+)
+def test_a_file_of_theirs_in_the_way_is_told_and_kept(tmp_path, name):
+    theirs = tmp_path / "Robot" / name
+    theirs.parent.mkdir(parents=True)
+    theirs.write_bytes(b"theirs")
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(box_scene("Base", "Arm"), tmp_path / "Robot.prefab")
+    (found,) = caught.value.diagnostics
+    assert found.code == "TARGET_FILE_FOREIGN" and name in found.message
+    assert files(tmp_path) == {f"Robot/{name}": b"theirs"} and hidden(tmp_path) == []
+
+
+@pytest.mark.posix
+def test_a_link_in_place_of_the_folder_is_refused(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "Robot").symlink_to("elsewhere")
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
+    assert [d.code for d in caught.value.diagnostics] == ["TARGET_UNWRITABLE"]
+    assert list((tmp_path / "elsewhere").iterdir()) == [] and not (tmp_path / "Robot.prefab").exists()
+
+
+def test_their_folder_keeps_its_guid(tmp_path):
+    """A folder that Unity knew before has a meta of Unity's."""
+    (tmp_path / "Robot").mkdir()
+    (tmp_path / "Robot.meta").write_text("fileFormatVersion: 2\nguid: 00000000000000000000000000000001\n")
+    kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
+    kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
+    assert "00000001" in (tmp_path / "Robot.meta").read_text()
+
+
+@pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
+def test_the_same_scene_gives_the_same_bytes(tmp_path, suffix):
+    found = []
+    for folder in (tmp_path / "a", tmp_path / "b"):
+        folder.mkdir()
+        kinefab.export(box_scene("Base", "Arm"), folder / f"Robot{suffix}")
+        found.append(files(folder))
+    assert found[0] == found[1]
+
+
+def test_a_failure_on_the_way_leaves_the_old_set(tmp_path, monkeypatch):
+    target = tmp_path / "Robot.prefab"
+    kinefab.export(box_scene("Base"), target)
+    before = files(tmp_path)
+    from kinefab.targets.prefab import exporting
+
+    def fails(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(exporting, "mesh_asset", fails)
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(box_scene("Base", "Arm"), target)
+    assert [d.code for d in caught.value.diagnostics] == ["TARGET_UNWRITABLE"]
+    assert files(tmp_path) == before and hidden(tmp_path) == []
+
+
+WRITER = """
+import sys
+sys.path.insert(0, {tests!r})
+import kinefab, test_prefab_folder
+print("ready", flush=True)
+sys.stdin.readline()
+kinefab.export(test_prefab_folder.box_scene("Base", *"ABCDEFGH", size=0.2), {target!r})
+"""
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
+def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suffix):
+    target = tmp_path / f"Robot{suffix}"
+    kinefab.export(box_scene("Base", *"ABCDEFGH", size=0.2), target)
+    new = files(tmp_path)
+    kinefab.export(box_scene("Base"), target)
+    old = files(tmp_path)
+    assert old != new
+    code = WRITER.format(tests=str(Path(__file__).parent), target=str(target))
+    for k in range(6):
+        writer = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        writer.stdout.readline()
+        writer.stdin.write(b"\n")
+        writer.stdin.flush()
+        time.sleep(0.04 * (k + 1))
+        writer.send_signal(signal.SIGKILL)
+        writer.communicate()
+        there = {name: data for name, data in files(tmp_path).items() if not name.startswith(".")}
+        assert there in (old, new)
+    kinefab.export(box_scene("Base"), target)
+    assert files(tmp_path) == old and hidden(tmp_path) == []

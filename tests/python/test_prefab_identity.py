@@ -1,0 +1,140 @@
+"""A second export updates the first: what is still there keeps the numbers by which Unity knows it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab import model
+from kinefab.spatial import Pose
+from prefab_scenes import block, rich_scene
+from unity_yaml import documents, mapping
+
+
+def numbers(folder: Path, scene: model.Scene) -> tuple[dict[str, int], dict[str, str], dict[str, list[int]]]:
+    """By the source's ids: fileIDs of GameObjects, guids of files, fileIDs of the components of each object by class."""
+    folder.mkdir(exist_ok=True)
+    result = kinefab.export(scene, folder / "Rich.prefab")
+    found = {d.file_id: d for d in documents((folder / "Rich.prefab").read_text("utf-8"))}
+    from prefab_reader import read_prefab
+
+    root, _ = read_prefab(folder / "Rich.prefab")
+    objects: dict[str, int] = {}
+    kinds: dict[str, list[int]] = {}
+
+    def walk(node, index: int) -> None:
+        own = result.unity.gameObjects[index].id
+        objects[own] = node.file_id
+        for reference in found[node.file_id].fields["m_Component"]:
+            component = found[int(reference["component"]["fileID"])]
+            kinds.setdefault(f"{own} {component.kind}", []).append(component.file_id)
+        below = [i for i, o in enumerate(result.unity.gameObjects) if o.parent == index]
+        for child, i in zip(node.children, below, strict=True):
+            walk(child, i)
+
+    walk(root, 0)
+    guids = {
+        p.relative_to(folder).as_posix(): str(mapping(p.read_text("utf-8"))["guid"])
+        for p in folder.rglob("*.meta")
+    }
+    return objects, guids, kinds
+
+
+def test_what_survives_keeps_its_numbers(tmp_path):
+    first = rich_scene(tmp_path)
+    second = rich_scene(tmp_path)
+    nodes = list(second.nodes)
+    nodes[3] = replace(
+        nodes[3], pose=Pose(np.eye(3), np.array([5.0, 6.0, 7.0])), name="Renamed"
+    )  # moved and renamed
+    second.joints = [j for j in second.joints if j.id not in ("Wheel", "Snap")]
+    second.couplings = []
+    second.animations = []
+    extra = model.Node(
+        "Top/A new one",
+        "Arm",
+        parent=0,
+        pose=Pose(np.eye(3), np.array([0.0, 2.0, 0.0])),
+        bodies=(model.Body("New", 4),),
+    )
+    second.meshes.append(block("New", (0.1, 0.2, 0.3)))
+    gone = 5
+    shift = [i if i < gone else i - 1 for i in range(len(nodes))]
+    second.nodes = [n for i, n in enumerate(nodes) if i != gone]
+    second.nodes.insert(1, extra)  # before the others: nothing may follow the order
+    shift = [i if i < 1 else i + 1 for i in shift]
+    second.nodes = [replace(n, parent=None if n.parent is None else 0) for n in second.nodes]
+    second.joints = [replace(j, a=None if j.a is None else shift[j.a], b=shift[j.b]) for j in second.joints]
+    objects, guids, kinds = numbers(tmp_path / "a", first)
+    objects2, guids2, kinds2 = numbers(tmp_path / "b", second)
+    same = objects.keys() & objects2.keys()
+    assert same >= {"kinefab:ground", "Top", "Top/Base", "Top/Arm:1", "Top/Arm:2", "Top/Slider", "Top/Fan"}
+    assert {k: objects[k] for k in same} == {k: objects2[k] for k in same}
+    for key in (k for k in kinds if k in kinds2 and k.rpartition(" ")[0] in same):
+        assert set(kinds2[key]) <= set(kinds[key]) or set(kinds[key]) <= set(kinds2[key]), key
+    for path in (
+        "Rich.prefab.meta",
+        "Rich.meta",
+        "Rich/Meshes/Arm.asset.meta",
+        "Rich/Meshes/Ball.asset.meta",
+        "Rich/Materials/Lamp.mat.meta",
+    ):
+        assert guids[path] == guids2[path]
+    assert {k: v for k, v in guids2.items() if k in guids} == {k: guids[k] for k in guids if k in guids2}
+    assert len(set(guids2.values())) == len(guids2)
+
+
+def test_a_part_with_a_definition_shares_its_mesh_s_guid(tmp_path):
+    """Whichever of its occurrences is the first."""
+
+    def machine(*names: str) -> model.Scene:
+        scene = model.Scene(meshes=[block("Bolt", (0.1, 0.1, 0.2))])
+        for i, name in enumerate(names):
+            pose = Pose(np.eye(3), np.array([float(i), 0, 0]))
+            scene.nodes.append(
+                model.Node(name, "Bolt", pose=pose, definition="bolt.ipt", bodies=(model.Body("b", 0),))
+            )
+        return scene
+
+    _, guids, _ = numbers(tmp_path / "a", with_root(machine("A", "B", "C")))
+    _, again, _ = numbers(tmp_path / "b", with_root(machine("B", "C")))
+    assert guids["Rich/Meshes/Bolt.asset.meta"] == again["Rich/Meshes/Bolt.asset.meta"]
+    assert sum("Bolt.asset" in path for path in guids) == 1
+
+
+def with_root(scene: model.Scene) -> model.Scene:
+    """Something that stands on the ground, so that one root is above all."""
+    scene.nodes.append(model.Node("Base", "Base", grounded=True))
+    return scene
+
+
+def test_two_prefabs_of_two_names_share_no_asset(tmp_path):
+    for name in ("One", "Two"):
+        kinefab.export(rich_scene(tmp_path), tmp_path / f"{name}.prefab")
+    guids = [str(mapping(p.read_text("utf-8"))["guid"]) for p in tmp_path.rglob("*.meta")]
+    assert len(set(guids)) == len(guids)
+
+
+@pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
+def test_prefab_and_package_have_the_same_numbers(tmp_path, suffix):
+    import tarfile
+
+    kinefab.export(rich_scene(tmp_path), tmp_path / "Rich.prefab")
+    kinefab.export(rich_scene(tmp_path), tmp_path / "Rich.unitypackage")
+    with tarfile.open(tmp_path / "Rich.unitypackage") as tar:
+        held = {m.name: tar.extractfile(m).read() for m in tar}
+        assert all(m.mtime == 0 and m.uid == m.gid == 0 for m in tar.getmembers())
+    names = [n.partition("/")[0] for n in held]
+    assert names == sorted(names)
+    paths = {g: held[f"{g}/pathname"].decode() for g in set(names)}
+    assert len(set(paths.values())) == len(paths)
+    for guid, path in paths.items():
+        if path == "Assets/Kinefab":
+            continue
+        own = tmp_path / path.removeprefix("Assets/Kinefab/")
+        assert Path(f"{own}.meta").read_bytes() == held[f"{guid}/asset.meta"]
+        assert own.is_dir() or own.read_bytes() == held[f"{guid}/asset"]
+        assert own.is_dir() == (f"{guid}/asset" not in held)

@@ -1,0 +1,308 @@
+"""What a prefab cannot hold is told by name; names, images and sizes that Unity cannot take."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab import model
+from kinefab.model import ColliderKind
+from kinefab.spatial import Pose
+from kinefab.targets.prefab.names import file_name, object_name, sibling_names, unique
+from prefab_reader import Node, Project, read_mesh, read_prefab, vector
+from prefab_scenes import block, png, rich_scene
+from unity_yaml import documents, mapping
+
+
+def exported(scene, folder: Path, **writing) -> kinefab.ExportResult:
+    (folder / "out").mkdir(exist_ok=True)
+    return kinefab.export(scene, folder / "out" / "Rich.prefab", kinefab.ExportOptions(writing=writing))
+
+
+def told(result: kinefab.ExportResult) -> set[tuple[str, str]]:
+    return {(o.feature, o.code) for o in result.report.outcomes if o.outcome.value != "kept"}
+
+
+def material(folder: Path, name: str) -> dict:
+    (document,) = documents((folder / "out" / "Rich" / "Materials" / f"{name}.mat").read_text("utf-8"))
+    return document.fields
+
+
+def properties(fields: dict, kind: str) -> dict:
+    return {k: v for entry in fields["m_SavedProperties"][kind] for k, v in entry.items()}
+
+
+def test_layers_tags_and_what_2021_has_no_place_for(tmp_path):
+    found = told(exported(rich_scene(tmp_path), tmp_path, unity="2021"))
+    assert ("layer Scenery of Top/Base", "TARGET_FIELD_DROPPED") in found
+    assert ("tag Ground of Top/Base", "TARGET_FIELD_DROPPED") in found
+    assert ("centre of mass and inertia of Top/Arm:1", "TARGET_MASS_DROPPED") in found
+    assert ("material Glass", "TARGET_FIELD_DROPPED") in found  # Standard has no other side
+    later = told(exported(rich_scene(tmp_path), tmp_path, pipeline="urp"))
+    assert (
+        not any(code == "TARGET_MASS_DROPPED" for _, code in later)
+        and ("material Glass", "TARGET_FIELD_DROPPED") not in later
+    )
+    with pytest.raises(kinefab.KinefabError):
+        kinefab.export(
+            rich_scene(tmp_path),
+            tmp_path / "S.prefab",
+            kinefab.ExportOptions(strict=True, writing={"unity": "2021"}),
+        )
+    assert not (tmp_path / "S.prefab").exists()
+
+
+def test_project_settings_are_told(tmp_path):
+    scene = rich_scene(tmp_path)
+    scene.physics = model.Physics(gravity=(0, 0, 0), solver_iterations=20)
+    found = {feature for feature, _ in told(exported(scene, tmp_path))}
+    assert {"project setting gravity", "project setting solverIterations"} <= found
+
+
+@pytest.mark.parametrize("word", [{"unity": "5"}, {"pipeline": "own"}, {"physics": "none"}])
+def test_a_word_that_is_none_is_refused(tmp_path, word):
+    with pytest.raises(ValueError):
+        exported(rich_scene(tmp_path), tmp_path, **word)
+
+
+KEYWORDS = {
+    "builtin": {
+        "Glass": {"_ALPHAPREMULTIPLY_ON"},
+        "Mesh": {"_ALPHATEST_ON"},
+        "Lamp": {"_NORMALMAP", "_EMISSION", "_METALLICGLOSSMAP"},
+    },
+    "urp": {
+        "Glass": {"_ALPHAPREMULTIPLY_ON", "_SURFACE_TYPE_TRANSPARENT"},
+        "Mesh": {"_ALPHATEST_ON"},
+        "Lamp": {"_NORMALMAP", "_EMISSION", "_METALLICSPECGLOSSMAP", "_OCCLUSIONMAP"},
+    },
+    "hdrp": {
+        "Glass": {"_SURFACE_TYPE_TRANSPARENT", "_ENABLE_FOG_ON_TRANSPARENT", "_DOUBLESIDED_ON"},
+        "Mesh": {"_ALPHATEST_ON"},
+        "Lamp": {"_NORMALMAP", "_MASKMAP", "_EMISSIVE_COLOR_MAP"},
+    },
+}
+SLOTS = {
+    "builtin": (
+        "_MainTex",
+        "_BumpMap",
+        "_MetallicGlossMap",
+        "_EmissionMap",
+        "_Color",
+        "_EmissionColor",
+        "_Glossiness",
+    ),
+    "urp": (
+        "_BaseMap",
+        "_BumpMap",
+        "_MetallicGlossMap",
+        "_EmissionMap",
+        "_BaseColor",
+        "_EmissionColor",
+        "_Smoothness",
+    ),
+    "hdrp": (
+        "_BaseColorMap",
+        "_NormalMap",
+        "_MaskMap",
+        "_EmissiveColorMap",
+        "_BaseColor",
+        "_EmissiveColor",
+        "_Smoothness",
+    ),
+}
+
+
+@pytest.mark.parametrize("pipeline", KEYWORDS)
+def test_each_pipeline_gets_its_keywords_maps_and_colours(tmp_path, pipeline):
+    exported(rich_scene(tmp_path), tmp_path, pipeline=pipeline)
+    always = {"_DISABLE_SSR_TRANSPARENT", "_NORMALMAP_TANGENT_SPACE"} if pipeline == "hdrp" else set()
+    for name, expected in {**KEYWORDS[pipeline], "Steel": set()}.items():
+        assert set(material(tmp_path, name)["m_ValidKeywords"]) == expected | always
+    base, bump, mask, glow, color, emission, smooth = SLOTS[pipeline]
+    project, lamp = Project(tmp_path / "out"), material(tmp_path, "Lamp")
+    maps = properties(lamp, "m_TexEnvs")
+    names = [project.paths[maps[slot]["m_Texture"]["guid"]].name for slot in (base, bump, mask, glow)]
+    assert names == ["Wood.png", "Bumps normal.png", "Lamp mask.png", "Glow.png"] or names[0].startswith(
+        "Wood"
+    )
+    assert vector(maps[base]["m_Scale"]) == [2, 3] and vector(maps[base]["m_Offset"]) == [0.25, 0.5]
+    steel = material(tmp_path, "Steel")
+    shown = vector(properties(steel, "m_Colors")[color])
+    assert shown == pytest.approx([0.735357, 0.537099, 0.349190, 1.0], abs=1e-5)  # sRGB of 0.5, 0.25, 0.1
+    assert vector(properties(lamp, "m_Colors")[emission]) == [2, 1, 0, 1]
+    assert float(properties(steel, "m_Floats")[smooth]) == pytest.approx(0.6)
+    queues = {n: int(material(tmp_path, n)["m_CustomRenderQueue"]) for n in ("Glass", "Mesh")}
+    assert queues["Glass"] == 3000 and queues["Mesh"] == (2475 if pipeline == "hdrp" else 2450)
+    imported = mapping((tmp_path / "out" / "Rich" / "Textures" / "Bumps normal.png.meta").read_text())[
+        "TextureImporter"
+    ]
+    assert imported["textureType"] == "1" and imported["mipmaps"]["sRGBTexture"] == "0"
+
+
+def test_the_mask_holds_metallic_occlusion_and_smoothness(tmp_path):
+    """Worked out from the pixels that were written, with the material's own factors."""
+    Pillow = pytest.importorskip("PIL.Image")
+    scene = rich_scene(tmp_path)
+    exported(scene, tmp_path)
+    read = lambda path: np.asarray(Pillow.open(io.BytesIO(path.read_bytes())).convert("RGBA"), dtype=float)  # noqa: E731
+    source, mask = (
+        read(tmp_path / "Rough.png"),
+        read(tmp_path / "out" / "Rich" / "Textures" / "Lamp mask.png"),
+    )
+    lamp = scene.surfaces[3]
+    assert np.abs(mask[..., 0] - lamp.metallic * source[..., 2]).max() <= 0.5
+    assert np.array_equal(mask[..., 1], source[..., 0])
+    assert np.abs(mask[..., 3] - (255 - (1 - lamp.smoothness) * source[..., 1])).max() <= 0.5
+
+
+def test_a_normal_map_gets_tangents(tmp_path):
+    """Along +u, across the normal; the bitangent w (n x t) along +v."""
+    result = exported(rich_scene(tmp_path), tmp_path)
+    (path,) = [p for p in result.files if p.name == "Arm.asset"]
+    (document,) = documents(path.read_text("utf-8"))
+    mesh = read_mesh(document)
+    points, normals, tangents, uv = (mesh["channels"][i].astype(float) for i in (0, 1, 2, 4))
+    assert np.allclose(np.linalg.norm(tangents[:, :3], axis=1), 1, atol=1e-6) and set(tangents[:, 3]) <= {
+        -1.0,
+        1.0,
+    }
+    for a, b, c in np.vstack(mesh["submeshes"]):
+        along = np.linalg.solve(
+            np.array([uv[b] - uv[a], uv[c] - uv[a]]), np.array([points[b] - points[a], points[c] - points[a]])
+        )
+        u, v = along / np.linalg.norm(along, axis=1, keepdims=True)
+        assert np.allclose(tangents[a, :3], u, atol=1e-5)
+        assert np.allclose(tangents[a, 3] * np.cross(normals[a], tangents[a, :3]), v, atol=1e-5)
+    (plain,) = [p for p in result.files if p.name == "Plate.asset"]
+    assert 2 not in read_mesh(documents(plain.read_text("utf-8"))[0])["channels"]
+
+
+@pytest.mark.parametrize("fault", ["missing", "empty", "no image", "breaks off"])
+def test_an_unreadable_image_is_told_and_its_material_stays(tmp_path, fault):
+    scene = rich_scene(tmp_path)
+    whole = (tmp_path / "Wood.png").read_bytes()
+    wrong = {"empty": b"", "no image": b"RIFF....WEBPVP8 ", "breaks off": whole[:-30]}
+    (tmp_path / "Wood.png").unlink() if fault == "missing" else (tmp_path / "Wood.png").write_bytes(
+        wrong[fault]
+    )
+    found = told(exported(scene, tmp_path))
+    assert ("color texture of material Mesh", "TEXTURE_NOT_WRITTEN") in found
+    assert properties(material(tmp_path, "Mesh"), "m_TexEnvs")["_MainTex"]["m_Texture"] == {"fileID": "0"}
+
+
+def test_a_texture_in_the_source_and_how_it_lies(tmp_path):
+    scene = rich_scene(tmp_path)
+    data = (tmp_path / "Wood.png").read_bytes()
+    odd = model.Texture("a/b", data=data, rotation=0.5, uv_set=1)
+    scene.surfaces[0] = replace(scene.surfaces[0], color_texture=odd)
+    found = [
+        (o.feature, o.message)
+        for o in exported(scene, tmp_path).report.outcomes
+        if o.code == "TARGET_FIELD_DROPPED"
+    ]
+    assert sum("color texture of material Steel" == feature for feature, _ in found) == 2
+    assert (tmp_path / "out" / "Rich" / "Textures" / "a_b.png").read_bytes() == data
+
+
+def test_a_collider_without_size_is_left_out(tmp_path):
+    scene = rich_scene(tmp_path)
+    shapes = (
+        model.Collider(ColliderKind.SPHERE, radius=0.0, name="dot"),
+        model.Collider(ColliderKind.BOX, size=(0.0, 0.0, 0.3)),
+        model.Collider(ColliderKind.BOX, size=(0.1, 0.0, 0.3)),
+    )
+    scene.nodes[2] = replace(scene.nodes[2], colliders=shapes)
+    result = exported(scene, tmp_path)
+    codes = [o.feature for o in result.report.outcomes if o.code == "COLLIDER_EMPTY"]
+    assert codes == ["SphereCollider dot of Top/Arm:1", "BoxCollider of Top/Arm:1"]
+    text = (tmp_path / "out" / "Rich.prefab").read_text()
+    assert "SphereCollider:" not in text
+    read_prefab(tmp_path / "out" / "Rich.prefab")
+
+
+def test_hulls_keep_to_unitys_255_triangles(tmp_path):
+    result = exported(rich_scene(tmp_path), tmp_path)
+    assert [d for d in result.report.diagnostics if d.code == "HULL_SIMPLIFIED"]
+    (hull,) = [p for p in result.files if "Ball hull" in p.name]
+    mesh = read_mesh(documents(hull.read_text("utf-8"))[0])
+    assert 4 <= len(np.vstack(mesh["submeshes"])) <= 255
+
+
+NAMES = [
+    "a/b",
+    "a_b",
+    "CON",
+    "con",
+    "nul.txt",
+    "x" * 300,
+    "ü" * 200,
+    "  ",
+    "",
+    "tab\there",
+    "end.",
+    ".hidden",
+    'q"<>|?*:\\',
+    "Ａ",
+    "a~",
+    "e\u0301",
+    "é",
+]
+
+
+def test_names_that_no_file_system_takes(tmp_path):
+    """As object, as file: every file is there, in one way of writing, and is found again."""
+    scene = model.Scene(
+        nodes=[model.Node("Top", "Top", model.NodeKind.ASSEMBLY, flexible=True)],
+        surfaces=[model.Surface(name, (i / 20, 0.0, 0.0, 1.0)) for i, name in enumerate(NAMES)],
+    )
+    for i, name in enumerate(NAMES):
+        scene.meshes.append(block(name, (0.1, 0.1, 0.1 + i)))
+        body = model.Body(name, i, (i,))
+        scene.nodes.append(
+            model.Node(
+                f"Top/{i}",
+                name,
+                parent=0,
+                grounded=True,
+                bodies=(body,),
+                pose=Pose(np.eye(3), np.array([i, 0, 0])),
+            )
+        )
+    result = exported(scene, tmp_path)
+    root, _ = read_prefab(tmp_path / "out" / "Rich.prefab")
+
+    def walk(node: Node) -> list[Node]:
+        return [node, *(n for c in node.children for n in walk(c))]
+
+    for node in walk(root):
+        names = [c.name for c in node.children]
+        assert len(set(names)) == len(names) and not any("/" in n or not n.strip() for n in names)
+    files = [p.relative_to(tmp_path / "out").as_posix() for p in (tmp_path / "out").rglob("*")]
+    assert len({f.casefold() for f in files}) == len(files)
+    assert all(
+        len(p.name.encode()) <= 255 and not p.name.startswith(" ") for p in (tmp_path / "out").rglob("*")
+    )
+    changed = {o.feature for o in result.report.outcomes if o.code == "TARGET_NAME_CHANGED"}
+    assert {"name of Top/0", "name of Top/7", "name of Top/9"} <= changed
+
+
+def test_names_do_not_depend_on_order():
+    named = [("Bolt", "A/3"), ("Bolt", "A/1"), ("Nut", "A/2"), ("Bolt", "A/2b")]
+    found = dict(zip((i for _, i in named), unique(named)))
+    again = dict(zip((i for _, i in named[::-1]), unique(named[::-1])))
+    assert found == again and found["A/1"] == "Bolt" and len(set(found.values())) == 4
+    less = [n for n in named if n[1] != "A/3"]
+    assert dict(zip((i for _, i in less), unique(less))) == {k: v for k, v in found.items() if k != "A/3"}
+    assert sibling_names([None, None, 0], ["a", "a", "a"], ["1", "2", "3"])[::2] == ["a", "a"]
+    assert object_name("a/b\n") == "a_b_" and file_name("con.txt") == "_con.txt"
+
+
+def test_png_of_the_tests_is_one(tmp_path):
+    Pillow = pytest.importorskip("PIL.Image")
+    pixels = np.arange(64).reshape(4, 4, 4)
+    assert np.array_equal(np.asarray(Pillow.open(png(tmp_path / "x.png", pixels))), pixels)

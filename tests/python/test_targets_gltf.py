@@ -1,0 +1,313 @@
+"""glTF: what an independent reader finds in the file is the model, right-handed and unmirrored; Khronos' validator agrees."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import struct
+import subprocess
+import zlib
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from golden import golden_pairs
+from kinefab.diagnostics import Outcome
+from kinefab.model import (
+    RX,
+    TX,
+    AlphaMode,
+    AnimationClip,
+    Body,
+    Collider,
+    ColliderKind,
+    Coupling,
+    CouplingKind,
+    Drive,
+    Dynamics,
+    Freedom,
+    Joint,
+    JointKind,
+    MassProperties,
+    Motion,
+    Node,
+    PhysicsMaterial,
+    Scene,
+    Surface,
+    Term,
+    Texture,
+    Track,
+    freedoms_of,
+)
+from kinefab.spatial import Pose, matrix_from_quaternion, rotation_about, rotation_exp
+from test_unity_mapping import CUBE
+
+BODIES = "KHR_physics_rigid_bodies"
+
+
+def png(size: int) -> bytes:
+    """A grey square."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = (b"\0" + bytes([128]) * size) * size
+    header = struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0)
+    parts = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + parts
+
+
+PNG = png(4)
+VALIDATOR = Path(__file__).resolve().parents[1] / "reference" / "node_modules" / "gltf-validator"
+
+
+def parsed(path: Path) -> tuple[dict, bytes]:
+    data = path.read_bytes()
+    magic, version, length, size, kind = struct.unpack_from("<IIIII", data)
+    assert (magic, version, length, kind) == (0x46546C67, 2, len(data), 0x4E4F534A) and length % 4 == 0
+    document = json.loads(data[20 : 20 + size])
+    return document, data[28 + size :]
+
+
+def world(document: dict, index: int) -> np.ndarray:
+    """4 x 4 pose of a node, from the file alone."""
+    parents = {child: i for i, node in enumerate(document["nodes"]) for child in node.get("children", ())}
+    node = document["nodes"][index]
+    own = np.eye(4)
+    own[:3, :3] = matrix_from_quaternion(np.array(node.get("rotation", (0, 0, 0, 1)))) * node.get(
+        "scale", (1, 1, 1)
+    )
+    own[:3, 3] = node.get("translation", (0, 0, 0))
+    return own if index not in parents else world(document, parents[index]) @ own
+
+
+def accessor(document: dict, binary: bytes, index: int) -> np.ndarray:
+    entry = document["accessors"][index]
+    view = document["bufferViews"][entry["bufferView"]]
+    kind = {5126: "<f4", 5123: "<u2", 5125: "<u4"}[entry["componentType"]]
+    columns = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[entry["type"]]
+    return np.frombuffer(binary, kind, entry["count"] * columns, view["byteOffset"]).reshape(-1, columns)
+
+
+def robot() -> Scene:
+    """A cart on a rail with an arm: a slide with a motor, a hinge of -10..80 degrees with a servo, everything asymmetric."""
+    turn = rotation_exp(np.array([0.3, -0.2, 0.5]))
+    cart = Pose(turn, np.array([1.0, 2.0, 3.0]))
+    arm = cart @ Pose(rotation_about(np.array([0.0, 0, 1]), 0.4), np.array([0.1, 0.2, 0.3]))
+    weight = MassProperties(2.0, np.array([0.1, 0.0, -0.2]), np.diag([0.01, 0.02, 0.025]))
+    paint = Surface(
+        "paint", (0.5, 0.25, 0.125, 0.5), 0.25, 0.75, AlphaMode.MASK, 0.3, True, (2.0, 0.0, 1.0),
+        color_texture=Texture("a.png", data=PNG, offset=(0.25, 0.5), scale=(2.0, 3.0), rotation=0.1),
+        normal_texture=Texture("b.bmp", data=b"BM..."),
+    )  # fmt: skip
+    uv = np.linspace(0.0, 1.0, 16).reshape(8, 2)
+    mesh = kinefab.model.Mesh("cube", CUBE.vertices, CUBE.faces, uvs=(uv,), face_counts=(4, 8))
+    rubber = PhysicsMaterial("rubber", 0.9, 1.0, 0.1)
+    shapes = (
+        Collider(
+            ColliderKind.CAPSULE,
+            Pose(turn, np.array([0.0, 0.1, 0.0])),
+            radius=0.02,
+            length=0.3,
+            material=rubber,
+        ),
+        Collider(ColliderKind.BOX, size=(0.1, 0.2, 0.3), trigger=True),
+        Collider(ColliderKind.MESH, mesh=0, scale=(1.0, 2.0, 1.0)),
+    )
+    nodes = [
+        Node("Rail", "Rail", grounded=True, bodies=(Body("b", 0),)),
+        Node("Cart", "Cart", pose=cart, mass=weight, bodies=(Body("b", 0, (0, 0), scale=(1.0, -1.0, 2.0)),)),
+        Node(
+            "Arm", "Arm", parent=1, pose=arm, mass=weight, colliders=shapes, dynamics=Dynamics(gravity=False)
+        ),
+    ]
+    slide = Freedom(Motion.FREE, drive=Drive(target_velocity=0.3, max_force=5.0, motor=True))
+    servo = Drive(0.2, 0.0, 30.0, 4.0, 7.0)
+    hinge = Freedom(Motion.LIMITED, math.radians(-10), math.radians(80), servo, restitution=0.5)
+    at = Pose(rotation_exp(np.array([-0.3, 0.1, 0.2])), np.array([0.05, 0.0, 0.1]))
+    joints = [
+        Joint(
+            "Slide", JointKind.PRISMATIC, None, 1, cart @ at, at, freedoms_of(JointKind.PRISMATIC, tx=slide)
+        ),
+        Joint(
+            "Hinge",
+            JointKind.REVOLUTE,
+            1,
+            2,
+            cart.inverse() @ arm @ at,
+            at,
+            freedoms_of(JointKind.REVOLUTE, rx=hinge),
+            collide=True,
+        ),
+    ]
+    track = Track(2, np.array([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]))
+    clip = AnimationClip("wave", np.array([0.0, 0.5]), (track,))
+    coupling = Coupling("C", CouplingKind.RACK, "Slide", TX, (Term("Hinge", RX, 0.1),))
+    return Scene(nodes, [mesh], [paint], joints, [coupling], animations=[clip])
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    path = tmp_path_factory.mktemp("glb") / "robot.glb"
+    result = kinefab.export(robot(), path)
+    return (*parsed(path), result)
+
+
+def test_nodes_stand_where_the_model_has_them(exported):
+    document, _, result = exported
+    for node in result.analysed.scene.nodes:
+        index = next(i for i, n in enumerate(document["nodes"]) if n.get("extras", {}).get("id") == node.id)
+        found = world(document, index)
+        assert np.allclose(found[:3, :3], node.pose.rotation) and np.allclose(
+            found[:3, 3], node.pose.translation
+        )
+
+
+def test_meshes_are_unmirrored_and_share_their_arrays(exported):
+    document, binary, _ = exported
+    primitives = [p for mesh in document["meshes"] for p in mesh["primitives"]]
+    assert len({p["attributes"]["POSITION"] for p in primitives}) == 1
+    first = next(m for m in document["meshes"] if len(m["primitives"]) == 2)
+    points = accessor(document, binary, first["primitives"][0]["attributes"]["POSITION"])
+    faces = [accessor(document, binary, p["indices"]).reshape(-1, 3) for p in first["primitives"]]
+    assert [len(f) for f in faces] == [4, 8] and np.allclose(points, CUBE.vertices)
+    assert np.array_equal(np.vstack(faces), CUBE.faces)
+    uv = accessor(document, binary, first["primitives"][0]["attributes"]["TEXCOORD_0"])
+    assert np.allclose(uv[:, 1], 1.0 - np.linspace(0.0, 1.0, 16).reshape(8, 2)[:, 1])
+
+
+def test_material_and_its_image(exported):
+    document, binary, result = exported
+    paint = next(m for m in document["materials"] if m["name"] == "paint")
+    shading = paint["pbrMetallicRoughness"]
+    assert shading["baseColorFactor"] == [0.5, 0.25, 0.125, 0.5]
+    assert (shading["metallicFactor"], shading["roughnessFactor"]) == (0.25, 0.25)
+    assert (paint["alphaMode"], paint["alphaCutoff"], paint["doubleSided"]) == ("MASK", 0.3, True)
+    assert paint["emissiveFactor"] == [1.0, 0.0, 0.5]
+    view = document["bufferViews"][document["images"][0]["bufferView"]]
+    assert binary[view["byteOffset"] :][: view["byteLength"]] == PNG and len(document["images"]) == 1
+    assert "TEXTURE_DROPPED" in {o.code for o in result.report.outcomes if o.outcome is Outcome.DROPPED}
+    # A corner of the picture, by the model's rule and by glTF's, both seen with v downwards.
+    moved = shading["baseColorTexture"]["extensions"]["KHR_texture_transform"]
+    u, v = 0.3, 0.8
+    s, c = math.sin(0.1), math.cos(0.1)
+    model = np.array([c * 2 * u - s * 3 * v + 0.25, 1 - (s * 2 * u + c * 3 * v + 0.5)])
+    s, c = math.sin(moved["rotation"]), math.cos(moved["rotation"])
+    x, y = moved["scale"][0] * u, moved["scale"][1] * (1 - v)
+    assert np.allclose(model, np.array([c * x + s * y, -s * x + c * y]) + moved["offset"])
+
+
+def test_bodies_weigh_what_the_model_says(exported):
+    document, _, _ = exported
+    cart = next(n for n in document["nodes"] if n["name"] == "Cart")["extensions"][BODIES]["motion"]
+    arm = next(n for n in document["nodes"] if n["name"] == "Arm")["extensions"][BODIES]["motion"]
+    assert cart["mass"] == 2.0 and cart["centerOfMass"] == [0.1, 0.0, -0.2]
+    turn = matrix_from_quaternion(np.array(cart["inertiaOrientation"]))
+    assert np.allclose(turn @ np.diag(cart["inertiaDiagonal"]) @ turn.T, np.diag([0.01, 0.02, 0.025]))
+    assert arm["gravityFactor"] == 0.0 and "gravityFactor" not in cart
+
+
+def test_joint_frames_meet_and_limits_are_of_b_in_a(exported):
+    """The joint's node is a's frame, the connected one b's; both are where the model has them in the world."""
+    document, _, _ = exported
+    joints = {
+        n["name"]: (i, n["extensions"][BODIES]["joint"])
+        for i, n in enumerate(document["nodes"])
+        if "joint" in n.get("extensions", {}).get(BODIES, {})
+    }
+    described = document["extensions"][BODIES]["physicsJoints"]
+    index, hinge = joints["Hinge a"]
+    assert (
+        np.allclose(world(document, index), world(document, hinge["connectedNode"]))
+        and hinge["enableCollision"]
+    )
+    limits = described[hinge["joint"]]["limits"]
+    assert {"linearAxes": [0, 1, 2], "min": 0.0, "max": 0.0} in limits
+    assert {"angularAxes": [1, 2], "min": 0.0, "max": 0.0} in limits
+    (own,) = (limit for limit in limits if limit.get("angularAxes") == [0])
+    assert (own["min"], own["max"]) == pytest.approx((math.radians(-10), math.radians(80)))
+    (servo,) = described[hinge["joint"]]["drives"]
+    assert servo == {
+        "type": "angular", "mode": "force", "axis": 0, "positionTarget": 0.2, "velocityTarget": 0.0,
+        "stiffness": 30.0, "damping": 4.0, "maxForce": 7.0,
+    }  # fmt: skip
+    _, slide = joints["Slide a"]
+    (motor,) = described[slide["joint"]]["drives"]
+    assert (motor["type"], motor["velocityTarget"], motor["maxForce"]) == ("linear", 0.3, 5.0)
+
+
+def test_shapes_lie_along_y_and_are_turned_to_their_axis(exported):
+    document, _, _ = exported
+    shapes = document["extensions"]["KHR_implicit_shapes"]["shapes"]
+    index, capsule = next((i, n) for i, n in enumerate(document["nodes"]) if n["name"] == "capsule")
+    entry = capsule["extensions"][BODIES]["collider"]
+    assert shapes[entry["geometry"]["shape"]] == {
+        "type": "capsule",
+        "capsule": {"height": 0.3, "radiusTop": 0.02, "radiusBottom": 0.02},
+    }
+    arm = next(i for i, n in enumerate(document["nodes"]) if n["name"] == "Arm")
+    along = np.linalg.inv(world(document, arm)) @ world(document, index)
+    assert np.allclose(along[:3, 1], rotation_exp(np.array([0.3, -0.2, 0.5]))[:, 2])
+    assert "trigger" in next(n for n in document["nodes"] if n["name"] == "box")["extensions"][BODIES]
+    mesh = next(n for n in document["nodes"] if n["name"] == "mesh")["extensions"][BODIES]["collider"][
+        "geometry"
+    ]
+    assert mesh["convexHull"] is True and "mesh" in document["nodes"][mesh["node"]]
+
+
+def test_clips_and_losses(exported):
+    document, binary, result = exported
+    (clip,) = document["animations"]
+    assert accessor(document, binary, clip["samplers"][0]["output"]).tolist()[1] == pytest.approx(
+        [0.4, 0.5, 0.6]
+    )
+    assert accessor(document, binary, clip["samplers"][0]["input"]).ravel().tolist() == [0.0, 0.5]
+    dropped = {o.code for o in result.report.outcomes if o.outcome is Outcome.DROPPED}
+    assert {"COUPLING_DROPPED", "TARGET_FIELD_DROPPED"} <= dropped
+
+
+def test_same_scene_same_bytes_and_a_reader_of_others_takes_it(tmp_path):
+    first, second = (kinefab.export(robot(), tmp_path / name).path for name in ("a.glb", "b.glb"))
+    assert first.read_bytes() == second.read_bytes()
+    loaded = trimesh.load_scene(str(first))
+    assert (
+        np.allclose(loaded.bounds[0], trimesh.load_scene(str(second)).bounds[0]) and len(loaded.geometry) >= 2
+    )
+
+
+def test_a_suppressed_part_is_told(tmp_path):
+    scene = robot()
+    scene.nodes.append(Node("Spare", "Spare", suppressed=True, bodies=(Body("b", 0),)))
+    result = kinefab.export(scene, tmp_path / "spare.glb")
+    assert "COMPONENT_SUPPRESSED_DROPPED" in {o.code for o in result.report.outcomes}
+
+
+CHECK = """
+const fs = require("fs"), validator = require(process.argv[1]);
+(async () => {
+  for (const file of process.argv.slice(2)) {
+    const found = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {maxIssues: 50});
+    const bad = found.issues.messages.filter((issue) => issue.severity < 2);
+    console.log(JSON.stringify({file, bad}));
+  }
+})();
+"""
+
+
+def test_khronos_validator_finds_no_error_and_no_warning(tmp_path):
+    if shutil.which("node") is None or not VALIDATOR.is_dir():
+        pytest.skip("Khronos' gltf-validator is not installed: npm ci in tests/reference")
+    files = [kinefab.export(robot(), tmp_path / "robot.glb").path]
+    lever = next(bundle for bundle, _ in golden_pairs() if bundle.name == "lever.bundle.json")
+    files.append(kinefab.export(lever, tmp_path / "lever.glb").path)
+    for bundle, _ in golden_pairs()[::12]:
+        files.append(kinefab.export(bundle, tmp_path / f"{bundle.name}.glb").path)
+    done = subprocess.run(
+        ["node", "-e", CHECK, str(VALIDATOR), *map(str, files)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    found = [json.loads(line) for line in done.stdout.splitlines()]
+    assert len(found) == len(files) and [f for f in found if f["bad"]] == []

@@ -1,0 +1,92 @@
+"""A source or a written scene as a picture that moves: animated SVG, GIF or WebP, or one PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from .analysis import analyse
+from .diagnostics import KinefabError, diagnostic
+from .mechanism import Mechanism, Trajectory, mechanism_of
+from .model import Scene
+from .showing import read_document, title_of
+from .spatial import Array, Pose, matrix_from_quaternion
+from .unity import frames
+from .unity.back.restored import Restored, restored
+from .views.freedoms import Placement
+from .views.overview import unsound_as_finding
+from .views.raster.film import Writer, animated_svg, by_pillow, pictures
+
+FRAMES = 40
+ENDINGS = (".svg", ".gif", ".webp", ".png")
+
+
+def film(source: str | Path | Scene, ending: str, joint: str | None = None) -> bytes:
+    """The picture's file.  ending: one of ``ENDINGS``; a ``.png`` is still.  joint: what is driven; the first freedom.
+
+    Raises KinefabError when the data is wrong or a library is missing, ValueError for a joint that is none.
+    """
+    writer = _writer(ending)
+    with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
+        document, buffers = read_document(source)
+        back = restored(document)
+        mechanism = mechanism_of(analyse(back.scene))
+    still = ending == ".png" or not mechanism.freedoms
+    motion = None if still else there_and_back(mechanism, joint or mechanism.freedoms[0].name)
+    with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
+        images = pictures(document, buffers, _placements(back, motion))
+    return writer(images, title_of(document, source))
+
+
+def _writer(ending: str) -> Writer:
+    if ending == ".svg":
+        return animated_svg
+    try:
+        return by_pillow(ending[1:])
+    except ImportError as error:
+        values = {"target": ending[1:].upper(), "library": "Pillow", "extra": "picture"}
+        raise KinefabError([diagnostic("TARGET_LIBRARY_MISSING", **values)]) from error
+
+
+def there_and_back(mechanism: Mechanism, name: str) -> Trajectory:
+    """A motion that ends where it began: round, where the mechanism comes round, else to both ends of what it reaches."""
+    coordinate = mechanism.coordinate(name)
+    turns = coordinate.unit == "deg"
+    far = 360.0 if turns else 0.5 * _size(mechanism)
+    low, high = max(coordinate.lower, coordinate.value - far), min(coordinate.upper, coordinate.value + far)
+    if turns and high - low >= 720.0 - 1e-9:
+        whole = mechanism.sweep(name, coordinate.value, coordinate.value + 360.0, frames=FRAMES + 1)
+        if whole.stop is None:
+            return whole
+    ends: list[float] = []
+    for end in (low, high):
+        reached = mechanism.sweep(name, coordinate.value, end, frames=61)
+        ends.append(end if reached.stop is None else float(reached[name][-1]))
+    phase = np.linspace(0.0, 2.0 * np.pi, FRAMES + 1)
+    return mechanism.follow({name: ends[0] + (ends[1] - ends[0]) * 0.5 * (1.0 - np.cos(phase))})
+
+
+def _size(mechanism: Mechanism) -> float:
+    places = [node.pose.translation for node in mechanism.scene.nodes]
+    return float(np.ptp(np.array(places), axis=0).max(initial=0.0)) or 0.2
+
+
+def _placements(back: Restored, motion: Trajectory | None) -> list[list[Placement]]:
+    """The GameObjects of each frame in Unity's world."""
+    start = [node.pose for node in back.scene.nodes]
+    if motion is None:
+        return [_mirrored(back.poses, back.scales)]
+    found: list[list[Placement]] = []
+    for frame in motion.poses[:-1] if len(motion) > 1 else motion.poses:
+        moved = [Pose(matrix_from_quaternion(p[3:]), p[:3]) @ at.inverse() for p, at in zip(frame, start)]
+        found.append(_mirrored([moved[n] @ pose for n, pose in zip(back.node_of, back.poses)], back.scales))
+    return found
+
+
+def _mirrored(poses: Sequence[Pose], scales: Sequence[Array]) -> list[Placement]:
+    return [
+        (frames.rotation(pose.rotation), frames.point(pose.translation), scale)
+        for pose, scale in zip(poses, scales)
+    ]

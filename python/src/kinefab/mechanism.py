@@ -1,0 +1,51 @@
+"""A mechanism that can be driven, from a source or a scene made in a script."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from .analysis import Analysis, analyse
+from .analysis.driving.coordinates import Driven
+from .analysis.driving.mechanism import Coordinate, Mechanism, Stop, Trajectory
+from .analysis.joints.dof_records import joints_of_dof_records
+from .diagnostics import Report
+from .model import Scene
+from .rigid import rigid_groups
+from .unity.back.restored import restored
+from .views.overview import read_scene_file
+
+__all__ = ["Coordinate", "Mechanism", "Stop", "Trajectory", "mechanism_of", "motion"]
+
+
+def motion(source: str | Path | Scene) -> Mechanism:
+    """The mechanism of a source, found and ready to be driven.
+
+    source: a file that a reader of ``kinefab.sources`` knows, a written ``NAME.kinefab``, or a Scene made in code; treated
+    as read-only.  A written scene moves by its joints, in the right-handed frame; its parts are the Rigidbodies.
+    Raises KinefabError, with every error found, when the data is wrong.
+    """
+    report = Report()
+    if isinstance(source, Scene):
+        scene = source
+    elif Path(source).suffix == ".kinefab":
+        scene = restored(read_scene_file(Path(source))).scene
+    else:
+        from .sources import read
+
+        scene = read(Path(source), report)
+    report.raise_for_errors()
+    records = joints_of_dof_records(scene, rigid_groups(scene), report)
+    found = analyse(replace(scene, joints=[*scene.joints, *records]))
+    found.report.raise_for_errors()
+    return mechanism_of(found)
+
+
+def mechanism_of(found: Analysis) -> Mechanism:
+    """What an analysis found, ready to be driven.
+
+    Where a relation needs two joints and a body between them, the mechanism is that of the joints.
+    """
+    if found.nodes:
+        found = analyse(replace(found.scene(solved=True), constraints=[], dof_records=[]))
+    return Mechanism(found.assembly, Driven.of(found.joints, found.findings), found.scene(solved=True))

@@ -1,0 +1,179 @@
+"""What people look at, of a source or a written scene: the page that plays it."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .analysis import analyse
+from .analysis.driving.baking import baked
+from .diagnostics import KinefabError, diagnostic
+from .mechanism import Mechanism, mechanism_of
+from .model import Joint, Scene
+from .pipeline import export
+from .replacing import write_whole
+from .spatial import Array, Pose
+from .unity.back.restored import Restored, restored
+from .views.overview import read_buffers, read_scene_file, unsound_as_finding
+from .views.page.blob import Blob
+from .views.page.describe import Motion, description
+from .views.page.page import page
+from .views.page.words import Stroke, report_words
+
+Entry = Mapping[str, Any]
+STROKE_FRAMES = 181
+MOST_STROKES = 12
+"""Freedoms that a report plots."""
+
+
+def view(source: str | Path | Scene, target: str | Path, mates: str | Path | None = None) -> Path:
+    """Write the page of a source, a written ``NAME.kinefab`` or a Scene made in code to ``target`` (``NAME.html``).
+
+    What is shown is the scene as it is exported, and how its joints let it move.
+    mates: a ``NAME.mates.json`` whose mates are listed by number, to be switched and copied back.
+    Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.
+    """
+    return _written(source, Path(target), told=False, mates=None if mates is None else _mates(Path(mates)))
+
+
+def _mates(path: Path) -> Entry:
+    try:
+        found = json.loads(path.read_text("utf-8"))
+        if found["format"] != "kinefab.mates" or not all(
+            isinstance(m["number"], int) for m in found["constraints"]
+        ):
+            raise ValueError("it does not say it is a kinefab.mates")
+        return found
+    except OSError as error:
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error.strerror)]) from error
+    except (ValueError, LookupError, TypeError, RecursionError) as error:
+        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
+
+
+def _written(source: str | Path | Scene, target: Path, told: bool, mates: Entry | None = None) -> Path:
+    with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
+        document, buffers = read_document(source)
+        text = page_of(document, buffers, title_of(document, source), told, mates)
+    try:
+        write_whole(target, text.encode("utf-8"))
+    except OSError as error:
+        detail = error.strerror or str(error)
+        raise KinefabError([diagnostic("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
+    return target
+
+
+def read_document(source: str | Path | Scene) -> tuple[Entry, list[bytes]]:
+    """The scene file's content and its buffers; a source is exported first, beside nothing of the user's."""
+    if not isinstance(source, Scene) and Path(source).suffix == ".kinefab":
+        document = read_scene_file(Path(source))
+        return document, read_buffers(Path(source), document)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.kinefab"
+        export(source, path)
+        document = read_scene_file(path)
+        return document, read_buffers(path, document)
+
+
+def title_of(document: Entry, source: str | Path | Scene) -> str:
+    """The name of what was read: the only object at the top, else the source's file, without endings."""
+    tops = [o["name"] for o in document["gameObjects"] if o.get("parent") is None]
+    if len(tops) == 1:
+        return str(tops[0])
+    uri = str(document.get("source", {}).get("uri", ""))
+    if uri:
+        return Path(uri).name.split(".")[0]
+    return "Scene" if isinstance(source, Scene) else os.path.basename(source).split(".")[0]
+
+
+def page_of(
+    document: Entry, buffers: Sequence[bytes], title: str, told: bool = False, mates: Entry | None = None
+) -> str:
+    """The HTML text of a scene's page.  told: with the report under it."""
+    back = restored(document)
+    mechanism = mechanism_of(analyse(back.scene))
+    blob = Blob()
+    shown = description(document, buffers, motion_of(back, mechanism), title, blob)
+    if mates is not None:
+        shown["mates"] = mates
+    words = (
+        report_words(shown, [stroke_of(mechanism, c.name) for c in mechanism.freedoms[:MOST_STROKES]])
+        if told
+        else ""
+    )
+    return page(shown, blob, words)
+
+
+def stroke_of(mechanism: Mechanism, name: str) -> Stroke:
+    """A freedom through its whole reach, and what moves with it."""
+    coordinate = mechanism.coordinate(name)
+    low, high, ends = reach_of(mechanism, name)
+    motion = mechanism.sweep(name, low, high, frames=STROKE_FRAMES)
+    moving: list[tuple[str, str, Array]] = []
+    for other in mechanism.coordinates:
+        values = motion[other.name]
+        if other.name != name and len(motion) and float(np.ptp(values)) > 1e-6:
+            moving.append((other.name, other.unit, values))
+    return Stroke(name, coordinate.unit, motion[name], ends, moving)
+
+
+def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, str]]:
+    """How far a coordinate goes both ways, as the source shows it, and what ends it, in words.
+
+    A turn without end is told over 360 degrees, a slide over the mechanism's size.
+    """
+    coordinate = mechanism.coordinate(name)
+    span = np.array([node.pose.translation for node in mechanism.scene.nodes])
+    far = 360.0 if coordinate.unit == "deg" else float(np.ptp(span, axis=0).max(initial=0.0)) or 0.2
+    ends: list[float] = []
+    words: list[str] = []
+    for sign, limit in ((-1.0, coordinate.lower), (1.0, coordinate.upper)):
+        goal = limit if np.isfinite(limit) else coordinate.value + sign * far
+        stop = mechanism.sweep(name, coordinate.value, goal, frames=61).stop
+        if stop is None:
+            ends.append(goal)
+            words.append("its limit" if np.isfinite(limit) else "and on")
+        elif stop.coordinate == name:
+            ends.append(stop.value - sign * 1e-6 * far)
+            words.append(f"a {stop.reason}" if stop.reason == "dead point" else "its limit")
+        else:
+            reached = mechanism.sweep(name, coordinate.value, goal, frames=721)
+            ends.append(float(reached[name][-1]))
+            words.append(f"the limit of {stop.coordinate}")
+    if words == ["and on", "and on"] and coordinate.unit == "deg":
+        return coordinate.value, coordinate.value + 360.0, ("it turns all the way round", "a turn later")
+    return ends[0], ends[1], (words[0], words[1])
+
+
+def report(source: str | Path | Scene, target: str | Path) -> Path:
+    """As ``view``, with the analysis in words, plots of the driven freedoms and the loss report under it."""
+    return _written(source, Path(target), told=True)
+
+
+def motion_of(back: Restored, mechanism: Mechanism) -> Motion:
+    """A restored scene's motion as the page takes it."""
+    scene, bodies = mechanism.scene, mechanism.body_of_part
+    closing = [after.pose @ before.pose.inverse() for after, before in zip(scene.nodes, back.scene.nodes)]
+    joints: dict[tuple[int, int], tuple[Joint, tuple[int, int], tuple[Pose, Pose]]] = {}
+    for place, joint in back.joints.items():
+        ends = [(joint.a or 0, joint.frame_a), (joint.b or 0, joint.frame_b)]
+        at_a, at_b = (scene.pose(node) @ frame for node, frame in ends)
+        joints[place] = joint, (bodies[joint.a or 0], bodies[joint.b or 0]), (at_a, at_b)
+    coordinates = {
+        c.name: (c.joint, mechanism.freedom_of(c.name), *mechanism.internal(c)) for c in mechanism.coordinates
+    }
+    return Motion(
+        max(bodies, default=0) + 1,
+        [bodies[node] for node in back.node_of],
+        [closing[node] @ pose for node, pose in zip(back.node_of, back.poses)],
+        back.scales,
+        joints,
+        coordinates,
+        baked(mechanism),
+        mechanism.mobility,
+    )

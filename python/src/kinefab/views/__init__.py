@@ -1,0 +1,1 @@
+"""What people look at: a scene in words and in pictures."""

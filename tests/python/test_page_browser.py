@@ -1,0 +1,241 @@
+"""The page in a real browser: it is quiet, and its sliders move parts to where ``kinefab.motion`` has them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from browser import CHROMIUM, Opened, browser, window
+from kinefab.views.overview import read_scene_file
+
+pytest.importorskip("playwright", reason="no playwright: the page is not tried in a browser")
+if CHROMIUM is None:
+    pytest.skip("no chromium: the page is not tried in a browser", allow_module_level=True)
+
+ROOT = Path(__file__).parents[2]
+LEVER = ROOT / "fixtures" / "lever" / "lever.kinefab"
+PLACES = """names => Object.fromEntries(kinefab.data.parts.filter(p => names.includes(p.id)).map(p => [p.id,
+    Frame.times(kinefab.mechanism.displaced[p.body], p.pose)]))"""
+
+
+@pytest.fixture(scope="module")
+def running():
+    with browser() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def context(running):
+    return window(running)
+
+
+def shown(context, tmp_path, source, name="page"):
+    path = tmp_path / f"{name}.html"
+    kinefab.view(source, path)
+    return Opened(context, path)
+
+
+MECHANISMS = ["M01", "M03", "M13", "M14", "M18", "M21", "M27", "M33", "M36", "M46", "M48"]
+
+
+@pytest.mark.parametrize("id", [*MECHANISMS, "lever"])
+def test_sliders_move_parts_to_where_motion_has_them(context, tmp_path, id):
+    """A joint, a baked loop, a loop solved in the page, gears: every freedom set by its slider's own input."""
+    path = LEVER if id == "lever" else ROOT / "fixtures" / "mechanisms" / f"{id}.kinefab"
+    opened = shown(context, tmp_path, path, id)
+    mechanism = kinefab.motion(path)
+    size = max(
+        np.ptp(mechanism.sweep(mechanism.freedoms[0].name, frames=2, start=0, stop=0).poses[0, :, :3]), 0.1
+    )
+    bodies = [part for part in mechanism.parts if part != mechanism.parts[0]]
+    names = opened.page.evaluate("kinefab.mechanism.freedoms")
+    assert len(names) == len(mechanism.freedoms) > 0
+    for name in names[:3]:
+        unit = mechanism.coordinate(name).unit
+        goal = mechanism.coordinate(name).value + (23.0 if unit == "deg" else 0.04)
+        motion = mechanism.sweep(name, goal - (23.0 if unit == "deg" else 0.04), goal, frames=5)
+        assert motion.stop is None
+        index = names.index(name)
+        opened.page.locator(".freedom input[type=range]").nth(index).evaluate(
+            "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }", goal
+        )
+        places = opened.page.evaluate(PLACES, bodies)
+        for body in bodies:
+            found = np.array(places[body]).reshape(3, 4)
+            assert np.abs(found[:, 3] - motion.part(body)[-1, :3]).max() < 1e-5 * size
+        opened.page.evaluate("kinefab.reset()")
+    opened.demand_quiet()
+    opened.page.close()
+
+
+def slider_of(degrees):
+    q = math.radians(degrees)
+    return 0.025 * math.cos(q) + math.sqrt(0.09**2 - (0.025 * math.sin(q)) ** 2)
+
+
+def test_dragging_a_part_moves_the_mechanism(context, tmp_path):
+    """The grip of the lever is pulled by the mouse: the crank follows it, and the slider the crank."""
+    opened = shown(context, tmp_path, LEVER)
+    page = opened.page
+    place = """() => { const i = kinefab.data.parts.findIndex(p => p.name === 'Grip'), part = kinefab.data.parts[i];
+        const box = kinefab.stage.parts[i].mesh.geometry.boundingBox.getCenter(new THREE.Vector3());
+        const at = Frame.point(Frame.times(kinefab.mechanism.displaced[part.body], part.pose), box.toArray());
+        const seen = kinefab.stage.screen(at), canvas = document.getElementById('view').getBoundingClientRect();
+        return [seen.x + canvas.x, seen.y + canvas.y]; }"""
+    page.wait_for_timeout(100)
+    x, y = page.evaluate(place)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y + 40, steps=4)
+    page.mouse.move(x + 120, y + 90, steps=4)
+    page.mouse.up()
+    angle = float(page.locator(".freedom input[type=number]").input_value())
+    assert abs(angle) > 5.0
+    places = page.evaluate(PLACES, ["Lever/SliderD:1"])
+    exact = page.evaluate("kinefab.mechanism.shown(kinefab.mechanism.freedoms[0])")
+    assert places["Lever/SliderD:1"][3] == pytest.approx(slider_of(30.0 + exact), abs=1e-7)
+    moved = np.subtract(page.evaluate(place), [x, y])
+    assert moved @ [120, 90] > 0.3 * 150 * 150  # the grip came along with the mouse
+    opened.demand_quiet()
+    page.close()
+
+
+def test_playing_comes_round_and_a_click_tells_what_a_joint_is(context, tmp_path):
+    opened = shown(context, tmp_path, LEVER)
+    page = opened.page
+    page.locator("#view").focus()
+    page.keyboard.press("Space")
+    turned = "Math.abs(kinefab.mechanism.q[kinefab.mechanism.freedoms[0]])"
+    for _ in range(100):
+        if page.evaluate(turned) > 0.05:
+            break
+        page.wait_for_timeout(50)
+    assert page.evaluate(turned) > 0.05
+    page.keyboard.press("Space")
+    page.locator("nav button", has_text="Joints").click()
+    page.locator("#list .row").first.click()
+    told = page.locator("#detail").inner_text()
+    assert "Insert:1" in told and "HingeJoint" in told and "insert of" in told
+    page.locator("nav button", has_text="Report").click()
+    page.locator("#list .entry", has_text="Insert:5").click()
+    assert page.locator("#detail h3").inner_text().startswith("SliderD:1")
+    opened.demand_quiet()
+    page.close()
+
+
+EVIL = "</script><script>window.pwned=1</script><img src=x onerror='window.pwned=1'>%CODE%\u2028`${window.pwned=1}"
+
+
+def test_names_stay_text(context, tmp_path):
+    """A part, a joint and a source named as code are shown as they are named, and nothing runs."""
+    scene = kinefab.Scene()
+    base = scene.add_part(EVIL, grounded=True)
+    arm = scene.add_part(f"arm {EVIL}", translation=(0, 0.1, 0))
+    scene.add_hinge(base, arm, point=(0, 0, 0), axis=(0, 0, 1), name=EVIL, limits=(-10, 80))
+    opened = shown(context, tmp_path, scene)
+    opened.page.locator("nav button", has_text="Joints").click()
+    opened.page.locator("#list .row").first.click()
+    assert opened.page.evaluate("window.pwned === undefined")
+    opened.page.locator("nav button", has_text="Parts").click()
+    assert "<img src=x" in opened.page.locator("#list").inner_text()
+    low, high = (
+        float(opened.page.locator(".freedom input[type=range]").get_attribute(end)) for end in ("min", "max")
+    )
+    assert (low, high) == (pytest.approx(-10.0), pytest.approx(80.0))
+    opened.demand_quiet()
+    opened.page.close()
+
+
+def test_parts_can_be_hidden_ghosted_and_isolated(context, tmp_path):
+    opened = shown(context, tmp_path, LEVER)
+    page = opened.page
+    states = "kinefab.state.map(s => [s.shown, s.ghost])"
+    before = page.evaluate(states)
+    page.locator("#list .row", has_text="PanelB:1").click()
+    page.keyboard.press("h")
+    hidden = page.evaluate(states)
+    assert [a[0] != b[0] for a, b in zip(before, hidden)].count(True) == 3  # PanelB and its two bodies
+    page.keyboard.press("h")
+    page.keyboard.press("g")
+    assert sum(ghost for _, ghost in page.evaluate(states)) == 3
+    page.keyboard.press("i")
+    assert sum(shown for shown, _ in page.evaluate(states)) == 3
+    page.keyboard.press("Escape")
+    assert page.evaluate(states) == before
+    opened.demand_quiet()
+    page.close()
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "dark"), [(1200, 760, False), (1200, 760, True), (390, 780, False)]
+)
+def test_the_picture_shows_the_lever(running, tmp_path, width, height, dark):
+    """Light, dark and narrow: the canvas shows parts, edges and joints on the theme's ground; nothing overflows."""
+    from io import BytesIO
+
+    image = pytest.importorskip("PIL.Image", reason="no Pillow: the page's picture is not looked at")
+    opened = shown(window(running, width, height, dark), tmp_path, LEVER)
+    opened.page.wait_for_timeout(300)
+    clip = opened.page.locator("#view").bounding_box()
+    picture = image.open(BytesIO(opened.page.screenshot(clip=clip))).convert("RGB")
+    wide = opened.page.evaluate("document.documentElement.scrollWidth")
+    opened.demand_quiet()
+    opened.page.close()
+    assert wide <= width
+    pixels = np.asarray(picture, dtype=float)
+    ground = np.array([21, 24, 29] if dark else [243, 245, 248], dtype=float)
+    assert np.abs(pixels[8, -8] - ground).max() < 12.0
+    away = np.abs(pixels - ground).max(axis=2) > 25.0
+    assert 0.08 < away.mean() < 0.7
+    orange = (pixels[..., 0] > 190) & (pixels[..., 1] < 130) & (pixels[..., 2] < 70)
+    assert orange.sum() > 60  # the hinges' glyphs
+    columns, rows = np.flatnonzero(away.any(axis=0)), np.flatnonzero(away.any(axis=1))
+    assert np.ptp(columns) > 0.4 * pixels.shape[1] or np.ptp(rows) > 0.4 * pixels.shape[0]
+
+
+def test_a_scene_file_s_page_has_the_scene_s_joints(context, tmp_path):
+    opened = shown(context, tmp_path, LEVER)
+    joints = [
+        c["type"]
+        for o in read_scene_file(LEVER)["gameObjects"]
+        for c in o.get("components", ())
+        if "Joint" in c["type"]
+    ]
+    assert opened.page.evaluate("kinefab.data.joints.map(j => j.type)") == joints
+    opened.page.close()
+
+
+def test_found_mates_are_switched_and_copied(context, tmp_path):
+    """Each by its number and parts; the choice comes back as the file that was given, with one switched on."""
+    import json
+
+    sides = {"a": {"component": "Lever/BarC:1"}, "b": {"component": "Lever/SliderD:1"}}
+    mates = {"format": "kinefab.mates", "version": "1.0", "constraints": []}
+    for number, enabled in ((1, True), (2, False)):
+        mate = {
+            "number": number,
+            "enabled": enabled,
+            "id": f"Mate:{number}",
+            "kind": "insert",
+            "confidence": 0.5,
+        }
+        mates["constraints"].append(mate | sides)
+    path = tmp_path / "lever.mates.json"
+    path.write_text(json.dumps(mates), "utf-8")
+    kinefab.view(LEVER, tmp_path / "page.html", mates=path)
+    opened = Opened(context, tmp_path / "page.html")
+    opened.page.locator("nav button", has_text="Mates").click()
+    rows = opened.page.locator("#list .row")
+    assert rows.count() == 2 and "insert: BarC:1 – SliderD:1" in rows.nth(1).inner_text()
+    rows.nth(1).locator("input").check()
+    rows.nth(0).click()
+    assert opened.page.locator("#detail h3").inner_text() == "Mate 1"
+    copied = json.loads(opened.page.evaluate("kinefab.copyMates()"))
+    assert [m["enabled"] for m in copied["constraints"]] == [True, True]
+    copied["constraints"][1]["enabled"] = False
+    assert copied == mates
+    opened.demand_quiet()
+    opened.page.close()

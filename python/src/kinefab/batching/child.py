@@ -1,0 +1,126 @@
+"""The process that converts: it imports everything once and then, on each line of its input, a job as JSON, forks one
+process for that job alone, watches it and answers with a line.
+
+A job that crashes, hangs or eats memory costs only itself.  When the input ends, because whoever asked is gone, the job
+under way is ended too.  Where the system cannot fork (Windows) the job is done here, and the asker starts a new process
+when this one does not answer.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import sys
+import time
+from collections.abc import Iterator
+
+from .job import Job, Outcome, Record
+from .ledger import Reading
+from .work import work
+
+LOOK_SECONDS = 0.02
+"""Between two looks at a job's memory."""
+
+
+def serve() -> None:
+    """Answer jobs until the input ends."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # what a library prints does not stand among the answers
+    reading = Reading()
+    for line in _lines():
+        job = Job(**json.loads(line))
+        record = _watched(job, reading) if hasattr(os, "fork") else _done(job, reading)
+        answers.write(json.dumps(record.as_json()) + "\n")
+        answers.flush()
+
+
+def _lines() -> Iterator[bytes]:
+    """Lines of the input, read without a buffer, so that ``select`` tells what is there."""
+    rest: bytes = b""
+    while chunk := os.read(0, 65536):
+        rest += chunk
+        while b"\n" in rest:
+            found: tuple[bytes, bytes, bytes] = rest.partition(b"\n")
+            rest = found[2]
+            yield found[0]
+
+
+def _done(job: Job, reading: Reading) -> Record:
+    try:
+        return work(job, reading)
+    except MemoryError:
+        return _lost(job, Outcome.MEMORY, "there was no more memory")
+    except Exception as error:  # a defect of ours or of a library: told, and the rest goes on
+        return _lost(job, Outcome.CRASHED, f"{type(error).__name__}: {error}")
+
+
+def _watched(job: Job, reading: Reading) -> Record:
+    """A job in a process of its own."""
+    start = time.monotonic()
+    inlet, outlet = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        try:
+            os.close(inlet)
+            content = json.dumps(_done(job, reading).as_json()).encode()
+            while content:
+                content = content[os.write(outlet, content) :]
+        finally:
+            os._exit(0)
+    os.close(outlet)
+    answer, why = _answer(pid, inlet, job, start)
+    os.close(inlet)
+    _, status, usage = os.wait4(pid, 0)
+    memory = usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+    seconds = time.monotonic() - start
+    if answer:
+        values = json.loads(answer) | {"memory": memory, "seconds": seconds}
+        return Record.of_json(values)
+    if why is None:
+        number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
+        kind = f"signal {signal.Signals(number).name}" if os.WIFSIGNALED(status) else f"status {number}"
+        why = (Outcome.CRASHED, f"its process ended with {kind}")
+    return _lost(job, *why, seconds, memory)
+
+
+def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, tuple[Outcome, str] | None]:
+    """What the process wrote, or why it was ended."""
+    content, asked = b"", True
+    while True:
+        ready, _, _ = select.select([inlet, *([0] if asked else [])], [], [], LOOK_SECONDS)
+        if inlet in ready:
+            chunk = os.read(inlet, 65536)
+            if not chunk:
+                return content, None
+            content += chunk
+        if 0 in ready and not os.read(0, 1):  # nobody asks any more
+            os.kill(pid, signal.SIGKILL)
+            os._exit(1)
+        why = None
+        if job.timeout is not None and time.monotonic() - start > job.timeout:
+            why = (Outcome.TIMEOUT, f"it took longer than {job.timeout:g} s")
+        elif job.memory is not None and _held(pid) > job.memory:
+            why = (Outcome.MEMORY, f"it held more than {job.memory / 2**20:.0f} MiB")
+        if why is not None:
+            os.kill(pid, signal.SIGKILL)
+            return b"", why
+
+
+def _held(pid: int) -> int:
+    """Bytes of memory that a process holds; 0 where the system does not tell."""
+    try:
+        with open(f"/proc/{pid}/statm", "rb") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, IndexError, ValueError):
+        return 0
+
+
+def _lost(job: Job, outcome: Outcome, message: str, seconds: float = 0.0, memory: int = 0) -> Record:
+    code = f"BATCH_{outcome.value.upper()}"
+    return Record(job.source, job.target, outcome, {code: 1}, (message,), seconds, memory)
+
+
+if __name__ == "__main__":
+    serve()

@@ -1,0 +1,151 @@
+"""What is done: for each target a record of everything that was read for it, so that the next run can skip it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, cast
+
+from . import places
+from .job import Job, Record
+
+LEDGER = ".kinefab-batch"
+"""Folder of the records, in the target folder."""
+
+
+def record_place(job: Job) -> str:
+    """Of a job's record: by the target's name within the target folder, which does not change when the folder moves."""
+    folder = places.join(job.ledger, "")[: -len(places.join(LEDGER, ""))]
+    inner = job.target[len(folder) :] if job.target.startswith(folder) else job.target
+    return places.join(
+        job.ledger, "records", hashlib.sha256(inner.encode("utf-8", "replace")).hexdigest()[:32] + ".json"
+    )
+
+
+def done(job: Job, version: str) -> Record | None:
+    """The record of a job that is up to date: same options and version, everything that was read unchanged, every file
+    that was written still there."""
+    known = _known(job)
+    if known is None or known["version"] != version or known["options"] != job.options:
+        return None
+    if not all(places.exists(file) for file in known["files"]):
+        return None
+    if any(_digest(path) != digest for path, digest in known["read"].items()):
+        return None
+    return Record.of_json(known["record"])
+
+
+def is_ours(job: Job) -> bool:
+    """Whether an earlier run wrote the target."""
+    return _known(job) is not None
+
+
+def note(job: Job, version: str, record: Record, read: dict[str, str], files: list[str]) -> None:
+    """Remember what was done.  read: digest of each file that was read, by path."""
+    content = {
+        "version": version,
+        "options": job.options,
+        "record": record.as_json(),
+        "read": dict(sorted(read.items())),
+        "files": files,
+    }
+    places.write_bytes(record_place(job), (json.dumps(content, indent=1) + "\n").encode())
+
+
+def _known(job: Job) -> dict[str, Any] | None:
+    try:
+        content = places.read_bytes(record_place(job))
+        return None if content is None else json.loads(content)
+    except (OSError, ValueError):
+        return None  # half of one, from another program: the job is done again
+
+
+def _digest(path: str) -> str:
+    try:
+        content = places.read_bytes(path)
+    except OSError:
+        return ""
+    return "" if content is None else hashlib.sha256(content).hexdigest()
+
+
+class Reading:
+    """Files that this process opens for reading, by Python's own audit events; libraries' own are named beside it."""
+
+    def __init__(self) -> None:
+        self.paths: dict[str, tuple[int, int]] = {}
+        self._on = False
+        self._apart = tuple(
+            os.path.realpath(p) + os.sep for p in {sys.prefix, sys.base_prefix, *sys.path} if p
+        )
+        sys.addaudithook(self._heard)
+
+    @contextmanager
+    def listening(self) -> Generator[None, None, None]:
+        self._on = True
+        try:
+            yield
+        finally:
+            self._on = False
+
+    def add(self, path: str | Path) -> None:
+        with suppress(OSError, ValueError):
+            real = os.path.realpath(path)
+            found = os.stat(real)
+            if os.path.isfile(real) and not real.startswith(self._apart):
+                self.paths.setdefault(real, (found.st_mtime_ns, found.st_size))
+
+    def changed(self) -> list[str]:
+        """Those that are not as they were when they were first opened."""
+        return [path for path, seen in self.paths.items() if _stamp(path) != seen]
+
+    def digests(self) -> dict[str, str]:
+        return {path: _digest(path) for path in self.paths}
+
+    def _heard(self, event: str, args: tuple[Any, ...]) -> None:
+        if self._on and event == "open" and isinstance(args[0], (str, bytes, os.PathLike)):
+            mode, flags = args[1], args[2]
+            writes = (
+                ("w" in mode or "a" in mode or "x" in mode)
+                if isinstance(mode, str)
+                else bool(flags & os.O_ACCMODE)
+                if hasattr(os, "O_ACCMODE")
+                else bool(flags & 3)
+            )
+            if not writes:
+                self._on = False  # what is asked here is not heard
+                self.add(os.fsdecode(cast("str | bytes | os.PathLike[str]", args[0])))
+                self._on = True
+
+
+def _stamp(path: str) -> tuple[int, int] | None:
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return (found.st_mtime_ns, found.st_size)
+
+
+@contextmanager
+def claimed(job: Job) -> Generator[None, None, None]:
+    """Nobody else works on the same target meanwhile: whoever comes second waits, and finds it done.
+
+    Held by this process alone and gone with it.  On Windows and for URLs there is no such lock.
+    """
+    if places.is_url(job.ledger) or os.name == "nt":
+        yield
+        return
+    import fcntl
+
+    lock = Path(record_place(job) + ".lock")
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        try:
+            yield
+        finally:
+            lock.unlink(missing_ok=True)

@@ -1,0 +1,113 @@
+"""The batch: plan, hand out, gather."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Callable, Iterable
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+from ..options import ExportOptions
+from ..targets import known_endings
+from . import places
+from .index import index_page
+from .job import Job, Outcome, Record, options_as_json
+from .ledger import LEDGER
+from .plan import planned
+from .slot import convert
+
+Progress = Callable[[int, int, Record], None]
+"""Called with how many are done, of how many, and what became of the last."""
+
+
+def silent(done: int, total: int, record: Record) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass(frozen=True, slots=True)
+class BatchResult:
+    """records: in the order of the plan.  index: the page that lists them."""
+
+    records: tuple[Record, ...]
+    index: str
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many of each outcome."""
+        counted = Counter(record.outcome for record in self.records)
+        return {outcome.value: counted[outcome] for outcome in Outcome if counted[outcome]}
+
+    @property
+    def worst(self) -> Outcome:
+        """The worst outcome; UP_TO_DATE of an empty batch."""
+        order = list(Outcome)
+        return max((record.outcome for record in self.records), key=order.index, default=Outcome.UP_TO_DATE)
+
+
+def batch(
+    inputs: Iterable[str | os.PathLike[str]],
+    out: str | os.PathLike[str],
+    to: str = "kinefab",
+    options: ExportOptions = ExportOptions(),
+    *,
+    jobs: int | None = None,
+    executor: Executor | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    force: bool = False,
+    progress: Progress = silent,
+) -> BatchResult:
+    """Export every source in ``inputs`` into the folder ``out``.
+
+    inputs: files, folders, patterns; paths, or URLs that fsspec knows.  out: folder or URL.
+    to: kind of target, an ending without its dot.  jobs: files at once, None for one a processor.
+    executor: who does the work instead, any of ``concurrent.futures`` or ``distributed.Client.get_executor()``; Kinefab is
+    installed where it works, and paths mean the same there.
+    timeout: seconds a file.  memory: bytes a file.  force: convert what is up to date, overwrite what others wrote.
+    Raises ValueError for a kind that no target has.  What goes wrong with a file is in its record.
+    """
+    ending = f".{to.lstrip('.')}"
+    if ending not in known_endings():
+        raise ValueError(
+            f"there is no output {to!r}; pass one of: {', '.join(e[1:] for e in known_endings())}"
+        )
+    folder = os.fspath(out)
+    folder = folder if places.is_url(folder) else os.path.abspath(folder)
+    ledger = places.join(folder, LEDGER)
+    named = [os.fspath(place) for place in inputs]
+    absolute = [place if places.is_url(place) else os.path.abspath(place) for place in named]
+    asked = options_as_json(options)
+    work = [
+        Job(source, target, ledger, asked, timeout, memory, force)
+        for source, target in planned(absolute, folder, ending)
+    ]
+    found: dict[str, Record] = {}
+    lines: list[str] = []
+    own = None if executor is not None else ThreadPoolExecutor(jobs or os.cpu_count() or 1)
+    pool = executor if executor is not None else own
+    assert pool is not None
+    try:
+        futures: dict[Future[Record], Job] = {pool.submit(convert, job): job for job in work}
+        for future in as_completed(futures):
+            record = _record(future, futures[future])
+            found[record.target] = record
+            lines.append(json.dumps(record.as_json(), ensure_ascii=False))
+            progress(len(found), len(work), record)
+    finally:
+        if own is not None:
+            own.shutdown(cancel_futures=True)
+    records = tuple(found[job.target] for job in work)
+    places.write_bytes(places.join(folder, "batch.jsonl"), ("\n".join(lines) + "\n").encode())
+    index = places.join(folder, "index.html")
+    places.write_bytes(index, index_page(records, folder).encode())
+    return BatchResult(records, index)
+
+
+def _record(future: Future[Record], job: Job) -> Record:
+    try:
+        return future.result()
+    except Exception as error:  # the worker is lost and nobody took its place
+        message = f"the worker was lost: {type(error).__name__}: {error}"
+        return Record(job.source, job.target, Outcome.CRASHED, {"BATCH_WORKER_LOST": 1}, (message,))

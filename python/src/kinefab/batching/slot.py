@@ -1,0 +1,88 @@
+"""The asking side of a converting process; a worker has one for each of its threads."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import threading
+
+from .job import Job, Outcome, Record
+
+GRACE_SECONDS = 10.0
+"""After a job's timeout the process itself is given up."""
+TRIES = 2
+
+
+class Slot:
+    """A process that converts one file at a time, started when it is first asked and again when it was lost."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def convert(self, job: Job) -> Record:
+        for _ in range(TRIES):
+            answer = self._asked(job)
+            if answer is not None:
+                return Record.of_json(json.loads(answer))
+        return Record(
+            job.source,
+            job.target,
+            Outcome.CRASHED,
+            {"BATCH_CRASHED": 1},
+            ("the process that converts ended without a word",),
+        )
+
+    def _asked(self, job: Job) -> bytes | None:
+        """The line that answers, None where the process is gone."""
+        process = self._running()
+        assert process.stdin is not None and process.stdout is not None
+        timer = threading.Timer((job.timeout or 0.0) + GRACE_SECONDS, process.kill)
+        if job.timeout is not None:
+            timer.start()
+        try:
+            process.stdin.write(json.dumps(job.as_json()).encode() + b"\n")
+            process.stdin.flush()
+            line = process.stdout.readline()
+        except OSError:
+            line = b""
+        finally:
+            timer.cancel()
+        if not line:
+            self.close()
+        return line or None
+
+    def _running(self) -> subprocess.Popen[bytes]:
+        if self._process is None or self._process.poll() is not None:
+            one = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "kinefab.batching.child"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                env={**one, **os.environ},  # the files are what runs side by side
+            )
+        return self._process
+
+    def close(self) -> None:
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            for stream in (self._process.stdin, self._process.stdout):
+                if stream is not None:
+                    stream.close()
+            self._process = None
+
+    def __del__(self) -> None:
+        self.close()  # with the thread that had it
+
+
+_local = threading.local()
+
+
+def convert(job: Job) -> Record:
+    """Do a job in this thread's own process.  What an executor is given: it and its argument can be pickled."""
+    if not hasattr(_local, "slot"):
+        _local.slot = Slot()
+    slot: Slot = _local.slot
+    return slot.convert(job)

@@ -1,0 +1,297 @@
+"""Many files: one that hangs, crashes or eats memory costs only itself, what is done is skipped, a lost worker loses nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import kinefab
+import pytest
+from kinefab.batching import job as jobs
+from kinefab.batching import places
+from kinefab.batching.job import Outcome
+from kinefab.batching.plan import planned
+from kinefab.diagnostics import KinefabError
+
+ROOT = Path(__file__).resolve().parents[2]
+PAIRS = ROOT / "fixtures" / "pairs"
+SOURCE = Path(__file__).resolve().parents[2] / "python" / "src"
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="files in processes of their own need fork")
+
+
+def bundles(folder: Path, *names: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        shutil.copy(PAIRS / "P01.bundle.json", folder / f"{name}.bundle.json")
+    return folder
+
+
+def outcomes(result: kinefab.BatchResult) -> dict[str, str]:
+    return {Path(r.source).name.partition(".")[0]: r.outcome.value for r in result.records}
+
+
+def test_a_folder_becomes_a_folder_with_its_tree_and_an_index(tmp_path):
+    bundles(tmp_path / "in" / "deep", "b")
+    bundles(tmp_path / "in", "a & <b>")
+    (tmp_path / "in" / "notes.json").write_text("{}")
+    result = kinefab.batch([tmp_path / "in"], tmp_path / "out", jobs=2)
+    assert result.counts == {"written": 2} and result.worst is Outcome.WRITTEN
+    assert (tmp_path / "out" / "deep" / "b.kinefab").is_file()
+    page = (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert "a &amp; &lt;b&gt;.kinefab" in page and "<b>." not in page and page.count("<img") == 2
+    lines = [json.loads(line) for line in (tmp_path / "out" / "batch.jsonl").read_text("utf-8").splitlines()]
+    assert {line["outcome"] for line in lines} == {"written"}
+    assert all(
+        line["seconds"] > 0 and line["memory"] > 2**20 and line["mobility"] is not None for line in lines
+    )
+    assert all(Path(line["thumbnail"]).is_file() for line in lines)
+
+
+def test_what_is_up_to_date_is_skipped_and_what_changed_is_not(tmp_path):
+    folder = bundles(tmp_path / "in", "a", "b", "c")
+    run = lambda **options: kinefab.batch([folder], tmp_path / "out", jobs=2, **options)  # noqa: E731
+    first = run()
+    before = {r.target: Path(r.target).stat().st_mtime_ns for r in first.records}
+    assert outcomes(run()) == dict.fromkeys("abc", "up_to_date")
+    assert before == {r.target: Path(r.target).stat().st_mtime_ns for r in first.records}
+    text = (folder / "b.bundle.json").read_text("utf-8")
+    (folder / "b.bundle.json").write_text(text + "\n")
+    (tmp_path / "out" / "c.kinefab").unlink()
+    assert outcomes(run()) == {"a": "up_to_date", "b": "written", "c": "written"}
+    assert outcomes(run(options=kinefab.ExportOptions(density=7850))) == dict.fromkeys("abc", "written")
+
+
+def test_a_mesh_that_changed_counts_as_read(tmp_path):
+    """What a source names is found out by what was opened."""
+    (tmp_path / "in").mkdir()
+    for name in ("lever.bundle.json", "lever.obj", "lever.mtl"):
+        shutil.copy(ROOT / "fixtures" / "lever" / name, tmp_path / "in" / name)
+    run = lambda: outcomes(kinefab.batch([tmp_path / "in" / "lever.bundle.json"], tmp_path / "out"))  # noqa: E731
+    assert (run(), run()) == ({"lever": "written"}, {"lever": "up_to_date"})
+    with (tmp_path / "in" / "lever.obj").open("a") as file:
+        file.write("\n# seen again\n")
+    assert run() == {"lever": "written"}
+
+
+def test_a_bad_file_costs_only_itself(tmp_path):
+    folder = bundles(tmp_path / "in", "good")
+    (folder / "torn.bundle.json").write_text("{")
+    bundles(tmp_path / "out")
+    result = kinefab.batch([folder, folder / "gone.urdf"], tmp_path / "out", jobs=2)
+    found = {Path(r.source).name: r for r in result.records}
+    assert found["good.bundle.json"].outcome is Outcome.WRITTEN
+    assert found["torn.bundle.json"].outcome is Outcome.REFUSED and found["torn.bundle.json"].messages
+    assert found["gone.urdf"].outcome is Outcome.REFUSED and not result.worst.good
+
+
+HOSTILE = """
+import sys, os, time, signal
+from kinefab.batching import child, work
+real = work.work
+def hostile(job, reading):
+    name = os.path.basename(job.source)
+    if name.startswith("hang"): time.sleep(600)
+    if name.startswith("crash"): os.kill(os.getpid(), signal.SIGSEGV)
+    if name.startswith("exit"): os._exit(7)
+    if name.startswith("raise"): raise RuntimeError("a library's own")
+    if name.startswith("greedy"):
+        held = []
+        while True: held.append(bytearray(8 << 20)); time.sleep(0.01)
+    if name.startswith("slow"): time.sleep(float(os.environ.get("SLOW", "1")))
+    return real(job, reading)
+child.work = hostile
+child.serve()
+"""
+"""A converting process whose work does, for some names, what damaged files do to libraries."""
+
+
+@pytest.fixture
+def hostile(tmp_path, monkeypatch):
+    script = tmp_path / "hostile.py"
+    script.write_text(HOSTILE)
+    real = subprocess.Popen
+
+    def started(command, **options):
+        if command[1:] == ["-m", "kinefab.batching.child"]:
+            command = [command[0], str(script)]
+        return real(command, **options)
+
+    monkeypatch.setattr("kinefab.batching.slot.subprocess.Popen", started)
+
+
+def test_what_hangs_crashes_or_eats_memory_is_ended_and_told(tmp_path, hostile):
+    folder = bundles(tmp_path / "in", "hang", "crash", "exit", "raise", "greedy", "ok1", "ok2")
+    result = kinefab.batch([folder], tmp_path / "out", jobs=2, timeout=8, memory=600 * 2**20)
+    assert outcomes(result) == {
+        "hang": "timeout", "crash": "crashed", "exit": "crashed", "raise": "crashed", "greedy": "memory",
+        "ok1": "written", "ok2": "written",
+    }  # fmt: skip
+    told = {Path(r.source).name.partition(".")[0]: r.messages[0] for r in result.records if r.messages}
+    assert "8 s" in told["hang"] and "SIGSEGV" in told["crash"] and "status 7" in told["exit"]
+    assert "a library's own" in told["raise"] and "600 MiB" in told["greedy"]
+
+
+def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
+    folder = bundles(tmp_path / "in", *(f"n{i}" for i in range(12)))
+    command = [
+        sys.executable,
+        "-m",
+        "kinefab",
+        "batch",
+        str(folder),
+        "-o",
+        str(tmp_path / "out"),
+        "--json",
+        "-j",
+        "1",
+    ]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    for _ in range(3):
+        process.stdout.readline()
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    time.sleep(0.5)  # the converting process notices that nobody asks any more
+    result = kinefab.batch([folder], tmp_path / "out", jobs=2)
+    assert result.counts.get("up_to_date", 0) >= 3 and result.worst.good and len(result.records) == 12
+    assert list(tmp_path.glob("out/.*.tmp")) == []
+
+
+def test_targets_of_somebody_else_are_left_alone(tmp_path):
+    folder = bundles(tmp_path / "in", "a")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "a.kinefab").write_text("mine")
+    result = kinefab.batch([folder], tmp_path / "out")
+    assert result.worst is Outcome.FAILED and "no batch wrote it" in result.records[0].messages[0]
+    assert (tmp_path / "out" / "a.kinefab").read_text() == "mine"
+    assert kinefab.batch([folder], tmp_path / "out", force=True).worst is Outcome.WRITTEN
+
+
+def test_sources_of_one_name_keep_their_endings(tmp_path):
+    for name in ("arm.urdf", "arm.bundle.json", "leg.urdf"):
+        (tmp_path / name).write_text("<robot name='r'><link name='l'/></robot>")
+    targets = dict(planned([str(tmp_path)], "/out", ".kinefab"))
+    assert targets == {
+        str(tmp_path / "arm.urdf"): "/out/arm.urdf.kinefab",
+        str(tmp_path / "arm.bundle.json"): "/out/arm.bundle.json.kinefab",
+        str(tmp_path / "leg.urdf"): "/out/leg.kinefab",
+    }
+
+
+def test_any_executor_does(tmp_path):
+    folder = bundles(tmp_path / "in", "a", "b")
+    with ThreadPoolExecutor(1) as executor:
+        assert kinefab.batch([folder], tmp_path / "out", executor=executor).counts == {"written": 2}
+    with pytest.raises(ValueError, match="there is no output 'fbx'"):
+        kinefab.batch([folder], tmp_path / "out", "fbx")
+
+
+def test_options_travel_as_json(tmp_path):
+    options = kinefab.ExportOptions(density=7.0, reading={"package_path": [tmp_path], "root": "/a"})
+    values = json.loads(json.dumps(jobs.options_as_json(options)))
+    assert jobs.options_as_json(jobs.options_of_json(values)) == values and values["closures"] == "exact"
+
+
+def test_urls_are_read_and_written(tmp_path):
+    fsspec = pytest.importorskip("fsspec", reason="the Python package fsspec is not installed")
+    system = fsspec.filesystem("file")
+    bundles(tmp_path / "in", "a", "b")
+    url = f"file://{tmp_path}/in"
+    result = kinefab.batch([url + "/*.bundle.json"], f"file://{tmp_path}/out", jobs=1)
+    assert result.counts == {"written": 2} and system.exists(f"{tmp_path}/out/a.kinefab")
+    assert kinefab.batch([url + "/*.bundle.json"], f"file://{tmp_path}/out", jobs=1).counts == {
+        "up_to_date": 2
+    }
+    places.write_bytes("memory://batch/x", b"1")
+    assert places.read_bytes("memory://batch/x") == b"1" and places.read_bytes("memory://batch/y") is None
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers as processes of their own: (address, workers)."""
+    pytest.importorskip("distributed", reason="the Python package distributed is not installed")
+    address = f"tcp://127.0.0.1:{free_port()}"
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
+    dask = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", address.rpartition(":")[2]]
+    parts = [subprocess.Popen([*dask, "--host", "127.0.0.1", "--no-dashboard"], **quiet)]
+    worker = [
+        sys.executable,
+        "-m",
+        "distributed.cli.dask_worker",
+        address,
+        "--nthreads",
+        "1",
+        "--no-nanny",
+        "--no-dashboard",
+    ]
+    parts += [
+        subprocess.Popen([*worker, "--name", f"w{i}", "--host", "127.0.0.1"], **quiet) for i in range(2)
+    ]
+    from distributed import Client
+
+    with Client(address, timeout=60, set_as_default=False) as client:
+        client.wait_for_workers(2, timeout=60)
+    yield address, parts[1:]
+    for part in parts:
+        part.kill()
+        part.wait()
+
+
+def test_a_worker_that_is_killed_loses_nothing_and_nothing_is_done_twice(tmp_path, cluster):
+    from kinefab.batching.cluster import executor_of
+
+    address, workers = cluster
+    folder = bundles(tmp_path / "in", *(f"n{i:02}" for i in range(16)))
+    killed = []
+
+    def progress(done, total, record):
+        if done == 4 and not killed:
+            killed.append(workers[0].pid)
+            workers[0].kill()
+
+    with executor_of(address) as executor:
+        result = kinefab.batch([folder], tmp_path / "out", executor=executor, timeout=120, progress=progress)
+    assert killed and len(result.records) == 16 and result.worst.good
+    assert len(list((tmp_path / "out").glob("*.kinefab"))) == 16
+    assert len(list((tmp_path / "out").glob("*.kinefab.*.bin"))) in (0, 16)
+    with executor_of(address) as executor:
+        again = kinefab.batch([folder], tmp_path / "out", executor=executor)
+    assert again.counts == {"up_to_date": 16}
+
+
+def test_a_scheduler_that_is_not_there_is_a_sentence(monkeypatch):
+    pytest.importorskip("distributed", reason="the Python package distributed is not installed")
+    from kinefab.batching import cluster
+
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
+    with pytest.raises(KinefabError) as caught, cluster.executor_of(f"tcp://127.0.0.1:{free_port()}"):
+        pass
+    assert (
+        caught.value.diagnostics[0].code == "BATCH_SCHEDULER"
+        and "dask scheduler" in caught.value.diagnostics[0].remedy
+    )
+
+
+def test_the_command_line_tells_the_worst_by_its_status(tmp_path):
+    folder = bundles(tmp_path / "in", "a")
+    command = [sys.executable, "-m", "kinefab", "batch", str(folder), "-o", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0 and "1 written" in done.stderr
+    (folder / "torn.bundle.json").write_text("{")
+    done = subprocess.run([*command, "--json"], capture_output=True, text=True)
+    assert done.returncode == 1 and "Traceback" not in done.stderr and "refused: " in done.stderr
+    assert {json.loads(line)["outcome"] for line in done.stdout.splitlines()} == {"up_to_date", "refused"}

@@ -1,0 +1,131 @@
+"""What a script passes, checked: TypeError for what is of no use, ValueError for a value that is none, each with what to
+pass instead."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+
+from ..spatial import Array, matrix_from_quaternion, rotation_about, vector
+
+Vector = Sequence[float]
+ROUNDED = 1e-4
+"""Largest entry of R'R - 1 that is the rounding of typed digits; the nearest rotation is taken then."""
+EXACT = 1e-12
+"""Up to here a rotation matrix is taken as it is."""
+LARGEST = 1e9
+"""Metres; beyond, single precision has no millimetres, and far beyond no numbers."""
+AXES = dict(zip("XYZ", np.eye(3)))
+
+
+def checked_vector(what: str, values: Any) -> Array:
+    """Three numbers, shape (3,)."""
+    try:
+        array = vector(values)
+    except (TypeError, ValueError):
+        array = None
+    if array is None or not np.abs(array).max() <= LARGEST:
+        raise ValueError(f"{what} is {values!r}; pass three numbers, none beyond {LARGEST:g}")
+    return array
+
+
+def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite: bool = False) -> float:
+    """A number, not NaN and, unless ``infinite``, finite."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{what} is {value!r}; pass a number")
+    number = float(cast("float", value))
+    if math.isnan(number) or (math.isinf(number) and not infinite) or number < least:
+        bound = "" if math.isinf(least) else f", not below {least:g}"
+        raise ValueError(f"{what} is {value!r}; pass a{'' if infinite else ' finite'} number{bound}")
+    return number
+
+
+def checked_rotation(name: str, rotation: Any) -> Array:
+    """A rotation matrix, shape (3, 3).
+
+    rotation: a matrix (3, 3) of at least four digits, a quaternion (x, y, z, w), Euler angles with their order as
+    ``("XYZ", (30, 0, 90))`` in degrees (capitals: about the axes as they turn with the part; small letters: about the
+    fixed ones, the first first), or anything with ``as_matrix()``, such as scipy's Rotation.
+    """
+    if hasattr(rotation, "as_matrix"):
+        rotation = rotation.as_matrix()
+    if isinstance(rotation, tuple):
+        pair = cast("tuple[Any, ...]", rotation)
+        if len(pair) == 2 and isinstance(pair[0], str):
+            return _from_euler(name, pair[0], pair[1])
+    advice = (
+        f"the rotation of {name} {{}}; pass a rotation matrix, 3 x 3, a quaternion (x, y, z, w) or angles with their"
+        ' order, such as ("XYZ", (30, 0, 90))'
+    )
+    try:
+        turn = np.asarray(rotation, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(advice.format("is no matrix of numbers")) from None
+    if turn.shape == (4,):
+        return _from_quaternion(turn, advice)
+    if turn.shape != (3, 3):
+        raise ValueError(advice.format(f"has the shape {turn.shape}"))
+    off = float(np.abs(turn.T @ turn - np.eye(3)).max()) if np.isfinite(turn).all() else math.nan
+    if not off <= ROUNDED:
+        raise ValueError(advice.format(f"is no rotation, R'R is off the identity by {off:.3g}"))
+    if np.linalg.det(turn) < 0.0:
+        raise ValueError(advice.format("is a reflection") + "; mirror the mesh instead")
+    if off <= EXACT:
+        return turn
+    left, _, right = np.linalg.svd(turn)
+    return left @ right
+
+
+def checked_pose(name: str, translation: Any, rotation: Any) -> tuple[Array, Array]:
+    """Rotation matrix and translation; ``rotation`` may be a whole pose, shape (4, 4), with no translation beside it."""
+    matrix = _whole_pose(rotation)
+    if matrix is None:
+        turn = np.eye(3) if rotation is None else checked_rotation(name, rotation)
+        return turn, checked_vector(
+            f"the translation of {name}", (0.0, 0.0, 0.0) if translation is None else translation
+        )
+    if translation is not None:
+        raise ValueError(f"the pose of {name} is 4 x 4 and holds its translation; pass no other beside it")
+    if not np.allclose(matrix[3], (0.0, 0.0, 0.0, 1.0)):
+        raise ValueError(f"the pose of {name} has the last row {matrix[3].tolist()}; it must be 0 0 0 1")
+    return checked_rotation(name, matrix[:3, :3]), checked_vector(f"the translation of {name}", matrix[:3, 3])
+
+
+def _whole_pose(rotation: Any) -> Array | None:
+    try:
+        matrix = np.asarray(rotation, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None  # what it is instead, ``checked_rotation`` tells
+    return matrix if matrix.shape == (4, 4) else None
+
+
+def _from_quaternion(q: Array, advice: str) -> Array:
+    length = float(np.linalg.norm(q))
+    if not abs(length - 1.0) <= ROUNDED:
+        raise ValueError(advice.format(f"is a quaternion of length {length:.6g}, not 1"))
+    return matrix_from_quaternion(q)
+
+
+def _from_euler(name: str, order: str, angles: Any) -> Array:
+    if len(order) != 3 or set(order.upper()) - set("XYZ") or not (order.isupper() or order.islower()):
+        raise ValueError(f"the order of {name}'s angles is {order!r}; pass three of XYZ, or three of xyz")
+    turn = np.eye(3)
+    for letter, degrees in zip(order, checked_vector(f"the angles of {name}", angles)):
+        step = rotation_about(AXES[letter.upper()], math.radians(degrees))
+        turn = turn @ step if order.isupper() else step @ turn
+    return turn
+
+
+def checked_color(name: str, color: Any) -> tuple[float, float, float, float]:
+    """Linear red green blue alpha, 0..1."""
+    try:
+        values = () if isinstance(color, str) else tuple(float(c) for c in color)
+    except (TypeError, ValueError):
+        values = ()
+    if len(values) not in (3, 4) or not all(0.0 <= c <= 1.0 for c in values):
+        raise ValueError(f"the color of {name} is {color!r}; pass three or four numbers from 0 to 1")
+    red, green, blue, alpha = (*values, 1.0)[:4]
+    return red, green, blue, alpha

@@ -1,0 +1,43 @@
+"""What a part looks like and touches with, as a script passes it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from ..model import Collider, PhysicsMaterial, Surface
+from ..options import ColliderShape
+
+
+def materials_of(name: str, given: Any) -> tuple[Surface | None, PhysicsMaterial | None]:
+    """How a part looks and what it touches with."""
+    items = [given] if isinstance(given, (Surface, PhysicsMaterial)) else list(given or ())
+    looks = [item for item in items if isinstance(item, Surface)]
+    touch = [item for item in items if isinstance(item, PhysicsMaterial)]
+    if len(looks) + len(touch) < len(items) or len(looks) > 1 or len(touch) > 1:
+        raise TypeError(
+            f"the material of {name} is {given!r}; pass a Surface, a PhysicsMaterial, or one of each"
+        )
+    return looks[0] if looks else None, touch[0] if touch else None
+
+
+def colliders_of(
+    name: str, given: Any, touch: PhysicsMaterial | None
+) -> tuple[ColliderShape | None, tuple[Collider, ...] | None]:
+    """The shape asked for, and the colliders stated."""
+    if given is None:
+        return None, None
+    if isinstance(given, (str, ColliderShape)):
+        try:
+            return ColliderShape(given), None
+        except ValueError:
+            words = ", ".join(member.value for member in ColliderShape)
+            raise ValueError(
+                f"the collider of {name} is {given!r}; pass one of: {words}, or Colliders"
+            ) from None
+    items = [given] if isinstance(given, Collider) else list(given)
+    if not all(isinstance(item, Collider) for item in items):
+        raise TypeError(f"the collider of {name} is {given!r}; pass a word, a Collider, or several")
+    return None, tuple(
+        c if c.material is not None or touch is None else replace(c, material=touch) for c in items
+    )

@@ -1,0 +1,381 @@
+"""The scene that a script fills."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any, Union
+
+import numpy as np
+
+from .. import model
+from ..model import (
+    FREEDOM_NAMES,
+    Body,
+    Collider,
+    Coupling,
+    CouplingKind,
+    Joint,
+    JointKind,
+    MassProperties,
+    Node,
+    NodeKind,
+    PhysicsMaterial,
+    Surface,
+    Term,
+)
+from ..options import ColliderShape
+from ..spatial import Pose, frame_from_axes
+from .arguments import Vector, checked_color, checked_number, checked_pose, checked_vector
+from .materials import colliders_of, materials_of
+from .motions import FreedomLike, Range, angular, freedoms_asked, kind_of_word
+from .shapes import shapes_of
+
+_numbers = itertools.count()
+
+JointLike = Union[Joint, str, tuple[Union[Joint, str], str]]
+"""A joint or its id; with the name of one of its freedoms where it has several."""
+
+
+class PartIndex(int):
+    """What ``add_part`` and ``add_assembly`` return: an index that knows which scene's it is (``scene``: a number)."""
+
+    scene: int
+
+
+class Scene(model.Scene):
+    """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
+
+    A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without
+    length, a number that is not finite, limits in the wrong order) and adds nothing; the message says what to pass.
+    """
+
+    __slots__ = ("_copies", "_counted", "_given", "_number")
+
+    def __init__(self, *args: Any, **fields: Any) -> None:
+        super().__init__(*args, **fields)
+        self._copies: dict[str, int] = {}
+        self._counted = 0
+        self._given = len(self.nodes)
+        self._number = next(_numbers)
+
+    def add_part(
+        self,
+        name: str,
+        mesh: Any = None,
+        *,
+        translation: Vector | None = None,
+        rotation: Any = None,
+        parent: int | None = None,
+        grounded: bool = False,
+        density: float | None = None,
+        mass: MassProperties | None = None,
+        color: Vector | None = None,
+        material: Surface | PhysicsMaterial | Iterable[Surface | PhysicsMaterial] | None = None,
+        collider: ColliderShape | str | Collider | Iterable[Collider] | None = None,
+        unit: str = "m",
+    ) -> int:
+        """Add a part at a world pose and return its index.
+
+        mesh: a trimesh.Trimesh, anything with ``vertices`` and ``faces``, a trimesh.Scene, or the path of a mesh file; in
+        the part's own frame.  unit: of the mesh's numbers: m, cm, mm, in, ft.
+        translation: metres.  rotation: a rotation matrix (3, 3), a quaternion (x, y, z, w), Euler angles in degrees with
+        their order (``("XYZ", (30, 0, 90))``), or a whole pose (4, 4) instead of both; None for none.
+        parent: index of an assembly, or None.  grounded: fixed to the world.
+        density: kg/m^3, None for the export's default.  mass: given instead of computed.
+        color: linear red green blue (alpha), 0..1.
+        material: how it looks (``Surface``), what it touches with (``PhysicsMaterial``), or both.
+        collider: ``auto``, ``none``, ``box``, ``hull``, ``decompose`` or ``mesh`` for this part, or colliders of its own, in its frame.
+        Raises TypeError for a mesh that is none, ValueError for a rotation that is none (a reflection, a scale), a number
+        that is not finite, a mesh without triangles, a density not above zero or a colour outside 0..1.
+        """
+        if density is not None and not 0.0 < density < math.inf:
+            raise ValueError(f"the density of {name} is {density}; it must be a number above zero")
+        shapes = [] if mesh is None else shapes_of(name, mesh, unit)
+        looks, touch = materials_of(name, material)
+        if color is not None:
+            looks = replace(looks or Surface(name), color=checked_color(name, color))
+        shape, own = colliders_of(name, collider, touch)
+        index = self._add_node(
+            name,
+            NodeKind.PART,
+            parent,
+            translation,
+            rotation,
+            mass=mass,
+            grounded=grounded,
+            colliders=own,
+            collision=shape,
+        )
+        if not shapes:
+            return index
+        surfaces: tuple[int, ...] = ()
+        if looks is not None:
+            self.surfaces.append(looks)
+            surfaces = (len(self.surfaces) - 1,)
+        bodies: list[Body] = []
+        for each in shapes:
+            number = None
+            if each.mesh is not None:
+                self.meshes.append(each.mesh)
+                number = len(self.meshes) - 1
+            own = surfaces * max(1, len(each.surfaces)) or tuple(map(self._surface, each.surfaces))
+            bodies.append(Body(each.name, number, own, density, each.reference))
+        self.nodes[-1] = replace(self.nodes[-1], bodies=tuple(bodies))
+        return index
+
+    def _surface(self, surface: Surface) -> int:
+        """The index of a surface of a mesh, added where no other looks the same."""
+        if surface not in self.surfaces:
+            self.surfaces.append(surface)
+        return self.surfaces.index(surface)
+
+    def add_assembly(
+        self,
+        name: str,
+        *,
+        translation: Vector | None = None,
+        rotation: Any = None,
+        parent: int | None = None,
+        flexible: bool = True,
+    ) -> int:
+        """Add an assembly to put parts under, and return its index.  flexible: whether its parts may move
+        against each other; otherwise they are one rigid body.  The pose as ``add_part`` has it."""
+        return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
+
+    def _add_node(
+        self,
+        name: str,
+        kind: NodeKind,
+        parent: int | None,
+        translation: Vector | None,
+        rotation: Any,
+        **fields: Any,
+    ) -> int:
+        if parent is not None:
+            self._check_index(parent, "parent")
+            parent = int(parent)
+        pose = Pose(*checked_pose(name, translation, rotation))
+        node_id = self._unused(name if parent is None else f"{self.nodes[parent].id}/{name}")
+        self.nodes.append(Node(node_id, name, kind, parent, pose, **fields))
+        index = PartIndex(len(self.nodes) - 1)
+        index.scene = self._number
+        return index
+
+    def _unused(self, path: str) -> str:
+        """The path, with the first number that makes it an id of its own; nodes may come from elsewhere too."""
+        self._copies.update(
+            (node.id, 1) for node in self.nodes[self._counted :] if node.id not in self._copies
+        )
+        self._counted = len(self.nodes)
+        node_id, copy = path, self._copies.get(path, 0)
+        while node_id in self._copies:
+            copy += 1
+            node_id = f"{path}:{copy}"
+        self._copies[path] = max(copy, 1)
+        return node_id
+
+    def _check_index(self, node: object, argument: str) -> None:
+        """Raise unless ``node`` is what an ``add_part`` or ``add_assembly`` returned."""
+        if isinstance(node, bool) or not isinstance(node, (int, np.integer)):
+            raise TypeError(
+                f"{argument} is {node!r}; pass the index that add_part or add_assembly returned"
+                + ("" if argument == "b" else ", or None")
+            )
+        if not 0 <= node < len(self.nodes):
+            raise ValueError(f"{argument} is {node}; the scene has nodes 0 to {len(self.nodes) - 1}")
+        if isinstance(node, PartIndex) and node.scene != self._number and node >= self._given:
+            raise ValueError(f"{argument} is {node} of another scene; pass an index that this one returned")
+
+    def add_joint(
+        self,
+        kind: JointKind | str,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector = (1.0, 0.0, 0.0),
+        secondary: Vector | None = None,
+        name: str = "",
+        lead: float = 0.0,
+        limits: Any = None,
+        drive: Any = None,
+        spring: Any = None,
+        damping: Any = None,
+        collide: bool = False,
+        **freedoms: FreedomLike,
+    ) -> Joint:
+        """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
+
+        kind: a JointKind or its word (``revolute``).
+        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD.  lead: of a screw, metres a turn.
+        limits: (lower, upper) in degrees or metres from the present pose.
+        drive: a dict with ``target``, ``target_velocity`` (degrees or metres, a second), ``stiffness``, ``damping``,
+        ``max_force`` (newtons, metres, radians), ``acceleration``, ``motor``.
+        spring, damping: of the joint itself: stiffness or (stiffness, rest in degrees or metres); newtons, metres, radians.
+        Each of these four is for the one freedom that the kind leaves, or a dict by the names of several.
+        collide: whether the two parts touch each other.
+        freedoms: ``tx`` .. ``rz``, replacing those that the kind leaves: a range in degrees or metres, True (free), False
+        (locked), or a model ``Freedom``, whose angles are radians.
+        Raises TypeError for a side that is no index, ValueError for one that no node of this scene has, for an axis without
+        length, for a number that is not finite (but for the ends of a range), for a freedom that the kind does not leave,
+        and for a part joined to itself.
+        """
+        kind = kind_of_word(kind)
+        if a is not None:
+            self._check_index(a, "a")
+        self._check_index(b, "b")
+        if a == b:
+            raise ValueError(f"a and b are both {a}; pass two different parts, or None for the world as a")
+        main = checked_vector("the axis", axis)
+        if not np.linalg.norm(main) > 0.0:
+            raise ValueError(
+                f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
+            )
+        near = None if secondary is None else checked_vector("the secondary axis", secondary)
+        pitch = checked_number("the lead", lead)
+        asked = freedoms_asked(kind, freedoms, limits, drive, spring, damping)
+        world = Pose(frame_from_axes(main, near), checked_vector("the point", point))
+        frame_a, frame_b = (self.pose(side).inverse() @ world for side in (a, b))
+        joint = Joint(
+            self._joint_id(name or f"{kind.value}:{len(self.joints) + 1}"),
+            kind,
+            None if a is None else int(a),
+            int(b),
+            frame_a,
+            frame_b,
+            asked,
+            name=name,
+            lead=pitch,
+            collide=bool(collide),
+        )
+        self.joints.append(joint)
+        return joint
+
+    def _joint_id(self, wanted: str) -> str:
+        """The name, with the first number that no other joint's id has."""
+        taken = {joint.id for joint in self.joints}
+        found, count = wanted, 1
+        while found in taken:
+            count += 1
+            found = f"{wanted}:{count}"
+        return found
+
+    def add_hinge(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector,
+        limits: Range | None = None,
+        drive: Any = None,
+        spring: Any = None,
+        damping: float | None = None,
+        collide: bool = False,
+        name: str = "",
+    ) -> Joint:
+        """Add a hinge: ``b`` turns against ``a`` about ``axis`` through ``point``, right-hand rule.
+
+        limits: (lower, upper) in degrees from the present pose, or None.  drive, spring, damping, collide: see ``add_joint``.
+        Raises ValueError for limits in the wrong order, and what ``add_joint`` raises.
+        """
+        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        return self.add_joint(
+            JointKind.REVOLUTE, a, b, point=point, axis=axis, name=name, collide=collide, **options
+        )
+
+    def add_slider(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector,
+        limits: Range | None = None,
+        drive: Any = None,
+        spring: Any = None,
+        damping: float | None = None,
+        collide: bool = False,
+        name: str = "",
+    ) -> Joint:
+        """Add a slider: ``b`` moves against ``a`` along ``axis``.  limits: (lower, upper) in metres from the
+        present pose, or None.  The rest as ``add_hinge`` has it."""
+        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        return self.add_joint(
+            JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, collide=collide, **options
+        )
+
+    def add_ball(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        point: Vector,
+        axis: Vector = (1.0, 0.0, 0.0),
+        limits: Any = None,
+        drive: Any = None,
+        spring: Any = None,
+        damping: Any = None,
+        collide: bool = False,
+        name: str = "",
+    ) -> Joint:
+        """Add a ball joint: ``b`` turns against ``a`` about ``point``.
+
+        axis: that ``rx`` turns about.  limits and the rest: by ``rx``, ``ry``, ``rz``; see ``add_joint``.
+        """
+        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        return self.add_joint(
+            JointKind.SPHERICAL, a, b, point=point, axis=axis, name=name, collide=collide, **options
+        )
+
+    def add_fixed(self, a: int | None, b: int, *, collide: bool = False, name: str = "") -> Joint:
+        """Fix ``b`` to ``a`` where they stand now.  Raises what ``add_joint`` raises."""
+        self._check_index(b, "b")
+        point = tuple(self.nodes[b].pose.translation.tolist())
+        return self.add_joint(JointKind.FIXED, a, b, point=point, name=name, collide=collide)
+
+    def add_coupling(
+        self, a: JointLike, b: JointLike, ratio: float, *, offset: float = 0.0, name: str = ""
+    ) -> Coupling:
+        """Let joint ``b`` follow joint ``a``: q_b = ratio q_a + offset, in degrees and metres from the present pose.
+
+        a, b: a joint, its id, or (joint, "rx") where it has several freedoms.
+        Raises ValueError for a joint of another scene, a freedom that is locked, and a ratio of 0 or that is no number.
+        """
+        (joint_a, freedom_a), (joint_b, freedom_b) = self._coordinate("a", a), self._coordinate("b", b)
+        factor, shift = checked_number("the ratio", ratio), checked_number("the offset", offset)
+        if factor == 0.0:
+            raise ValueError("the ratio is 0; nothing would follow. Pass how far b moves for one of a")
+        turns = [angular(FREEDOM_NAMES[f]) for f in (freedom_a, freedom_b)]
+        unit_a, unit_b = (math.radians(1.0) if turn else 1.0 for turn in turns)
+        kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR
+        coupling = Coupling(
+            name or f"{kind.value}:{len(self.couplings) + 1}",
+            kind,
+            joint_b.id,
+            freedom_b,
+            (Term(joint_a.id, freedom_a, factor * unit_b / unit_a),),
+            shift * unit_b,
+        )
+        self.couplings.append(coupling)
+        return coupling
+
+    def _coordinate(self, argument: str, asked: JointLike) -> tuple[Joint, int]:
+        which, name = asked if isinstance(asked, tuple) else (asked, "")
+        wanted = which.id if isinstance(which, Joint) else which
+        joint = next((joint for joint in self.joints if joint.id == wanted), None)
+        if joint is None:
+            raise ValueError(f"{argument} is {asked!r}; pass a joint of this scene, or its id")
+        free = [FREEDOM_NAMES[i] for i in joint.unlocked]
+        if not name and len(free) != 1:
+            raise ValueError(
+                f"{argument} is joint {joint.id}, which leaves {', '.join(free) or 'nothing'} free; pass (joint, name)"
+            )
+        if name and name not in free:
+            raise ValueError(
+                f"{argument} is {name!r} of joint {joint.id}, which leaves {', '.join(free)} free"
+            )
+        return joint, FREEDOM_NAMES.index(name or free[0])

@@ -1,0 +1,1 @@
+"""A CAD bundle by hand: begun from a folder of meshes, and looked over."""

@@ -1,0 +1,132 @@
+"""A folder of meshes, one part a file, as the beginning of a CAD bundle that a person goes on with.
+
+JSON has no comments; they stand in ``extras``, which readers keep and never interpret.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..geometry.files import FORMATS
+from ..sources.reading.record import is_array, is_object
+
+COMMENT = (
+    "Written by kinefab bundle init. Every text called comment may go; it is never read.",
+    "units.length holds for every number here; mesh.units for the coordinates in the mesh files.",
+    "up is the source's up axis, X, Y or Z. A part's pose: o is its origin, x y z its axes, all in the world.",
+    "mesh.coordinates part: a mesh is moved by its part's pose. Meshes exported in place keep the pose as it is.",
+    "grounded true: the part does not move. Ground at least one.",
+    "Copy example into joints, and correct it: a and b are ids of components (or ground); o lies on the axis, z is",
+    "the axis; a limit counts only with its minEnabled or maxEnabled. Types: revolute, slider, cylindrical, ball, rigid.",
+    "Then: kinefab bundle check NAME.bundle.json. All fields: schemas/BUNDLE.md, schemas/bundle.schema.json.",
+)
+
+
+class NoBeginning(ValueError):
+    """Why there is no bundle to be made of the folder: a sentence, and what to do."""
+
+
+def meshes_in(folder: Path) -> list[Path]:
+    """The mesh files of a folder, by name.  Raises NoBeginning where there are none."""
+    try:
+        there = sorted(folder.iterdir(), key=lambda path: path.name)
+    except OSError as error:
+        raise NoBeginning(f"{folder} cannot be listed: {error.strerror or error}.") from None
+    found = [
+        path
+        for path in there
+        if path.suffix.lower() in FORMATS and not path.name.startswith(".") and path.is_file()
+    ]
+    if not found:
+        raise NoBeginning(
+            f"{folder} holds no mesh file ({', '.join(FORMATS)}); export one file for each part."
+        )
+    for path in found:
+        if any("\ud800" <= letter <= "\udfff" for letter in path.name):
+            raise NoBeginning(f"The name of {path!a} is not UTF-8; rename the file.")
+    return found
+
+
+def begin(files: Sequence[Path], target: Path, units: str, up: str) -> str:
+    """The text of a bundle with one part for each mesh file.
+
+    files: at least one.  target: the bundle; the files are named relative to its folder.  units: of the files and of
+    the bundle, a word of the schema.  up: "X", "Y" or "Z".  Raises NoBeginning where a file is not below that folder.
+    """
+    names = _names(files)
+    first, last = names[0], names[-1] if len(names) > 1 else "ground"
+    meta = {
+        "format": "kinefab.bundle",
+        "version": "1.0",
+        "generator": {"name": "kinefab bundle init"},
+        "units": {"length": units, "angle": "deg", "mass": "kg"},
+        "up": up,
+        "mesh": {"units": units, "layout": "per_part", "coordinates": "part"},
+        "extras": {"comment": list(COMMENT), "example": _example(first, last)},
+    }
+    components = [
+        {
+            "id": name,
+            "kind": "part",
+            "pose": {"o": [0, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]},
+            "grounded": False,
+            "file": _relative(file, target),
+            "bodies": [{"id": name}],
+        }
+        for name, file in zip(names, files)
+    ]
+    return _laid_out({"meta": meta, "components": components, "joints": []})
+
+
+def _example(a: str, b: str) -> dict[str, object]:
+    frame: dict[str, object] = {"in": "world", "o": [0, 0, 0], "z": [0, 0, 1], "x": [1, 0, 0]}
+    turn = {"name": "rz", "value": 0, "min": -10, "max": 80, "minEnabled": True, "maxEnabled": True}
+    if b == "ground":
+        a, b = b, a
+    return {
+        "id": "Hinge:1",
+        "type": "revolute",
+        "a": a,
+        "b": b,
+        "frameA": frame,
+        "frameB": frame,
+        "dof": [turn],
+    }
+
+
+def _names(files: Sequence[Path]) -> list[str]:
+    """Unique ids: the name without its ending, with it where two would be the same or it is a reserved word."""
+    stems = [file.stem for file in files]
+    return [file.name if stems.count(file.stem) > 1 or file.stem == "ground" else file.stem for file in files]
+
+
+def _relative(file: Path, target: Path) -> str:
+    try:
+        return file.resolve().relative_to(target.parent.resolve()).as_posix()
+    except ValueError:
+        raise NoBeginning(
+            f"{file} is not below {os.fspath(target.parent) or '.'}; write the bundle beside the meshes or above them."
+        ) from None
+
+
+def _laid_out(values: dict[str, object]) -> str:
+    """JSON to be edited by hand: numbers that belong together stay on one line."""
+
+    def text(value: object, indent: str) -> str:
+        flat = json.dumps(value, ensure_ascii=False)
+        if len(flat) + len(indent) <= 100:
+            return flat
+        inner = indent + "  "
+        if is_object(value):
+            lines = [
+                f"{inner}{json.dumps(k, ensure_ascii=False)}: {text(v, inner)}" for k, v in value.items()
+            ]
+            return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+        if not is_array(value):
+            return flat
+        return "[\n" + ",\n".join(inner + text(v, inner) for v in value) + f"\n{indent}]"
+
+    return text(values, "") + "\n"

@@ -1,0 +1,87 @@
+"""The commands ``kinefab bundle``; what takes long to import is imported inside."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Optional
+
+import typer
+
+from ..diagnostics import Report, Severity
+
+ENDING = ".bundle.json"
+UNITS = "mm cm dm m um in ft yd millimeter centimeter micron inch foot".split()
+
+
+def bundle_commands(log: Callable[[Report], None]) -> typer.Typer:
+    """The group of commands.  log: shows a report to the user."""
+    group = typer.Typer(name="bundle", help="Begin a CAD bundle by hand, and check it.", no_args_is_help=True)
+
+    @group.command()
+    def init(
+        folder: Path = typer.Argument(..., help="Folder of meshes, one part a file.", show_default=False),
+        output: Optional[Path] = typer.Option(
+            None, "--output", "-o", help="NAME.bundle.json; in the folder, by its name, otherwise."
+        ),
+        units: Optional[str] = typer.Option(
+            None, "--units", help=f"Unit of the mesh files, asked where not stated: {', '.join(UNITS)}."
+        ),
+        up: str = typer.Option("Z", "--up", help="Axis that is up in the meshes: X, Y or Z."),
+        force: bool = typer.Option(False, "--force", help="Overwrite a bundle that is there."),
+    ) -> None:
+        """Write a commented, valid bundle of a folder of meshes, to go on with by hand."""
+        from ..replacing import write_whole
+        from .beginning import NoBeginning, begin, meshes_in
+
+        target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
+        if not target.name.endswith(ENDING):
+            raise typer.BadParameter(f"{target} does not end in {ENDING}", param_hint="--output")
+        if up.upper() not in ("X", "Y", "Z"):
+            raise typer.BadParameter(f"{up!r} is no axis: X, Y or Z", param_hint="--up")
+        if units is None and sys.stdin.isatty():
+            units = str(typer.prompt("Unit of the mesh files (mm, cm, m, in, ...)"))
+        if units not in UNITS:
+            told = "mesh files do not tell their unit; state it" if units is None else f"{units!r} is no unit"
+            raise typer.BadParameter(f"{told}: {', '.join(UNITS)}", param_hint="--units")
+        if os.path.lexists(target) and not force:
+            raise typer.BadParameter(
+                f"{target} is there already; --force overwrites it", param_hint="--output"
+            )
+        try:
+            files = meshes_in(folder)
+            text = begin(files, target, units, up.upper())
+        except NoBeginning as reason:
+            typer.echo(f"{reason} {target} was not written.", err=True)
+            raise typer.Exit(1) from None
+        try:
+            write_whole(target, text.encode("utf-8"))
+        except OSError as error:
+            report = Report()
+            report.add("TARGET_UNWRITABLE", path=target, detail=error.strerror or str(error))
+            log(report)
+            raise typer.Exit(1) from None
+        typer.echo(
+            f"{target}: {len(files)} parts in {units}, {up.upper()} up, no joints yet. "
+            f"Ground a part, add joints, then: kinefab bundle check {target}",
+            err=True,
+        )
+
+    @group.command()
+    def check(file: Path = typer.Argument(..., help="NAME.bundle.json.", show_default=False)) -> None:
+        """Tell everything that is missing or wrong in a bundle, at once."""
+        if not file.name.lower().endswith(".json"):
+            raise typer.BadParameter(f"{file} does not end in {ENDING}", param_hint="FILE")
+        from .checking import check as run
+
+        found = run(file)
+        log(found)
+        errors, warnings = (len(found.of(grade)) for grade in (Severity.ERROR, Severity.WARNING))
+        typer.echo(f"{file}: {errors} errors, {warnings} warnings.")
+        if errors:
+            raise typer.Exit(1)
+
+    _ = init, check
+    return group

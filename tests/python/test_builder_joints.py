@@ -1,0 +1,189 @@
+"""Joints, couplings, rotations and shapes as a script states them: by word, in degrees, and refused with what to pass."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from kinefab.model import RX, TX, Collider, ColliderKind, JointKind, Motion, PhysicsMaterial, Surface
+from kinefab.spatial import rotation_about
+from scenes import BOX
+
+AT = {"point": (0, 0, 0), "axis": (0, 0, 1)}
+
+
+def pair() -> kinefab.Scene:
+    scene = kinefab.Scene()
+    scene.add_part("Base", grounded=True)
+    scene.add_part("Arm")
+    return scene
+
+
+def test_a_joint_by_its_word_with_limits_drive_spring_and_damping_in_degrees():
+    scene = pair()
+    drive = {"target": 30, "target_velocity": -90, "stiffness": 5.0, "max_force": 7.0}
+    joint = scene.add_joint(
+        "revolute", 0, 1, **AT, limits=(-10, 80), drive=drive, spring=(4.0, -45), damping=0.5
+    )
+    freedom = joint.freedoms[RX]
+    assert joint.kind is JointKind.REVOLUTE and freedom.motion is Motion.LIMITED
+    assert (freedom.lower, freedom.upper) == pytest.approx((math.radians(-10), math.radians(80)))
+    assert freedom.drive.target == pytest.approx(math.radians(30))
+    assert freedom.drive.target_velocity == pytest.approx(math.radians(-90))
+    assert (freedom.drive.stiffness, freedom.drive.max_force) == (5.0, 7.0)
+    assert (freedom.passive.stiffness, freedom.passive.damping) == (4.0, 0.5)
+    assert freedom.passive.rest == pytest.approx(math.radians(-45))
+
+
+def test_several_freedoms_are_named():
+    joint = pair().add_joint(
+        "cylindrical", 0, 1, **AT, limits={"tx": (-0.1, 0.2), "rx": (-10, 80)}, damping={"tx": 3}
+    )
+    assert (joint.freedoms[TX].lower, joint.freedoms[TX].upper) == (-0.1, 0.2)
+    assert joint.freedoms[RX].upper == pytest.approx(math.radians(80))
+    assert joint.freedoms[TX].passive.damping == 3
+
+
+def test_freedoms_by_keyword_are_ranges_in_degrees():
+    joint = pair().add_joint("general", 0, 1, **AT, rx=(-10, 80), tz=True, ty=False)
+    assert joint.freedoms[RX].upper == pytest.approx(math.radians(80))
+    assert [f.motion for f in joint.freedoms] == [
+        Motion(w) for w in ("locked", "locked", "free", "limited", "locked", "locked")
+    ]
+
+
+@pytest.mark.parametrize(
+    "kind, options, error, says",
+    [
+        (
+            "revolute",
+            {"rz": (0, 1)},
+            ValueError,
+            "turns about its axis, which is rx; rz is locked in it: pass rx=",
+        ),
+        (
+            "prismatic",
+            {"rx": True},
+            ValueError,
+            "slides along its axis, which is tx; rx is locked in it: pass tx=",
+        ),
+        ("hinge", {}, ValueError, "pass one of: fixed, revolute"),
+        ("revolute", {"turn": 1}, TypeError, "'turn' is no freedom; pass one of: tx"),
+        ("planar", {"limits": (0, 1)}, ValueError, "leaves ty, tz, rx; pass limits by name"),
+        ("revolute", {"drive": 5}, TypeError, "pass a dict such as"),
+        ("revolute", {"drive": {"speed": 5}}, TypeError, "pass"),
+        ("revolute", {"spring": (1, 2, 3)}, TypeError, "(stiffness, rest)"),
+        ("revolute", {"damping": -1.0}, ValueError, "not below 0"),
+        ("revolute", {"limits": "0, 1"}, TypeError, "pass two numbers"),
+    ],
+)
+def test_a_wrong_joint_says_what_to_pass(kind, options, error, says):
+    scene = pair()
+    with pytest.raises(error) as raised:
+        scene.add_joint(kind, 0, 1, **AT, **options)
+    assert says in str(raised.value) and scene.joints == []
+
+
+def test_joints_of_one_name_are_told_apart(tmp_path):
+    scene = pair()
+    scene.add_part("Hand")
+    first = scene.add_hinge(0, 1, **AT, name="Pin")
+    second = scene.add_hinge(1, 2, point=(1, 0, 0), axis=(0, 0, 1), name="Pin")
+    assert (first.id, second.id, second.name) == ("Pin", "Pin:2", "Pin")
+    result = kinefab.export(scene, tmp_path / "two.kinefab")
+    assert {o.feature for o in result.report.outcomes} >= {"joint Pin", "joint Pin:2"}
+
+
+def test_a_coupling_counts_in_degrees_and_metres(tmp_path):
+    """A rack of 2 mm a degree, and a gear of -3 with an offset of 5 degrees."""
+    scene = pair()
+    for name in ("Rack", "Wheel"):
+        scene.add_part(name)
+    pinion = scene.add_hinge(0, 1, **AT, name="Pinion")
+    rack = scene.add_slider(0, 2, point=(0, 0, 0), axis=(1, 0, 0))
+    wheel = scene.add_hinge(0, 3, point=(1, 0, 0), axis=(0, 0, 1))
+    travel, turn = scene.add_coupling(pinion, rack, 0.002), scene.add_coupling("Pinion", wheel, -3, offset=5)
+    assert travel.terms[0].ratio == pytest.approx(0.002 * 180 / math.pi) and travel.kind.value == "rack"
+    assert (turn.terms[0].ratio, turn.offset) == pytest.approx((-3, math.radians(5)))
+    content = json.loads(kinefab.export(scene, tmp_path / "gears.kinefab").path.read_text("utf-8"))
+    assert {c["ratio"] for c in content["couplings"]} == {0.002, -3} and content["analysis"]["mobility"] == 1
+
+
+@pytest.mark.parametrize(
+    "a, b, ratio, says",
+    [
+        ("Nowhere", "Pin", 1.0, "pass a joint of this scene"),
+        ("Pin", "Fix", 1.0, "leaves nothing free"),
+        (("Pin", "tx"), "Pin", 1.0, "which leaves rx free"),
+        ("Pin", "Pin", 0.0, "nothing would follow"),
+        ("Pin", "Pin", math.nan, "pass a finite number"),
+    ],
+)
+def test_a_wrong_coupling_says_what_to_pass(a, b, ratio, says):
+    scene = pair()
+    scene.add_part("Lump")
+    scene.add_hinge(0, 1, **AT, name="Pin")
+    scene.add_fixed(1, 2, name="Fix")
+    with pytest.raises(ValueError, match="pass|nothing|leaves") as raised:
+        scene.add_coupling(a, b, ratio)
+    assert says in str(raised.value) and scene.couplings == []
+
+
+def test_rotations_in_every_form_are_one():
+    x, z = (
+        rotation_about(np.array([1.0, 0, 0]), math.radians(30)),
+        rotation_about(np.array([0, 0, 1.0]), math.radians(-70)),
+    )
+    turn = x @ z  # about x, then about the part's own z
+    whole = np.eye(4)
+    whole[:3, :3], whole[:3, 3] = turn, (1, 2, 3)
+    half = np.radians([15, -35])
+    cx, sx, cz, sz = math.cos(half[0]), math.sin(half[0]), math.cos(half[1]), math.sin(half[1])
+    quaternion = (sx * cz, -sx * sz, cx * sz, cx * cz)
+    scene = kinefab.Scene()
+    for rotation in (turn, quaternion, ("XYZ", (30, 0, -70)), ("zxy", (-70, 30, 0)), whole):
+        scene.add_part("Part", rotation=rotation)
+    for node in scene.nodes:
+        assert np.abs(node.pose.rotation - turn).max() < 1e-12
+    assert scene.nodes[-1].pose.translation.tolist() == [1, 2, 3]
+
+
+def test_parts_from_scenes_and_files_in_their_unit(tmp_path):
+    """Two boxes of a trimesh.Scene become two bodies; a file in millimetres is read in metres when it is exported."""
+    both = trimesh.Scene()
+    both.add_geometry(trimesh.creation.box((1, 2, 3)), node_name="left")
+    both.add_geometry(
+        trimesh.creation.box((1, 1, 1)),
+        node_name="right",
+        transform=trimesh.transformations.translation_matrix((5, 0, 0)),
+    )
+    trimesh.creation.box((100, 200, 300)).export(tmp_path / "block.stl")
+    scene = kinefab.Scene()
+    scene.add_part("Twins", both, unit="cm", density=1000)
+    scene.add_part("Block", tmp_path / "block.stl", unit="mm", density=1000)
+    result = kinefab.export(scene, tmp_path / "parts.kinefab")
+    bodies = [c for o in result.unity.gameObjects for c in o.components if type(c).__name__ == "Rigidbody"]
+    assert [b.mass for b in bodies] == pytest.approx([0.007, 6.0])
+    assert bodies[0].centerOfMass == pytest.approx((-0.05 / 7, 0, 0))
+    with pytest.raises(TypeError, match="pass a trimesh.Trimesh or trimesh.Scene"):
+        scene.add_part("Wrong", 5)
+
+
+def test_a_part_states_its_colliders_and_materials(tmp_path):
+    rubber, paint = PhysicsMaterial("rubber", 0.9, 1.0), Surface("paint", (1, 0, 0, 1))
+    scene = kinefab.Scene()
+    scene.add_part("Plain", BOX, collider="box", material=paint)
+    scene.add_part("None", BOX, collider="none")
+    scene.add_part("Own", BOX, collider=Collider(ColliderKind.SPHERE, radius=0.2), material=(rubber, paint))
+    result = kinefab.export(scene, tmp_path / "parts.kinefab")
+    kinds = [
+        [type(c).__name__ for c in o.components if "Collider" in type(c).__name__]
+        for o in result.unity.gameObjects
+    ]
+    assert kinds == [["BoxCollider"], [], ["SphereCollider"]]
+    assert [m.name for m in result.unity.physicsMaterials] == ["rubber"]
+    assert result.unity.materials[0].color == (1, 0, 0, 1)

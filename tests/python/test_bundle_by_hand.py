@@ -1,0 +1,195 @@
+"""A bundle by hand: begun from a folder, checked at once, and the example of BUNDLE.md."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from jsonschema import Draft202012Validator
+from kinefab import sources
+from kinefab.bundling.checking import check
+from kinefab.cli import app
+from kinefab.diagnostics import KinefabError, Report, schema_directory
+from kinefab.model import JointKind
+from kinefab.options import ExportOptions
+from kinefab.pipeline import prepared
+from source_bundles import bundle, codes, part, read
+from typer.testing import CliRunner
+
+ROOT = Path(__file__).parents[2]
+
+
+def box(path: Path, *size: float) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    trimesh.creation.box(size).export(path)
+
+
+def run(*arguments: object):
+    return CliRunner().invoke(app, [str(a) for a in arguments])
+
+
+def by_schema(values: object) -> list:
+    schema = json.loads((schema_directory() / "bundle.schema.json").read_text(encoding="utf-8"))
+    return list(Draft202012Validator(schema).iter_errors(values))
+
+
+def test_init_writes_a_bundle_that_exports(tmp_path):
+    """Valid by the schema and without remark; a 10 x 20 x 30 mm box with Z up is 10 x 30 x 20 mm with Y up."""
+    folder = tmp_path / "my parts"
+    box(folder / "Base.stl", 10, 20, 30)
+    box(folder / "Ärm.obj", 1, 2, 3)
+    (folder / "notes.txt").write_text("no mesh")
+    target = folder / "m.bundle.json"
+    assert run("bundle", "init", folder, "-o", target, "--units", "mm").exit_code == 0
+    values = json.loads(target.read_text(encoding="utf-8"))
+    assert by_schema(values) == []
+    assert [c["id"] for c in values["components"]] == ["Base", "Ärm"]
+    assert check(target).diagnostics == []
+    meshes = prepared(target, ExportOptions(), Report()).meshes
+    sizes = sorted(tuple(np.ptp(mesh.vertices, axis=0).round(9)) for mesh in meshes)
+    assert sizes == [(0.001, 0.003, 0.002), (0.01, 0.03, 0.02)]
+
+
+def test_the_example_in_the_comment_is_a_joint(tmp_path):
+    """What a person is told to copy into ``joints`` is read without remark."""
+    for name, size in (("Base", 10), ("Arm", 5)):
+        box(tmp_path / f"{name}.stl", size, size, size)
+    target = tmp_path / "m.bundle.json"
+    run("bundle", "init", tmp_path, "-o", target, "--units", "cm")
+    values = json.loads(target.read_text(encoding="utf-8"))
+    values["joints"] = [values["meta"]["extras"]["example"]]
+    values["components"][1]["grounded"] = True
+    target.write_text(json.dumps(values), encoding="utf-8")
+    report = Report()
+    scene = sources.read(target, report)
+    assert report.diagnostics == [] and [j.kind for j in scene.joints] == [JointKind.REVOLUTE]
+
+
+@pytest.mark.parametrize("arguments", [(), ("--units", "furlong"), ("--units", "mm", "--up", "W")])
+def test_init_refuses_what_is_not_stated(tmp_path, arguments):
+    box(tmp_path / "a.stl", 1, 1, 1)
+    done = run("bundle", "init", tmp_path, *arguments)
+    assert done.exit_code == 2 and list(tmp_path.glob("*.json")) == []
+
+
+def test_init_leaves_a_bundle_that_is_there(tmp_path):
+    """Somebody's work by hand is not overwritten unasked."""
+    box(tmp_path / "a.stl", 1, 1, 1)
+    target = tmp_path / "m.bundle.json"
+    target.write_text("mine")
+    assert run("bundle", "init", tmp_path, "-o", target, "--units", "mm").exit_code == 2
+    assert target.read_text() == "mine"
+    assert run("bundle", "init", tmp_path, "-o", target, "--units", "mm", "--force").exit_code == 0
+
+
+def test_init_refuses_a_folder_without_meshes_and_a_bundle_beside_the_way(tmp_path):
+    (tmp_path / "empty").mkdir()
+    done = run("bundle", "init", tmp_path / "empty", "--units", "mm")
+    assert done.exit_code == 1 and "no mesh file" in done.output
+    box(tmp_path / "in" / "a.stl", 1, 1, 1)
+    done = run("bundle", "init", tmp_path / "in", "-o", tmp_path / "empty" / "m.bundle.json", "--units", "mm")
+    assert done.exit_code == 1 and "beside the meshes" in done.output
+    assert not (tmp_path / "empty" / "m.bundle.json").exists()
+
+
+def test_check_tells_every_layer_at_once(tmp_path):
+    """Header, components, joints and mesh files in one run."""
+    values = bundle(
+        {**part("A"), "file": "gone.stl", "parent": "Nobody"},
+        {"kind": "part"},
+        joints=[{"id": "J", "type": "turn", "a": "A", "b": "Nobody"}],
+    )
+    values["meta"] = {"format": "kinefab.bundle", "units": {"length": "furlong"}}
+    path = tmp_path / "bad.bundle.json"
+    path.write_text(json.dumps(values))
+    places = {(d.code, d.where.partition("#")[2]) for d in check(path).diagnostics}
+    assert {
+        ("UNIT_UNKNOWN", "/meta/units/length"),
+        ("BUNDLE_FIELD_MISSING", "/meta"),
+        ("BUNDLE_FIELD_MISSING", "/meta/units"),
+        ("PARENT_UNKNOWN", "/components/0/parent"),
+        ("BUNDLE_FIELD_MISSING", "/components/1"),
+        ("JOINT_TYPE_UNKNOWN", "/joints/0/type"),
+        ("COMPONENT_UNKNOWN", "/joints/0/b"),
+        ("GEOMETRY_UNREADABLE", "/components/0"),
+    } <= places
+    assert run("bundle", "check", path).exit_code == 1
+
+
+@pytest.mark.parametrize("layout", [{}, {"layout": "per_part"}, {"layout": "single"}])
+@pytest.mark.parametrize("files", [[], ["a.stl", "b.stl"]])
+def test_a_file_needs_no_layout_and_no_bodies(tmp_path, layout, files):
+    """A part's ``file`` is its body; only two files that are called one are refused."""
+    values = bundle({**part("A"), "file": "a.stl"}, {**part("B"), "file": "b.stl"})
+    values["meta"]["mesh"] = {"units": "m", "coordinates": "part", "files": files, **layout}
+    if layout.get("layout") == "single" and files:
+        with pytest.raises(KinefabError, match="MESH_LAYOUT"):
+            read(values, tmp_path)
+        return
+    scene, report = read(values, tmp_path)
+    assert codes(report) == []
+    references = [body.reference for node in scene.nodes for body in node.bodies]
+    assert [(r.path.name, r.key) for r in references] == [("a.stl", None), ("b.stl", None)]
+
+
+def test_files_without_unit_and_frame_are_refused(tmp_path):
+    with pytest.raises(KinefabError, match="'mesh' is missing"):
+        read(bundle({**part("A"), "file": "a.stl"}), tmp_path)
+
+
+def test_the_example_of_the_bundle_page(tmp_path):
+    """It begins with a bundle that exports without remark: a hinge about the vertical's cross axis, -10 to 80 degrees."""
+    text = (schema_directory() / "BUNDLE.md").read_text(encoding="utf-8")
+    block = re.search(r"```json\n(.*?)```", text, re.DOTALL).group(1)
+    assert text.index(block) < text.index("## Units")
+    assert by_schema(json.loads(block)) == []
+    path = tmp_path / "two.bundle.json"
+    path.write_text(block, encoding="utf-8")
+    box(tmp_path / "base.stl", 60, 40, 20)
+    box(tmp_path / "arm.stl", 10, 10, 30)
+    assert check(path).diagnostics == []
+    result = kinefab.export(path, tmp_path / "two.kinefab")
+    assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [("joint Hinge:1", "kept")]
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        ("a.iam", "capture inventor"),
+        ("A.SLDASM", "capture solidworks"),
+        ("a.f3z", "Fusion"),
+        ("a.asm.7", "Creo"),
+        ("a.prt", "NX"),
+        ("a.CATProduct", "CATIA"),
+        ("a.3dm", "Rhino"),
+        ("a.blend", "Blender"),
+        ("a.fbx", "bundle init"),
+        ("a.jt", "STEP"),
+        ("a.stl", "bundle init"),
+    ],
+)
+def test_an_unknown_ending_names_its_road(name, word):
+    with pytest.raises(KinefabError) as refused:
+        sources.read(Path(name), Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "SOURCE_FORMAT_UNKNOWN" and word in found.remedy and ".step" in found.remedy
+
+
+def test_the_page_of_cad_programs_is_short():
+    """Every program has its road, in five lines at most."""
+    text = (ROOT / "python" / "README.md").read_text(encoding="utf-8")
+    page = text.partition("## From my CAD program\n")[2].partition("\n## ")[0]
+    roads = {
+        name: [line for line in lines.splitlines() if line]
+        for name, lines in re.findall(
+            r"^\*\*([^*]+)\*\*[^\n]*\n(.*?)(?=^\*\*|\Z)", page, re.DOTALL | re.MULTILINE
+        )
+    }
+    programs = "Inventor SolidWorks Fusion Onshape FreeCAD Creo NX CATIA Rhino Blender".split()
+    assert {*programs, "Only STEP", "Only meshes"} == roads.keys()
+    assert all(1 <= len(lines) <= 5 for lines in roads.values())

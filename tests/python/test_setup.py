@@ -71,7 +71,12 @@ def demo(tmp_path: Path, *tools: str, **stubs: str) -> subprocess.CompletedProce
         (programs / name.replace("_", "-")).chmod(0o755)
     variables = (f"PYTHON={sys.executable}", f"OUT={tmp_path / 'out'}", "TOOL=nowhere")
     command = ["make", "-o", "setup", "demo", *variables]
-    made_by_make = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES"}  # `make test` runs this: no level below its own
+    made_by_make = {
+        "MAKEFLAGS",
+        "MFLAGS",
+        "MAKELEVEL",
+        "MAKEOVERRIDES",
+    }  # `make test` runs this: no level below its own
     environment = {
         **{name: value for name, value in os.environ.items() if name not in made_by_make},
         "PATH": str(programs),

@@ -9,7 +9,7 @@ from typing import Any, Optional
 
 import typer
 
-from .options import FormatOption
+from ..options import FormatOption
 
 Command = Callable[..., None]
 

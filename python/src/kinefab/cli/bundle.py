@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Optional
 
 import typer
 
 from ..diagnostics import Report, Severity
+from .console import log
 
 ENDING = ".bundle.json"
 UNITS = "mm cm dm m um in ft yd millimeter centimeter micron inch foot".split()
 
 
-def bundle_commands(log: Callable[[Report], None]) -> typer.Typer:
-    """The group of commands.  log: shows a report to the user."""
+def bundle_commands() -> typer.Typer:
+    """The group of commands."""
     group = typer.Typer(name="bundle", help="Begin a CAD bundle by hand, and check it.", no_args_is_help=True)
 
     @group.command()
@@ -33,8 +33,8 @@ def bundle_commands(log: Callable[[Report], None]) -> typer.Typer:
         force: bool = typer.Option(False, "--force", help="Overwrite a bundle that is there."),
     ) -> None:
         """Write a commented, valid bundle of a folder of meshes, to go on with by hand."""
+        from ..bundling.beginning import NoBeginning, begin, meshes_in
         from ..replacing import write_whole
-        from .beginning import NoBeginning, begin, meshes_in
 
         target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
         if not target.name.endswith(ENDING):
@@ -74,7 +74,7 @@ def bundle_commands(log: Callable[[Report], None]) -> typer.Typer:
         """Tell everything that is missing or wrong in a bundle, at once."""
         if not file.name.lower().endswith(".json"):
             raise typer.BadParameter(f"{file} does not end in {ENDING}", param_hint="FILE")
-        from .checking import check as run
+        from ..bundling.checking import check as run
 
         found = run(file)
         log(found)

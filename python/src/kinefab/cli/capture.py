@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Optional
 
 import typer
 
-from .diagnostics import KinefabError, Report, diagnostic
+from ..diagnostics import KinefabError, Report, diagnostic
+from .console import log
 
 if TYPE_CHECKING:
-    from .capture.run import Captured
+    from ..capture.run import Captured
 
 NOT_YET = "Not yet run inside the program: written to its documentation, and the capture checks itself."
 OUTPUT: Path = typer.Option(
@@ -62,8 +63,8 @@ HELP_FUSION = f"""Write the add-in that captures the design open in Fusion.
 {NOT_YET}"""
 
 
-def commands(log: Callable[[Report], None]) -> typer.Typer:
-    """The group of commands.  log: shows a report to the user."""
+def capture_commands() -> typer.Typer:
+    """The group of commands."""
     group = typer.Typer(
         name="capture",
         short_help="Write what a running CAD program says of its open assembly as a CAD bundle.",
@@ -87,9 +88,9 @@ def commands(log: Callable[[Report], None]) -> typer.Typer:
             return
         if replay is None or output is None:
             raise typer.BadParameter("--replay needs a record, and --output the bundle to write")
-        from .capture.run import replay as run
+        from ..capture.run import replay as run
 
-        _finish(lambda report: run(replay, output, report, _axis(up)), output, log)
+        _finish(lambda report: run(replay, output, report, _axis(up)), output)
 
     def over_com(word: str, name: str) -> None:
         @group.command(name=word, help=HELP_COM.format(name=name, word=word))
@@ -99,9 +100,9 @@ def commands(log: Callable[[Report], None]) -> typer.Typer:
             blank_names: bool = BLANK,
             up: Optional[str] = UP,
         ) -> None:
-            from .capture.run import capture as run
+            from ..capture.run import capture as run
 
-            _finish(lambda report: run(word, output, report, record, blank_names, _axis(up)), output, log)
+            _finish(lambda report: run(word, output, report, record, blank_names, _axis(up)), output)
 
         _ = program
 
@@ -118,12 +119,11 @@ def commands(log: Callable[[Report], None]) -> typer.Typer:
         blank_names: bool = BLANK,
         up: Optional[str] = UP,
     ) -> None:
-        from .capture.run import capture_onshape as run
+        from ..capture.run import capture_onshape as run
 
         _finish(
             lambda report: run(source, os.environ, output, report, record, blank_names, _axis(up)),
             output,
-            log,
         )
 
     @group.command(help=HELP_FUSION)
@@ -132,7 +132,7 @@ def commands(log: Callable[[Report], None]) -> typer.Typer:
             ..., "--install", help="Folder for add-ins to write ours into.", show_default=False
         ),
     ) -> None:
-        from .capture.fusion.install import install as run
+        from ..capture.fusion.install import install as run
 
         try:
             made = run(install)
@@ -153,7 +153,7 @@ def _axis(up: str | None) -> str:
     return (up or "").upper()
 
 
-def _finish(run: Callable[[Report], Captured], output: Path, log: Callable[[Report], None]) -> None:
+def _finish(run: Callable[[Report], Captured], output: Path) -> None:
     if not output.name.endswith(TARGET):
         raise typer.BadParameter(f"{output} does not end in {TARGET}", param_hint="--output")
     report = Report()

@@ -7,9 +7,12 @@ from typing import Any, Optional
 import typer
 
 from ..options import DEFAULT_DENSITY, ColliderShape, ExportOptions
-from ..targets import known_endings
+from ..sources import source_options
+from ..targets import known_endings, target_options
+from .asking import asking
 
 
+@asking(("reading", source_options()), ("writing", target_options()))
 def batch(
     reading: dict[str, Any],
     writing: dict[str, Any],
@@ -45,10 +48,10 @@ def batch(
     as_json: bool = typer.Option(False, "--json", help="Print one JSON line a file as it is done."),
 ) -> None:
     """Export many sources, each in a process of its own; what is up to date is skipped."""
+    from ..batching.cluster import executor_of
+    from ..batching.run import batch as run
+    from ..batching.watching import watched
     from ..diagnostics import KinefabError
-    from .cluster import executor_of
-    from .run import batch as run
-    from .watching import watched
 
     if f".{to}" not in known_endings():
         raise typer.BadParameter(f"{to!r} is no output", param_hint="--to")

@@ -1,0 +1,79 @@
+"""What all commands say and write alike: findings, progress, files that cannot be written."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+
+from ..diagnostics import Report, Severity, diagnostic, listed, printable
+from ..replacing import write_whole
+
+verbosity = 0
+"""1: remarks are shown too; 0: warnings and errors; -1: errors only.  Set by the program's own options."""
+
+
+def demand_ending(output: Path, *endings: str) -> None:
+    """A file of another name would not be found by the program that reads it (Unity imports by ending)."""
+    if not output.name.endswith(endings):
+        raise typer.BadParameter(f"{output} does not end in {' or '.join(endings)}", param_hint="--output")
+
+
+def count(number: int, word: str, words: str) -> str:
+    """``1 joint``, ``2 joints``."""
+    return f"{number} {word if number == 1 else words}"
+
+
+def log(report: Report) -> None:
+    """Findings on stderr, one a line, coloured on a terminal; of thousands that are alike the first ones."""
+    from rich.console import Console
+    from rich.text import Text
+
+    least = {1: 0, 0: 1, -1: 2}[verbosity]
+    rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+    style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
+    console = Console(stderr=True, soft_wrap=True, highlight=False)
+    for found in listed(report.diagnostics):
+        if rank[found.severity] >= least:
+            console.print(Text(printable(str(found)), style=style[found.severity]))
+
+
+def write(path: Path, content: bytes) -> None:
+    """The file, whole; where that fails the old one stands, and the program ends."""
+    with unwritable_as_finding(path):
+        write_whole(path, content)
+
+
+@contextmanager
+def unwritable_as_finding(path: Path) -> Generator[None, None, None]:
+    """Where the file cannot be written: says so and ends the program."""
+    try:
+        yield
+    except OSError as error:
+        detail = error.strerror or str(error)
+        log(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]))
+        raise typer.Exit(1) from None
+
+
+@contextmanager
+def progress_bar() -> Generator[Callable[[str, float], None], None, None]:
+    """A bar on a terminal, nothing in a pipe.  Gives what advances it: a stage's name and its done part, 0 to 1."""
+    if verbosity < 0 or not sys.stderr.isatty():
+        yield lambda stage, fraction: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        tasks: dict[str, TaskID] = {}
+
+        def advance(stage: str, fraction: float) -> None:
+            if stage not in tasks:
+                tasks[stage] = bar.add_task(stage, total=1.0)
+            bar.update(tasks[stage], completed=fraction)
+
+        yield advance

@@ -1,0 +1,42 @@
+"""``kinefab mates``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Optional
+
+import typer
+
+from ..diagnostics import KinefabError, Report
+from ..sources import source_options
+from .asking import asking
+from .console import demand_ending, log, progress_bar, write
+
+
+@asking(("reading", source_options()))
+def mates(
+    reading: dict[str, Any],
+    source: Path = typer.Argument(
+        ..., help="Assembly with exact geometry: STEP or IGES.", show_default=False
+    ),
+    output: Optional[Path] = typer.Option(
+        None, "--output", "-o", help="File to write, NAME.mates.json; beside the source otherwise."
+    ),
+) -> None:
+    """Find the mates of an assembly that states none, for you to look over and to give by --mates."""
+    output = source.with_suffix(".mates.json") if output is None else output
+    demand_ending(output, ".mates.json")
+    from ..mates.listing import listing
+    from ..mates.mates_file import text
+    from ..pipeline import mates_of
+
+    found = Report()
+    try:
+        with progress_bar() as progress:
+            scene, mates = mates_of(source, reading, found, progress)
+    except KinefabError:
+        log(found)
+        raise typer.Exit(1) from None
+    log(found)
+    typer.echo(listing(scene, mates))
+    write(output, text(scene, mates).encode("utf-8"))

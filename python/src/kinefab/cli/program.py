@@ -1,0 +1,70 @@
+"""The program: its commands, and how it ends where nobody takes its output."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from .. import __version__
+from . import console
+from .analyse import analyse
+from .batch import batch
+from .bundle import bundle_commands
+from .capture import capture_commands
+from .export import export
+from .inspect import inspect
+from .mates import mates
+from .views import draw, report, view
+
+app = typer.Typer(
+    name="kinefab",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # importing rich for the help alone takes longer than all the rest
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"kinefab {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _common(
+    version: bool = typer.Option(
+        False, "--version", callback=_show_version, is_eager=True, help="Show the version."
+    ),
+    verbose: bool = typer.Option(
+        False, "--verbose", "-v", help="Show remarks too, not only warnings and errors."
+    ),
+    quiet: bool = typer.Option(False, "--quiet", "-q", help="Show errors only."),
+) -> None:
+    """Carry a mechanism out of CAD into Unity, moving as it moved in CAD."""
+    console.verbosity = 1 if verbose else -1 if quiet else 0
+
+
+for command in (export, analyse, mates, inspect, draw, report, view, batch):
+    app.command()(command)
+app.add_typer(capture_commands())
+app.add_typer(bundle_commands())
+
+
+def main() -> None:
+    """Entry point of the ``kinefab`` script."""
+    try:
+        try:
+            app()
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # whoever reads has enough; nothing more is to be flushed at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        typer.echo(f"kinefab: the output cannot be written: {error.strerror or error}", err=True)
+        sys.exit(1)

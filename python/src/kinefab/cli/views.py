@@ -1,0 +1,90 @@
+"""What people look at: ``kinefab draw``, ``view`` and ``report``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Optional
+
+import typer
+
+from ..diagnostics import KinefabError, Report
+from .console import demand_ending, log, write
+
+
+def draw(
+    file: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Path = typer.Option(
+        ..., "--output", "-o", help="Picture to write: NAME.svg, .png, .gif or .webp.", show_default=False
+    ),
+    motion: bool = typer.Option(False, "--motion", help="A moving SVG; .gif and .webp always move."),
+    joint: Optional[str] = typer.Option(
+        None, "--joint", help="What is driven; without it the first freedom."
+    ),
+) -> None:
+    """Draw a scene: its bodies, its joints and how far they move."""
+    demand_ending(output, ".svg", ".png", ".gif", ".webp")
+    try:
+        if output.suffix == ".svg" and not motion and file.suffix == ".kinefab":
+            from ..views.overview import picture
+
+            content = picture(file).encode("utf-8")
+        else:
+            from ..filming import film
+
+            content = film(file, output.suffix, joint)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--joint") from None
+    except KinefabError as error:
+        log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None
+    write(output, content)
+
+
+def view(
+    source: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Optional[Path] = typer.Option(
+        None,
+        "--output",
+        "-o",
+        help="Page to write: NAME.html; without it, in this folder.",
+        show_default=False,
+    ),
+    open_: bool = typer.Option(False, "--open", help="Open it in the browser."),
+    mates: Optional[Path] = typer.Option(
+        None, "--mates", help="NAME.mates.json: list its mates, to be switched."
+    ),
+) -> None:
+    """Write one HTML file that plays the mechanism: every freedom on a slider, nothing fetched."""
+    page = Path(source.name.split(".")[0] + ".html") if output is None else output
+    demand_ending(page, ".html")
+    from ..showing import view as run
+
+    try:
+        run(source, page, mates)
+    except KinefabError as error:
+        log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None
+    typer.echo(page)
+    if open_:
+        typer.launch(str(page))
+
+
+def report(
+    source: Path = typer.Argument(
+        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
+    ),
+    output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
+) -> None:
+    """Write the page of ``view`` with the analysis in words, plots of each freedom and what was lost."""
+    demand_ending(output, ".html")
+    from ..showing import report as run
+
+    try:
+        run(source, output)
+    except KinefabError as error:
+        log(error.report or Report(list(error.diagnostics)))
+        raise typer.Exit(1) from None

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, cast
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..unity.scene import Coupling, Joint, Mesh, UnityScene
 from .content import Content
-from .noun_entry import entry, unsaid
+from .noun_entry import Noun, entry, unsaid
 from .numbers import plain_value, significant
 
 FORMAT_VERSION = "1.0"
@@ -47,7 +47,7 @@ class _Buffer:
 
     def append(self, values: np.ndarray, dtype: str) -> dict[str, int]:
         """The accessor of ``values``, written little-endian and tightly packed as ``dtype``."""
-        data = memoryview(np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<"))).cast("B")
+        data = np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<")).data.cast("B")
         offset = self.length
         for piece in (data, bytes(-len(data) % 4)):
             self._file.write(piece)
@@ -145,10 +145,10 @@ def report_entries(report: Report) -> list[dict[str, Any]]:
 def _tell_losses(scene: UnityScene, report: Report) -> None:
     """What the nouns hold and the format 1.0 has no field for."""
 
-    def told(feature: str, noun: object) -> None:
+    def told(feature: str, noun: Noun) -> None:
         for name in unsaid(type(noun)):
             value = getattr(noun, name)
-            plain = next(field.default for field in fields(type(noun)) if field.name == name)
+            plain = next(field.default for field in fields(noun) if field.name == name)
             if name != "id" and value != plain:
                 report.dropped(feature, "TARGET_FIELD_DROPPED", field=name, target=".kinefab")
 
@@ -254,7 +254,8 @@ def canonical_json(content: dict[str, Any]) -> str:
     lines: list[str] = []
     for key, value in content.items():
         if isinstance(value, list) and value:
-            entries = [game_object(v) if key == "gameObjects" else flat(v) for v in value]
+            one = game_object if key == "gameObjects" else flat
+            entries = [one(v) for v in cast(list[Any], value)]
             lines.append(f"  {flat(key)}: " + block(entries, "    "))
         else:
             lines.append(f"  {flat(key)}: {flat(value)}")

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar, Protocol, cast
 
 from ..diagnostics import schema_directory
 from .numbers import plain_value, significant
@@ -19,6 +19,13 @@ RENAMED = {"Mobility": "analysis", "AnimationClip": "animation"}
 
 LEFT_OUT_EMPTY = frozenset({"because", "localPosition", "localRotation"})
 """Lists that are not written when there is nothing in them."""
+
+
+class Noun(Protocol):
+    """Any of ``unity.scene``'s dataclasses."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
 
 _NONE = object()
 """The default of a field that has none."""
@@ -41,7 +48,7 @@ def _definitions() -> Mapping[str, Any]:
 
 
 @cache
-def definition_of(noun: type) -> str:
+def definition_of(noun: type[Noun]) -> str:
     """The schema's definition of a noun: of a component its own name, of others with a small initial."""
     name = RENAMED.get(noun.__name__, noun.__name__)
     return name if name in _definitions() else name[0].lower() + name[1:]
@@ -60,13 +67,13 @@ def _properties(definition: str) -> tuple[_Property, ...]:
 
 
 @cache
-def unsaid(noun: type) -> tuple[str, ...]:
+def unsaid(noun: type[Noun]) -> tuple[str, ...]:
     """Fields of a noun that the format has no place for."""
     known = {rule.key for rule in _properties(definition_of(noun))}
     return tuple(field.name for field in fields(noun) if field.name not in known)
 
 
-def entry(noun: Any) -> dict[str, Any]:
+def entry(noun: Noun) -> dict[str, Any]:
     """A noun in the order of its definition, less the fields at the default that the definition states."""
     definition = definition_of(type(noun))
     if definition not in _definitions():  # stated where it is used, without defaults
@@ -94,7 +101,9 @@ def _written(key: str, value: Any) -> Any:
     if key == "extras":
         return value
     if is_dataclass(value):
-        return entry(value)
-    if isinstance(value, tuple) and value and is_dataclass(value[0]):
-        return [entry(item) for item in value]
+        return entry(cast(Noun, value))
+    if isinstance(value, tuple) and value:
+        items = cast(tuple[Any, ...], value)
+        if is_dataclass(items[0]):
+            return [entry(item) for item in items]
     return significant(value) if key in SIGNIFICANT else plain_value(value)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
 
 DECIMALS = 12
 """Decimals kept of lengths, directions and angles: a picometre, and what is left of sin(pi) is 0."""
@@ -18,16 +18,16 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, float):
         return None if math.isinf(value) else _plain(round(value, DECIMALS))
     if isinstance(value, (list, tuple)):
-        return [plain_value(item) for item in value]
+        return [plain_value(item) for item in cast(Sequence[Any], value)]
     if isinstance(value, Mapping):
-        return {key: plain_value(item) for key, item in value.items()}
+        return {key: plain_value(item) for key, item in cast(Mapping[Any, Any], value).items()}
     return value
 
 
 def significant(value: Any) -> Any:
     """Masses, inertias and gains: a number or a sequence of them rounded to ``DECIMALS`` significant digits."""
     if isinstance(value, (list, tuple)):
-        return [significant(x) for x in value]
+        return [significant(x) for x in cast(Sequence[Any], value)]
     return _plain(float(f"{value:.{DECIMALS}g}"))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ..spatial import Array
 from . import frames
 from .scene import BodyFreedom, ClosureGap, Island, Mobility
 from .scene.vectors import vector3
@@ -21,23 +22,25 @@ def map_mobility(found: Mapping[str, Any], object_of: Sequence[int]) -> Mobility
         found["redundant"],
         found["idle"],
         ClosureGap(gap["position"], gap["angle"]),
-        tuple(
-            Island(
-                tuple(object_of[node] for node in island["nodes"]),
-                island["mobility"],
-                island["redundant"],
-                island["loops"],
-            )
-            for island in found["islands"]
-        ),
-        tuple(
-            BodyFreedom(
-                object_of[body["node"]],
-                len(body["directions"]),
-                len(body["axes"]),
-                tuple(vector3(frames.direction(v)) for v in body["directions"]),
-                tuple(vector3(frames.axial(v)) for v in body["axes"]),
-            )
-            for body in found["bodies"]
-        ),
+        tuple(_island(island, object_of) for island in found["islands"]),
+        tuple(_body(body, object_of) for body in found["bodies"]),
+    )
+
+
+def _island(found: Mapping[str, Any], object_of: Sequence[int]) -> Island:
+    nodes: Sequence[int] = found["nodes"]
+    objects = tuple(object_of[node] for node in nodes)
+    return Island(objects, found["mobility"], found["redundant"], found["loops"])
+
+
+def _body(found: Mapping[str, Any], object_of: Sequence[int]) -> BodyFreedom:
+    node: int = found["node"]
+    directions: Sequence[Array] = found["directions"]
+    axes: Sequence[Array] = found["axes"]
+    return BodyFreedom(
+        object_of[node],
+        len(directions),
+        len(axes),
+        tuple(vector3(frames.direction(v)) for v in directions),
+        tuple(vector3(frames.axial(v)) for v in axes),
     )

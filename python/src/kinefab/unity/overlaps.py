@@ -9,7 +9,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..geometry.contact.depth import Depths, Solid, is_available
 from ..geometry.primitives import box, sphere
-from ..spatial import Array, matrix_from_quaternion
+from ..spatial import Array, IntArray, matrix_from_quaternion
 from .scene import BoxCollider, CapsuleCollider, Joint, MeshCollider, Rigidbody, SphereCollider, UnityScene
 
 CONTACT_OFFSET = 0.01
@@ -128,11 +128,11 @@ def _is_nothing(collider: _Collider) -> bool:
     return max(collider.size) <= 0.0 if isinstance(collider, BoxCollider) else collider.radius <= 0.0
 
 
-def _shape(scene: UnityScene, collider: _Collider) -> tuple[Array, Array, bool]:
+def _shape(scene: UnityScene, collider: _Collider) -> tuple[Array, IntArray, bool]:
     """Vertices in the object's frame, triangles, and whether the shape is convex."""
     if isinstance(collider, MeshCollider):
         mesh = scene.meshes[collider.mesh]
-        return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.triangles), collider.convex
+        return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.triangles, np.int64), collider.convex
     center = np.array(collider.center)
     if isinstance(collider, BoxCollider):
         made = box(collider.size)
@@ -152,11 +152,12 @@ def _close(placed: list[_Placed]) -> list[tuple[int, int]]:
         return []
     low, high = np.array([p.low for p in placed]), np.array([p.high for p in placed])
     order = np.argsort(low[:, 0], kind="stable")
-    starts = low[order, 0]
+    stops: list[int] = np.searchsorted(low[order, 0], high[order, 0], side="right").tolist()
     found: list[tuple[int, int]] = []
-    for k, i in enumerate(order):
-        stop = int(np.searchsorted(starts, high[i, 0], side="right"))
-        others = order[k + 1 : stop]
+    places: list[int] = order.tolist()
+    for k, i in enumerate(places):
+        others = order[k + 1 : stops[k]]
         near = (low[others] <= high[i]).all(axis=1) & (high[others] >= low[i]).all(axis=1)
-        found += [(min(int(i), int(j)), max(int(i), int(j))) for j in others[near]]
+        beside: list[int] = others[near].tolist()
+        found += [(min(i, j), max(i, j)) for j in beside]
     return sorted(found)

@@ -301,7 +301,8 @@ def _transform(pose: Pose) -> Transform:
 def _across(axis: Vector3) -> Vector3:
     """Some direction at right angles to an axis."""
     smallest = min(range(3), key=lambda i: abs(axis[i]))
-    return vector3(np.cross(np.array(axis), np.eye(3)[smallest]))
+    x, y, z = (float(v) for v in np.cross(axis, np.eye(3)[smallest]))
+    return (x, y, z)
 
 
 def _hinge_drive(joint: HingeJoint) -> ArticulationDrive:

@@ -13,6 +13,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from ...diagnostics import KinefabError, Report
 from ...replacing import exchanged, one_at_a_time, sync_directory
@@ -75,7 +76,7 @@ def _listed(folder: Path) -> set[str]:
     """Paths that the last export wrote, from the prefab's folder; nothing where no manifest says so."""
     try:
         read = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-        files = read["files"] if read.get("format") == FORMAT else []
+        files: list[Any] = read["files"] if read.get("format") == FORMAT else []
         return {path for path in files if isinstance(path, str)}
     except (OSError, ValueError, AttributeError, KeyError, TypeError):
         return set()

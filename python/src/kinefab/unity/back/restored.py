@@ -58,11 +58,11 @@ class _Reading:
             self._add(entry)
 
     def _add(self, entry: Entry) -> None:
-        local = entry.get("transform", {})
+        local: Entry = entry.get("transform", {})
         turn = matrix_from_quaternion(_vector(local, "localRotation", (0, 0, 0, 1)))
-        place, scale = _vector(local, "localPosition", (0, 0, 0)), _vector(local, "localScale", (1, 1, 1))
-        pose = Pose(frames.rotation(turn), frames.point(place))
-        parent = entry.get("parent")
+        scale = _vector(local, "localScale", (1, 1, 1))
+        pose = Pose(frames.rotation(turn), frames.point(_vector(local, "localPosition", (0, 0, 0))))
+        parent: int | None = entry.get("parent")
         active, node = bool(entry.get("active", True)), 0
         if parent is not None:
             above = Pose(pose.rotation, self.scales[parent] * pose.translation)
@@ -212,7 +212,8 @@ def _coupling(
 
 def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tuple[float, float, int]:
     """Of a coordinate of the scene file, u = sign * (q - zero): sign, zero and the freedom of q."""
-    component: Entry = reading.objects[end["gameObject"]]["components"][end["component"]]
+    owner: int = end["gameObject"]
+    component: Entry = reading.objects[owner]["components"][end["component"]]
     if component["type"] == "HingeJoint":
         return 1.0, 0.0, RX
     freedom = _COORDINATES.index(end["coordinate"])

@@ -46,10 +46,11 @@ def place_rigidbodies(scene: Scene, groups: RigidGroups) -> Rigidbodies:
             continue
         parts = [i for i in members if scene.nodes[i].kind is NodeKind.PART] or list(members)
         top = _common_ancestor(scene, members)
-        whole = top is not None and subtree[top] == len(members)
-        if len(parts) == 1 and (not whole or len(members) == 1):
-            top, whole = parts[0], True
-        if whole:
+        if top is not None and subtree[top] != len(members):
+            top = None
+        if len(parts) == 1 and (top is None or len(members) == 1):
+            top = parts[0]
+        if top is not None:
             carriers[top] = members
             for i in members:
                 carrier_of[i] = top
@@ -73,7 +74,7 @@ def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: 
     else:
         to_carrier = own.pose.inverse()
         counted, weightless = _weighed(scene, moved_nodes)
-        known = [moved(node.mass, to_carrier @ node.pose) for node in counted]
+        known = [moved(mass, to_carrier @ node.pose) for node, mass in counted]
         for node in weightless if known else ():
             report.add("MASS_LEFT_OUT", node.where, node=node.id, carrier=own.id)
     if not known:
@@ -123,8 +124,8 @@ def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> D
     )
 
 
-def _weighed(scene: Scene, indices: tuple[int, ...]) -> tuple[list[Node], list[Node]]:
-    """Of some nodes those whose masses add up, and the parts that have none.
+def _weighed(scene: Scene, indices: tuple[int, ...]) -> tuple[list[tuple[Node, MassProperties]], list[Node]]:
+    """Of some nodes those whose masses add up, each with its own, and the parts that have none.
 
     What stands below an assembly with a mass of its own is in neither: its mass is already that assembly's.
     """
@@ -134,7 +135,7 @@ def _weighed(scene: Scene, indices: tuple[int, ...]) -> tuple[list[Node], list[N
     below = _below(scene, indices, whole) if whole else set[int]()
     outer = [scene.nodes[i] for i in indices if i not in below]
     weightless = [node for node in outer if node.mass is None and node.kind is NodeKind.PART]
-    return [node for node in outer if node.mass is not None], weightless
+    return [(node, node.mass) for node in outer if node.mass is not None], weightless
 
 
 def _subtree_bodies(scene: Scene, groups: RigidGroups) -> list[int]:

@@ -115,7 +115,7 @@ def _linear_limits(w: _Writing) -> Array:
     limited = [i for i in w.shape.translations if w.shape.freedoms[i].motion is Motion.LIMITED]
     if not limited:
         return middle
-    halves = []
+    halves: list[float] = []
     for i in limited:
         freedom = w.shape.freedoms[i]
         lower, upper = freedom.lower, freedom.upper
@@ -214,17 +214,17 @@ def _linear_drives(w: _Writing, middle: Array) -> None:
 
 def _angular_drives(w: _Writing) -> None:
     """``angularXDrive`` and ``angularYZDrive`` (mode XYAndZ) and their targets, radians/s."""
-    driven = [i for i in w.shape.rotations if w.shape.freedoms[RX + i].drive is not None]
+    stated = ((i, w.shape.freedoms[RX + i].drive) for i in w.shape.rotations)
+    driven = {i: drive for i, drive in stated if drive is not None}
     turn, velocity = np.zeros(3), np.zeros(3)
-    for i in driven:
-        drive = w.shape.freedoms[RX + i].drive
+    for i, drive in driven.items():
         turn[i] = w.senses.angular[i] * (0.0 if drive.motor else drive.target - w.zeros[RX + i])
         # PhysX drives w0 - w1 here, the speed of actor0 against actor1: the opposite of c's own.
         velocity[i] = -w.senses.angular[i] * drive.target_velocity
     if 0 in driven:
-        w.fields["angularXDrive"] = _joint_drive(w, w.shape.freedoms[RX].drive, RX)
+        w.fields["angularXDrive"] = _joint_drive(w, driven[0], RX)
     swings = [i for i in w.shape.rotations if i != 0]
-    drives = [w.shape.freedoms[RX + i].drive for i in swings if i in driven]
+    drives = [driven[i] for i in swings if i in driven]
     if drives:
         gains = {(d.stiffness, d.damping, d.max_force, d.acceleration, d.motor) for d in drives}
         if len(gains) > 1 or len(drives) < len(swings):

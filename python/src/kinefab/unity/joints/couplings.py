@@ -72,7 +72,7 @@ def screw_couplings(joints: Iterable[UnityJoint], stated: Sequence[Coupling]) ->
     coupled = {
         c.joint
         for c in stated
-        if c.joints == {c.joint} and {c.freedom, *(term.freedom for term in c.terms)} == {TX, RX}
+        if c.joints == frozenset({c.joint}) and {c.freedom, *(term.freedom for term in c.terms)} == {TX, RX}
     }
     found: list[Coupling] = []
     for mapped in joints:

@@ -109,7 +109,7 @@ def map_joint(
         report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
         return None
 
-    a, b = (None if groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
     placement = place(shape, a is None, b is None)
@@ -134,6 +134,7 @@ def map_joint(
         axes = {"axis": vector3(basis[:, 0]), "secondaryAxis": vector3(basis[:, 1])}
         component = ConfigurableJoint(**common, **anchors, **axes, **limits)
     owner, connected = (a, b) if placement.on_a else (b, a)
+    assert owner is not None, "two parts of the ground are one rigid group"
     if not lossless or any(found.misfit) or len(report.outcomes) > before:
         component = replace(component, exact=False)
     elif found.freed:
@@ -200,7 +201,7 @@ def _readings(
     """How each unlocked coordinate is read: the own body's motion against the connected one's."""
     own = placement.own
     hinge = fits_hinge(shape)
-    readings = {}
+    readings: dict[int, UnityCoordinate] = {}
     for i in range(6):
         if shape.freedoms[i].motion is Motion.LOCKED:
             continue

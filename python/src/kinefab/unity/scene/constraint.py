@@ -35,4 +35,4 @@ class Constraint:
     side: str = "either"
     lockRotation: bool = False
     suppressed: bool = False
-    reading: Mapping[str, str] = field(default_factory=dict)
+    reading: Mapping[str, str] = field(default_factory=dict[str, str])

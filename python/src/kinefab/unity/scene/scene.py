@@ -39,4 +39,4 @@ class UnityScene:
     animations: tuple[AnimationClip, ...] = ()
     constraints: tuple[Constraint, ...] = ()
     analysis: Mobility | None = None
-    extras: Mapping[str, object] = field(default_factory=dict)
+    extras: Mapping[str, object] = field(default_factory=dict[str, object])

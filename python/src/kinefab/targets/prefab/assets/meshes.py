@@ -88,7 +88,7 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
         (HEADER + document(43, "Mesh", MESH_ID, fields)).encode("ascii").split(_SPLIT.encode())
     )
     yield head
-    yield memoryview(indices).cast("B").hex().encode("ascii")
+    yield indices.data.cast("B").hex().encode("ascii")
     yield middle
     yield from _interleaved(columns, width)
     yield tail
@@ -103,7 +103,8 @@ _ROWS = 65536
 def _channels(columns: list[tuple[int, np.ndarray]]) -> tuple[list[Fields], int]:
     """The layout of a vertex, and its bytes."""
     unused: Fields = {"stream": 0, "offset": 0, "format": 0, "dimension": 0}
-    channels, offset = [unused] * CHANNELS, 0
+    channels: list[Fields] = [unused] * CHANNELS
+    offset = 0
     for channel, values in columns:
         channels[channel] = {"stream": 0, "offset": offset, "format": 0, "dimension": values.shape[1]}
         offset += 4 * values.shape[1]
@@ -118,7 +119,7 @@ def _interleaved(columns: list[tuple[int, np.ndarray]], width: int) -> Iterator[
         for _, values in columns:
             rows[:, at : at + values.shape[1]] = values[start : start + _ROWS]
             at += values.shape[1]
-        yield memoryview(rows).cast("B").hex().encode("ascii")
+        yield rows.data.cast("B").hex().encode("ascii")
 
 
 def _submeshes(mesh: Mesh, vertices: np.ndarray, indices: np.ndarray) -> list[Fields]:

@@ -61,7 +61,7 @@ def rigidbody_fields(body: Rigidbody, owner: int, dialect: Dialect) -> Fields:
 
 def collider_class(collider: Collider) -> ColliderClass:
     """Unity's number and name."""
-    kinds = {
+    kinds: dict[type[Collider], ColliderClass] = {
         BoxCollider: (65, "BoxCollider"),
         SphereCollider: (135, "SphereCollider"),
         CapsuleCollider: (136, "CapsuleCollider"),

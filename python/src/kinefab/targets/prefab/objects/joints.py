@@ -28,7 +28,7 @@ MAX_FORCE = 3.4028233e38
 
 def joint_class(joint: Joint) -> tuple[int, str]:
     """Unity's number and name."""
-    kinds = {
+    kinds: dict[type[Joint], tuple[int, str]] = {
         HingeJoint: (59, "HingeJoint"),
         ConfigurableJoint: (153, "ConfigurableJoint"),
         FixedJoint: (138, "FixedJoint"),

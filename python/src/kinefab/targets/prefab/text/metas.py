@@ -27,7 +27,7 @@ def native_meta(guid: str, main_object: int) -> str:
 
 
 def script_meta(guid: str) -> str:
-    fields = {**_HEAD, "serializedVersion": 2, "defaultReferences": [], "executionOrder": 0}
+    fields: Fields = {**_HEAD, "serializedVersion": 2, "defaultReferences": [], "executionOrder": 0}
     return _meta(guid, "MonoImporter", {**fields, "icon": Plain("{instanceID: 0}"), **_TAIL})
 
 

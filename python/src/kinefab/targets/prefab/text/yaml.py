@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -123,7 +123,7 @@ def lines(fields: Fields, indent: str = "  ") -> Iterator[str]:
         elif isinstance(value, Mapping):
             if value:
                 yield f"{indent}{key}:"
-                yield from lines(value, indent + "  ")
+                yield from lines(cast(Fields, value), indent + "  ")
             else:
                 yield f"{indent}{key}: {{}}"
         else:

@@ -28,7 +28,7 @@ class Joint:
     closure: bool = False
     exact: bool = True
     id: str = ""
-    extras: Mapping[str, object] = field(default_factory=dict)
+    extras: Mapping[str, object] = field(default_factory=dict[str, object])
 
 
 @dataclass(frozen=True, slots=True)

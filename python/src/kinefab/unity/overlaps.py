@@ -150,9 +150,10 @@ def _close(placed: list[_Placed]) -> list[tuple[int, int]]:
     """Pairs whose boxes overlap, by a sweep along X."""
     if not placed:
         return []
-    low, high = np.array([p.low for p in placed]), np.array([p.high for p in placed])
+    low: Array = np.array([p.low for p in placed])
+    high: Array = np.array([p.high for p in placed])
     order = np.argsort(low[:, 0], kind="stable")
-    stops: list[int] = np.searchsorted(low[order, 0], high[order, 0], side="right").tolist()
+    stops = low[order, 0].searchsorted(high[order, 0], side="right")
     found: list[tuple[int, int]] = []
     places: list[int] = order.tolist()
     for k, i in enumerate(places):

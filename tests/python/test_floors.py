@@ -60,7 +60,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "targets/prefab": [
         {"text", "files", "names"},
         {"options", "assets", "objects", "folder"},
-        {"losses", "articulation"},
+        {"losses", "articulation", "project"},
         {"exporting"},
         {"__init__"},
     ],

@@ -62,6 +62,22 @@ def test_the_script_is_in_the_prefab_and_refers_to_the_joints(tmp_path):
     assert "AssemblyDefinitionImporter" in mapping(Path(f"{assembly}.meta").read_text())
 
 
+def test_a_project_has_the_script_once(tmp_path):
+    """Two assemblies of one name would keep the project from compiling; a second export of the first keeps its own."""
+    assets = tmp_path / "Assets"
+    options = kinefab.ExportOptions(writing={"scripts": True})
+    for name in ("One", "Two", "One", "Inner/Three"):
+        (assets / name).parent.mkdir(parents=True, exist_ok=True)
+        kinefab.export(rich_scene(tmp_path), assets / f"{name}.prefab", options)
+    assert [p.relative_to(assets) for p in assets.rglob("*.cs")] == [Path("One/Scripts") / SCRIPT]
+    project = Project(assets)
+    for prefab in assets.rglob("*.prefab"):
+        kept = [d for d in documents(prefab.read_text("utf-8")) if d.kind == "MonoBehaviour"]
+        assert len(kept) == 2 and all(
+            project.paths[d.fields["m_Script"]["guid"]].name == SCRIPT for d in kept
+        )
+
+
 def test_every_package_has_the_same_script_at_the_same_place(tmp_path):
     """Two classes of one name would not compile."""
     entries = []

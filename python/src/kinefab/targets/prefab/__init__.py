@@ -13,6 +13,7 @@ from ..content import Content
 from .exporting import prefab_files
 from .folder import put_in_place
 from .options import PrefabOptions
+from .project import has_script
 
 ENDING = ".prefab"
 
@@ -28,6 +29,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if any("\ud800" <= character <= "\udfff" for character in target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    files = prefab_files(content, target.name[: -len(ENDING)], options)
+    name = target.name[: -len(ENDING)]
+    scripts = None if options.scripts and has_script(target) else f"{name}/Scripts"
+    files = prefab_files(content, name, options, scripts)
     content.refuse_losses()
     return put_in_place(files, target, report, content.progress)

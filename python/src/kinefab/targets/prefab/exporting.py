@@ -37,19 +37,19 @@ MESHES, MATERIALS, TEXTURES, PHYSICS, ANIMATIONS = (
 
 
 def prefab_files(
-    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None = None
+    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None
 ) -> list[AssetFile]:
     """Everything of the export, the prefab first, folders before what they hold.
 
-    name: of the prefab, without ending.  scripts_folder: where a script goes, by default below the prefab's folder.  The report gets what a prefab cannot say.
+    name: of the prefab, without ending.  scripts_folder: where a script goes, None where the project has it already.  The report gets what a prefab cannot say.
     """
-    return _Export(content, name, options, scripts_folder or f"{name}/Scripts").files()
+    return _Export(content, name, options, scripts_folder).files()
 
 
 class _Export:
     """Collects the files; ``folder`` is the one beside the prefab."""
 
-    def __init__(self, content: Content, name: str, options: PrefabOptions, scripts_folder: str):
+    def __init__(self, content: Content, name: str, options: PrefabOptions, scripts_folder: str | None):
         self.scripts_folder = scripts_folder
         self.content, self.name, self.options = content, name, options
         self.scene = content.unity()
@@ -76,7 +76,8 @@ class _Export:
             hierarchy.add_clips(references.clips, plays=not _moved_by_forces(scene))
         if self.options.scripts and scene.couplings:
             hierarchy.add_couplings()
-            self._scripts()
+            if self.scripts_folder is not None:
+                self._scripts(self.scripts_folder)
         folders = sorted({file.path.rpartition("/")[0] for file in self.found} | {self.name})
         head = [
             AssetFile(
@@ -168,11 +169,11 @@ class _Export:
         )
         return dict(enumerate(references))
 
-    def _scripts(self) -> None:
+    def _scripts(self, folder: str) -> None:
         """The script and its assembly, the same in every export."""
         metas = {SCRIPT: script_meta(script_guid(SCRIPT)), ASSEMBLY: assembly_meta(script_guid(ASSEMBLY))}
         for name, meta in metas.items():
-            path = f"{self.scripts_folder}/{name}"
+            path = f"{folder}/{name}"
             self.found.append(AssetFile(path, script_guid(name), meta, partial(_bytes_of, name)))
 
     def _clips(self, hierarchy: Hierarchy) -> list[Plain]:

@@ -95,7 +95,7 @@ def converted(path: Path, format_name: str, arguments: argparse.Namespace) -> di
             o for o in [*report.outcomes, *result.report.outcomes] if o.code and o.outcome.value != "kept"
         ]
         found["losses"] = dict(Counter(f"{o.outcome.value} {o.code}" for o in outcomes))
-        told = {o.feature for o in outcomes}
+        told = {o.feature for o in outcomes} | {d.code for d in result.report.diagnostics}
         return found | scored(target, engine, arguments.configurations, told)
 
 
@@ -165,7 +165,7 @@ def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
         "mobility right": f"{sum(r['mobility_right'] for r in counted)} of {len(counted)}",
         "fk compared": len(fk),
         "fk worst m / rad": [max((f[i] for f in fk), default=None) for i in (0, 1)],
-        "fk right": f"{sum(f[0] <= 1e-6 and f[1] <= 1e-6 for f in fk)} of {len(fk)}",
+        "fk right": f"{sum(r['fk_right'] for r in done if 'fk' in r)} of {len(fk)}",
         "limits right": f"{sum(r['limits_wrong'] == [] for r in done if 'limits_wrong' in r)} of {len(fk)}",
         "mass worst (relative)": max(mass, default=None),
         "mass right": f"{sum(m <= 1e-6 for m in mass)} of {len(mass)}",

@@ -305,16 +305,20 @@ class SceneKinematics:
         ``child`` turns about it by the right-hand rule of the source, or slides along it.  None where no component that
         comes from the joint ``name`` moves so.
         """
-        for joint in self.joints_of(name):
+        moved = self.body_of[self.object(child)]
+        # Models within models may have joints of one name: those that hold the child itself come first.
+        beside = sorted(
+            self.joints_of(name),
+            key=lambda j: moved not in (self.body_of[j.game_object], self._body(j.connected)),
+        )
+        for joint in beside:
             for coordinate in joint.coordinates:
                 if coordinate.is_angle != is_angle:
                     continue
                 column = max("XYZ".find(coordinate.name[-1].upper()), 0)
                 along = float(self.placed[joint.game_object][0] @ joint.own_frame[0][:, column] @ axis)
                 if abs(along) > 1.0 - 1e-6:
-                    own = self.body_of[joint.game_object] == self._outer(
-                        joint, self.body_of[self.object(child)]
-                    )
+                    own = self.body_of[joint.game_object] == self._outer(joint, moved)
                     # A right-hand turn about an axis is a left-hand turn about the mirrored axis reversed.
                     sense = math.copysign(1.0, along) * (1.0 if own else -1.0) * (-1.0 if is_angle else 1.0)
                     return coordinate, sense
@@ -480,8 +484,13 @@ class SceneKinematics:
         return [i for i, body in enumerate(self.body_of) if body == i]
 
     @property
-    def total_mass(self) -> float:
-        return math.fsum(self.mass(index)[0] for index in self.bodies)
+    def moving(self) -> list[int]:
+        """Those that physics moves: the ground, and what else is kinematic, left out."""
+        return [
+            i
+            for i in self.bodies
+            if not any(c.get("isKinematic", False) for c in self.objects[i].get("components", ()))
+        ]
 
 
 # What an engine says of a source, in Unity's frame ---------------------------------------------------------------------

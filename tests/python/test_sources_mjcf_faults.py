@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 import random
 from pathlib import Path
 
@@ -103,6 +104,26 @@ def test_without_its_mesh_the_rest_converts(tmp_path):
         ("texture t", "TEXTURE_NOT_FOUND"),
     } <= lost
     assert {j.id for j in read(path, Report()).joints} == {"j", "k"}
+
+
+@needs_mujoco
+def test_a_missing_mesh_weighs_nothing_beside_shapes_that_weigh(tmp_path):
+    """What it would have weighed is not known, and the body is told as approximated."""
+    path = tmp_path / "m.xml"
+    geoms = "<geom size='.1' density='500'/><geom type='mesh' mesh='bone'/>"
+    body = (
+        f"<body name='a'><joint/>{geoms}</body><body name='b'><joint/><geom type='mesh' mesh='bone'/></body>"
+    )
+    path.write_text(
+        world(body, "<asset><mesh name='bone' file='bone.stl'/></asset>"),
+        encoding="utf-8",
+    )
+    scene = read(path, report := Report())
+    masses = {node.name: node.mass for node in scene.nodes}
+    assert masses["a"].mass == pytest.approx(500.0 * 4.0 / 3.0 * math.pi * 0.1**3)
+    assert masses["b"].mass > 0.0
+    told = [(o.feature, o.outcome.value) for o in report.outcomes if o.code == "MASS_WITHOUT_MESH"]
+    assert told == [("mass a", "approximated"), ("mass b", "approximated")]
 
 
 @needs_mujoco

@@ -418,6 +418,21 @@ def test_a_model_that_includes_itself_is_refused(tmp_path):
     assert [d.code for d in refused.value.diagnostics] == ["INCLUDE_CYCLE"]
 
 
+def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
+    """Both are found: what stands before it, and what the included file has."""
+    (tmp_path / "other.sdf").write_text(model(link("b", "<pose>0 0 nan 0 0 0</pose>")), encoding="utf-8")
+    path = written(
+        tmp_path,
+        model(link("a", "<pose>0 0</pose>") + "<include><uri>other.sdf</uri></include>"),
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    assert [(d.code, d.where) for d in refused.value.diagnostics] == [
+        ("XML_VALUE", "m.sdf:3"),
+        ("XML_VALUE", "other.sdf:3"),
+    ]
+
+
 def test_a_mimic_that_is_off_at_the_pose_is_told(tmp_path):
     inner = (
         link("a") + link("b") + link("c") + joint("j", "revolute", "a", "b", TURN)

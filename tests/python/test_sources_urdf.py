@@ -13,6 +13,7 @@ import pytest
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, JointKind
 from kinefab.sources import read
+from kinefab.sources.robots.packages import Packages
 from kinefab.sources.robots.robot_frame import rotation_rpy
 from kinefab.sources.robots.shapes import Shape, Shapes
 from kinefab.spatial import Pose
@@ -116,7 +117,7 @@ def test_masses_are_pinocchios(tmp_path, zoo, name):
         assert mass == pytest.approx(expected.mass, rel=1e-9)
         assert r @ center + t == pytest.approx(unity_point(expected.center), abs=1e-9)
         assert r @ inertia @ r.T == pytest.approx(unity_inertia(expected.inertia), abs=1e-9)
-    assert len(masses) == len(motion.bodies)
+    assert len(masses) == len(motion.moving)
 
 
 def test_the_arm_stands_where_yourdfpy_has_it(tmp_path):
@@ -169,6 +170,32 @@ def test_safety_and_calibration_stay_in_the_extras(tmp_path):
         "safety_controller": {"soft_lower_limit": -1.0, "k_position": 100.0, "k_velocity": 2.0},
         "calibration": {"rising": 0.3},
     }
+
+
+def test_a_range_without_end_is_none(tmp_path):
+    """1e16 is how some exporters write it; the extras keep the word."""
+    inner = (
+        "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/>"
+        "<limit lower='-1e16' upper='1e16' effort='0' velocity='0'/></joint>"
+    )
+    motion = exported(written(tmp_path, inner), tmp_path)
+    (made,) = motion.joints
+    assert motion.range_of(made.coordinates[0]) == (-math.inf, math.inf)
+    assert made.fields["extras"]["urdf"]["limit"]["upper"] == 1e16
+
+
+def test_an_inertia_without_mass_counts_where_its_link_is_fixed(tmp_path):
+    """Pinocchio adds it to the link that carries it."""
+    inner = (
+        "<link name='a'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>"
+        "<link name='b'><inertial><mass value='2'/><inertia ixx='.1' iyy='.2' izz='.25'/></inertial></link>"
+        "<joint name='k' type='fixed'><origin rpy='0 0 1.5707963267948966'/><parent link='b'/><child link='c'/></joint>"
+        "<link name='c'><inertial><mass value='0'/><inertia ixx='.01' iyy='.02' izz='.015'/></inertial></link>"
+    )
+    motion = exported(written(tmp_path, inner), tmp_path)
+    mass, _, inertia = motion.mass(motion.object("b"))
+    assert mass == 2.0
+    assert inertia == pytest.approx(unity_inertia(np.diag([0.12, 0.21, 0.265])))
 
 
 def test_ranges_without_zero_and_without_width(tmp_path):
@@ -290,6 +317,16 @@ def test_names_that_lead_out_of_the_package_are_not_followed(tmp_path):
     relative = robot_with_mesh(tmp_path, "../../secret.obj")
     assert loaded(relative, tmp_path) == (["MESH_OUTSIDE"], [])
     assert len(loaded(robot_with_mesh(tmp_path, "../meshes/t.obj"), tmp_path)[1]) == 1
+
+
+def test_a_name_may_climb_into_a_folder_that_was_given(tmp_path):
+    folder, meshes = tmp_path / "a" / "b" / "c" / "d" / "e", tmp_path / "a" / "meshes"
+    folder.mkdir(parents=True)
+    meshes.mkdir()
+    (meshes / "m.stl").write_bytes(b"")
+    up = "../../../../meshes/m.stl"
+    assert Packages(folder, (), {}).find(up).path is None
+    assert Packages(folder, (meshes,), {}).find(up).path == meshes / "m.stl"
 
 
 def test_a_mesh_is_scaled_along_its_own_axes(tmp_path):

@@ -57,7 +57,6 @@ REFUSED = {
     "negative mass": ("MASS_IMPOSSIBLE", 2, robot(A.replace("'2'", "'-2'"))),
     "negative damping": ("XML_VALUE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
     "limits reversed": ("LIMITS_REVERSED", 4, robot(PAIR + joint("<limit lower='1' upper='-1'/>", "revolute"))),
-    "follows nobody": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='k'/>"))),
     "follows itself": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='j'/>"))),
     "follow each other": (
         "MIMIC_UNKNOWN",
@@ -114,6 +113,17 @@ TOLD = {
         robot(SHAPE.format("<visual><geometry><sphere radius='1'/></geometry><material name='m'/></visual>")),
     ),
     "empty shape": ("SHAPE_EMPTY", 2, robot(SHAPE.format("<visual><geometry><sphere radius='0'/></geometry></visual>"))),
+    "no geometry": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<visual><origin/></visual>"))),
+    "no shape": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<collision><geometry/></collision>"))),
+    "nameless mesh": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<visual><geometry><mesh/></geometry></visual>"))),
+    "size of words": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<visual><geometry><box size='1 x 1'/></geometry></visual>"))),
+    "shape at nan": (
+        "SHAPE_UNREADABLE",
+        2,
+        robot(SHAPE.format("<collision><origin xyz='0 nan 0'/><geometry><sphere radius='1'/></geometry></collision>")),
+    ),
+    "follows nobody": ("MIMIC_LEFT_OUT", 4, robot(PAIR + joint("<mimic joint='k'/>"))),
+    "follows, fixed": ("MIMIC_LEFT_OUT", 4, robot(PAIR + joint("<mimic joint='k'/>", "fixed"))),
     "transmission": ("ELEMENT_DROPPED", 3, robot(A + "\n<transmission name='t'/>")),
     "gazebo": ("ELEMENT_DROPPED", 3, robot(A + "\n<gazebo reference='a'/>")),
     "unknown element": ("ELEMENT_UNKNOWN", 3, robot(A + "\n<lnik name='b'/>")),
@@ -153,6 +163,23 @@ def test_a_mesh_that_cannot_be_read_is_left_out_and_told(tmp_path):
     result = kinefab.export(written(tmp_path, text), tmp_path / "r.kinefab")
     lost = [o for o in result.report.outcomes if o.code == "MESH_UNREADABLE"]
     assert len(lost) == 2 and all(o.outcome.value == "dropped" for o in lost)
+
+
+def test_a_shape_that_cannot_be_read_leaves_the_link_its_others(tmp_path):
+    good = "<visual name='ball'><geometry><sphere radius='1'/></geometry></visual>"
+    scene = read(
+        written(tmp_path, robot(SHAPE.format("<visual><geometry/></visual>" + good))),
+        report := Report(),
+    )
+    (node,) = (node for node in scene.nodes if node.name == "a")
+    assert [body.name for body in node.bodies] == ["ball"]
+    assert [o.outcome.value for o in report.outcomes if o.code == "SHAPE_UNREADABLE"] == ["dropped"]
+
+
+@pytest.mark.parametrize("declaration", ["<?xml?>", "<?xml verison='1.0'?>", "\n<?xml version='1.0'?>"])
+def test_a_declaration_that_robot_programs_pass_over_is_passed_over(tmp_path, declaration):
+    scene = read(written(tmp_path, declaration + robot(A)), Report())
+    assert [node.name for node in scene.nodes] == ["r", "a"]
 
 
 def test_xacro_without_its_package_is_an_error_that_names_it(tmp_path, monkeypatch):

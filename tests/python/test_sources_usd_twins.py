@@ -41,14 +41,14 @@ def test_a_stage_moves_weighs_and_counts_as_pxr_has_it(tmp_path, name):
     import numpy as np
     from engines import usd
     from scene_kinematics import SceneKinematics
-    from scoring import _against
+    from scoring import compared
 
     source = TWINS.parent / f"{name}.usda"
     result = kinefab.export(source, tmp_path / "scene.kinefab")
     engine = usd.load(source, ())
     motion = SceneKinematics.load(result.path)
     wrong: list[str] = []
-    found = _against(motion, engine, 50, set(), wrong)
+    found = compared(motion, engine, 50, set(), wrong)
     assert not wrong and max(found["fk"]) < 1e-6
     analysis = json.loads(result.path.read_text("utf-8"))["analysis"]
     couplings = len(result.analysed.scene.couplings)

@@ -57,12 +57,14 @@ class Engine(Protocol):
     turn: 3 x 3, the engine's world to Unity's.  joints: see ``EngineJoint``.
     mobility: nv less the rank of what closes loops and couples joints, six for each base that floats among it; None where
     the engine cannot say.
+    slack: metres and radians by which the file's bodies miss what their joints lock, at the exported pose.
     """
 
     turn: np.ndarray
     length: float
     joints: list[EngineJoint]
     mobility: int | None
+    slack: tuple[float, float]
 
     def poses(self, values: Mapping[str, float]) -> dict[str, Pose]:
         """Of every body, by its name in the file.  values: by ``EngineJoint.key``; those not given are as exported."""

@@ -22,6 +22,7 @@ class MujocoModel:
     """An MJCF file in MuJoCo, at its reference pose or that of a keyframe."""
 
     turn, length = ROS, 1.0
+    slack = (0.0, 0.0)
 
     def __init__(self, path: Path, keyframe: str = "") -> None:
         import mujoco

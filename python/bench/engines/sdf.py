@@ -19,6 +19,7 @@ class DrakePlant:
     """An SDF file in Drake.  Mimics are followed here, as Drake only constrains its dynamics by them."""
 
     turn, length = ROS, 1.0
+    slack = (0.0, 0.0)
 
     def __init__(self, path: Path, packages: tuple[Path, ...]) -> None:
         from pydrake.multibody.parsing import Parser
@@ -67,6 +68,9 @@ class DrakePlant:
         model = self.plant.GetModelInstanceName(body.model_instance())
         return f"{model.replace('::', '/')}/{body.name()}"
 
+    def _key(self, joint) -> str:
+        return f"{self.plant.GetModelInstanceName(joint.model_instance())}::{joint.name()}"
+
     def _coordinate(self, joint) -> EngineJoint | None:
         if joint.num_velocities() != 1 or joint.name() in self.followers or self._width(joint) == 0.0:
             return None
@@ -82,20 +86,22 @@ class DrakePlant:
         axis = column[:3] if is_angle else column[3:]
         low, high = joint.position_lower_limits()[0], joint.position_upper_limits()[0]
         return EngineJoint(
-            joint.name(), joint.name(), self.name_of(joint.child_body()), is_angle,
+            joint.name(), self._key(joint), self.name_of(joint.child_body()), is_angle,
             axis / np.linalg.norm(axis), float(low), float(high),
         )  # fmt: skip
 
     def poses(self, values: Mapping[str, float]) -> dict[str, Pose]:
         known = dict(values)
-        for name, (leader, factor, offset) in self.followers.items():
-            known[name] = factor * known.get(leader, 0.0) + offset if values else 0.0
-        self.plant.SetPositions(self.context, self.start)
+        for joint in self.all if values else ():
+            if joint.name() in self.followers:
+                leader, factor, offset = self.followers[joint.name()]
+                model, _, _ = self._key(joint).rpartition("::")
+                known[self._key(joint)] = factor * known.get(f"{model}::{leader}", 0.0) + offset
+        q = self.start.copy()
         for joint in self.all:
-            if joint.name() in known and joint.num_positions() == 1:
-                q = self.plant.GetPositions(self.context)
-                q[joint.position_start()] = known[joint.name()]
-                self.plant.SetPositions(self.context, q)
+            if self._key(joint) in known and joint.num_positions() == 1:
+                q[joint.position_start()] = known[self._key(joint)]
+        self.plant.SetPositions(self.context, q)
         found = {}
         for body in self._bodies():
             pose = self.plant.EvalBodyPoseInWorld(self.context, body)

@@ -21,6 +21,7 @@ class PinocchioModel:
     """A URDF file in Pinocchio.  Mimics are applied here: Pinocchio's own reader takes them or not by version."""
 
     turn, length = ROS, 1.0
+    slack = (0.0, 0.0)
 
     def __init__(self, path: Path) -> None:
         import pinocchio
@@ -52,7 +53,8 @@ class PinocchioModel:
             return []
         pin = self.pin
         pin.computeJointJacobians(self.model, self.data, self.start)
-        column = pin.getJointJacobian(self.model, self.data, index, pin.LOCAL_WORLD_ALIGNED)[:, joint.idx_v]
+        jacobian = pin.getJointJacobian(self.model, self.data, index, pin.LOCAL_WORLD_ALIGNED)
+        column = jacobian.reshape(6, -1)[:, joint.idx_v]  # one column comes as a vector
         is_angle = np.linalg.norm(column[3:]) > 0.5
         low, high = self._limits(joint)
         axis = column[3:] if is_angle else column[:3]
@@ -123,7 +125,8 @@ class PinocchioModel:
 def _mimics(text: str) -> dict[str, tuple[str, float, float]]:
     """Joint to the one that it follows, multiplier and offset."""
     found = {}
-    for joint in ElementTree.fromstring(without_prefixes(text).encode("utf-8", "replace")).iter("joint"):
+    bare = re.sub(r"^\s*<\?xml.*?\?>", "", without_prefixes(text), flags=re.S)  # Pinocchio takes any
+    for joint in ElementTree.fromstring(bare.encode("utf-8", "replace")).iter("joint"):
         mimic = joint.find("mimic")
         if mimic is not None and joint.get("type") in ("revolute", "continuous", "prismatic"):
             numbers = (float(mimic.get("multiplier", 1.0)), float(mimic.get("offset", 0.0)))

@@ -34,6 +34,10 @@ class _Joint:
     start: np.ndarray | None = None
 
 
+ROUNDED = 1e-4
+"""Metres or radians that numbers of single precision leave between a joint's two sides."""
+
+
 class Stage:
     """A stage whose bodies are moved in its session layer."""
 
@@ -63,6 +67,18 @@ class Stage:
                 self.at[body].append(joint)
         self.joints = [found for joint in self._bridges() for found in self._coordinates(joint)]
         self.mobility = self._mobility()
+        self.slack = self._slack()
+
+    def _slack(self) -> tuple[float, float]:
+        """Of files in single precision; wider gaps are faults of the file, and excuse nothing."""
+        metres = radians = 0.0
+        for joint in self.read:
+            gap = np.linalg.inv(_moved(joint, {})) @ joint.start
+            turn = math.acos(max(-1.0, min(1.0, 0.5 * (np.trace(gap[:3, :3]) - 1.0))))
+            metres = max(metres, float(np.linalg.norm(gap[:3, 3])) * self.length)
+            radians = max(radians, turn if turn > 1e-7 else 0.0)
+        widest = max(metres, radians) if max(metres, radians) < ROUNDED else 0.0
+        return widest, widest
 
     def _body(self, path) -> str | None:
         while path and str(path) != "/":

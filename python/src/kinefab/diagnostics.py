@@ -161,6 +161,17 @@ class Report:
         found = self.add(code, where, feature=feature, **values)
         self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
 
+    def forgive(self, since: int, feature: str, code: str) -> bool:
+        """Turn the errors after the first ``since`` findings into the loss of a feature, each with its place and its
+        message as ``detail``; whether there were any."""
+        later = self.diagnostics[since:]
+        errors = [d for d in later if d.severity is Severity.ERROR]
+        if errors:
+            self.diagnostics[since:] = [d for d in later if d.severity is not Severity.ERROR]
+        for error in errors:
+            self.dropped(feature, code, error.where, detail=error.message)
+        return bool(errors)
+
     def extend(self, other: Report) -> None:
         self.diagnostics.extend(other.diagnostics)
         self.outcomes.extend(other.outcomes)
@@ -168,10 +179,10 @@ class Report:
     def of(self, severity: Severity) -> list[Diagnostic]:
         return [d for d in self.diagnostics if d.severity is severity]
 
-    def raise_for_errors(self) -> None:
-        """Raise KinefabError with every error found so far, if there is any."""
-        if errors := self.of(Severity.ERROR):
-            raise KinefabError(errors)
+    def raise_for_errors(self, since: int = 0) -> None:
+        """Raise KinefabError with every error found so far, if there is any (after the first ``since`` findings)."""
+        if any(d.severity is Severity.ERROR for d in self.diagnostics[since:]):
+            raise KinefabError(self.of(Severity.ERROR))
 
 
 def report_document(report: Report, target: str, written: bool) -> dict[str, object]:

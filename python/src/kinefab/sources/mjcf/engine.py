@@ -95,6 +95,7 @@ class _Library:
         self._mend_meshes(spec)
         self._mend_heightfields(spec)
         model = self._tried(spec.compile)
+        self._tell_masses(spec)
         self._check_numbers(model)
         return model
 
@@ -179,6 +180,7 @@ class _Library:
 
     def _mend_meshes(self, spec: Any) -> None:
         sphere = self.mujoco.mjtGeom.mjGEOM_SPHERE
+        lost: list[Any] = []
         for mesh in list(spec.meshes):
             if not mesh.file:
                 continue
@@ -194,7 +196,24 @@ class _Library:
                     geom.group = HIDDEN
                     geom.name = geom.name or unique({g.name: g for g in spec.geoms}, f"missing {name}")
                     self.lost.add(geom.name)
+                    lost.append(geom)
             spec.delete(mesh)
+        for geom in lost:  # nobody knows what it weighs: nothing, where the body has a mass without it
+            others = [g for g in geom.parent.geoms if g.name not in self.lost or not g.name]
+            if np.isnan(geom.mass) and any(_weighs(g) for g in others):
+                geom.mass = 0.0
+
+    def _tell_masses(self, spec: Any) -> None:
+        """Of bodies whose missing meshes would have given their mass."""
+        from_geoms = int(spec.compiler.inertiafromgeom) == int(
+            self.mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
+        )
+        for i, body in enumerate(spec.bodies):
+            if i and (from_geoms or not body.explicitinertial):
+                if any(geom.name in self.lost for geom in body.geoms):
+                    name = str(body.name) or f"body{i}"
+                    where = self.files.where("body", name)
+                    self.report.approximated(f"mass {name}", "MASS_WITHOUT_MESH", where)
 
     def _mend_heightfields(self, spec: Any) -> None:
         for field_ in spec.hfields:
@@ -205,6 +224,10 @@ class _Library:
                 self._tell("hfield", field_.name, field_.file, found)
                 field_.file, field_.nrow, field_.ncol = "", 2, 2
                 field_.userdata = [0.0] * 4
+
+
+def _weighs(geom: Any) -> bool:
+    return geom.mass > 0.0 or (np.isnan(geom.mass) and geom.density > 0.0)
 
 
 def _say_nothing(text: str) -> None:

@@ -13,7 +13,7 @@ MAX_BYTES = 128 * 2**20
 
 def read_bytes(path: Path, report: Report, limit: int = MAX_BYTES) -> bytes:
     """The whole file.  Raises KinefabError when it is missing, a folder, unreadable, empty or too large."""
-    content = b""
+    content, before = b"", len(report.diagnostics)
     try:
         if not is_encodable(path.name):  # it stands in the scene and in every finding
             report.add("SOURCE_UNREADABLE", "", path=path, detail="its name is not UTF-8")
@@ -35,5 +35,5 @@ def read_bytes(path: Path, report: Report, limit: int = MAX_BYTES) -> bytes:
         report.add("SOURCE_NOT_FOUND", path.name, path=path)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         report.add("SOURCE_UNREADABLE", path.name, path=str(path).replace("\0", "\\0"), detail=error)
-    report.raise_for_errors()
+    report.raise_for_errors(before)
     return content

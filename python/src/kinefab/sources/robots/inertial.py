@@ -51,9 +51,8 @@ def weighed_together(
             pose,
         )
         for link, pose in links
-        if link.mass > 0.0
     ]
-    if not known:
+    if not any(part.mass > 0.0 for part in known):
         return None
     whole = combined(known)
     inertia = 0.5 * (whole.inertia + whole.inertia.T)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
@@ -16,6 +17,8 @@ from ...diagnostics import Report
 from ..reading.record import MAX_NUMBER, is_encodable, shown
 
 T = TypeVar("T")
+
+_NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
 MAX_DEPTH = 128
 MAX_ELEMENTS = 2_000_000
@@ -194,10 +197,10 @@ class _Builder:
 
 def parse_xml(data: bytes, name: str, report: Report) -> Element:
     """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
-    builder = _Builder(name, report)
+    builder, before = _Builder(name, report), len(report.diagnostics)
     try:
-        # Blanks before the declaration are against the rules, and every robot program reads them.
-        builder.parser.Parse(data.lstrip(), True)
+        # Blanks before the declaration, and one without a version, are against the rules; robot programs read them.
+        builder.parser.Parse(_NO_VERSION.sub(b"", data.lstrip()), True)
     except _Refused:
         pass
     except expat.ExpatError as error:
@@ -205,6 +208,6 @@ def parse_xml(data: bytes, name: str, report: Report) -> Element:
         report.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)
     except (LookupError, ValueError) as error:  # an encoding that nobody knows, bytes that are none of it
         report.add("XML_SYNTAX", f"{name}:1", detail=error)
-    report.raise_for_errors()
+    report.raise_for_errors(before)
     assert builder.root is not None
     return builder.root

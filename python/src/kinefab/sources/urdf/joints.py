@@ -55,7 +55,7 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
         joint.damping, joint.friction = (_not_negative(dynamics, key) for key in ("damping", "friction"))
     if (mimic := element.child("mimic")) is not None:
         followed, factor, offset = (
-            mimic.name("joint"),
+            mimic.attributes.get("joint", "").strip(),
             mimic.number("multiplier", 1.0),
             mimic.number("offset"),
         )
@@ -63,7 +63,7 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
     for tag in ("limit", "safety_controller", "calibration"):
         if (child := element.child(tag)) is not None:
             joint.extras[tag] = {
-                key: child.number(key, infinite=True) for key in child.attributes if _is_number(child, key)
+                key: float(child.attributes[key]) for key in child.attributes if _is_number(child, key)
             }
     for child in element.children:
         if child.tag not in KNOWN:
@@ -134,13 +134,19 @@ def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
     for joint in joints.values():
         if (mimic := joint.mimic) is None:
             continue
+        feature = f"mimic of joint {joint.name}"
+        if joint.kind not in MOVABLE:
+            report.dropped(feature, "MIMIC_LEFT_OUT", mimic.where, why=f"the joint is {joint.kind}")
+            joint.mimic = None
+            continue
+        if mimic.joint not in joints:  # programs that load robots look no further
+            report.dropped(feature, "MIMIC_LEFT_OUT", mimic.where, why=f"there is no joint '{mimic.joint}'")
+            joint.mimic = None
+            continue
         problem = ""
         line, other = [joint.name], mimic.joint
-        if joint.kind not in MOVABLE:
-            problem = "no matter to a joint that has no one coordinate"
         while not problem and other:
             if other not in joints:
-                problem = "no joint" if other == mimic.joint else ""
                 break
             if other in line:
                 problem = (

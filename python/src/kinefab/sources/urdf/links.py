@@ -90,20 +90,22 @@ def _parts(
     for element in link.all(tag):
         label = unique(found, element.attributes.get("name", "").strip() or tag)
         feature = f"{tag} {name}/{label}"
-        geometry = element.child("geometry")
-        if geometry is None:
-            element.fault("XML_MISSING", element=tag, field="geometry")
-            continue
-        shape = _shape(geometry, feature, packages, report)
-        if shape is None:
+        before = len(report.diagnostics)
+        shape, pose = _shape(element, feature, packages, report), origin(element)
+        # A link stands and moves without it, and the programs that read robots leave it out.
+        if report.forgive(before, feature, "SHAPE_UNREADABLE") or shape is None:
             continue
         surfaces = () if materials is None else materials.of(element, feature)
-        found[label] = Part(label, shape, origin(element), surfaces)
+        found[label] = Part(label, shape, pose, surfaces)
     return list(found.values())
 
 
-def _shape(geometry: Element, feature: str, packages: Packages, report: Report) -> Shape | None:
-    """The shape; None, after a report, where there is none that can be made."""
+def _shape(part: Element, feature: str, packages: Packages, report: Report) -> Shape | None:
+    """The shape of a visual or collision; None, after a report, where there is none that can be made."""
+    geometry = part.child("geometry")
+    if geometry is None:
+        part.fault("XML_MISSING", element=part.tag, field="geometry")
+        return None
     for child in geometry.children:
         if child.tag == "mesh":
             uri = child.name("filename")

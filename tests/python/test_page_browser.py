@@ -17,6 +17,7 @@ if CHROMIUM is None:
 
 ROOT = Path(__file__).parents[2]
 LEVER = ROOT / "fixtures" / "lever" / "lever.kinefab"
+STEP = ROOT / "fixtures" / "lever" / "lever.step"
 PLACES = """names => Object.fromEntries(kinefab.data.parts.filter(p => names.includes(p.id)).map(p => [p.id,
     Frame.times(kinefab.mechanism.displaced[p.body], p.pose)]))"""
 
@@ -225,7 +226,7 @@ def test_found_mates_are_switched_and_copied(context, tmp_path):
         mates["constraints"].append(mate | sides)
     path = tmp_path / "lever.mates.json"
     path.write_text(json.dumps(mates), "utf-8")
-    kinefab.view(LEVER, tmp_path / "page.html", mates=path)
+    kinefab.view(LEVER, tmp_path / "page.html", kinefab.ExportOptions(reading={"mates": path}))
     opened = Opened(context, tmp_path / "page.html")
     opened.page.locator("nav button", has_text="Mates").click()
     rows = opened.page.locator("#list .row")
@@ -237,5 +238,36 @@ def test_found_mates_are_switched_and_copied(context, tmp_path):
     assert [m["enabled"] for m in copied["constraints"]] == [True, True]
     copied["constraints"][1]["enabled"] = False
     assert copied == mates
+    opened.demand_quiet()
+    opened.page.close()
+
+
+def test_found_mates_stand_as_numbers_where_they_are(context, tmp_path):
+    """A STEP file, its mates found: the page moves by them, and a click on a number chooses that mate."""
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed")
+    options = kinefab.ExportOptions(colliders="none", reading={"mates": "auto"})
+    kinefab.view(STEP, tmp_path / "page.html", options)
+    opened = Opened(context, tmp_path / "page.html")
+    assert opened.page.locator("#freedoms .freedom").count() == 1
+    seen = "kinefab.numbers.items.filter(i => i.sprite.visible).map(i => i.mate.number)"
+    assert opened.page.evaluate(seen) == []
+    opened.page.locator("nav button", has_text="Mates").click()
+    numbers = opened.page.evaluate(seen)
+    assert (
+        numbers == [mate["number"] for mate in opened.page.evaluate("kinefab.data.mates.constraints")]
+        and len(numbers) > 3
+    )
+    last = numbers[-1]
+    place = opened.page.evaluate(
+        f"kinefab.stage.screen(kinefab.numbers.items.find(i => i.mate.number === {last}).mate.a.p)"
+    )
+    opened.page.locator("#view").click(position={"x": place["x"], "y": place["y"]})
+    assert opened.page.locator("#detail h3").inner_text() == f"Mate {last}"
+    assert opened.page.evaluate(
+        "kinefab.numbers.items.filter(i => i.drawn === 'chosen').map(i => i.mate.number)"
+    ) == [last]
+    opened.page.locator("#list .row").nth(last - 1).locator("input").uncheck()
+    opened.page.locator("nav button", has_text="Parts").click()
+    assert opened.page.evaluate(seen) == []
     opened.demand_quiet()
     opened.page.close()

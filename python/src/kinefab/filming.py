@@ -11,6 +11,7 @@ from .analysis import analyse
 from .diagnostics import KinefabError, diagnostic
 from .mechanism import Mechanism, Trajectory, mechanism_of
 from .model import Scene
+from .options import ExportOptions
 from .showing import read_document, title_of
 from .spatial import Array, Pose, matrix_from_quaternion
 from .unity import frames
@@ -23,14 +24,20 @@ FRAMES = 40
 ENDINGS = (".svg", ".gif", ".webp", ".png")
 
 
-def film(source: str | Path | Scene, ending: str, joint: str | None = None) -> bytes:
+def film(
+    source: str | Path | Scene,
+    ending: str,
+    joint: str | None = None,
+    options: ExportOptions = ExportOptions(),
+) -> bytes:
     """The picture's file.  ending: one of ``ENDINGS``; a ``.png`` is still.  joint: what is driven; the first freedom.
+    options: what the source is exported with.
 
     Raises KinefabError when the data is wrong or a library is missing, ValueError for a joint that is none.
     """
     writer = _writer(ending)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
-        document, buffers = read_document(source)
+        document, buffers = read_document(source, options)
         back = restored(document)
         mechanism = mechanism_of(analyse(back.scene))
     still = ending == ".png" or not mechanism.freedoms

@@ -13,13 +13,17 @@ import numpy as np
 
 from .analysis import analyse
 from .analysis.driving.baking import baked
-from .diagnostics import KinefabError, diagnostic
+from .diagnostics import KinefabError, Report, diagnostic
+from .mates.apply import with_found
+from .mates.mates_file import document as mates_document
 from .mechanism import Mechanism, mechanism_of
 from .model import Joint, Scene
-from .pipeline import export
+from .options import ExportOptions
+from .pipeline import export, mates_of
 from .replacing import write_whole
 from .spatial import Array, Pose
 from .unity.back.restored import Restored, restored
+from .unity.mapping import GROUND_ID
 from .views.overview import read_buffers, read_scene_file, unsound_as_finding
 from .views.page.blob import Blob
 from .views.page.describe import Motion, description
@@ -27,19 +31,22 @@ from .views.page.page import page
 from .views.page.words import Stroke, report_words
 
 Entry = Mapping[str, Any]
+AUTO = "auto"
+"""Of the reading option ``mates``: those found in the geometry."""
 STROKE_FRAMES = 181
 MOST_STROKES = 12
 """Freedoms that a report plots."""
 
 
-def view(source: str | Path | Scene, target: str | Path, mates: str | Path | None = None) -> Path:
+def view(source: str | Path | Scene, target: str | Path, options: ExportOptions = ExportOptions()) -> Path:
     """Write the page of a source, a written ``NAME.kinefab`` or a Scene made in code to ``target`` (``NAME.html``).
 
     What is shown is the scene as it is exported, and how its joints let it move.
-    mates: a ``NAME.mates.json`` whose mates are listed by number, to be switched and copied back.
+    options: what the source is exported with.  Its reading option ``mates``, "auto" or a ``NAME.mates.json``, has those
+    mates listed by number, to be switched and copied back; of a written scene they are listed only.
     Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.
     """
-    return _written(source, Path(target), told=False, mates=None if mates is None else _mates(Path(mates)))
+    return _written(source, Path(target), options, told=False)
 
 
 def _mates(path: Path) -> Entry:
@@ -56,9 +63,10 @@ def _mates(path: Path) -> Entry:
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
 
 
-def _written(source: str | Path | Scene, target: Path, told: bool, mates: Entry | None = None) -> Path:
+def _written(source: str | Path | Scene, target: Path, options: ExportOptions, told: bool) -> Path:
+    mates, shown = _with_mates(source, options)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
-        document, buffers = read_document(source)
+        document, buffers = read_document(shown, options)
         text = page_of(document, buffers, title_of(document, source), told, mates)
     try:
         write_whole(target, text.encode("utf-8"))
@@ -68,21 +76,46 @@ def _written(source: str | Path | Scene, target: Path, told: bool, mates: Entry 
     return target
 
 
-def read_document(source: str | Path | Scene) -> tuple[Entry, list[bytes]]:
+def _with_mates(
+    source: str | Path | Scene, options: ExportOptions
+) -> tuple[Entry | None, str | Path | Scene]:
+    """The mates that are asked for as their file has them, None for none; and the source, with those that were found in it."""
+    asked = str(options.reading.get("mates", ""))
+    if not asked:
+        return None, source
+    if asked != AUTO:
+        return _mates(Path(asked)), source
+    if isinstance(source, Scene) or is_written(source):
+        raise ValueError("mates are found in an assembly file; pass a NAME.mates.json to list")
+    report = Report()
+    scene, found = mates_of(source, options.reading, report)
+    return mates_document(scene, found), with_found(scene, found, report)
+
+
+def is_written(source: str | Path) -> bool:
+    """Whether it is a scene file, and no source."""
+    return Path(source).suffix == ".kinefab"
+
+
+def read_document(
+    source: str | Path | Scene, options: ExportOptions = ExportOptions()
+) -> tuple[Entry, list[bytes]]:
     """The scene file's content and its buffers; a source is exported first, beside nothing of the user's."""
-    if not isinstance(source, Scene) and Path(source).suffix == ".kinefab":
+    if not isinstance(source, Scene) and is_written(source):
         document = read_scene_file(Path(source))
         return document, read_buffers(Path(source), document)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.kinefab"
-        export(source, path)
+        export(source, path, options)
         document = read_scene_file(path)
         return document, read_buffers(path, document)
 
 
 def title_of(document: Entry, source: str | Path | Scene) -> str:
     """The name of what was read: the only object at the top, else the source's file, without endings."""
-    tops = [o["name"] for o in document["gameObjects"] if o.get("parent") is None]
+    objects = document["gameObjects"]
+    ground = next((i for i, o in enumerate(objects) if o.get("id") == GROUND_ID), None)
+    tops = [o["name"] for i, o in enumerate(objects) if o.get("parent") in (None, ground) and i != ground]
     if len(tops) == 1:
         return str(tops[0])
     uri = str(document.get("source", {}).get("uri", ""))
@@ -150,9 +183,9 @@ def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, 
     return ends[0], ends[1], (words[0], words[1])
 
 
-def report(source: str | Path | Scene, target: str | Path) -> Path:
+def report(source: str | Path | Scene, target: str | Path, options: ExportOptions = ExportOptions()) -> Path:
     """As ``view``, with the analysis in words, plots of the driven freedoms and the loss report under it."""
-    return _written(source, Path(target), told=True)
+    return _written(source, Path(target), options, told=True)
 
 
 def motion_of(back: Restored, mechanism: Mechanism) -> Motion:

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Optional
+from typing import Any, Optional
 
 import typer
 
 from ..diagnostics import KinefabError, Report
+from ..options import ExportOptions, Ground
+from ..sources import source_options
+from .asking import asking
 from .console import demand_ending, log, write
 
 
+@asking(("reading", source_options()))
 def draw(
+    reading: dict[str, Any],
     file: Path = typer.Argument(
         ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
     ),
@@ -33,7 +38,7 @@ def draw(
         else:
             from ..filming import film
 
-            content = film(file, output.suffix, joint)
+            content = film(file, output.suffix, joint, _options(file, reading))
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:
@@ -42,7 +47,9 @@ def draw(
     write(output, content)
 
 
+@asking(("reading", source_options()))
 def view(
+    reading: dict[str, Any],
     source: Path = typer.Argument(
         ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
     ),
@@ -54,9 +61,6 @@ def view(
         show_default=False,
     ),
     open_: bool = typer.Option(False, "--open", help="Open it in the browser."),
-    mates: Optional[Path] = typer.Option(
-        None, "--mates", help="NAME.mates.json: list its mates, to be switched."
-    ),
 ) -> None:
     """Write one HTML file that plays the mechanism: every freedom on a slider, nothing fetched."""
     page = Path(source.name.split(".")[0] + ".html") if output is None else output
@@ -64,7 +68,7 @@ def view(
     from ..showing import view as run
 
     try:
-        run(source, page, mates)
+        run(source, page, _options(source, reading, "mates"))
     except KinefabError as error:
         log(error.report or Report(list(error.diagnostics)))
         raise typer.Exit(1) from None
@@ -73,7 +77,9 @@ def view(
         typer.launch(str(page))
 
 
+@asking(("reading", source_options()))
 def report(
+    reading: dict[str, Any],
     source: Path = typer.Argument(
         ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
     ),
@@ -84,7 +90,20 @@ def report(
     from ..showing import report as run
 
     try:
-        run(source, output)
+        run(source, output, _options(source, reading, "mates"))
     except KinefabError as error:
         log(error.report or Report(list(error.diagnostics)))
         raise typer.Exit(1) from None
+
+
+def _options(source: Path, reading: dict[str, Any], *of_scenes: str) -> ExportOptions:
+    """What a source is exported with to be looked at.  of_scenes: reading options that mean something for a written scene too."""
+    if source.suffix == ".kinefab":
+        for name in reading.keys() - set(of_scenes):
+            hint = f"--{name.replace('_', '-')}"
+            raise typer.BadParameter(f"{source} is exported already; it is for its source", param_hint=hint)
+        if reading.get("mates") == "auto":
+            raise typer.BadParameter(
+                "a scene names a NAME.mates.json; auto is for its source", param_hint="--mates"
+            )
+    return ExportOptions(reading=reading, ground=Ground.among(reading))

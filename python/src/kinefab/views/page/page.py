@@ -12,7 +12,7 @@ from typing import Any
 
 from .blob import Blob
 
-CODE = ("kinematics.js", "stage.js", "glyphs.js", "app.js")
+CODE = ("kinematics.js", "stage.js", "glyphs.js", "mates.js", "app.js")
 """In the order in which they are read."""
 _PLACE = re.compile(r"%(TITLE|STYLE|DATA|BLOB|THREE|CODE|WORDS|CLASS)%")
 

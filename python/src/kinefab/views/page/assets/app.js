@@ -1,5 +1,5 @@
 // The page: panels, sliders, play, selection, drag.  All names come from a file: they are only ever set as text.
-/* global THREE, Stage, Glyphs, Mechanism, Frame */
+/* global THREE, Stage, Glyphs, MateNumbers, Mechanism, Frame */
 
 const $ = (id) => document.getElementById(id);
 
@@ -33,6 +33,7 @@ class App {
     this.mechanism = new Mechanism(data, array);
     this.stage = new Stage($("view"), data, array);
     this.glyphs = new Glyphs(this.stage, this.mechanism, data);
+    this.numbers = new MateNumbers(this.stage, data);
     this.home = { ...this.mechanism.q };
     this.reach();
     this.state = data.parts.map((part) => ({ shown: part.shown, ghost: false }));
@@ -135,6 +136,7 @@ class App {
   choose(what) {
     this.chosen = what;
     this.glyphs.select(what && what.joint !== undefined ? this.data.joints[what.joint] : null);
+    this.numbers.chosen = (what && what.mate) || null;
     this.looks();
     this.list();
     this.detail();
@@ -176,6 +178,7 @@ class App {
     $("search").hidden = this.tab === "report";
     box.replaceChildren();
     document.querySelectorAll("nav button").forEach((b) => b.classList.toggle("on", b.dataset.tab === this.tab));
+    this.numbers.show(this.tab === "mates");
     if (this.tab === "parts") {
       const found = (i) => !search || this.data.parts[i].name.toLowerCase().includes(search) || this.children[i].some(found);
       const rows = [];
@@ -215,13 +218,20 @@ class App {
       const box = element("input", { type: "checkbox", "aria-label": `mate ${mate.number}` });
       box.checked = mate.enabled !== false;
       box.addEventListener("click", (event) => event.stopPropagation());
-      box.addEventListener("change", () => (mate.enabled = box.checked));
-      const parts = ["a", "b"].map((side) => mate[side] && this.data.parts.findIndex((part) => part.id === mate[side].component)).filter((i) => i >= 0);
-      const names = parts.map((i) => this.data.parts[i].name).join(" – ");
-      return element("div", { class: "row", title: mate.id, onclick: () => this.choose({ parts, note: { feature: `Mate ${mate.number}`, message: `${mate.kind} of ${names}` } }) },
+      box.addEventListener("change", () => { mate.enabled = box.checked; this.numbers.show(true); });
+      const names = this.mateParts(mate).map((i) => this.data.parts[i].name).join(" – ");
+      return element("div", { class: "row" + (this.chosen && this.chosen.mate === mate ? " on" : ""), title: mate.id, onclick: () => this.chooseMate(mate) },
         box, element("small", {}, String(mate.number)), element("span", { class: "name" }, `${mate.kind}: ${names}`),
         element("small", {}, mate.confidence === undefined ? "" : Number(mate.confidence).toFixed(2)));
     })];
+  }
+  mateParts(mate) {
+    return ["a", "b"].map((side) => mate[side] && this.data.parts.findIndex((part) => part.id === mate[side].component)).filter((i) => i >= 0);
+  }
+  chooseMate(mate) {
+    const parts = this.mateParts(mate), why = mate.rawKind ? ` (${mate.rawKind})` : "";
+    const message = `${mate.kind} of ${parts.map((i) => this.data.parts[i].name).join(" – ")}${why}`;
+    this.choose({ mate, parts, note: { feature: `Mate ${mate.number}`, message } });
   }
   copyMates() {
     const area = element("textarea", { "aria-hidden": "true" });
@@ -362,7 +372,9 @@ class App {
       stage.controls.enabled = true;
       if (still && event.type === "pointerup" && event.button === 0) {
         const joint = this.wanted.joints ? this.glyphs.pick(event.clientX, event.clientY) : null;
-        if (joint !== null) this.choose({ joint });
+        const mate = this.numbers.pick(event.clientX, event.clientY);
+        if (mate) this.chooseMate(mate);
+        else if (joint !== null) this.choose({ joint });
         else this.choose(this.hit ? { part: this.hit.part } : null);
       }
       down = null;

@@ -21,7 +21,7 @@ def definitions(name: str) -> dict:
 
 def test_the_lever_is_there_in_every_source_format():
     """Each reader has one mechanism in common with the others, so that it can be held against them."""
-    found = (format_of(path) for path in (ROOT / "fixtures" / "lever").iterdir())
+    found = (format_of(path) for path in (ROOT / "fixtures" / "lever").rglob("*"))
     assert {entry.name for entry in found if entry} == {entry.name for entry in FORMATS}
 
 

@@ -78,7 +78,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"occ", "robots"},
         {"asmt"},
         {"bundle", "freecad", "mjcf", "sdf", "step", "urdf", "usd"},
-        {"paper"},
+        {"paper", "simscape", "gallery", "parts"},
         {"__init__"},
     ],
 }
@@ -98,6 +98,7 @@ HOMES = {
     "distributed": {"batching/cluster"},
     "fsspec": {"batching/places"},
     "OCP": {"sources/occ", "sources/step"},
+    "assimp_py": {"sources/parts"},
     "pxr": {"sources/usd"},
 }
 """Where a library may be imported: a folder or file, by its path in the package without ``.py``."""

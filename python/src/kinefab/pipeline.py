@@ -28,6 +28,7 @@ from .model import Scene
 from .options import ExportOptions
 from .rigid import RigidGroups, rigid_groups
 from .sources import Stage, read, read_stage
+from .sources.parts.readers import part_readers
 from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
 from .unity.bodies.colliders import Colliders
@@ -87,7 +88,7 @@ def prepared(
     source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
     Raises KinefabError with every error found.
     """
-    files = MeshFiles(report)
+    files = MeshFiles(report, part_readers())
     scene = source if isinstance(source, Scene) else _read(source, options.reading, files, report, progress)
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
@@ -103,7 +104,8 @@ def mates_of(
     source: str | Path, reading: Mapping[str, object], report: Report, progress: Progress = silent
 ) -> tuple[Scene, Mates]:
     """A source as it is read, and the mates found in its geometry.  Raises KinefabError with every error found."""
-    scene = _read(Path(source), {**reading, "mates": ""}, MeshFiles(report), report, progress)
+    files = MeshFiles(report, part_readers())
+    scene = _read(Path(source), {**reading, "mates": ""}, files, report, progress)
     progress("mates", 0.0)
     ground = str(reading.get("ground", ""))
     found = find_mates(scene, ground)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..geometry.files import FORMATS
+from ..sources.parts.readers import part_readers
 from ..sources.reading.record import is_array, is_object
 
 COMMENT = (
@@ -35,15 +36,14 @@ def meshes_in(folder: Path) -> list[Path]:
         there = sorted(folder.iterdir(), key=lambda path: path.name)
     except OSError as error:
         raise NoBeginning(f"{folder} cannot be listed: {error.strerror or error}.") from None
+    known = (*FORMATS, *(suffix for suffix in part_readers() if suffix not in FORMATS))
     found = [
         path
         for path in there
-        if path.suffix.lower() in FORMATS and not path.name.startswith(".") and path.is_file()
+        if path.suffix.lower() in known and not path.name.startswith(".") and path.is_file()
     ]
     if not found:
-        raise NoBeginning(
-            f"{folder} holds no mesh file ({', '.join(FORMATS)}); export one file for each part."
-        )
+        raise NoBeginning(f"{folder} holds no mesh file ({', '.join(known)}); export one file for each part.")
     for path in found:
         if any("\ud800" <= letter <= "\udfff" for letter in path.name):
             raise NoBeginning(f"The name of {path!a} is not UTF-8; rename the file.")

@@ -9,6 +9,7 @@ from ..geometry.loading import MeshFiles, load_geometry
 from ..options import ExportOptions
 from ..pipeline import analysed, prepared, silent
 from ..sources.bundle.reader import draft_from_values
+from ..sources.parts.readers import part_readers
 from ..sources.reading.file import read_bytes
 from ..sources.reading.json_text import parse_json
 
@@ -23,7 +24,7 @@ def check(path: Path) -> Report:
         data = read_bytes(path, report)
         scene = draft_from_values(parse_json(data, path.name, report), path, data, report)
         if report.of(Severity.ERROR):
-            load_geometry(scene, MeshFiles(report), report, silent)
+            load_geometry(scene, MeshFiles(report, part_readers()), report, silent)
             return report
         report = Report()
         options = ExportOptions()

@@ -5,6 +5,7 @@ Standard library only: it also runs in a CAD program's own Python.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -137,18 +138,28 @@ def freedom(
     ends = (("min", low), ("max", high))
     return {
         "name": name,
-        **({} if value is None else {"value": value}),
+        **({} if value is None else {"value": float(value)}),
         **{key: end for key, end in ends if end is not None},
         **{f"{key}Enabled": True for key, end in ends if end is not None},
     }
 
 
 def frame(inside: str, o: Numbers, z: Numbers, x: Numbers | None = None) -> Record:
-    return {"in": inside, "o": list(o), "z": list(z), **({} if x is None else {"x": list(x)})}
+    """A joint frame.  Raises ValueError or TypeError for what is no vector."""
+    return {"in": inside, "o": three(o), "z": three(z), **({} if x is None else {"x": three(x)})}
 
 
 def pose(o: Numbers, x: Numbers, y: Numbers, z: Numbers) -> Record:
-    return {"o": list(o), "x": list(x), "y": list(y), "z": list(z)}
+    """A component's pose.  Raises ValueError or TypeError for what is no vector."""
+    return {"o": three(o), "x": three(x), "y": three(y), "z": three(z)}
+
+
+def three(values: Numbers) -> list[float]:
+    """A vector as it is answered.  Raises ValueError or TypeError for what is none."""
+    found = [float(value) for value in values]
+    if len(found) != 3 or not all(abs(value) < math.inf for value in found):
+        raise ValueError(f"{values!r:.60} is no vector")
+    return found
 
 
 def pose_of_rows(m: Numbers) -> Record:

@@ -98,6 +98,21 @@ def captured(
     program: str, channel: Any, target: Path, report: Report, record_to: Path | None, blank: bool, up: str
 ) -> Captured:
     """Fill, check and write.  channel: ``Live`` or ``Replay``, or what a program has of its own."""
+    draft = drafted(program, channel, report, up, record_to, blank)
+    values, files = mesh_files(draft, f"{stem(target)}.parts")
+    write_files(values, files, target, write_whole)
+    return Captured(target, (target, *(target.parent / name for name in files)), draft, channel.calls)
+
+
+def drafted(
+    program: str,
+    channel: Any,
+    report: Report,
+    up: str = "",
+    record_to: Path | None = None,
+    blank: bool = False,
+) -> Draft:
+    """What a program says of its assembly, checked at the captured pose.  Raises KinefabError."""
     entry = PROGRAMS[program]
     module = import_module(f".{entry.module}", __package__)
     draft = Draft(entry.name, entry.length, up or entry.up, report)
@@ -116,9 +131,7 @@ def captured(
     draft.settle()
     check(draft)
     compare_freedoms(draft)
-    values, files = mesh_files(draft, f"{stem(target)}.parts")
-    write_files(values, files, target, write_whole)
-    return Captured(target, (target, *(target.parent / name for name in files)), draft, channel.calls)
+    return draft
 
 
 def stem(target: Path) -> str:
@@ -126,4 +139,4 @@ def stem(target: Path) -> str:
     return target.name.removesuffix(".json").removesuffix(".bundle")
 
 
-__all__ = ["PROGRAMS", "Asked", "Captured", "Channel", "Live", "capture", "captured", "replay"]
+__all__ = ["PROGRAMS", "Asked", "Captured", "Channel", "Live", "capture", "captured", "drafted", "replay"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,29 +15,39 @@ from ..model import MeshKey, Surface
 from ..spatial import Array
 from .looks.visuals import look_of
 from .obj import ObjError, read_obj
-from .pieces import MeshFile, Piece
+from .pieces import MeshFile, Piece, placed
 from .references import FolderResolver, UnsafeReference, demand_honest_archive
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
-STEP_FORMATS = (".step", ".stp")
 ARCHIVES = (".3mf",)
 GLTF = (".glb", ".gltf")
+_STEP, _MESH = (
+    "Open it in its own program and export STEP or STL.",
+    "Open it in its own program and export glTF or OBJ.",
+)
+_CAD, _ASSIMP = "pip install 'kinefab[cad]'", "pip install 'kinefab[meshes]'"
 _ADVICE = {
-    ".iges": "Export STEP or OBJ instead.",
-    ".igs": "Export STEP or OBJ instead.",
-    ".usd": "Export glTF or OBJ instead; USD is not read.",
-    ".fbx": "Export OBJ or glTF instead; FBX is a closed format.",
-}
+    **dict.fromkeys(
+        (".step", ".stp", ".iges", ".igs", ".wrl", ".vrml"), f"Install OpenCASCADE: {_CAD}; or export STL or OBJ instead."
+    ),
+    **dict.fromkeys((".3ds", ".fbx", ".x3d"), f"Install assimp: {_ASSIMP}; or export glTF or OBJ instead."),
+    **dict.fromkeys(
+        (".sldprt", ".sldasm", ".ipt", ".iam", ".prt", ".asm", ".catpart", ".catproduct", ".par", ".psm", ".f3d", ".smt",
+         ".sat", ".sab", ".x_t", ".x_b", ".jt", ".3dm", ".fcstd", ".brep", ".brp", ".dwg", ".dxf"), _STEP,
+    ),
+    **dict.fromkeys((".blend", ".max", ".ma", ".mb", ".c4d", ".skp", ".lwo", ".3dxml", ".u3d", ".abc"), _MESH),
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), "Export glTF or OBJ instead; USD is not read as a mesh."),
+}  # fmt: skip
+
+Reader = Callable[[Path, Report, str], MeshFile | None]
+"""Reads a mesh file, or adds an error to the report; the text is the place that names the file."""
 
 
 def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
     """The file's pieces, or None with an error in the report.  where: the place that names the file."""
     suffix = path.suffix.lower()
-    known = FORMATS + (STEP_FORMATS if _reads_step() else ())
-    if suffix not in known:
-        advice = _ADVICE.get(suffix, f"Give one of: {', '.join(known)}.")
-        if suffix in STEP_FORMATS:
-            advice = "Install the STEP reader: pip install kinefab[step]; or export OBJ."
+    if suffix not in FORMATS:
+        advice = _ADVICE.get(suffix, f"Give one of: {', '.join(FORMATS)}.")
         report.add("GEOMETRY_FORMAT_UNKNOWN", where, path=path.name, advice=advice)
         return None
     try:
@@ -66,10 +77,6 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
         report.add("GEOMETRY_EMPTY", where, path=path.name)
         return None
     return found
-
-
-def _reads_step() -> bool:
-    return find_spec("cascadio") is not None
 
 
 def _brief(error: Exception) -> str:
@@ -161,15 +168,7 @@ def _piece(mesh: Any, gltf: bool, surfaces: dict[str, Surface]) -> Piece:
 
 def transformed(piece: Piece, matrix: Array) -> Piece:
     """A piece through an affine map, shape (4, 4); where that mirrors, the winding is turned too."""
-    linear = matrix[:3, :3]
-    vertices = piece.vertices @ linear.T + matrix[:3, 3]
-    mirrored = np.linalg.det(linear) < 0.0
-    normals = piece.normals
-    if normals is not None:
-        normals = normals @ np.linalg.inv(linear)  # normals go by the inverse transpose
-        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    faces = piece.faces[:, ::-1] if mirrored else piece.faces
-    return replace(piece, vertices=vertices, faces=faces, normals=normals)
+    return placed(piece, matrix[:3, :3], matrix[:3, 3])
 
 
 def noted(surface: Surface, surfaces: dict[str, Surface]) -> str:

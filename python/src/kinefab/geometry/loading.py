@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import Body, Mesh, MeshReference, Scene, Surface
 from ..spatial import Array
-from .files import read_mesh_file, transformed
+from .files import Reader, read_mesh_file, transformed
 from .lending import tell_losses, with_lent_bodies, without_lent_bodies
 from .matching import Wanted, match_bodies
 from .pieces import MeshFile, Piece, joined
@@ -31,14 +31,17 @@ _Place = tuple[int, int]
 class MeshFiles:
     """Mesh files as they are asked for, each read once."""
 
-    def __init__(self, report: Report):
+    def __init__(self, report: Report, readers: Mapping[str, Reader] | None = None):
+        """readers: by ending, lower case, of what trimesh does not read, or not as well."""
         self._report = report
+        self._readers = dict(readers or {})
         self._files: dict[Path, MeshFile | None] = {}
 
     def get(self, path: Path, where: str, report: Report | None = None) -> MeshFile | None:
         """The file, or None with an error in the report.  where: the place that names it.  report: instead of the own one."""
         if path not in self._files:
-            self._files[path] = read_mesh_file(path, self._report if report is None else report, where)
+            read = self._readers.get(path.suffix.lower(), read_mesh_file)
+            self._files[path] = read(path, self._report if report is None else report, where)
         return self._files[path]
 
     def vertices(self, reference: MeshReference) -> Array:
@@ -52,7 +55,7 @@ class MeshFiles:
         (numbers,) = match_bodies(file, [Wanted(reference.key or "", reference)], Report())
         if not numbers:
             return np.zeros((0, 3))
-        return transformed(joined([file.pieces[n] for n in numbers]), reference.to_node).vertices
+        return transformed(joined([file.pieces[n] for n in numbers]), _to_node(reference, file)).vertices
 
 
 def load_geometry(
@@ -118,7 +121,7 @@ class _Loading:
         """Give a body the mesh of these pieces."""
         i, k = place
         body = self._bodies[i][k]
-        matrix = np.asarray(wanted.reference.to_node, dtype=np.float64)
+        matrix = _to_node(wanted.reference, file)
         origin = (file.path, numbers, matrix.tobytes())  # parts with a file of their own repeat this exactly
         if origin not in self._by_origin:
             with np.errstate(over="ignore", invalid="ignore"):  # checked right below
@@ -206,6 +209,15 @@ class _Loading:
         if found not in self._surfaces[self._stated :]:  # two files may call different looks by one name
             self._surfaces.append(found)
         return self._surfaces.index(found, self._stated)
+
+
+def _to_node(reference: MeshReference, file: MeshFile) -> Array:
+    """The map into the node's frame, by the file's own unit where it states one."""
+    matrix = np.array(reference.to_node, dtype=np.float64)
+    said = abs(float(np.linalg.det(matrix[:3, :3]))) ** (1.0 / 3.0)
+    if file.metres is not None and said > 0.0:
+        matrix[:3, :3] *= file.metres / said
+    return matrix
 
 
 def _deviation(a: Array, b: Array) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +35,7 @@ class MeshFile:
 
     named: for each kind of name, name to its occurrences in file order; an occurrence is a tuple of pieces.
     surfaces: the looks that the file or its library defines, by name.
+    metres: in one unit of the file, where the file itself states it; it rules over what others say of it.
     """
 
     path: Path
@@ -43,6 +44,19 @@ class MeshFile:
         default_factory=dict[MeshKey, dict[str, list[tuple[int, ...]]]]
     )
     surfaces: dict[str, Surface] = field(default_factory=dict[str, Surface])
+    metres: float | None = None
+
+
+def placed(piece: Piece, linear: Array, translation: Array) -> Piece:
+    """A piece through an affine map; where that mirrors, the winding is turned too."""
+    vertices = piece.vertices @ linear.T + translation
+    mirrored = np.linalg.det(linear) < 0.0
+    normals = piece.normals
+    if normals is not None:
+        normals = normals @ np.linalg.inv(linear)  # normals go by the inverse transpose
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    faces = piece.faces[:, ::-1] if mirrored else piece.faces
+    return replace(piece, vertices=vertices, faces=faces, normals=normals)
 
 
 def joined(pieces: list[Piece]) -> Piece:

@@ -20,6 +20,7 @@ from .occ.options import TOLERANCE
 from .roads import road_of
 from .robots.packages import PACKAGE_PATH
 from .step.options import ASKED as STEP_OPTIONS
+from .step.options import UP
 from .urdf.options import FLOATING_BASE, XACRO_ARG
 
 if TYPE_CHECKING:  # the command line asks for the endings alone, and should not wait for numpy
@@ -32,8 +33,9 @@ if TYPE_CHECKING:  # the command line asks for the endings alone, and should not
 class Format:
     """A source format.
 
-    suffixes: lower case.  module: below this package; it has ``read(path, report, request)`` and, where formats share
-    a suffix (``sniffed``), ``sniff(head)`` that tells by the first bytes.
+    suffixes: lower case.  module: below this package, or with a dot before it below ``kinefab``, for a reader that stands
+    on a higher floor; it has ``read(path, report, request)`` and, where formats share a suffix (``sniffed``),
+    ``sniff(head)`` that tells by the first bytes.
     options: what a user may ask of it.  An option that several formats have is one object.
     requires: modules without which it cannot be read at all.  extra: of the package, that installs them ("" for none).
     """
@@ -48,7 +50,10 @@ class Format:
 
 
 FORMATS = (
-    Format("CAD bundle", (".bundle.json", ".json"), "bundle.reader"),
+    Format("CAD bundle", (".bundle.json",), "bundle.reader"),
+    Format("CAD bundle", (".json",), "bundle.reader", sniffed=True),
+    Format("Onshape's saved answers", (".json",), ".capture.onshape.source", sniffed=True, options=(UP,)),
+    Format("Fusion 360 Gallery assembly", (".json",), "gallery.reader", sniffed=True, options=(UP,)),
     Format("CAD bundle as tagged CSV", (".csv", ".txt"), "bundle.tagged_csv", sniffed=True),
     Format("CSV of Braun et al. (2020)", (".csv", ".txt"), "paper.reader"),
     Format("STEP", (".step", ".stp"), "step.reader", options=STEP_OPTIONS, requires=("OCP",), extra="cad"),
@@ -77,6 +82,7 @@ FORMATS = (
     ),
     Format("URDF", (".urdf", ".xacro"), "urdf.reader", options=(PACKAGE_PATH, XACRO_ARG, FLOATING_BASE)),
     Format("SDF", (".sdf", ".world"), "sdf.reader", sniffed=True, options=(PACKAGE_PATH,)),
+    Format("Simscape Multibody XML", (".xml",), "simscape.reader", sniffed=True, options=(UP,)),
     Format(
         "MJCF",
         (".xml", ".mjcf"),
@@ -89,7 +95,7 @@ FORMATS = (
 )
 """In the order of preference."""
 
-HEAD_BYTES = 4096
+HEAD_BYTES = 65536
 
 
 def read(

@@ -23,7 +23,15 @@ NX_OR_CREO = f"NX, Creo or Solid Edge: {STEP_ROAD}."
 CATIA = f"CATIA: {STEP_ROAD}."
 MESH_ONLY = f"It holds no joints that can be read: {MESH_ROAD}."
 
+JSON = (
+    "This JSON is none that is read: a CAD bundle (meta, components), an assembly of the Fusion 360 Gallery (tree, occurrences), "
+    "an assembly definition of Onshape (rootAssembly; give definition.json, features.json and matevalues.json beside it count too)."
+)
+XML = "This XML is none that is read: its root is neither mujoco (MJCF) nor SimscapeMultibodyImportXML (Simscape Multibody 2.0)."
+
 ROADS = {
+    ".json": JSON,
+    ".xml": XML,
     **dict.fromkeys((".iam", ".ipt", ".idw", ".ipn"), INVENTOR),
     **dict.fromkeys((".sldasm", ".sldprt", ".slddrw"), SOLIDWORKS),
     **dict.fromkeys((".f3d", ".f3z"), FUSION),
@@ -38,11 +46,25 @@ ROADS = {
     ".skp": f"SketchUp: {MESH_ROAD}.",
     **dict.fromkeys((".dwg", ".dxf"), f"AutoCAD: {STEP_ROAD}."),
     ".blend": f"Blender: {MESH_ROAD}.",
+    **dict.fromkeys((".max", ".mb", ".ma", ".c4d"), f"Export OBJ, STL or GLB: {MESH_ROAD}."),
     **dict.fromkeys(
-        (".fbx", ".max", ".mb", ".ma", ".c4d", ".3ds", ".wrl", ".x3d"),
-        f"Export OBJ, STL or GLB: {MESH_ROAD}.",
+        (
+            ".obj",
+            ".stl",
+            ".ply",
+            ".glb",
+            ".gltf",
+            ".dae",
+            ".3mf",
+            ".off",
+            ".fbx",
+            ".3ds",
+            ".wrl",
+            ".vrml",
+            ".x3d",
+        ),
+        MESH_ONLY,
     ),
-    **dict.fromkeys((".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off"), MESH_ONLY),
 }
 """By ending, lower case."""
 

@@ -18,6 +18,7 @@ from typing import Any, cast
 from urllib.parse import urlencode, urlsplit
 
 from ...diagnostics import KinefabError, Report
+from ...geometry.references import read_regular
 from ..channel import MemberFailed, RecordBroken
 
 ADDRESS = re.compile(
@@ -136,9 +137,13 @@ def opened(source: str, environment: Mapping[str, str], report: Report) -> Answe
     return Answers(fetch=rest.fetch)
 
 
-def _saved(folder: Path, report: Report) -> Answers:
-    """``definition.json`` and, beside it, ``features.json`` and ``matevalues.json``: answers saved by hand."""
-    files = {word: folder / f"{word}.json" for word in SAVED} if folder.is_dir() else {"definition": folder}
+def _saved(source: Path, report: Report) -> Answers:
+    """``definition.json`` and, beside it, ``features.json``, ``matevalues.json``, ``name.json`` and an STL in metres for
+    a part, ``ELEMENTID_PARTID.stl`` or ``PARTID.stl``: answers saved by hand."""
+    folder = source if source.is_dir() else source.parent
+    files = {word: folder / f"{word}.json" for word in SAVED}
+    if not source.is_dir():
+        files["definition"] = source
     found = Answers()
     for word, path in files.items():
         try:
@@ -148,7 +153,43 @@ def _saved(folder: Path, report: Report) -> Answers:
             raise KinefabError([report.add("CAPTURE_RECORD", path.name, detail=str(error))]) from None
     if "definition" not in found.answers:
         raise KinefabError([report.add("SOURCE_NOT_FOUND", path=files["definition"])])
+    for question, path in _meshes(found.answers["definition"], folder):
+        try:
+            found.answers[question] = {"base64": base64.b64encode(read_regular(path)).decode()}
+        except OSError as error:
+            report.dropped(
+                f"mesh {path.name}", "CAPTURE_MEMBER_FAILED",
+                program="Onshape", member=path.name, detail=error.strerror or str(error),
+            )  # fmt: skip
     return found
+
+
+def _meshes(definition: Any, folder: Path) -> list[tuple[str, Path]]:
+    """The STL files that are there for the parts of a definition, each with the question that it answers."""
+    there = {path.name: path for path in folder.iterdir() if path.suffix == ".stl"}
+    found: dict[str, Path] = {}
+    held = cast("dict[str, Any]", definition) if isinstance(definition, dict) else {}
+    for assembly in (held.get("rootAssembly"), *_listed(held.get("subAssemblies"))):
+        owner = cast("dict[str, Any]", assembly) if isinstance(assembly, dict) else {}
+        for instance in _listed(owner.get("instances")):
+            if not isinstance(instance, dict):
+                continue
+            entry = cast("dict[str, Any]", instance)
+            part = str(entry.get("partId"))
+            for name in (f"{entry.get('elementId')}_{part}.stl", f"{part}.stl"):
+                if name in there:
+                    found.setdefault(mesh_question(entry), there[name])
+    return list(found.items())
+
+
+def _listed(value: Any) -> list[Any]:
+    return cast("list[Any]", value) if isinstance(value, list) else []
+
+
+def mesh_question(instance: Mapping[str, Any]) -> str:
+    """What is asked for the mesh of an instance's part."""
+    wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId", "partId")]
+    return " ".join(["stl", *map(str, wanted), str(instance.get("configuration", "default"))])
 
 
 def replayed(answers: object) -> Answers:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from ..draft import BodyMesh, Draft, Record, pose_of_rows
-from .answers import Answers
+from .answers import Answers, mesh_question
 
 Json = dict[str, Any]
 IDENTITY = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
@@ -86,8 +86,7 @@ class Definition:
     def _mesh(self, record: Record, instance: Json) -> None:
         """The part's STL, once for all its occurrences; without a program only where it was saved."""
         name = record["definition"]
-        wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId", "partId")]
-        question = " ".join(["stl", *map(str, wanted), str(instance.get("configuration", "default"))])
+        question = mesh_question(instance)
         if name not in self.meshed and (self.answers.fetch is not None or question in self.answers.answers):
             self.meshed[name] = ""
             with self.draft.safely(f"mesh of {record['id']}"):

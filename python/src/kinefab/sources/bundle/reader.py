@@ -17,7 +17,7 @@ import numpy as np
 from ...diagnostics import Report, Severity
 from ...model import MeshKey, Scene, Source, Surface
 from ..reading.file import read_bytes
-from ..reading.json_text import parse_json
+from ..reading.json_text import parse_json, top_keys
 from ..reading.record import REQUIRED, Log, Record, is_array, is_object
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, KILOGRAMS, METRES, RADIANS, SourceFrame, turn_to_scene
@@ -42,6 +42,12 @@ MEASURED = frozenset("JOINT_VALUE_MISMATCH JOINT_FLIP_MISMATCH COUPLING_GAP POSE
 """Findings that compare numbers: without units and axes they would be misread, and nothing is said."""
 
 
+def sniff(head: bytes) -> bool:
+    """Whether a ``.json`` of any name begins as a bundle: with its head, or with a list of records."""
+    keys = top_keys(head)
+    return keys.get("meta") == "{" or any(keys.get(key) == "[" for key in BUNDLE - {"meta"})
+
+
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     """The scene of a ``.bundle.json``.  request: nothing of it is needed here.  Raises KinefabError with every error
     found."""
@@ -50,7 +56,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
 
 
 def scene_from_values(
-    values: object, path: Path, data: bytes, report: Report, lines: Mapping[str, int] | None = None
+    values: object, path: Path, data: bytes, report: Report, lines: Mapping[str, int | str] | None = None
 ) -> Scene:
     """The scene that raw bundle values describe.
 
@@ -63,7 +69,7 @@ def scene_from_values(
 
 
 def draft_from_values(
-    values: object, path: Path, data: bytes, report: Report, lines: Mapping[str, int] | None = None
+    values: object, path: Path, data: bytes, report: Report, lines: Mapping[str, int | str] | None = None
 ) -> Scene:
     """As ``scene_from_values``, but errors leave a scene that is good for nothing but looking for more of them.
 

@@ -6,7 +6,6 @@ compiled model.  The exported pose is the reference pose, or that of ``--keyfram
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from ...diagnostics import Report
 from ...model import Node, NodeKind, Physics, Scene, Source
 from ...spatial import Pose
 from ..reading.request import Request
+from ..reading.xml_text import root_name
 from ..robots.packages import Packages
 from ..robots.rigid_links import Carrier, Link, add_links, unique
 from ..robots.robot_frame import direction
@@ -32,11 +32,7 @@ from .stacks import Step
 
 def sniff(head: bytes) -> bool:
     """Whether a file begins as MJCF does; fragments for others to include (``mujocoinclude``) are none."""
-    if re.search(rb"<mujoco[\s/>]", head):
-        return True
-    return (
-        head.lstrip().startswith((b"<!--", b"<?xml")) and b"<!--" in head and b"-->" not in head
-    )  # a long licence
+    return root_name(head) == "mujoco"
 
 
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:

@@ -60,3 +60,34 @@ def _depth(data: bytes) -> int:
     """Deepest nesting of brackets, those within strings counted too."""
     steps = STEP[np.frombuffer(data, dtype=np.uint8)]
     return int(np.cumsum(steps[steps != 0], dtype=np.int64).max(initial=0))
+
+
+_TOKEN = re.compile(r'"((?:[^"\\]|\\.)*)"|[\[\]{}:,]')
+
+
+def top_keys(head: bytes) -> dict[str, str]:
+    """The keys of the outermost object and how the value of each begins ("{", "[" or ""), as far as ``head`` reaches.
+
+    Empty for what is no object.  Nothing is checked: it only tells formats apart.
+    """
+    text = head.decode("utf-8-sig", "replace")
+    if not text.lstrip().startswith("{"):
+        return {}
+    found: dict[str, str] = {}
+    depth, key = 0, None
+    for token in _TOKEN.finditer(text):
+        mark = token[0]
+        if mark in "{[":
+            if depth == 1 and key is not None:
+                found[key], key = mark, None
+            depth += 1
+        elif mark in "}]":
+            depth -= 1
+            if depth <= 0:
+                break
+        elif depth == 1 and mark == ",":
+            key = None
+        elif depth == 1 and mark[0] == '"' and key is None:
+            key = token[1]
+            found.setdefault(key, "")
+    return found

@@ -29,19 +29,23 @@ MIN_DIRECTION = 1e-9
 class Log:
     """Where diagnostics go, and how a place in the raw values is written.
 
-    name: of the source file.  lines: for a source of lines, the line of each record by its JSON pointer.
+    name: of the source file.  lines: where each record stands by its JSON pointer, for a source that is no bundle: a line,
+    or a pointer of its own.
     """
 
     report: Report
     name: str
-    lines: Mapping[str, int] = field(default_factory=dict[str, int])
+    lines: Mapping[str, int | str] = field(default_factory=dict[str, int | str])
 
     def place(self, pointer: str) -> str:
         if not self.lines:
             return f"{self.name}#{pointer}"
         while pointer and pointer not in self.lines:
             pointer = pointer.rpartition("/")[0]
-        return f"{self.name}:{self.lines[pointer]}" if pointer else self.name
+        if not pointer:
+            return self.name
+        place = self.lines[pointer]
+        return f"{self.name}#{place}" if isinstance(place, str) else f"{self.name}:{place}"
 
     def add(self, code: str, pointer: str, **values: object) -> None:
         self.report.add(code, self.place(pointer), **values)

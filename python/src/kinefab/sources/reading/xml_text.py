@@ -58,3 +58,23 @@ def parse_xml(data: bytes, name: str, report: Report) -> Element:
         report.add("XML_REFUSED", place, detail=detail)
         report.raise_for_errors()
     return builder.close()
+
+
+def root_name(head: bytes) -> str:
+    """The name of the first element, without its namespace; "" where the bytes hold none.
+
+    head: how the file begins, in any encoding that XML knows; comments, declarations and document types are passed over.
+    """
+    found: list[str] = []
+    parser = expat.ParserCreate()
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        found.append(tag.rpartition(":")[2])
+        raise _Refused
+
+    parser.StartElementHandler = start
+    try:
+        parser.Parse(head.lstrip(), False)
+    except (_Refused, expat.ExpatError, ValueError, LookupError):
+        pass
+    return found[0] if found else ""

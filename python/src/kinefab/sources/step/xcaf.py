@@ -68,6 +68,12 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
             yield Shape(number, [], f"{type(error).__name__}: {error}".splitlines()[0][:200])
 
 
+def walked(document: Any) -> tuple[Tree, list[Any]]:
+    """The tree of a document, and the shapes that it shows."""
+    walk = _Walk(document, False)
+    return walk.tree, [shape for _, shape in walk.shapes]
+
+
 class _Walk:
     """The document's labels as a tree of occurrences, and the labels of the shapes they show."""
 

@@ -1,0 +1,1 @@
+"""Mesh files of parts that trimesh does not read: exact ones by OpenCASCADE, others by assimp, each in a process of its own."""

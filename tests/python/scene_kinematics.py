@@ -265,10 +265,15 @@ class SceneKinematics:
     def object(self, name: str) -> int:
         """Index of the GameObject with this id, or else with this name, or whose id ends in it, or the frame of that name
         on another (a part that was merged into it)."""
-        for key in ("id", "name"):
-            found = [i for i, entry in enumerate(self.objects) if entry.get(key) == name]
-            if len(found) == 1:
-                return found[0]
+        found = [i for i, entry in enumerate(self.objects) if name in (entry.get("id"), entry.get("name"))]
+        # A robot and a link of it may have one name: the link is meant.
+        for chosen in (
+            [i for i in found if self.body_of[i] == i],
+            [i for i in found if "parent" in self.objects[i]],
+            found,
+        ):
+            if len(chosen) == 1:
+                return chosen[0]
         last = name.rpartition("/")[2]
         endings = (f"/{name}", f"/site:{last}")
         found = [i for i, entry in enumerate(self.objects) if entry.get("id", "").endswith(endings)]

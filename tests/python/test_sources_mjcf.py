@@ -350,6 +350,23 @@ def test_what_has_no_place_is_left_out_by_name(tmp_path):
     ]
 
 
+def test_plug_ins_are_left_out_by_number(tmp_path):
+    """The model has no names of them."""
+    grid = "".join(
+        f"<config key='{k}' value='{v}'/>"
+        for k, v in (("size", "2 2"), ("fov", "10 10"), ("gamma", "0"), ("nchannel", "1"))
+    )
+    text = (
+        "<mujoco><extension><plugin plugin='mujoco.sensor.touch_grid'/></extension><worldbody><body name='a'><joint/>"
+        "<geom size='.1'/><site name='s'/></body></worldbody><sensor><plugin name='p' plugin='mujoco.sensor.touch_grid' "
+        f"objtype='site' objname='s'>{grid}</plugin></sensor></mujoco>"
+    )
+    path = tmp_path / "m.xml"
+    path.write_text(text, encoding="utf-8")
+    read(path, report := Report())
+    assert "plugin 0" in {o.feature for o in report.outcomes if o.code == "MJCF_LEFT_OUT"}
+
+
 def test_nothing_of_the_model_is_random(tmp_path):
     path = FIXTURES / "mjcf" / "zoo.xml"
     for name in "ab":

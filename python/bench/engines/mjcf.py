@@ -77,10 +77,20 @@ class MujocoModel:
         kinds = np.array(d.efc_type[: d.nefc])
         rows = np.array(d.efc_J).reshape(-1, m.nv)[: d.nefc] if d.nefc else np.zeros((0, m.nv))
         equal = rows[kinds == int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)]
+        # What keeps cloth together is left out with it.
+        asked = [
+            int(m.eq_type[i]) not in self._soft()
+            for i in np.array(d.efc_id[: d.nefc])[kinds == int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)]
+        ]
+        equal = equal[np.array(asked, dtype=bool)]
         if not len(equal):
             return int(m.nv)
         sizes = np.linalg.svd(equal, compute_uv=False)
         return int(m.nv) - int((sizes > SMALL * max(float(sizes[0]), 1.0)).sum())
+
+    def _soft(self) -> set[int]:
+        kinds = self.mujoco.mjtEq
+        return {int(kind) for kind in (getattr(kinds, n) for n in dir(kinds) if n.startswith("mjEQ_FLEX"))}
 
     def _bent(self) -> set[int]:
         """Bodies that a polynomial moves: the scene has its tangent, and says so."""
@@ -109,9 +119,14 @@ class MujocoModel:
             self._scatter()
         for name, value in values.items():
             d.qpos[m.jnt_qposadr[self.joint_names.index(name)]] = value
-        for i in range(m.neq) if values else ():
-            if int(m.eq_type[i]) == int(self.mujoco.mjtEq.mjEQ_JOINT) and m.eq_active0[i]:
+        of_joints = int(self.mujoco.mjtEq.mjEQ_JOINT)
+        following = [i for i in range(m.neq) if int(m.eq_type[i]) == of_joints and m.eq_active0[i]]
+        for _ in following if values else ():  # as often as a chain of them may be long, whatever their order
+            before = d.qpos.copy()
+            for i in following:
                 self._follow(i)
+            if np.array_equal(before, d.qpos):
+                break
         self.mujoco.mj_kinematics(m, d)
 
     def _scatter(self) -> None:
@@ -119,8 +134,9 @@ class MujocoModel:
         something that is not its own."""
         kinds, held = self.mujoco.mjtJoint, self._held()
         for i in range(self.model.njnt):
-            if int(self.model.body_rootid[self.model.jnt_bodyid[i]]) in held:
-                continue
+            body = int(self.model.jnt_bodyid[i])
+            if int(self.model.body_rootid[body]) in held or int(self.model.body_jntnum[body]) > 1:
+                continue  # a ball that is one of several joints stays: where it stands between them is not asked
             at, kind = int(self.model.jnt_qposadr[i]), int(self.model.jnt_type[i])
             if kind == int(kinds.mjJNT_FREE):
                 self.data.qpos[at : at + 3] = self.random.uniform(-1.0, 1.0, 3)

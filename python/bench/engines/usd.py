@@ -61,6 +61,7 @@ class Stage:
                 self.bodies[str(prim.GetPath())] = _columns(cache.GetLocalToWorldTransform(prim))
         self.rigid = {path: _rigid(matrix) for path, matrix in self.bodies.items()}
         self.read = [j for p in prims if p.IsA(UsdPhysics.Joint) and (j := self._joint(p, cache)) is not None]
+        self.added = self._stacks()
         self.at: dict[str | None, list[_Joint]] = {body: [] for body in [None, *self.bodies]}
         for joint in self.read:
             for body in joint.bodies:
@@ -68,6 +69,22 @@ class Stage:
         self.joints = [found for joint in self._bridges() for found in self._coordinates(joint)]
         self.mobility = self._mobility()
         self.slack = self._slack()
+
+    def _stacks(self) -> int:
+        """Joints that MuJoCo's and Newton's schemas let add up: held at their zero here, their freedoms counted."""
+        groups: dict[tuple[str | None, ...], list[_Joint]] = {}
+        for joint in self.read:
+            words = str(self.stage.GetPrimAtPath(joint.path).GetMetadata("apiSchemas") or "")
+            closing = (
+                self.stage.GetPrimAtPath(joint.path).GetAttribute("physics:excludeFromArticulation").Get()
+            )
+            if len(joint.free) == 1 and ("MjcJointAPI" in words or "NewtonJointAPI" in words) and not closing:
+                groups.setdefault(tuple(joint.bodies), []).append(joint)
+        stacks = [group for group in groups.values() if len(group) > 1]
+        for first, *others in stacks:
+            first.free = []
+            self.read = [joint for joint in self.read if joint not in others]
+        return sum(len(group) for group in stacks)
 
     def _slack(self) -> tuple[float, float]:
         """Of files in single precision; wider gaps are faults of the file, and excuse nothing."""
@@ -230,7 +247,11 @@ class Stage:
                         row[number[body], :3] += sign * axis
                         row[number[body], 3:] += sign * np.cross(world[:3, 3], axis)
                 rows.append(row.ravel())
-        return 6 * len(number) - (int(np.linalg.matrix_rank(np.array(rows), tol=1e-6)) if rows else 0)
+        return (
+            self.added
+            + 6 * len(number)
+            - (int(np.linalg.matrix_rank(np.array(rows), tol=1e-6)) if rows else 0)
+        )
 
     def poses(self, values: Mapping[str, float]) -> dict[str, Pose]:
         worlds: dict[str, np.ndarray] = {}

@@ -20,7 +20,8 @@ def tell_losses(compiled: Compiled, equalities: Equalities, report: Report) -> N
     m = compiled.model
     for kind, count in UNREAD:
         for i in range(int(getattr(m, count))):
-            name = compiled.name(kind, i) if hasattr(m, kind) else ""
+            named = callable(getattr(m, kind, None))  # of plug-ins the model has numbers alone
+            name = compiled.name(kind, i) if named else ""
             report.dropped(f"{kind} {name or i}", "MJCF_LEFT_OUT", compiled.where(kind, name))
     for i in range(m.ntendon):
         _tell_tendon(compiled, equalities, i, report)

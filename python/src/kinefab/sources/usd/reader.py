@@ -14,6 +14,7 @@ from .parts import DEFAULT_PURPOSES, Parts, gravity
 from .physics.couplings import Couplings, tell_prims, tell_vendors
 from .physics.filters import collision_groups, filters, offered
 from .physics.joints import Joints
+from .physics.stacks import stacked
 from .stage import OpenStage, examine, open_file, reason, tell
 from .values import Values
 from .walk import Found, walk
@@ -58,7 +59,8 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     scene.meshes, scene.surfaces = parts.library.meshes, parts.looks.surfaces
     moving = [parts.nodes[i] if part.body and part.enabled else -1 for i, part in enumerate(found.parts)]
     joints = Joints(opened, values, found, moving, parts.stands, report)
-    scene.joints = [joint for prim in found.joints if (joint := joints.read(prim)) is not None]
+    made = [(prim, joint) for prim in found.joints if (joint := joints.read(prim)) is not None]
+    scene.joints = stacked(scene.nodes, made, joints.readings, report)
     scene.animations = read_clips(found, scene.nodes, opened, report)
     couplings = Couplings(opened, values, scene, joints.readings, report)
     scene.couplings = couplings.read(found.joints)

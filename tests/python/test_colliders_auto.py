@@ -102,5 +102,13 @@ def test_joined_parts_do_not_collide_and_a_pin_fits_its_hole(tmp_path):
 
 def test_without_the_library_the_check_is_told_to_be_missing(tmp_path, monkeypatch):
     monkeypatch.setattr("kinefab.unity.overlaps.is_available", lambda: False)
-    _, result = exported(tmp_path, ("A", trimesh.creation.box((1, 1, 1)), (0, 0, 0), False, None))
-    assert [d.code for d in result.report.diagnostics if "OVERLAP" in d.code] == ["OVERLAPS_NOT_CHECKED"]
+    box = trimesh.creation.box((1, 1, 1))
+    for apart, told in (
+        (0.9, ["OVERLAPS_NOT_CHECKED"]),
+        (0.995, []),
+        (2.0, []),
+    ):  # boxes that stand clear need no check
+        _, result = exported(
+            tmp_path, ("A", box, (0, 0, 0), False, None), ("B", box, (apart, 0, 0), False, None)
+        )
+        assert [d.code for d in result.report.diagnostics if "OVERLAP" in d.code] == told

@@ -17,6 +17,7 @@ import pytest
 from kinefab.model import JointKind
 from kinefab.spatial import matrix_from_quaternion, quaternions_from_matrices, rotation_about
 from kinefab.unity import frames
+from kinefab.unity.mapping import GROUND_ID
 from linkages import five_bar
 from mechanism_cases import scene, table
 
@@ -270,9 +271,10 @@ def test_a_written_scene_moves_as_its_source(id):
 def hinge_on_ground(path, part):
     """How ``sweep`` is told a part's hinge to the world: by its component, as an object may carry several joints."""
     objects = json.loads(path.read_text("utf-8"))["gameObjects"]
+    ground = next(i for i, o in enumerate(objects) if o["id"] == GROUND_ID)
     components = next(o["components"] for o in objects if o["id"] == part)
     hinges = [i for i, c in enumerate(components) if c["type"] == "HingeJoint"]
-    return f"{part}[{next(i for i in hinges if 'connectedBody' not in components[i])}]"
+    return f"{part}[{next(i for i in hinges if components[i].get('connectedBody') == ground)}]"
 
 
 @pytest.mark.skipif(
@@ -308,7 +310,7 @@ def test_motion_is_that_of_the_c_sharp_sweep(tmp_path):
         zero = next(c.value for c in mechanism.coordinates if c.name == name)
         motion = mechanism.sweep(name, zero - 20.0, zero + 25.0, frames=10)
         assert len(swept["bodies"]) > 1 and len(motion) == 10
-        for body in swept["bodies"]:
+        for body in (b for b in swept["bodies"] if b["id"] != GROUND_ID):
             theirs, own = np.array(body["poses"]), motion[body["id"]]
             assert np.abs(frames.point(own[:, :3]) - theirs[:, :3]).max() < 1e-9
             turned = frames.quaternion(own[:, 3:])

@@ -44,31 +44,30 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
         for c in entry.components
         if isinstance(c, Rigidbody) and not c.isKinematic
     }
-    if not dynamic:
+    placed = _placed(scene, moved) if dynamic else []
+    joined = _joined(scene, moved)
+    free = [
+        (first, second)
+        for first, second in _close(placed)
+        if first.body != second.body
+        and dynamic & {first.body, second.body}
+        and frozenset((first.body, second.body)) not in joined
+    ]
+    if not free:
         return
     if not is_available():
         report.add("OVERLAPS_NOT_CHECKED", detail="the Python package coal is not installed")
         return
-    placed = _placed(scene, moved)
-    joined = _joined(scene, moved)
-    depths, found, looked = Depths(), dict[tuple[int, int], float](), 0
+    if len(free) > MOST_PAIRS:
+        report.add("OVERLAPS_NOT_CHECKED", detail=f"more than {MOST_PAIRS} pairs of shapes are close")
+    depths, found = Depths(), dict[tuple[int, int], float]()
     fine: set[int] = set()
-    for a, b in _close(placed):
-        first, second = placed[a], placed[b]
-        if first.body == second.body or not dynamic & {first.body, second.body}:
-            continue
-        if frozenset((first.body, second.body)) in joined:
-            continue
+    for first, second in free[:MOST_PAIRS]:
         if max(len(first.solid.faces), len(second.solid.faces)) > MOST_TRIANGLES:
             fine.add(max(first, second, key=lambda p: len(p.solid.faces)).owner)
             continue
-        looked += 1
-        if looked > MOST_PAIRS:
-            report.add("OVERLAPS_NOT_CHECKED", detail=f"more than {MOST_PAIRS} pairs of shapes are close")
-            break
         depth = depths.between(first.solid, second.solid)
-        size = min(float((p.high - p.low).max()) for p in (first, second))
-        if depth > min(CONTACT_OFFSET, SHARE * size):
+        if depth > _tolerated(first, second):
             pair = (first.owner, second.owner)
             found[pair] = max(depth, found.get(pair, 0.0))
     for owner in sorted(fine):
@@ -146,19 +145,31 @@ def _shape(scene: UnityScene, collider: _Collider) -> tuple[Array, IntArray, boo
     return vertices + center, made.faces, True
 
 
-def _close(placed: list[_Placed]) -> list[tuple[int, int]]:
-    """Pairs whose boxes overlap, by a sweep along X."""
+def _tolerated(first: _Placed, second: _Placed) -> float:
+    """The depth, metres, up to which two shapes may stand in each other."""
+    size = min(float((p.high - p.low).max()) for p in (first, second))
+    return min(CONTACT_OFFSET, SHARE * size)
+
+
+def _close(placed: list[_Placed]) -> list[tuple[_Placed, _Placed]]:
+    """Pairs whose boxes overlap by more than is tolerated, by a sweep along X."""
     if not placed:
         return []
     low: Array = np.array([p.low for p in placed])
     high: Array = np.array([p.high for p in placed])
     order = np.argsort(low[:, 0], kind="stable")
     stops = low[order, 0].searchsorted(high[order, 0], side="right")
-    found: list[tuple[int, int]] = []
+    near: list[tuple[int, int]] = []
     places: list[int] = order.tolist()
     for k, i in enumerate(places):
         others = order[k + 1 : stops[k]]
-        near = (low[others] <= high[i]).all(axis=1) & (high[others] >= low[i]).all(axis=1)
-        beside: list[int] = others[near].tolist()
-        found += [(min(i, j), max(i, j)) for j in beside]
-    return sorted(found)
+        depth = np.minimum(high[others], high[i]) - np.maximum(low[others], low[i])
+        beside: list[int] = others[(depth > 0.0).all(axis=1)].tolist()
+        near += [(min(i, j), max(i, j)) for j in beside]
+    pairs = [(placed[i], placed[j]) for i, j in sorted(near)]
+    return [(a, b) for a, b in pairs if _box_depth(a, b) > _tolerated(a, b)]
+
+
+def _box_depth(first: _Placed, second: _Placed) -> float:
+    """Metres that one box must move to be free of the other; what stands in a box moves no further."""
+    return float(np.minimum(first.high - second.low, second.high - first.low).min())

@@ -25,7 +25,8 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__main__", "__init__"},
     ],
     "cli": [
-        {"asking", "console", "declared"},
+        {"asking", "console"},
+        {"declared"},
         {"analyse", "batch", "bundle", "capture", "export", "inspect", "mates", "views"},
         {"program"},
         {"__init__"},

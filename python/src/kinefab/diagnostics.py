@@ -185,18 +185,31 @@ class Report:
             raise KinefabError(self.of(Severity.ERROR))
 
 
+def findings_document(report: Report, file: str, written: bool | None = None) -> dict[str, object]:
+    """The findings as ``schemas/findings.schema.json`` has them.
+
+    file: that was asked about, or that was to be written; ``written`` then says whether it was, and is None otherwise.
+    """
+    return {
+        "file": file,
+        **({} if written is None else {"written": written}),
+        "errors": len(report.of(Severity.ERROR)),
+        "warnings": len(report.of(Severity.WARNING)),
+        "diagnostics": [
+            {
+                "code": d.code,
+                "severity": d.severity.value,
+                **({"where": d.where} if d.where else {}),
+                "message": d.message,
+                "remedy": d.remedy,
+            }
+            for d in report.diagnostics
+        ],
+    }
+
+
 def report_document(report: Report, target: str, written: bool) -> dict[str, object]:
     """A report as ``schemas/export_report.schema.json`` has it.  target: the scene file; written: whether it was."""
-    findings = [
-        {
-            "code": d.code,
-            "severity": d.severity.value,
-            **({"where": d.where} if d.where else {}),
-            "message": d.message,
-            "remedy": d.remedy,
-        }
-        for d in report.diagnostics
-    ]
     outcomes = [
         {
             "feature": o.feature,
@@ -206,11 +219,4 @@ def report_document(report: Report, target: str, written: bool) -> dict[str, obj
         }
         for o in report.outcomes
     ]
-    return {
-        "file": target,
-        "written": written,
-        "errors": len(report.of(Severity.ERROR)),
-        "warnings": len(report.of(Severity.WARNING)),
-        "diagnostics": findings,
-        "outcomes": outcomes,
-    }
+    return {**findings_document(report, target, written), "outcomes": outcomes}

@@ -40,26 +40,30 @@ def remove_leftovers(target: Path, *roles: str) -> None:
 
 
 @contextmanager
-def replacing(target: Path, role: str) -> Generator[BinaryIO, None, None]:
+def replacing(target: Path, role: str, lasting: bool = True) -> Generator[BinaryIO, None, None]:
     """A file that takes ``target``'s place when the block ends well, and goes when it does not.
 
-    role: a word in the temporary file's name.  Raises OSError as the file system does.
+    role: a word in the temporary file's name.  lasting: whole even when the power fails afterwards, which takes a disk's
+    time; a kill leaves it whole either way.  Raises OSError as the file system does.
     """
     with beside(target, role) as (file, temporary):
         yield file
         file.flush()
-        os.fsync(file.fileno())
+        if lasting:
+            os.fsync(file.fileno())
         if os.name == "nt":  # which renames no open file
             file.close()
         os.replace(temporary, target)
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file at once; behind a link, where it leads.  Raises OSError; then the old file stands as it was."""
+def write_whole(path: Path, content: bytes, lasting: bool = True) -> None:
+    """Write a file at once; behind a link, where it leads.  lasting: see ``replacing``.
+
+    Raises OSError; then the old file stands as it was."""
     if _takes_no_other(path):
         path.write_bytes(content)
         return
-    with replacing(Path(os.path.realpath(path)), "whole") as file:
+    with replacing(Path(os.path.realpath(path)), "whole", lasting) as file:
         file.write(content)
 
 

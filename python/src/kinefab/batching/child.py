@@ -16,10 +16,12 @@ import sys
 import time
 from collections.abc import Iterator
 
-from .job import Job, Outcome, Record
+from ..diagnostics import Diagnostic, diagnostic
+from .job import Job, Outcome, Record, unmade
 from .ledger import Reading
 from .work import work
 
+Why = tuple[Outcome, Diagnostic]
 LOOK_SECONDS = 0.02
 """Between two looks at a job's memory."""
 
@@ -51,9 +53,9 @@ def _done(job: Job, reading: Reading) -> Record:
     try:
         return work(job, reading)
     except MemoryError:
-        return _lost(job, Outcome.MEMORY, "there was no more memory")
+        return _lost(job, _no_memory("there was no more memory"))
     except Exception as error:  # a defect of ours or of a library: told, and the rest goes on
-        return _lost(job, Outcome.CRASHED, f"{type(error).__name__}: {error}")
+        return _lost(job, _crashed(f"{type(error).__name__}: {error}"))
 
 
 def _watched(job: Job, reading: Reading) -> Record:
@@ -81,11 +83,11 @@ def _watched(job: Job, reading: Reading) -> Record:
     if why is None:
         number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
         kind = f"signal {signal.Signals(number).name}" if os.WIFSIGNALED(status) else f"status {number}"
-        why = (Outcome.CRASHED, f"its process ended with {kind}")
-    return _lost(job, *why, seconds, memory)
+        why = _crashed(kind)
+    return _lost(job, why, seconds, memory)
 
 
-def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, tuple[Outcome, str] | None]:
+def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, Why | None]:
     """What the process wrote, or why it was ended."""
     content, asked = b"", True
     while True:
@@ -100,9 +102,9 @@ def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, tuple[
             os._exit(1)
         why = None
         if job.timeout is not None and time.monotonic() - start > job.timeout:
-            why = (Outcome.TIMEOUT, f"it took longer than {job.timeout:g} s")
+            why = (Outcome.TIMEOUT, diagnostic("BATCH_TIMEOUT", seconds=f"{job.timeout:g}"))
         elif job.memory is not None and _held(pid) > job.memory:
-            why = (Outcome.MEMORY, f"it held more than {job.memory / 2**20:.0f} MiB")
+            why = _no_memory(f"it held more than {job.memory / 2**20:.0f} MiB")
         if why is not None:
             os.kill(pid, signal.SIGKILL)
             return b"", why
@@ -117,9 +119,16 @@ def _held(pid: int) -> int:
         return 0
 
 
-def _lost(job: Job, outcome: Outcome, message: str, seconds: float = 0.0, memory: int = 0) -> Record:
-    code = f"BATCH_{outcome.value.upper()}"
-    return Record(job.source, job.target, outcome, {code: 1}, (message,), seconds, memory)
+def _no_memory(detail: str) -> Why:
+    return Outcome.MEMORY, diagnostic("BATCH_MEMORY", detail=detail)
+
+
+def _crashed(detail: str) -> Why:
+    return Outcome.CRASHED, diagnostic("BATCH_CRASHED", detail=detail)
+
+
+def _lost(job: Job, why: Why, seconds: float = 0.0, memory: int = 0) -> Record:
+    return unmade(job.source, job.target, *why, seconds, memory)
 
 
 if __name__ == "__main__":

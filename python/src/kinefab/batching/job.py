@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from enum import Enum
 from typing import Any, cast
 
+from ..diagnostics import Diagnostic
 from ..options import ExportOptions
 
 
@@ -73,6 +75,13 @@ class Record:
         return Record(**(values | read))
 
 
+def unmade(
+    source: str, target: str, outcome: Outcome, found: Diagnostic, seconds: float = 0.0, memory: int = 0
+) -> Record:
+    """The record of a file that nothing was made of, and why."""
+    return Record(source, target, outcome, {found.code: 1}, (str(found),), seconds, memory)
+
+
 def options_as_json(options: ExportOptions) -> dict[str, Any]:
     """The options as JSON values, in a fixed order; ``options_of_json`` reads them back."""
     values = asdict(options)
@@ -89,4 +98,6 @@ def options_of_json(values: dict[str, Any]) -> ExportOptions:
 def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in cast("Sequence[Any]", value)]
+    if isinstance(value, os.PathLike):  # the worker stands in another folder
+        return os.path.abspath(os.fsdecode(cast("os.PathLike[str]", value)))
     return value if isinstance(value, (str, int, float, bool, type(None))) else str(value)

@@ -31,9 +31,9 @@ def done(job: Job, version: str) -> Record | None:
     """The record of a job that is up to date: same options and version, everything that was read unchanged, every file
     that was written still there."""
     known = _known(job)
-    if known is None or known["version"] != version or known["options"] != job.options:
+    if known is None or known.get("version") != version or known["options"] != job.options:
         return None
-    if not all(places.exists(file) for file in known["files"]):
+    if any(_size(file) != size for file, size in known["files"].items()):
         return None
     if any(_digest(path) != digest for path, digest in known["read"].items()):
         return None
@@ -41,8 +41,18 @@ def done(job: Job, version: str) -> Record | None:
 
 
 def is_ours(job: Job) -> bool:
-    """Whether an earlier run wrote the target."""
-    return _known(job) is not None
+    """Whether an earlier run wrote the target, or had begun to."""
+    return places.exists(record_place(job))
+
+
+def begin(job: Job) -> None:
+    """Remember that the target is ours from here on, and that nothing is known of what is in it."""
+    places.write_bytes(record_place(job), b"{}\n", lasting=False)
+
+
+def forget(job: Job) -> None:
+    """Of a target that was begun and is not there."""
+    places.remove(record_place(job))
 
 
 def note(job: Job, version: str, record: Record, read: dict[str, str], files: list[str]) -> None:
@@ -52,9 +62,9 @@ def note(job: Job, version: str, record: Record, read: dict[str, str], files: li
         "options": job.options,
         "record": record.as_json(),
         "read": dict(sorted(read.items())),
-        "files": files,
+        "files": {file: _size(file) for file in files},
     }
-    places.write_bytes(record_place(job), (json.dumps(content, indent=1) + "\n").encode())
+    places.write_bytes(record_place(job), (json.dumps(content, indent=1) + "\n").encode(), lasting=False)
 
 
 def _known(job: Job) -> dict[str, Any] | None:
@@ -63,6 +73,16 @@ def _known(job: Job) -> dict[str, Any] | None:
         return None if content is None else json.loads(content)
     except (OSError, ValueError):
         return None  # half of one, from another program: the job is done again
+
+
+def _size(place: str) -> int | None:
+    """Bytes of a file that was written, None where it is gone; of a URL only whether it is there."""
+    if places.is_url(place):
+        return 0 if places.exists(place) else None
+    try:
+        return os.stat(place).st_size
+    except OSError:
+        return None
 
 
 def _digest(path: str) -> str:
@@ -91,6 +111,10 @@ class Reading:
             yield
         finally:
             self._on = False
+
+    def clear(self) -> None:
+        """Forget; for the next job."""
+        self.paths.clear()
 
     def add(self, path: str | Path) -> None:
         with suppress(OSError, ValueError):
@@ -143,9 +167,20 @@ def claimed(job: Job) -> Generator[None, None, None]:
 
     lock = Path(record_place(job) + ".lock")
     lock.parent.mkdir(parents=True, exist_ok=True)
-    with lock.open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        try:
-            yield
-        finally:
-            lock.unlink(missing_ok=True)
+    while True:
+        with lock.open("w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            if not _is_at(file.fileno(), lock):
+                continue  # whoever had it took it away while this one waited
+            try:
+                yield
+            finally:
+                lock.unlink(missing_ok=True)
+            return
+
+
+def _is_at(descriptor: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(descriptor), os.stat(path))
+    except FileNotFoundError:
+        return False

@@ -5,10 +5,13 @@ URLs go through fsspec (extra ``cluster``); paths need nothing.
 
 from __future__ import annotations
 
+import glob
 import os
 import posixpath
+import re
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, cast
@@ -71,38 +74,70 @@ def read_bytes(place: str) -> bytes | None:
         return None
 
 
-def write_bytes(place: str, content: bytes) -> None:
-    """The whole file or none of it; folders are made."""
+def remove(place: str) -> None:
+    """Remove a file, if it is there."""
+    with suppress(FileNotFoundError):
+        if is_url(place):
+            system, path = file_system(place)
+            system.rm_file(path)
+        else:
+            os.unlink(place)
+
+
+def write_bytes(place: str, content: bytes, lasting: bool = True) -> None:
+    """The whole file or none of it; folders are made.  lasting: a path's file, also when the power fails afterwards."""
     if not is_url(place):
         Path(place).parent.mkdir(parents=True, exist_ok=True)
-        write_whole(Path(place), content)
+        write_whole(Path(place), content, lasting)
         return
     system, path = file_system(place)
     system.makedirs(posixpath.dirname(path), exist_ok=True)
     system.pipe_file(path, content)
 
 
-def expand(place: str) -> tuple[str, list[str]]:
-    """A folder, a glob or a file as (the folder that names are relative to, the files), sorted."""
+@dataclass(frozen=True, slots=True)
+class Expanded:
+    """base: what the files' names are relative to.  files: sorted.  searched: they were found, not named one by one.
+    unlisted: folders whose files cannot be told, each with the reason."""
+
+    base: str
+    files: list[str]
+    searched: bool
+    unlisted: tuple[tuple[str, str], ...] = ()
+
+
+def expand(place: str) -> Expanded:
+    """The files of a folder, of a pattern, or the one that is named."""
+    pattern = any(c in place for c in "*?[")
     if is_url(place):
         system, path = file_system(place)
-        if any(c in path for c in "*?["):
-            base = path.split("*")[0].rpartition("/")[0]
+        if pattern:
+            base = re.split(r"[*?[]", path)[0].rpartition("/")[0]
             found = [f for f in system.glob(path) if system.isfile(f)]
         elif system.isdir(path):
             base, found = path, system.find(path)
         else:
-            base, found = posixpath.dirname(path), [path]
-        return str(system.unstrip_protocol(base)), sorted(str(system.unstrip_protocol(f)) for f in found)
+            return Expanded(place.rpartition("/")[0], [place], False)
+        full = system.unstrip_protocol
+        return Expanded(str(full(base)), sorted(str(full(f)) for f in found), True)
     if os.path.isdir(place):
-        files = [os.path.join(folder, name) for folder, _, names in os.walk(place) for name in names]
-        return place, sorted(files)
-    if any(c in place for c in "*?[") and not os.path.exists(place):
-        import glob
+        unlisted: list[tuple[str, str]] = []
 
-        base = os.path.dirname(place.split("*")[0].split("?")[0].split("[")[0]) or "."
-        return base, sorted(f for f in glob.glob(place, recursive=True) if os.path.isfile(f))
-    return os.path.dirname(place) or ".", [place]
+        def heard(error: OSError) -> None:
+            unlisted.append((str(error.filename), error.strerror or str(error)))
+
+        files = [os.path.join(at, name) for at, _, names in os.walk(place, onerror=heard) for name in names]
+        return Expanded(place, sorted(files), True, tuple(sorted(unlisted)))
+    if pattern and not os.path.lexists(place):
+        base = os.path.dirname(re.split(r"[*?[]", place)[0]) or "."
+        return Expanded(base, sorted(f for f in glob.glob(place, recursive=True) if os.path.isfile(f)), True)
+    return Expanded(os.path.dirname(place) or ".", [place], False)
+
+
+def within(place: str, folder: str) -> bool:
+    """Whether a place is below a folder, and not the folder itself."""
+    head = join(folder, "")
+    return place != head and place.startswith(head)
 
 
 @contextmanager

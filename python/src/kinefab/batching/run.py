@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
+from ..diagnostics import KinefabError, diagnostic
 from ..options import ExportOptions
+from ..replacing import demand_writable
 from ..targets import known_endings
 from . import places
 from .index import index_page
-from .job import Job, Outcome, Record, options_as_json
+from .job import Job, Outcome, Record, options_as_json, unmade
 from .ledger import LEDGER
 from .plan import planned
 from .slot import convert
@@ -66,25 +70,37 @@ def batch(
     executor: who does the work instead, any of ``concurrent.futures`` or ``distributed.Client.get_executor()``; Kinefab is
     installed where it works, and paths mean the same there.
     timeout: seconds a file.  memory: bytes a file.  force: convert what is up to date, overwrite what others wrote.
-    Raises ValueError for a kind that no target has.  What goes wrong with a file is in its record.
+    Raises ValueError for a kind that no target has and for a number that is not above zero, KinefabError where ``out``
+    cannot be written.  What goes wrong with a file is in its record.
     """
     ending = f".{to.lstrip('.')}"
     if ending not in known_endings():
         raise ValueError(
             f"there is no output {to!r}; pass one of: {', '.join(e[1:] for e in known_endings())}"
         )
+    for name, number in (("jobs", jobs), ("timeout", timeout), ("memory", memory)):
+        if number is not None and not number > 0:
+            raise ValueError(f"{name} is {number}; it must be a number above zero, or None")
     folder = os.fspath(out)
     folder = folder if places.is_url(folder) else os.path.abspath(folder)
     ledger = places.join(folder, LEDGER)
     named = [os.fspath(place) for place in inputs]
     absolute = [place if places.is_url(place) else os.path.abspath(place) for place in named]
     asked = options_as_json(options)
-    work = [
-        Job(source, target, ledger, asked, timeout, memory, force)
-        for source, target in planned(absolute, folder, ending)
-    ]
+    with _unwritable_as_finding(folder):
+        plan = planned(absolute, folder, ending)
+        _demand_folder(ledger)
+    work = [Job(source, target, ledger, asked, timeout, memory, force) for source, target in plan.work]
+    total = len(work) + len(plan.refused)
     found: dict[str, Record] = {}
     lines: list[str] = []
+
+    def took(record: Record) -> None:
+        lines.append(json.dumps(record.as_json(), ensure_ascii=False))
+        progress(len(lines), total, record)
+
+    for record in plan.refused:
+        took(record)
     own = None if executor is not None else ThreadPoolExecutor(jobs or os.cpu_count() or 1)
     pool = executor if executor is not None else own
     assert pool is not None
@@ -93,21 +109,42 @@ def batch(
         for future in as_completed(futures):
             record = _record(future, futures[future])
             found[record.target] = record
-            lines.append(json.dumps(record.as_json(), ensure_ascii=False))
-            progress(len(found), len(work), record)
+            took(record)
     finally:
         if own is not None:
             own.shutdown(cancel_futures=True)
-    records = tuple(found[job.target] for job in work)
-    places.write_bytes(places.join(folder, "batch.jsonl"), ("\n".join(lines) + "\n").encode())
+    records = (*plan.refused, *(found[job.target] for job in work))
     index = places.join(folder, "index.html")
-    places.write_bytes(index, index_page(records, folder).encode())
+    told = "".join(f"{line}\n" for line in lines).encode("utf-8", "backslashreplace")
+    with _unwritable_as_finding(folder):
+        places.write_bytes(places.join(folder, "batch.jsonl"), told)
+        places.write_bytes(index, index_page(records, folder).encode("utf-8", "backslashreplace"))
     return BatchResult(records, index)
+
+
+def _demand_folder(ledger: str) -> None:
+    """Raises OSError where the records cannot be written: found out at once, not by ten thousand files."""
+    if not places.is_url(ledger):
+        os.makedirs(ledger, exist_ok=True)
+        demand_writable(Path(ledger, "records"))
+    else:
+        places.exists(ledger)
+
+
+@contextmanager
+def _unwritable_as_finding(folder: str) -> Generator[None, None, None]:
+    try:
+        yield
+    except ImportError as error:
+        raise KinefabError([diagnostic("BATCH_LIBRARY_MISSING", place=folder, detail=error)]) from error
+    except OSError as error:
+        detail = error.strerror or str(error)
+        raise KinefabError([diagnostic("TARGET_UNWRITABLE", path=folder, detail=detail)]) from error
 
 
 def _record(future: Future[Record], job: Job) -> Record:
     try:
         return future.result()
     except Exception as error:  # the worker is lost and nobody took its place
-        message = f"the worker was lost: {type(error).__name__}: {error}"
-        return Record(job.source, job.target, Outcome.CRASHED, {"BATCH_WORKER_LOST": 1}, (message,))
+        lost = diagnostic("BATCH_WORKER_LOST", detail=f"{type(error).__name__}: {error}")
+        return unmade(job.source, job.target, Outcome.CRASHED, lost)

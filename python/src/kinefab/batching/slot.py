@@ -8,7 +8,8 @@ import subprocess
 import sys
 import threading
 
-from .job import Job, Outcome, Record
+from ..diagnostics import diagnostic
+from .job import Job, Outcome, Record, unmade
 
 GRACE_SECONDS = 10.0
 """After a job's timeout the process itself is given up."""
@@ -26,13 +27,8 @@ class Slot:
             answer = self._asked(job)
             if answer is not None:
                 return Record.of_json(json.loads(answer))
-        return Record(
-            job.source,
-            job.target,
-            Outcome.CRASHED,
-            {"BATCH_CRASHED": 1},
-            ("the process that converts ended without a word",),
-        )
+        found = diagnostic("BATCH_CRASHED", detail="it said nothing, twice")
+        return unmade(job.source, job.target, Outcome.CRASHED, found)
 
     def _asked(self, job: Job) -> bytes | None:
         """The line that answers, None where the process is gone."""

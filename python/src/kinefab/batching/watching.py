@@ -4,14 +4,28 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 
-from .job import Record
+from ..diagnostics import printable
+from .job import Outcome, Record
 from .run import Progress
 
 SHOWN = 50
 """Files whose failure is told on the way; the index tells all."""
+
+
+def summary(records: Iterable[Record]) -> list[str]:
+    """A line an outcome: how many, seconds a file, and the most memory that one took."""
+    lines: list[str] = []
+    for outcome in Outcome:
+        group = [record for record in records if record.outcome is outcome]
+        if group:
+            seconds = sum(record.seconds for record in group) / len(group)
+            memory = max(record.memory for record in group) / 2**20
+            word = outcome.value.replace("_", " ")
+            lines.append(f"{len(group):8} {word:<10} {seconds:9.2f} s a file {memory:8.0f} MiB at most")
+    return lines
 
 
 @contextmanager
@@ -22,12 +36,13 @@ def watched(as_json: bool, quiet: bool) -> Generator[Progress, None, None]:
     def tell(record: Record) -> None:
         nonlocal failures
         if as_json:
-            print(json.dumps(record.as_json(), ensure_ascii=False), flush=True)
+            text = json.dumps(record.as_json(), ensure_ascii=False)
+            print(text.encode("utf-8", "backslashreplace").decode("utf-8"), flush=True)
         if not record.outcome.good:
             failures += 1
             if failures <= SHOWN and not quiet:
                 why = record.messages[0] if record.messages else " ".join(record.codes)
-                print(f"{record.outcome.value}: {record.source}: {why}", file=sys.stderr)
+                print(printable(f"{record.outcome.value}: {record.source}: {why}"), file=sys.stderr)
 
     if quiet or not sys.stderr.isatty():
         yield lambda done, total, record: tell(record)

@@ -10,6 +10,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..diagnostics import KinefabError, diagnostic
 from ..geometry.files import FORMATS
 from ..sources.parts.readers import part_readers
 from ..sources.reading.record import is_array, is_object
@@ -26,16 +27,19 @@ COMMENT = (
 )
 
 
-class NoBeginning(ValueError):
-    """Why there is no bundle to be made of the folder: a sentence, and what to do."""
+def _no_beginning(detail: str, remedy: str) -> KinefabError:
+    return KinefabError([diagnostic("BUNDLE_NOT_BEGUN", detail=detail, remedy=remedy)])
 
 
 def meshes_in(folder: Path) -> list[Path]:
-    """The mesh files of a folder, by name.  Raises NoBeginning where there are none."""
+    """The mesh files of a folder, by name.  Raises KinefabError where there are none."""
     try:
         there = sorted(folder.iterdir(), key=lambda path: path.name)
     except OSError as error:
-        raise NoBeginning(f"{folder} cannot be listed: {error.strerror or error}.") from None
+        raise _no_beginning(
+            f"{folder} cannot be listed: {error.strerror or error}",
+            "Give a folder of mesh files that can be read.",
+        ) from None
     known = (*FORMATS, *(suffix for suffix in part_readers() if suffix not in FORMATS))
     found = [
         path
@@ -43,10 +47,12 @@ def meshes_in(folder: Path) -> list[Path]:
         if path.suffix.lower() in known and not path.name.startswith(".") and path.is_file()
     ]
     if not found:
-        raise NoBeginning(f"{folder} holds no mesh file ({', '.join(known)}); export one file for each part.")
+        raise _no_beginning(
+            f"{folder} holds no mesh file ({', '.join(known)})", "Export one file for each part into it."
+        )
     for path in found:
         if any("\ud800" <= letter <= "\udfff" for letter in path.name):
-            raise NoBeginning(f"The name of {path!a} is not UTF-8; rename the file.")
+            raise _no_beginning(f"the name of {path!a} is not UTF-8", "Rename the file.")
     return found
 
 
@@ -54,7 +60,7 @@ def begin(files: Sequence[Path], target: Path, units: str, up: str) -> str:
     """The text of a bundle with one part for each mesh file.
 
     files: at least one.  target: the bundle; the files are named relative to its folder.  units: of the files and of
-    the bundle, a word of the schema.  up: "X", "Y" or "Z".  Raises NoBeginning where a file is not below that folder.
+    the bundle, a word of the schema.  up: "X", "Y" or "Z".  Raises KinefabError where a file is not below that folder.
     """
     names = _names(files)
     first, last = names[0], names[-1] if len(names) > 1 else "ground"
@@ -107,8 +113,9 @@ def _relative(file: Path, target: Path) -> str:
     try:
         return file.resolve().relative_to(target.parent.resolve()).as_posix()
     except ValueError:
-        raise NoBeginning(
-            f"{file} is not below {os.fspath(target.parent) or '.'}; write the bundle beside the meshes or above them."
+        raise _no_beginning(
+            f"{file} is not below {os.fspath(target.parent) or '.'}",
+            "Write the bundle beside the meshes or above them.",
         ) from None
 
 

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+import json
+from typing import Optional
 
 import typer
 
-from ..options import DEFAULT_DENSITY, ColliderShape, ExportOptions
-from ..sources import source_options
-from ..targets import known_endings, target_options
-from .asking import asking
+from ..diagnostics import KinefabError, Report, findings_document
+from ..options import ExportOptions
+from ..targets import known_endings
+from . import console
+from .asking import taking
+from .console import log
+from .declared import export_options
 
 
-@asking(("reading", source_options()), ("writing", target_options()))
+@taking("options", export_options)
 def batch(
-    reading: dict[str, Any],
-    writing: dict[str, Any],
+    options: ExportOptions,
     inputs: list[str] = typer.Argument(
         ...,
         metavar="IN...",
@@ -39,28 +42,17 @@ def batch(
     force: bool = typer.Option(
         False, "--force", help="Convert what is up to date, overwrite what others wrote."
     ),
-    strict: bool = typer.Option(False, "--strict", help="A loss that is worth a warning is an error."),
-    colliders: ColliderShape = typer.Option(
-        ColliderShape.AUTO, "--colliders", show_default="auto", help="Collider of each body."
-    ),
-    density: float = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none."),
     quiet: bool = typer.Option(False, "--quiet", "-q", help="Show no progress and no summary."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON line a file as it is done."),
 ) -> None:
     """Export many sources, each in a process of its own; what is up to date is skipped."""
     from ..batching.cluster import executor_of
     from ..batching.run import batch as run
-    from ..batching.watching import watched
-    from ..diagnostics import KinefabError
+    from ..batching.watching import summary, watched
 
     if f".{to}" not in known_endings():
         raise typer.BadParameter(f"{to!r} is no output", param_hint="--to")
-    try:
-        options = ExportOptions(
-            colliders=colliders, density=density, strict=strict, reading=reading, writing=writing
-        )
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--density") from None
+    quiet = quiet or console.verbosity < 0
     bytes_allowed = None if memory is None else int(memory * 2**20)
     try:
         with executor_of(scheduler) as executor, watched(as_json, quiet) as progress:
@@ -77,18 +69,13 @@ def batch(
                 progress=progress,
             )
     except KinefabError as error:
-        for found in error.diagnostics:
-            typer.echo(str(found), err=True)
-        raise typer.Exit(1) from None
-    except (OSError, ImportError) as error:
-        reason = getattr(error, "strerror", None) or error
-        typer.echo(
-            f"{output} cannot be written: {reason}. Check the folder, or what its scheme needs installed.",
-            err=True,
-        )
+        log(Report(list(error.diagnostics)))
+        if as_json:
+            typer.echo(json.dumps(findings_document(Report(list(error.diagnostics)), output, False)))
         raise typer.Exit(1) from None
     if not quiet:
-        counts = ", ".join(f"{count} {word.replace('_', ' ')}" for word, count in result.counts.items())
-        typer.echo(f"{result.index}: {counts or 'no source was found'}.", err=True)
+        for line in summary(result.records):
+            typer.echo(line, err=True)
+        typer.echo(result.index, err=True)
     if not result.worst.good:
         raise typer.Exit(1)

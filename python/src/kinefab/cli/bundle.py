@@ -9,8 +9,9 @@ from typing import Optional
 
 import typer
 
-from ..diagnostics import Report, Severity
-from .console import log
+from ..diagnostics import KinefabError, Report, Severity
+from .console import count, fail, tell, write
+from .declared import AS_JSON
 
 ENDING = ".bundle.json"
 UNITS = "mm cm dm m um in ft yd millimeter centimeter micron inch foot".split()
@@ -31,10 +32,10 @@ def bundle_commands() -> typer.Typer:
         ),
         up: str = typer.Option("Z", "--up", help="Axis that is up in the meshes: X, Y or Z."),
         force: bool = typer.Option(False, "--force", help="Overwrite a bundle that is there."),
+        as_json: bool = AS_JSON,
     ) -> None:
         """Write a commented, valid bundle of a folder of meshes, to go on with by hand."""
-        from ..bundling.beginning import NoBeginning, begin, meshes_in
-        from ..replacing import write_whole
+        from ..bundling.beginning import begin, meshes_in
 
         target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
         if not target.name.endswith(ENDING):
@@ -53,33 +54,33 @@ def bundle_commands() -> typer.Typer:
         try:
             files = meshes_in(folder)
             text = begin(files, target, units, up.upper())
-        except NoBeginning as reason:
-            typer.echo(f"{reason} {target} was not written.", err=True)
-            raise typer.Exit(1) from None
-        try:
-            write_whole(target, text.encode("utf-8"))
-        except OSError as error:
-            report = Report()
-            report.add("TARGET_UNWRITABLE", path=target, detail=error.strerror or str(error))
-            log(report)
-            raise typer.Exit(1) from None
+        except KinefabError as error:
+            typer.echo(f"{target} was not written.", err=True)
+            fail(error, target, as_json, False)
+        write(target, text.encode("utf-8"), as_json)
         typer.echo(
             f"{target}: {len(files)} parts in {units}, {up.upper()} up, no joints yet. "
             f"Ground a part, add joints, then: kinefab bundle check {target}",
             err=True,
         )
+        tell(Report(), target, as_json, True)
 
     @group.command()
-    def check(file: Path = typer.Argument(..., help="NAME.bundle.json.", show_default=False)) -> None:
+    def check(
+        file: Path = typer.Argument(..., help="NAME.bundle.json.", show_default=False),
+        as_json: bool = AS_JSON,
+    ) -> None:
         """Tell everything that is missing or wrong in a bundle, at once."""
         if not file.name.lower().endswith(".json"):
             raise typer.BadParameter(f"{file} does not end in {ENDING}", param_hint="FILE")
         from ..bundling.checking import check as run
 
         found = run(file)
-        log(found)
+        tell(found, file, as_json)
         errors, warnings = (len(found.of(grade)) for grade in (Severity.ERROR, Severity.WARNING))
-        typer.echo(f"{file}: {errors} errors, {warnings} warnings.")
+        if not as_json:
+            told = (count(errors, "error", "errors"), count(warnings, "warning", "warnings"))
+            typer.echo(f"{file}: {', '.join(told)}.")
         if errors:
             raise typer.Exit(1)
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Optional
 
 import typer
 
-from ..diagnostics import KinefabError, Report, diagnostic
-from .console import log
+from ..diagnostics import KinefabError, Report
+from .console import fail, tell, unwritable_as_finding
+from .declared import AS_JSON
 
 if TYPE_CHECKING:
     from ..capture.run import Captured
@@ -83,6 +84,7 @@ def capture_commands() -> typer.Typer:
             None, "--output", "-o", help="With --replay: NAME.bundle.json."
         ),
         up: Optional[str] = UP,
+        as_json: bool = AS_JSON,
     ) -> None:
         if context.invoked_subcommand is not None:
             return
@@ -90,7 +92,7 @@ def capture_commands() -> typer.Typer:
             raise typer.BadParameter("--replay needs a record, and --output the bundle to write")
         from ..capture.run import replay as run
 
-        _finish(lambda report: run(replay, output, report, _axis(up)), output)
+        _finish(lambda report: run(replay, output, report, _axis(up)), output, as_json)
 
     def over_com(word: str, name: str) -> None:
         @group.command(name=word, help=HELP_COM.format(name=name, word=word))
@@ -99,10 +101,11 @@ def capture_commands() -> typer.Typer:
             record: Optional[Path] = RECORD,
             blank_names: bool = BLANK,
             up: Optional[str] = UP,
+            as_json: bool = AS_JSON,
         ) -> None:
             from ..capture.run import capture as run
 
-            _finish(lambda report: run(word, output, report, record, blank_names, _axis(up)), output)
+            _finish(lambda report: run(word, output, report, record, blank_names, _axis(up)), output, as_json)
 
         _ = program
 
@@ -118,12 +121,14 @@ def capture_commands() -> typer.Typer:
         record: Optional[Path] = RECORD,
         blank_names: bool = BLANK,
         up: Optional[str] = UP,
+        as_json: bool = AS_JSON,
     ) -> None:
         from ..capture.run import capture_onshape as run
 
         _finish(
             lambda report: run(source, os.environ, output, report, record, blank_names, _axis(up)),
             output,
+            as_json,
         )
 
     @group.command(help=HELP_FUSION)
@@ -131,16 +136,14 @@ def capture_commands() -> typer.Typer:
         install: Path = typer.Option(
             ..., "--install", help="Folder for add-ins to write ours into.", show_default=False
         ),
+        as_json: bool = AS_JSON,
     ) -> None:
         from ..capture.fusion.install import install as run
 
-        try:
+        with unwritable_as_finding(install, as_json):
             made = run(install)
-        except OSError as error:
-            detail = error.strerror or str(error)
-            log(Report([diagnostic("TARGET_UNWRITABLE", path=install, detail=detail)]))
-            raise typer.Exit(1) from None
         typer.echo(f"{made}: the add-in was written.", err=True)
+        tell(Report(), made, as_json, True)
 
     _ = onshape, fusion
     _ = from_record
@@ -153,21 +156,19 @@ def _axis(up: str | None) -> str:
     return (up or "").upper()
 
 
-def _finish(run: Callable[[Report], Captured], output: Path) -> None:
+def _finish(run: Callable[[Report], Captured], output: Path, as_json: bool) -> None:
     if not output.name.endswith(TARGET):
         raise typer.BadParameter(f"{output} does not end in {TARGET}", param_hint="--output")
     report = Report()
     try:
         done = run(report)
     except KinefabError:
-        log(report)
         typer.echo(f"{output} was not written.", err=True)
-        raise typer.Exit(1) from None
+        fail(report, output, as_json, False)
     except OSError as error:
         report.add("TARGET_UNWRITABLE", path=error.filename or output, detail=error.strerror or str(error))
-        log(report)
-        raise typer.Exit(1) from None
-    log(report)
+        fail(report, output, as_json, False)
+    tell(report, output, as_json, True)
     draft = done.draft
     counts = ", ".join(
         f"{len(records)} {word}"

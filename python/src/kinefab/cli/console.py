@@ -1,15 +1,17 @@
-"""What all commands say and write alike: findings, progress, files that cannot be written."""
+"""What all commands say and write alike: findings, JSON, progress, files that cannot be written."""
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NoReturn
 
 import typer
 
-from ..diagnostics import Report, Severity, diagnostic, listed, printable
+from ..diagnostics import KinefabError, Report, Severity, diagnostic, findings_document, listed, printable
 from ..replacing import write_whole
 
 verbosity = 0
@@ -41,21 +43,42 @@ def log(report: Report) -> None:
             console.print(Text(printable(str(found)), style=style[found.severity]))
 
 
-def write(path: Path, content: bytes) -> None:
+def json_text(values: object) -> str:
+    """JSON as it is printed and written.  What UTF-8, or the terminal's own encoding, has no letters for (a path's bytes
+    may be anything) is escaped as JSON does."""
+    narrow = not sys.stdout.encoding.lower().startswith("utf")
+    text = json.dumps(values, indent=2, ensure_ascii=narrow)
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def tell(report: Report, file: Path, as_json: bool, written: bool | None = None) -> None:
+    """The findings, on stderr for people; as one JSON object on stdout too where that is asked for."""
+    log(report)
+    if as_json:
+        typer.echo(json_text(findings_document(report, str(file), written)))
+
+
+def fail(error: KinefabError | Report, file: Path, as_json: bool, written: bool | None = None) -> NoReturn:
+    """Tell the findings and end the program."""
+    found = error if isinstance(error, Report) else error.report or Report(list(error.diagnostics))
+    tell(found, file, as_json, written)
+    raise typer.Exit(1) from None
+
+
+def write(path: Path, content: bytes, as_json: bool = False) -> None:
     """The file, whole; where that fails the old one stands, and the program ends."""
-    with unwritable_as_finding(path):
+    with unwritable_as_finding(path, as_json):
         write_whole(path, content)
 
 
 @contextmanager
-def unwritable_as_finding(path: Path) -> Generator[None, None, None]:
+def unwritable_as_finding(path: Path, as_json: bool = False) -> Generator[None, None, None]:
     """Where the file cannot be written: says so and ends the program."""
     try:
         yield
     except OSError as error:
         detail = error.strerror or str(error)
-        log(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]))
-        raise typer.Exit(1) from None
+        fail(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]), path, as_json, False)
 
 
 @contextmanager

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import typer
 
-from ..diagnostics import KinefabError, Report
-from .console import log
+from ..diagnostics import KinefabError
+from .console import fail
+from .declared import AS_JSON
 
 
 def inspect(
     file: Path = typer.Argument(..., help="A NAME.kinefab scene.", show_default=False),
-    as_json: bool = typer.Option(False, "--json", help="Print the same as JSON."),
+    as_json: bool = AS_JSON,
 ) -> None:
     """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
     from ..views.overview import overview
@@ -20,6 +21,5 @@ def inspect(
     try:
         text = overview(file, as_json)
     except KinefabError as error:
-        log(Report(list(error.diagnostics)))
-        raise typer.Exit(1) from None
+        fail(error, file, as_json)
     typer.echo(text)

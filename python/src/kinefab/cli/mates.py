@@ -10,7 +10,7 @@ import typer
 from ..diagnostics import KinefabError, Report
 from ..sources import source_options
 from .asking import asking
-from .console import demand_ending, log, progress_bar, write
+from .console import demand_ending, fail, log, progress_bar, write
 
 
 @asking(("reading", source_options()))
@@ -22,6 +22,7 @@ def mates(
     output: Optional[Path] = typer.Option(
         None, "--output", "-o", help="File to write, NAME.mates.json; beside the source otherwise."
     ),
+    as_json: bool = typer.Option(False, "--json", help="Print what is written instead of the list."),
 ) -> None:
     """Find the mates of an assembly that states none, for you to look over and to give by --mates."""
     output = source.with_suffix(".mates.json") if output is None else output
@@ -35,8 +36,11 @@ def mates(
         with progress_bar() as progress:
             scene, mates = mates_of(source, reading, found, progress)
     except KinefabError:
-        log(found)
-        raise typer.Exit(1) from None
+        fail(found, source, as_json)
     log(found)
-    typer.echo(listing(scene, mates))
-    write(output, text(scene, mates).encode("utf-8"))
+    content = text(scene, mates)
+    if not as_json:
+        typer.echo(listing(scene, mates))
+    write(output, content.encode("utf-8"), as_json)
+    if as_json:
+        typer.echo(content, nl=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from io import TextIOWrapper
 
 import typer
 
@@ -21,7 +22,6 @@ from .views import draw, report, view
 app = typer.Typer(
     name="kinefab",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # importing rich for the help alone takes longer than all the rest
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -56,6 +56,8 @@ app.add_typer(bundle_commands())
 
 def main() -> None:
     """Entry point of the ``kinefab`` script."""
+    if isinstance(sys.stdout, TextIOWrapper):  # a name may hold letters that a terminal has not
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         try:
             app()

@@ -11,7 +11,8 @@ from ..diagnostics import KinefabError, Report
 from ..options import ExportOptions, Ground
 from ..sources import source_options
 from .asking import asking
-from .console import demand_ending, log, write
+from .console import demand_ending, fail, tell, write
+from .declared import AS_JSON
 
 
 @asking(("reading", source_options()))
@@ -27,6 +28,7 @@ def draw(
     joint: Optional[str] = typer.Option(
         None, "--joint", help="What is driven; without it the first freedom."
     ),
+    as_json: bool = AS_JSON,
 ) -> None:
     """Draw a scene: its bodies, its joints and how far they move."""
     demand_ending(output, ".svg", ".png", ".gif", ".webp")
@@ -42,9 +44,9 @@ def draw(
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:
-        log(error.report or Report(list(error.diagnostics)))
-        raise typer.Exit(1) from None
-    write(output, content)
+        fail(error, output, as_json, False)
+    write(output, content, as_json)
+    tell(Report(), output, as_json, True)
 
 
 @asking(("reading", source_options()))
@@ -61,6 +63,7 @@ def view(
         show_default=False,
     ),
     open_: bool = typer.Option(False, "--open", help="Open it in the browser."),
+    as_json: bool = AS_JSON,
 ) -> None:
     """Write one HTML file that plays the mechanism: every freedom on a slider, nothing fetched."""
     page = Path(source.name.split(".")[0] + ".html") if output is None else output
@@ -70,9 +73,10 @@ def view(
     try:
         run(source, page, _options(source, reading, "mates"))
     except KinefabError as error:
-        log(error.report or Report(list(error.diagnostics)))
-        raise typer.Exit(1) from None
-    typer.echo(page)
+        fail(error, page, as_json, False)
+    if not as_json:
+        typer.echo(page)
+    tell(Report(), page, as_json, True)
     if open_:
         typer.launch(str(page))
 
@@ -84,6 +88,7 @@ def report(
         ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
     ),
     output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
+    as_json: bool = AS_JSON,
 ) -> None:
     """Write the page of ``view`` with the analysis in words, plots of each freedom and what was lost."""
     demand_ending(output, ".html")
@@ -92,8 +97,8 @@ def report(
     try:
         run(source, output, _options(source, reading, "mates"))
     except KinefabError as error:
-        log(error.report or Report(list(error.diagnostics)))
-        raise typer.Exit(1) from None
+        fail(error, output, as_json, False)
+    tell(Report(), output, as_json, True)
 
 
 def _options(source: Path, reading: dict[str, Any], *of_scenes: str) -> ExportOptions:

@@ -203,6 +203,16 @@ def test_a_target_that_was_cut_short_is_made_again(tmp_path):
     assert (out / "a.kinefab").read_bytes() == whole
 
 
+@pytest.mark.parametrize("source, target", [("IN", "nosuch://bucket/out"), ("nosuch://bucket/in", "OUT")])
+def test_a_scheme_that_nothing_installed_reaches_is_told(tmp_path, source, target):
+    pytest.importorskip("fsspec", reason="the Python package fsspec is not installed")
+    places = {"IN": str(sources(tmp_path / "in", "a")), "OUT": str(tmp_path / "out")}
+    with pytest.raises(KinefabError) as caught:
+        kinefab.batch([places.get(source, source)], places.get(target, target))
+    (finding,) = caught.value.diagnostics
+    assert finding.code == "BATCH_LIBRARY_MISSING" and "nosuch" in str(finding)
+
+
 def refused(address: str) -> str:
     with pytest.raises(KinefabError) as caught, clusters.executor_of(address):
         pass

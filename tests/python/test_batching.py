@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import kinefab
@@ -135,6 +135,10 @@ def test_what_hangs_crashes_or_eats_memory_is_ended_and_told(tmp_path, hostile):
         "ok1": "written", "ok2": "written",
     }  # fmt: skip
     told = {Path(r.source).name.partition(".")[0]: r.messages[0] for r in result.records if r.messages}
+    codes = {Path(r.source).name.partition(".")[0]: [*r.codes] for r in result.records if r.messages}
+    assert codes == {"hang": ["BATCH_TIMEOUT"], "greedy": ["BATCH_MEMORY"]} | dict.fromkeys(
+        ("crash", "exit", "raise"), ["BATCH_CRASHED"]
+    )
     assert "8 s" in told["hang"] and "SIGSEGV" in told["crash"] and "status 7" in told["exit"]
     assert "a library's own" in told["raise"] and "600 MiB" in told["greedy"]
 
@@ -191,6 +195,24 @@ def test_any_executor_does(tmp_path):
         assert kinefab.batch([folder], tmp_path / "out", executor=executor).counts == {"written": 2}
     with pytest.raises(ValueError, match="there is no output 'fbx'"):
         kinefab.batch([folder], tmp_path / "out", "fbx")
+
+
+class Lossy(ThreadPoolExecutor):
+    """An executor whose workers are lost and not replaced."""
+
+    def submit(self, *_, **__):
+        future = Future()
+        future.set_exception(ConnectionError("gone"))
+        return future
+
+
+def test_an_executor_that_loses_its_workers_is_told(tmp_path):
+    folder = bundles(tmp_path / "in", "a", "b")
+    with Lossy(1) as executor:
+        result = kinefab.batch([folder], tmp_path / "out", executor=executor)
+    assert result.counts == {"crashed": 2}
+    assert all([*r.codes] == ["BATCH_WORKER_LOST"] and "gone" in r.messages[0] for r in result.records)
+    assert kinefab.batch([folder], tmp_path / "out").counts == {"written": 2}
 
 
 def test_options_travel_as_json(tmp_path):

@@ -131,6 +131,8 @@ def test_what_fails_says_why(tmp_path, arguments):
 
 
 def test_bundle(tmp_path):
+    none = printed("findings", "bundle", "init", tmp_path, "--units", "mm", status=1)
+    assert [d["code"] for d in none["diagnostics"]] == ["BEGINNING_IMPOSSIBLE"]
     shutil.copy(FIXTURES / "lever" / "lever.obj", tmp_path / "lever.obj")
     values = printed(
         "findings", "bundle", "init", tmp_path, "--units", "mm", "-o", tmp_path / "a.bundle.json"

@@ -34,6 +34,8 @@ WITH_NEIGHBOURS = (
 )
 """Endings of sources that name files beside them: their folder is fetched too."""
 MOST_NEIGHBOURS = 2000
+OBJECT_STORES = frozenset("s3 s3a gs gcs abfs abfss az adl".split())
+"""Schemes without folders; to make one there would make a bucket."""
 
 
 def is_url(place: str) -> bool:
@@ -91,7 +93,10 @@ def write_bytes(place: str, content: bytes, lasting: bool = True) -> None:
         write_whole(Path(place), content, lasting)
         return
     system, path = file_system(place)
-    system.makedirs(posixpath.dirname(path), exist_ok=True)
+    if not OBJECT_STORES.intersection(
+        [system.protocol] if isinstance(system.protocol, str) else system.protocol
+    ):
+        system.makedirs(posixpath.dirname(path), exist_ok=True)
     system.pipe_file(path, content)
 
 

@@ -124,18 +124,20 @@ def batch(
 
 def _demand_folder(ledger: str) -> None:
     """Raises OSError where the records cannot be written: found out at once, not by ten thousand files."""
-    if not places.is_url(ledger):
-        os.makedirs(ledger, exist_ok=True)
-        demand_writable(Path(ledger, "records"))
-    else:
-        places.exists(ledger)
+    if places.is_url(ledger):
+        places.write_bytes(
+            places.join(ledger, "README"), b"What kinefab batch has done; the next run skips it.\n"
+        )
+        return
+    os.makedirs(ledger, exist_ok=True)
+    demand_writable(Path(ledger, "records"))
 
 
 @contextmanager
 def _unwritable_as_finding(folder: str) -> Generator[None, None, None]:
     try:
         yield
-    except ImportError as error:
+    except (ImportError, ValueError) as error:  # ValueError: fsspec's, of a scheme that nothing knows
         raise KinefabError([diagnostic("BATCH_LIBRARY_MISSING", place=folder, detail=error)]) from error
     except OSError as error:
         detail = error.strerror or str(error)

@@ -28,7 +28,7 @@ COMMENT = (
 
 
 def _no_beginning(detail: str, remedy: str) -> KinefabError:
-    return KinefabError([diagnostic("BUNDLE_NOT_BEGUN", detail=detail, remedy=remedy)])
+    return KinefabError([diagnostic("BEGINNING_IMPOSSIBLE", detail=detail, remedy=remedy)])
 
 
 def meshes_in(folder: Path) -> list[Path]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from io import TextIOWrapper
+from typing import Any
 
 import typer
 
@@ -56,8 +56,9 @@ app.add_typer(bundle_commands())
 
 def main() -> None:
     """Entry point of the ``kinefab`` script."""
-    if isinstance(sys.stdout, TextIOWrapper):  # a name may hold letters that a terminal has not
-        sys.stdout.reconfigure(errors="backslashreplace")
+    reconfigure: Any = getattr(sys.stdout, "reconfigure", None)
+    if reconfigure is not None:  # a name may hold letters that a terminal has not
+        reconfigure(errors="backslashreplace")
     try:
         try:
             app()

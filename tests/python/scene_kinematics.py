@@ -265,7 +265,10 @@ class SceneKinematics:
     def object(self, name: str) -> int:
         """Index of the GameObject with this id, or else with this name, or whose id ends in it, or the frame of that name
         on another (a part that was merged into it)."""
-        found = [i for i, entry in enumerate(self.objects) if name in (entry.get("id"), entry.get("name"))]
+        ids = [
+            entry.get("id", "").replace("::", "/") for entry in self.objects
+        ]  # one nesting, two ways to write it
+        found = [i for i, entry in enumerate(self.objects) if name in (ids[i], entry.get("name"))]
         # A robot and a link of it may have one name: the link is meant.
         for chosen in (
             [i for i in found if self.body_of[i] == i],

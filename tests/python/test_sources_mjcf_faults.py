@@ -149,8 +149,6 @@ def test_without_mujoco_it_is_said_which_extra_brings_it(tmp_path, monkeypatch):
     assert found.code == "SOURCE_LIBRARY_MISSING" and "mujoco" in found.message + found.remedy
 
 
-MUTATIONS = 300
-"""Of each run; with ``KINEFAB_MUTATIONS`` in the environment that many."""
 WORDS = [
     b"nan",
     b"-1",
@@ -169,16 +167,14 @@ WORDS = [
 
 
 @needs_mujoco
-def test_mutated_files_give_a_scene_or_findings(tmp_path, capfd):
-    """Nothing else: no traceback, no half-written file."""
-    import os
-
+def test_mutated_files_give_a_scene_or_findings(tmp_path, capfd, fuzz_count):
+    """Nothing else: no traceback, no half-written file.  ``--fuzz N`` tries N of them."""
     generator = random.Random(14)
     seeds = [path.read_bytes() for path in sorted((FIXTURES / "mjcf").glob("*.xml"))]
     path, target = tmp_path / "m.xml", tmp_path / "out" / "m.kinefab"
     target.parent.mkdir()
     refused = 0
-    for _ in range(int(os.environ.get("KINEFAB_MUTATIONS", MUTATIONS))):
+    for _ in range(fuzz_count):
         data = bytearray(generator.choice(seeds))
         for _ in range(generator.randint(1, 4)):
             at, kind = generator.randrange(len(data)), generator.random()

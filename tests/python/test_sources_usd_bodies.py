@@ -253,6 +253,14 @@ def test_animated_places_become_keys_and_what_physics_moves_does_not(tmp_path):
     assert any("animation of D" in o.feature for o in report.outcomes)
 
 
+def test_samples_that_are_not_finite_are_left_out_by_name(tmp_path):
+    keys = '\ndouble3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 48: (0, nan, 0) }\nuniform token[] xformOpOrder = ["xformOp:translate"]\n'
+    text = stage(f'def Xform "K" {BODY} {{ bool physics:kinematicEnabled = 1{keys} }}\n')
+    scene, report = scene_of(tmp_path, text)
+    assert scene.animations == []
+    assert [o.outcome.value for o in report.outcomes if o.feature == "animation of K"] == ["dropped"]
+
+
 def _matrix(q):
     x, y, z, w = q
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])

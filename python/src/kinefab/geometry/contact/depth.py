@@ -11,6 +11,11 @@ import numpy as np
 
 from ...spatial import Array, IntArray
 
+FLAT = 1e-7
+"""Share of the way to its farthest point that a shape must be wide."""
+FARTHEST, SMALLEST = 1e9, 1e-9
+"""Metres."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solid:
@@ -35,20 +40,28 @@ class Depths:
         self._prepared: dict[int, Any] = {}
 
     def between(self, first: Solid, second: Solid) -> float:
-        """Metres that one must move to be free of the other; 0 where they do not touch."""
+        """Metres that one must move to be free of the other; 0 where they do not touch, or one has no extent."""
+        shapes = [self._shape(solid) for solid in (first, second)]
+        if None in shapes:
+            return 0.0
         coal = self._coal
         request, result = coal.CollisionRequest(), coal.CollisionResult()
         request.num_max_contacts = 1 if first.convex and second.convex else 256
         request.enable_contact = True
         here = coal.Transform3s()
-        coal.collide(self._shape(first), here, self._shape(second), here, request, result)
+        coal.collide(shapes[0], here, shapes[1], here, request, result)
         deepest = 0.0
         for contact in result.getContacts():
             deepest = max(deepest, -float(contact.penetration_depth))
         return deepest
 
     def _shape(self, solid: Solid) -> Any:
+        """None of a shape without extent."""
         if id(solid) not in self._prepared:
+            extent = _extent(solid)
+            if not extent:
+                self._prepared[id(solid)] = None
+                return None
             coal = self._coal
             model = coal.BVHModelOBBRSS()
             model.beginModel(len(solid.faces), len(solid.vertices))
@@ -57,14 +70,23 @@ class Depths:
                 _listed(coal.StdVec_Triangle(), [coal.Triangle(*map(int, face)) for face in solid.faces]),
             )
             model.endModel()
-            if solid.convex:
+            if solid.convex and extent == 3:  # qhull ends the whole process over a flat one
                 model.buildConvexHull(True, "Qt")
                 model = model.convex
+                if solid.radius > 0.0:
+                    model.setSweptSphereRadius(solid.radius)
             model.computeLocalAABB()
-            if solid.radius > 0.0 and solid.convex:
-                model.setSweptSphereRadius(solid.radius)
             self._prepared[id(solid)] = model
         return self._prepared[id(solid)]
+
+
+def _extent(solid: Solid) -> int:
+    """In how many directions a shape is wider than rounding: 3 of a solid, 2 of a plate, 0 of what nothing can touch."""
+    farthest = float(np.abs(solid.vertices).max(initial=0.0))
+    if not farthest < FARTHEST:  # nor NaN
+        return 0
+    widths = np.linalg.svd(solid.vertices - solid.vertices.mean(axis=0), compute_uv=False)
+    return int((widths > FLAT * max(farthest, SMALLEST)).sum())
 
 
 def _listed(target: Any, values: Any) -> Any:

@@ -53,6 +53,12 @@ def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: R
                 detail="physics moves this body; it starts where the animation does",
             )  # fmt: skip
             continue
+        if not placing.is_finite(prims[number], above, times):
+            report.dropped(
+                f"animation of {node.id}", "USD_FEATURE_DROPPED", node.where,
+                detail="its samples are not finite; it stays as at the exported time",
+            )  # fmt: skip
+            continue
         track = _track(number, prims[number], above, times, placing, opened)
         if track is not None:
             tracks.append(track)
@@ -83,6 +89,10 @@ class _Placing:
                 found.add(path)
             prim = prim.GetParent()
         return found
+
+    def is_finite(self, prim: Any, above: Any, times: Array) -> bool:
+        """Of both prims at all times; ``above`` may be None."""
+        return all(bool(np.isfinite(self.world(p, t)).all()) for t in times.tolist() for p in (prim, above))
 
     def world(self, prim: Any, time: float) -> Array:
         if not prim or prim.IsPseudoRoot():
@@ -139,6 +149,6 @@ def _track(
             rotations[i] = -rotations[i]
     slides = bool(np.ptp(translations, axis=0).max() > STILL)
     turns = bool(np.ptp(rotations, axis=0).max() > STILL)
-    if not (slides or turns) or not (np.isfinite(translations).all() and np.isfinite(rotations).all()):
+    if not (slides or turns):
         return None
     return Track(number, translations if slides else None, rotations if turns else None)

@@ -94,6 +94,7 @@ HOMES = {
     "PIL": {"views/raster", "targets/prefab/assets/images"},
     "coacd": {"geometry/contact"},
     "coal": {"geometry/contact"},
+    "manifold3d": {"geometry/contact"},
     "typer": {"cli"},
     "rich": {"cli", "batching/watching"},
     "distributed": {"batching/cluster"},

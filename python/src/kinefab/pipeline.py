@@ -206,7 +206,7 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 
 def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnityScene:
     scene, groups = with_normals(found.scene, options.smooth), found.groups
-    made = collision_meshes(scene, groups, options.colliders, report)
+    made = collision_meshes(scene, groups, options.colliders, options.ground, report)
     hulls, cylinders = list(made.hulls.items()), list(made.cylinders.items())
     pieces = [(number, piece) for number, found in made.pieces.items() for piece in found]
     after_hulls = len(scene.meshes) + len(hulls)

@@ -29,6 +29,7 @@ from ..model import (
 from ..options import ColliderShape
 from ..spatial import Pose, frame_from_axes
 from .arguments import Vector, checked_color, checked_number, checked_pose, checked_vector
+from .ids import Ids
 from .materials import colliders_of, materials_of
 from .motions import FreedomLike, Range, angular, freedoms_asked, kind_of_word
 from .shapes import shapes_of
@@ -52,12 +53,11 @@ class Scene(model.Scene):
     length, a number that is not finite, limits in the wrong order) and adds nothing; the message says what to pass.
     """
 
-    __slots__ = ("_copies", "_counted", "_given", "_number")
+    __slots__ = ("_given", "_joint_ids", "_node_ids", "_number")
 
     def __init__(self, *args: Any, **fields: Any) -> None:
         super().__init__(*args, **fields)
-        self._copies: dict[str, int] = {}
-        self._counted = 0
+        self._node_ids, self._joint_ids = Ids(), Ids()
         self._given = len(self.nodes)
         self._number = next(_numbers)
 
@@ -158,24 +158,13 @@ class Scene(model.Scene):
             self._check_index(parent, "parent")
             parent = int(parent)
         pose = Pose(*checked_pose(name, translation, rotation))
-        node_id = self._unused(name if parent is None else f"{self.nodes[parent].id}/{name}")
+        node_id = self._node_ids.free(
+            name if parent is None else f"{self.nodes[parent].id}/{name}", self.nodes
+        )
         self.nodes.append(Node(node_id, name, kind, parent, pose, **fields))
         index = PartIndex(len(self.nodes) - 1)
         index.scene = self._number
         return index
-
-    def _unused(self, path: str) -> str:
-        """The path, with the first number that makes it an id of its own; nodes may come from elsewhere too."""
-        self._copies.update(
-            (node.id, 1) for node in self.nodes[self._counted :] if node.id not in self._copies
-        )
-        self._counted = len(self.nodes)
-        node_id, copy = path, self._copies.get(path, 0)
-        while node_id in self._copies:
-            copy += 1
-            node_id = f"{path}:{copy}"
-        self._copies[path] = max(copy, 1)
-        return node_id
 
     def _check_index(self, node: object, argument: str) -> None:
         """Raise unless ``node`` is what an ``add_part`` or ``add_assembly`` returned."""
@@ -240,7 +229,7 @@ class Scene(model.Scene):
         world = Pose(frame_from_axes(main, near), checked_vector("the point", point))
         frame_a, frame_b = (self.pose(side).inverse() @ world for side in (a, b))
         joint = Joint(
-            self._joint_id(name or f"{kind.value}:{len(self.joints) + 1}"),
+            self._joint_ids.free(name or f"{kind.value}:{len(self.joints) + 1}", self.joints),
             kind,
             None if a is None else int(a),
             int(b),
@@ -253,15 +242,6 @@ class Scene(model.Scene):
         )
         self.joints.append(joint)
         return joint
-
-    def _joint_id(self, wanted: str) -> str:
-        """The name, with the first number that no other joint's id has."""
-        taken = {joint.id for joint in self.joints}
-        found, count = wanted, 1
-        while found in taken:
-            count += 1
-            found = f"{wanted}:{count}"
-        return found
 
     def add_hinge(
         self,

@@ -31,13 +31,20 @@ def joined_vertices(vertices: Array, tolerance: float = 1e-7) -> IntArray:
     return np.reshape(numbers, -1)
 
 
+def is_skin(vertices: Array, faces: IntArray) -> bool:
+    """Whether a mesh is closed once vertices at the same place are one."""
+    return is_closed(faces) or is_closed(welded(vertices, faces))  # closed before is closed after
+
+
 def is_closed(faces: IntArray) -> bool:
     """Whether every edge is used by as many faces one way as the other.
 
     faces: welded, shape (m, 3).  Then volume and moments do not depend on the origin.
     """
     count = int(faces.max()) + 1
-    start, end = faces, np.roll(faces, -1, axis=1)
-    proper = start != end
-    forward, backward = (start * count + end)[proper], (end * count + start)[proper]
-    return bool(np.array_equal(np.sort(forward, axis=None), np.sort(backward, axis=None)))
+    start, end = faces.T, faces[:, [1, 2, 0]].T
+    forward, backward = (start * count + end).reshape(-1), (end * count + start).reshape(-1)
+    if (improper := start == end).any():
+        proper = ~improper.reshape(-1)
+        forward, backward = forward[proper], backward[proper]
+    return bool(np.array_equal(np.sort(forward), np.sort(backward)))

@@ -10,9 +10,10 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import ColliderKind, Mesh, Scene
-from ..options import ColliderShape
+from ..options import ColliderShape, Ground
 from ..rigid import RigidGroups
 from .contact.decomposition import convex_pieces
+from .contact.neighbours import meshes_near_others
 from .hulls import collision_hulls
 
 SIDES = 32
@@ -33,9 +34,12 @@ class CollisionMeshes:
 
 
 def collision_meshes(
-    scene: Scene, groups: RigidGroups, shape: ColliderShape, report: Report
+    scene: Scene, groups: RigidGroups, shape: ColliderShape, ground: Ground, report: Report
 ) -> CollisionMeshes:
-    """What the colliders of a scene need.  shape: for bodies of nodes that state neither colliders nor their shape."""
+    """What the colliders of a scene need.
+
+    shape: for bodies of nodes that state neither colliders nor their shape.  ground: what stands for it.
+    """
     hulled: list[tuple[int, str]] = []
     split: list[tuple[int, str]] = []
     cylinders: dict[Cylinder, Mesh] = {}
@@ -63,7 +67,8 @@ def collision_meshes(
     for body in not_convex:
         report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
     hulls = collision_hulls(scene, hulled, report)
-    return CollisionMeshes(hulls, convex_pieces(scene, split, hulls, report), cylinders)
+    near = meshes_near_others(scene, groups, ground, hulls) if split else frozenset[int]()
+    return CollisionMeshes(hulls, convex_pieces(scene, split, hulls, near, report), cylinders)
 
 
 def prism(radius: float, length: float) -> Mesh:

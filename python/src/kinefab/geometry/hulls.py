@@ -10,7 +10,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import Mesh, Scene
-from ..spatial import Array, IntArray
+from ..spatial import Array, IntArray, cross
 
 UNITY_TRIANGLES = 255
 """Most triangles of a convex MeshCollider."""
@@ -18,6 +18,15 @@ UNITY_VERTICES = 128
 """So many vertices have at most 252 triangles: a hull of n points has 2 n - 4 (Euler)."""
 DIRECTIONS = 24
 """Directions whose extreme vertices a simplified hull starts from."""
+EXACT = 400
+"""Vertices up to which all are handed to qhull, whose time grows with them; of more, the extreme ones along ..."""
+MANY_DIRECTIONS = 128
+COARSE = 0.02
+"""Share of the size that the hull of those may lie inside, where it has most of the vertices that Unity takes."""
+INSIDE = 1e-7
+"""Share of the size by which a vertex that counts as inside may stand out, as ``welded`` has it."""
+BLOCK = 256
+"""Vertices looked at together: few enough that BLAS starts no threads for them, which would cost more than they bring."""
 
 Hull = tuple[Array, IntArray]
 
@@ -34,31 +43,114 @@ def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Rep
             continue
         seen.add(index)
         mesh = scene.meshes[index]
-        hull = hull_of_points(mesh.vertices)
+        hull, before, deviation = _small_hull(mesh.vertices)
         if hull is None:
             report.add("HULL_FLAT", body=body)
             continue
-        vertices, faces = _simplified(hull, body, report)
-        hulls[index] = Mesh(f"{mesh.name} hull", vertices, faces)
+        if before:
+            after = len(hull[1])
+            report.add("HULL_SIMPLIFIED", body=body, before=before, after=after, deviation=f"{deviation:.3g}")
+        hulls[index] = Mesh(f"{mesh.name} hull", *hull)
     return hulls
 
 
 def hull_of_points(points: Array) -> Hull | None:
     """Convex hull of points, shape (n, 3): vertices and outward wound faces; None for a flat cloud."""
-    from scipy.spatial import ConvexHull, QhullError
-
     if len(points) < 4 or not _is_solid(points):
         return None
+    found = _wrapped(points)
+    return None if found is None else found[0]
+
+
+def within_unity(hull: Hull) -> tuple[Hull, float]:
+    """A hull through as many of another's vertices as Unity takes, and how far it lies inside, in metres; itself and 0
+    where it is small enough."""
+    if len(hull[1]) <= UNITY_TRIANGLES:
+        return hull, 0.0
+    smaller, deviation = _through_extremes(hull[0], DIRECTIONS, 0.0)
+    return (hull, 0.0) if smaller is None else (smaller, deviation)
+
+
+def _small_hull(points: Array) -> tuple[Hull | None, str, float]:
+    """A hull that Unity takes, how many triangles it would have had ("" where it is the whole hull), how far inside it lies."""
+    if len(points) > EXACT and _is_solid(points):
+        hull, deviation = _through_extremes(points, MANY_DIRECTIONS, COARSE)
+        if hull is not None:
+            return hull, f"more than {len(hull[1])}" if deviation > 0.0 else "", deviation
+    whole = hull_of_points(points)
+    if whole is None:
+        return None, "", 0.0
+    hull, deviation = within_unity(whole)
+    return hull, "" if hull is whole else str(len(whole[1])), deviation
+
+
+def _through_extremes(points: Array, directions: int, coarse: float) -> tuple[Hull | None, float]:
+    """A hull through at most ``UNITY_VERTICES`` of the points, and how far the others stand out of it, 0 where none does.
+
+    It starts from the extreme points along ``directions`` and takes those that stand out the farthest; with more than half of
+    the vertices that Unity takes, it ends when it lies no more than ``coarse`` of the size inside.
+    None where the extreme points are flat.
+    """
+    size = float(np.ptp(points, axis=0).max())
+    chosen: IntArray = np.unique(_extreme(points, _directions(directions))[0])
+    while (found := _wrapped(points[chosen])) is not None:
+        hull, planes = found
+        outside = _standing_out(points, planes)
+        fresh = np.flatnonzero(outside > INSIDE * size)
+        deviation = float(outside.max()) if len(fresh) else 0.0
+        room = UNITY_VERTICES - len(chosen)
+        if len(fresh) > room:
+            if 2 * len(chosen) > UNITY_VERTICES and deviation <= coarse * size:
+                return hull, deviation
+            fresh = _farthest(points, planes, chosen)[: min(room, len(chosen))]
+        if not len(fresh):
+            return hull, deviation
+        chosen = np.union1d(chosen, fresh)
+    return None, 0.0
+
+
+def _farthest(points: Array, planes: Array, taken: IntArray) -> list[int]:
+    """For each plane the point that stands out of it the most, each once, the farthest first, without those taken."""
+    highest, height = _extreme(points, planes[:, :3])
+    order = np.argsort(-(height + planes[:, 3]), kind="stable")
+    known = set(taken.tolist())
+    return [v for v in dict.fromkeys(highest[order].tolist()) if v not in known]
+
+
+def _standing_out(points: Array, planes: Array) -> Array:
+    """How far each point is outside the hull of these planes, shape (n,), negative inside."""
+    blocks = (points[start : start + BLOCK] for start in range(0, len(points), BLOCK))
+    return np.concatenate([(planes[:, :3] @ block.T + planes[:, 3:]).max(axis=0) for block in blocks])
+
+
+def _extreme(points: Array, directions: Array) -> tuple[IntArray, Array]:
+    """For each direction the farthest point along it, and how far that is."""
+    found, far = np.zeros(len(directions), dtype=np.int64), np.full(len(directions), -np.inf)
+    for start in range(0, len(points), BLOCK):
+        along = directions @ points[start : start + BLOCK].T
+        best = along.argmax(axis=1)
+        reach = along[np.arange(len(along)), best]
+        farther = reach > far
+        found[farther], far[farther] = start + best[farther], reach[farther]
+    return found, far
+
+
+def _wrapped(points: Array) -> tuple[Hull, Array] | None:
+    """The hull, and the plane of each of its faces: outward unit normal and offset, shape (m, 4); None where qhull finds none."""
+    from scipy.spatial import ConvexHull, QhullError
+
     try:
         hull = ConvexHull(points)
     except QhullError:
         return None
     faces = hull.simplices.astype(np.int64)
     a, b, c = (points[faces[:, i]] for i in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
+    inward = np.einsum("ij,ij->i", cross(b - a, c - a), hull.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
-    kept, numbers = np.unique(faces, return_inverse=True)
-    return points[kept], np.reshape(numbers, faces.shape)
+    used = np.zeros(len(points), dtype=bool)
+    used[faces] = True
+    numbers = np.cumsum(used) - 1
+    return (points[used], numbers[faces]), hull.equations
 
 
 def _is_solid(points: Array) -> bool:
@@ -68,38 +160,10 @@ def _is_solid(points: Array) -> bool:
     return bool(spread[0] > 1e-14 * spread[2])
 
 
-def _simplified(hull: Hull, body: str, report: Report) -> Hull:
-    """The hull itself, or one through as many of its vertices as Unity takes, the farthest out first."""
-    vertices, faces = hull
-    if len(faces) <= UNITY_TRIANGLES:
-        return hull
-    chosen: IntArray = np.unique(np.argmax(vertices @ _directions().T, axis=0))
-    heights = np.zeros(0)
-    while (smaller := hull_of_points(vertices[chosen])) is not None:
-        # For each facet the vertex that stands out of it the most.
-        a, b, c = (smaller[0][smaller[1][:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        heights = vertices @ normals.T - np.einsum("ij,ij->i", a, normals)
-        highest = heights.argmax(axis=0)
-        order = np.argsort(-heights.max(axis=0), kind="stable")
-        taken = set(chosen.tolist())
-        fresh = [v for v in dict.fromkeys(highest[order].tolist()) if v not in taken]
-        room = min(UNITY_VERTICES - len(chosen), len(chosen))
-        if not fresh or room == 0:
-            break
-        chosen = np.sort(np.append(chosen, fresh[:room]))
-    if smaller is None:
-        return hull
-    deviation = f"{max(0.0, float(heights.max(initial=0.0))):.3g}"
-    report.add("HULL_SIMPLIFIED", body=body, before=len(faces), after=len(smaller[1]), deviation=deviation)
-    return smaller
-
-
-@lru_cache(maxsize=1)
-def _directions() -> Array:
-    """Directions spread evenly over the sphere (Fibonacci lattice), shape (DIRECTIONS, 3)."""
-    i = np.arange(DIRECTIONS) + 0.5
-    z, turn = 1.0 - 2.0 * i / DIRECTIONS, math.pi * (1.0 + math.sqrt(5.0)) * i
+@lru_cache(maxsize=2)
+def _directions(count: int) -> Array:
+    """Directions spread evenly over the sphere (Fibonacci lattice), shape (count, 3)."""
+    i = np.arange(count) + 0.5
+    z, turn = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     radius = np.sqrt(1.0 - z * z)
     return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), z])

@@ -9,7 +9,7 @@ from itertools import permutations
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, IntArray, Pose
+from ..spatial import Array, IntArray, Pose, cross
 
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
@@ -26,7 +26,7 @@ def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassPr
     middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))  # moments lose digits far from the origin
     corners = (vertices - middle)[faces]
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    six = np.einsum("ij,ij->i", a, np.cross(b, c))  # times the volume of each tetrahedron
+    six = np.einsum("ij,ij->i", a, cross(b, c))  # times the volume of each tetrahedron
     whole = a + b + c
     volume = float(six.sum()) / 6.0
     with np.errstate(divide="ignore", invalid="ignore"):  # of no volume: the caller looks at the mass
@@ -38,6 +38,12 @@ def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassPr
     second = second / 120.0 - volume * np.outer(center, center)
     inertia = np.trace(second) * np.eye(3) - second
     return MassProperties(volume * density, center + middle, inertia * density)
+
+
+def solid_volume(vertices: Array, faces: IntArray) -> float:
+    """Of the solid inside a closed mesh, cubic metres; negative where it is wound inwards."""
+    corners = (vertices - vertices[0])[faces]
+    return float(np.einsum("ij,ij->", corners[:, 0], cross(corners[:, 1], corners[:, 2]))) / 6.0
 
 
 def moved(properties: MassProperties, pose: Pose) -> MassProperties:

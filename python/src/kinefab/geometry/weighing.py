@@ -10,7 +10,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MassProperties, Mesh, Node, Scene
 from ..spatial import Array
-from .closure import is_closed, welded
+from .closure import is_skin
 from .hulls import hull_of_points
 from .mass import combined, is_possible, moved, solid_properties, stretched
 
@@ -57,7 +57,7 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
 def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassProperties | None:
     """Of one mesh at density 1; of its convex hull where it is open; None where it has no volume."""
     size = float(np.ptp(mesh.vertices, axis=0).max())
-    if is_closed(welded(mesh.vertices, mesh.faces)):
+    if is_skin(mesh.vertices, mesh.faces):
         found = solid_properties(mesh.vertices, mesh.faces, 1.0)
         if abs(found.mass) > THIN * size**3:
             return found

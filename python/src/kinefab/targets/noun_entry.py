@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, ClassVar, Protocol, cast
 
@@ -67,6 +67,20 @@ def _properties(definition: str) -> tuple[_Property, ...]:
 
 
 @cache
+def _defaults(noun: type[Noun]) -> Mapping[str, Any]:
+    """Of each field that its definition lets be left out at the noun's own default, that default: known again by identity."""
+    rules = {rule.key: rule for rule in _properties(definition_of(noun))}
+    return {
+        field.name: field.default
+        for field in fields(noun)
+        if (rule := rules.get(field.name)) is not None
+        and rule.default is not _NONE
+        and field.default is not MISSING
+        and _written(rule.key, field.default) == rule.default
+    }
+
+
+@cache
 def unsaid(noun: type[Noun]) -> tuple[str, ...]:
     """Fields of a noun that the format has no place for."""
     known = {rule.key for rule in _properties(definition_of(noun))}
@@ -79,8 +93,10 @@ def entry(noun: Noun) -> dict[str, Any]:
     if definition not in _definitions():  # stated where it is used, without defaults
         return {field.name: _written(field.name, getattr(noun, field.name)) for field in fields(noun)}
     found: dict[str, Any] = {"type": definition} if definition[0].isupper() else {}
+    usual = _defaults(type(noun))
     for rule in _properties(definition):
-        if (value := getattr(noun, rule.key, None)) is None:
+        value = getattr(noun, rule.key, None)
+        if value is None or value is usual.get(rule.key, _NONE):
             continue
         if (
             not value

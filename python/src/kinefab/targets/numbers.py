@@ -33,4 +33,4 @@ def significant(value: Any) -> Any:
 
 def _plain(x: float) -> float | int:
     """Whole numbers without a decimal point, so that -0.0 and 0.0 are both 0."""
-    return int(x) if abs(x) < 1e15 and x == int(x) else x
+    return int(x) if abs(x) < 1e15 and x.is_integer() else x

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from ...model import Mesh, Scene
-from ...spatial import Array, IntArray
+from ...spatial import Array, IntArray, cross
 from ..closure import joined_vertices
 
 UP = np.array([0.0, 1.0, 0.0])
 """Normal of a vertex that no face with an area uses."""
+TOGETHER = 50_000
+"""Triangles of meshes that are shaded in one go, as far as the processor's cache goes."""
 FLAT = 1e-30
 """Twice the area of a triangle, as a share of the square of the mesh's size, below which it has no direction."""
 
@@ -22,8 +25,26 @@ def with_normals(scene: Scene, angle: float | None) -> Scene:
     if angle is None:
         return scene
     shown = {body.mesh for node in scene.nodes for body in node.bodies}
-    meshes = [shaded(mesh, angle) if i in shown else mesh for i, mesh in enumerate(scene.meshes)]
+    meshes = list(scene.meshes)
+    wanted = [i for i, mesh in enumerate(meshes) if i in shown and _is_plain(mesh)]
+    for batch in _batches(wanted, [len(meshes[i].faces) for i in wanted]):
+        for i, mesh in zip(batch, _shaded([meshes[i] for i in batch], angle)):
+            meshes[i] = mesh
     return replace(scene, meshes=meshes)
+
+
+def _batches(numbers: list[int], sizes: list[int]) -> Iterator[list[int]]:
+    """The numbers in runs whose sizes together are about ``TOGETHER``."""
+    batch: list[int] = []
+    total = 0
+    for number, size in zip(numbers, sizes):
+        batch.append(number)
+        total += size
+        if total >= TOGETHER:
+            yield batch
+            batch, total = [], 0
+    if batch:
+        yield batch
 
 
 def shaded(mesh: Mesh, angle: float) -> Mesh:
@@ -34,22 +55,75 @@ def shaded(mesh: Mesh, angle: float) -> Mesh:
     faces stays.  A normal is the mean of its faces', each weighted by its angle at the vertex (Thuermer and Wuethrich 1998),
     which does not depend on how flat faces were cut into triangles.
     """
-    if mesh.normals is not None or not len(mesh.faces):
-        return mesh
-    places = joined_vertices(mesh.vertices)
-    across = _face_normals(mesh)
-    weights = _corner_angles(mesh)
+    return _shaded([mesh], angle)[0] if _is_plain(mesh) else mesh
+
+
+def _is_plain(mesh: Mesh) -> bool:
+    return mesh.normals is None and len(mesh.faces) > 0
+
+
+def _shaded(meshes: list[Mesh], angle: float) -> list[Mesh]:
+    """``shaded``, of meshes without normals, in one go: most are so small that calling numpy for each costs more than its work."""
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    ends = np.cumsum([len(mesh.faces) for mesh in meshes])
+    joined = [joined_vertices(mesh.vertices) for mesh in meshes]
+    firsts = np.cumsum([0, *(int(numbers.max()) + 1 for numbers in joined)])
+    places = np.concatenate([numbers + first for numbers, first in zip(joined, firsts)])
+    sizes = [float(np.ptp(mesh.vertices, axis=0).max()) for mesh in meshes]
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts)])
+    normals, faces, origin = _split(
+        vertices, faces, places, np.repeat(sizes, np.diff(ends, prepend=0)), math.radians(angle)
+    )
+    # What was repeated stands at the end, in the order of the vertices that it repeats.
+    added = np.searchsorted(origin[starts[-1] :], starts) + starts[-1]
+    found: list[Mesh] = []
+    for k, mesh in enumerate(meshes):
+        low, high = int(starts[k]), int(starts[k + 1])
+        own = faces[ends[k] - len(mesh.faces) : ends[k]] - low
+        if added[k + 1] > added[k]:
+            own[own >= high - low] -= int(added[k]) - high
+        repeated = origin[added[k] : added[k + 1]] - low
+
+        found.append(
+            replace(
+                mesh,
+                vertices=_grown(mesh.vertices, repeated),
+                faces=own,
+                normals=np.concatenate([normals[low:high], normals[added[k] : added[k + 1]]]),
+                uvs=tuple(_grown(uv, repeated) for uv in mesh.uvs),
+                colors=None if mesh.colors is None else _grown(mesh.colors, repeated),
+            )
+        )
+    return found
+
+
+def _grown(values: Array, repeated: IntArray) -> Array:
+    return np.concatenate([values, values[repeated]]) if len(repeated) else values
+
+
+def _split(
+    vertices: Array, faces: IntArray, places: IntArray, sizes: Array, angle: float
+) -> tuple[Array, IntArray, IntArray]:
+    """Normals, faces, and of which vertex each is a copy: the vertices first, then those repeated.
+
+    places: of each vertex its place.  sizes: of each face its mesh's.  angle: radians.
+    """
+    corners = vertices[faces]
+    across = _face_normals(corners, sizes)
+    weights = _corner_angles(corners)
     count = int(places.max()) + 1
-    mean = _summed([places[mesh.faces[:, c]] for c in range(3)], across, weights, count)
-    creased = _creased(mesh, places, across, mean, angle)
-    corners = mesh.faces
+    numbers = places[faces]
+    mean = _summed(numbers, across, weights, count)
+    creased = _creased(numbers, across, mean, angle)
     normals = mean[places]
+    origin = np.arange(len(vertices))
     if not creased.any():
-        return replace(mesh, normals=_unit(normals))
+        return _unit(normals), faces, origin
     # Only corners at vertices where some faces differ by more are told apart by the edges between them.
-    face, corner = np.nonzero(creased[places[corners]])
-    groups = _smooth_groups(mesh, places, across, face, corner, math.cos(math.radians(angle)))
-    at = corners[face, corner]
+    face, corner = np.nonzero(creased[numbers])
+    groups = _smooth_groups(numbers, across, face, corner, math.cos(angle))
+    at = faces[face, corner]
     own = np.zeros((int(groups.max()) + 1, 3))
     for axis in range(3):
         own[:, axis] = np.bincount(groups, weights[face, corner] * across[face, axis], minlength=len(own))
@@ -57,83 +131,70 @@ def shaded(mesh: Mesh, angle: float) -> Mesh:
     pairs, number = np.unique(at.astype(np.int64) * len(own) + groups, return_inverse=True)
     vertex, group = pairs // len(own), pairs % len(own)
     fresh = np.r_[False, vertex[1:] == vertex[:-1]]
-    index = np.where(fresh, len(mesh.vertices) + np.cumsum(fresh) - 1, vertex)
-    faces = corners.copy()
+    index = np.where(fresh, len(vertices) + np.cumsum(fresh) - 1, vertex)
+    faces = faces.copy()
     faces[face, corner] = index[np.reshape(number, -1)]
-    origin = np.r_[np.arange(len(mesh.vertices)), vertex[fresh]]
     normals = np.vstack([normals, np.zeros((int(fresh.sum()), 3))])
     flat = (
         np.einsum("ij,ij->i", own, own)[group] <= 0.0
     )  # a face without area takes what its neighbours have together
     normals[index] = np.where(flat[:, None], mean[places[vertex]], own[group])
-    return replace(
-        mesh,
-        vertices=mesh.vertices[origin],
-        faces=faces,
-        normals=_unit(normals),
-        uvs=tuple(uv[origin] for uv in mesh.uvs),
-        colors=None if mesh.colors is None else mesh.colors[origin],
-    )
+    return _unit(normals), faces, np.r_[origin, vertex[fresh]]
 
 
-def _face_normals(mesh: Mesh) -> Array:
-    """Unit normals of the faces, shape (m, 3), zero where a face has no area."""
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
-    across = np.cross(b - a, c - a)
+def _face_normals(corners: Array, sizes: Array) -> Array:
+    """Unit normals of the faces, shape (m, 3), zero where a face has no area.  corners: shape (m, 3, 3)."""
+    across = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.sqrt(np.einsum("ij,ij->i", across, across))
-    size = float(np.ptp(mesh.vertices, axis=0).max())
-    solid = length > FLAT * size * size
-    across[solid] /= length[solid, None]
-    across[~solid] = 0.0
+    solid = length > FLAT * sizes * sizes
+    across /= np.where(solid, length, np.inf)[:, None]
     return across
 
 
-def _corner_angles(mesh: Mesh) -> Array:
+def _corner_angles(corners: Array) -> Array:
     """Of each face at each of its corners, radians, shape (m, 3)."""
-    found = np.empty(mesh.faces.shape)
+    found = np.empty(corners.shape[:2])
+    edges = [corners[:, c - 2] - corners[:, c] for c in range(3)]  # from each corner to the next
+    squares = [np.einsum("ij,ij->i", edge, edge) for edge in edges]
     for c in range(3):
-        at = mesh.vertices[mesh.faces[:, c]]
-        u, v = mesh.vertices[mesh.faces[:, c - 2]] - at, mesh.vertices[mesh.faces[:, c - 1]] - at
-        dot = np.einsum("ij,ij->i", u, v)
-        size = np.sqrt(np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v))
-        cosine = np.divide(dot, size, out=np.ones_like(dot), where=size > 0.0)
-        found[:, c] = np.arccos(np.clip(cosine, -1.0, 1.0))
-    return found
+        dot = -np.einsum("ij,ij->i", edges[c], edges[c - 1])
+        size = np.sqrt(squares[c] * squares[c - 1])
+        found[:, c] = np.divide(dot, size, out=np.ones_like(dot), where=size > 0.0)
+    return np.arccos(np.clip(found, -1.0, 1.0, out=found), out=found)
 
 
-def _summed(corners: list[IntArray], across: Array, weights: Array, count: int) -> Array:
+def _summed(numbers: IntArray, across: Array, weights: Array, count: int) -> Array:
     total = np.zeros((count, 3))
-    for c, numbers in enumerate(corners):
+    for c in range(3):
         for axis in range(3):
-            total[:, axis] += np.bincount(numbers, weights[:, c] * across[:, axis], minlength=count)
+            total[:, axis] += np.bincount(numbers[:, c], weights[:, c] * across[:, axis], minlength=count)
     return total
 
 
-def _creased(mesh: Mesh, places: IntArray, across: Array, mean: Array, angle: float) -> Array:
+def _creased(numbers: IntArray, across: Array, mean: Array, angle: float) -> Array:
     """Which places have a face further than half the angle from the mean: at all others every edge is smooth."""
     length = np.sqrt(np.einsum("ij,ij->i", mean, mean))
     direction = np.divide(mean, length[:, None], out=np.zeros_like(mean), where=length[:, None] > 0.0)
     found = np.zeros(len(mean), dtype=bool)
-    least = math.cos(math.radians(0.5 * angle)) - 1e-12
+    least = math.cos(0.5 * angle) - 1e-12
     solid = across.any(axis=1)
     for c in range(3):
-        at = places[mesh.faces[:, c]]
+        at = numbers[:, c]
         found[at[solid & (np.einsum("ij,ij->i", direction[at], across) < least)]] = True
     return found
 
 
 def _smooth_groups(
-    mesh: Mesh, places: IntArray, across: Array, face: IntArray, corner: IntArray, cosine: float
+    numbers: IntArray, across: Array, face: IntArray, corner: IntArray, cosine: float
 ) -> IntArray:
     """A number for each corner: corners at one place are alike when smooth edges lead from face to face between them.
 
-    face, corner: the corners asked for, all of a place or none.  An edge of two faces that run through it one way and the
-    other is smooth when their normals differ by no more than the angle; any other edge is hard.
+    numbers: places of the faces' corners.  face, corner: the corners asked for, all of a place or none.  An edge of two faces
+    that run through it one way and the other is smooth when their normals differ by no more than the angle; any other edge is hard.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    numbers = places[mesh.faces]
     count = int(numbers.max()) + 1
     number = np.arange(len(face))
     here = numbers[face, corner]

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog, nnls
 
 from ...spatial import Array
 from ..touching.contact import Contact
@@ -93,6 +92,8 @@ def _left(rows: Array) -> Array:
     if size == 1:  # along one freedom: held where there are both signs
         both = rounded.min() < 0.0 < rounded.max()
         return np.zeros(len(rows)) if both else np.ones(len(rows))
+    from scipy.optimize import linprog  # late: it takes a tenth of a second
+
     found = linprog(
         np.concatenate([np.zeros(size), -np.ones(count)]),
         A_ub=np.hstack([-rounded, np.eye(count)]),
@@ -107,4 +108,6 @@ def _left(rows: Array) -> Array:
 
 def _apart(rows: Array) -> Array:
     """As ``_left``, row by row, where the programme fails: a row is held where the others add up to its opposite."""
+    from scipy.optimize import nnls  # late, as above
+
     return np.array([float(nnls(rows.T, -row)[1] > HELD) for row in rows])

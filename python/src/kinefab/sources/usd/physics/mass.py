@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ....diagnostics import Report
-from ....geometry.closure import is_closed, welded
+from ....geometry.closure import is_skin
 from ....geometry.hulls import hull_of_points
 from ....geometry.mass import combined, moved, principal, solid_properties
 from ....model import Collider, ColliderKind, MassProperties, Mesh
@@ -207,7 +207,7 @@ def _mesh_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str) 
     assert collider.mesh is not None, "hulls and meshes name their mesh"
     mesh = meshes[collider.mesh]
     vertices = mesh.vertices * np.array(collider.scale)
-    if approximation not in ("convexHull", "") and is_closed(welded(vertices, mesh.faces)):
+    if approximation not in ("convexHull", "") and is_skin(vertices, mesh.faces):
         found = solid_properties(vertices, mesh.faces, 1.0)
         if found.mass < 0.0:
             found = MassProperties(-found.mass, found.center, -found.inertia)

@@ -31,6 +31,7 @@ from step.writer import write_iges, write_step  # noqa: E402
 LEVER = FIXTURES / "lever" / "lever.step"
 PLATES = FIXTURES / "step" / "two_plates_inch_ap242.step"
 MUTATIONS = int(os.environ.get("KINEFAB_STEP_MUTATIONS", "25"))
+IGES_MUTATIONS = int(os.environ.get("KINEFAB_IGES_MUTATIONS", "15"))
 """Damaged files to try; 5000 for the long run."""
 
 
@@ -189,6 +190,21 @@ def test_a_damaged_file_ends_in_findings(tmp_path: Path, monkeypatch: pytest.Mon
         path.write_bytes(
             mutated((LEVER if random_source.random() < 0.3 else PLATES).read_bytes(), random_source)
         )
+        try:
+            read(path, Report())
+        except KinefabError as error:
+            assert error.diagnostics
+
+
+def test_a_damaged_iges_file_ends_in_findings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As of STEP: the sections' lines flipped, dropped, doubled, numbers changed."""
+    monkeypatch.setattr(reader, "SECONDS", 2.0)
+    monkeypatch.setattr(reader, "SECONDS_PER_MEGABYTE", 0.0)
+    write_iges(two_plates(), tmp_path / "whole.igs")
+    whole, random_source = (tmp_path / "whole.igs").read_bytes(), random.Random(11)
+    path = tmp_path / "mutated.igs"
+    for _ in range(IGES_MUTATIONS):
+        path.write_bytes(mutated(whole, random_source))
         try:
             read(path, Report())
         except KinefabError as error:

@@ -1,7 +1,7 @@
 """STEP and IGES files: the assembly tree, names, instances, colours, layers and exact geometry.
 
-OpenCASCADE reads them in a process of its own (``sources.occ.guard``).  Neither format states mates; where an
-AP242 file has a kinematic mechanism its pairs are told and left out.  Z is taken to be up, as CAD programs have it.
+OpenCASCADE reads them in a process of its own (``sources.occ.guard``).  Neither format states mates; the pairs of an
+AP242 file's kinematic mechanism are read from its text.  Z is taken to be up, as CAD programs have it.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from ..occ.triangles import Tolerance
 from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_scene
+from .mechanism import add_pairs
 from .part21 import Part21
 from .records import Begun, Shape, Tree
 from .scene import Shapes, scene_nodes
@@ -38,17 +39,19 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     """
     iges = path.suffix.lower() in (".iges", ".igs")
     data = read_bytes(path, report, MAX_BYTES)
-    length = MILLIMETRE
+    length, text = MILLIMETRE, Part21(b"" if iges else data)
     if iges:
         _check_iges(data, path, report)
     else:
-        length = _check_step(Part21(data), path, report)
+        length = _check_step(text, path, report)
     tolerance = tolerance_of(request, path, report)
     report.raise_for_errors()
     up = request.text("up", "Z")
     frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
     _fill(scene, path, iges, tolerance, len(data), frame, report, request)
+    if text.kinematic_pairs():
+        add_pairs(scene, text, frame.turn, length, report)
     report.raise_for_errors()
     return scene
 
@@ -128,8 +131,6 @@ def _check_step(text: Part21, path: Path, report: Report) -> float:
         report.add("STEP_EMPTY", path.name, path=path.name)
     elif dangling := text.dangling():
         report.add("STEP_DANGLING", path.name, path=path.name, count=dangling)
-    if pairs := text.kinematic_pairs():
-        report.dropped("kinematic pairs", "STEP_PAIRS_DROPPED", path.name, count=pairs)
     for file in text.external_files():
         inside = PurePosixPath(file.replace("\\", "/"))
         if inside.is_absolute() or ".." in inside.parts or file[1:2] == ":":

@@ -26,6 +26,9 @@ FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path.insert(0, str(FIXTURES))
 
 from step.linkages import two_plates  # noqa: E402
+from step.machine import Machine  # noqa: E402
+from step.solids import box  # noqa: E402
+from step.tessellated import triangles_alone, write_tessellated  # noqa: E402
 from step.writer import write_iges, write_step  # noqa: E402
 
 LEVER = FIXTURES / "lever" / "lever.step"
@@ -103,6 +106,19 @@ def test_iges_gives_the_same_faces(tmp_path: Path):
     )
     np.testing.assert_allclose(vertices.min(axis=0), [0.0, 0.0, -0.0708], atol=1e-6)
     np.testing.assert_allclose(vertices.max(axis=0), [0.1, 0.015, 0.0], atol=1e-6)
+
+
+def test_a_tessellated_file_gives_its_triangles(tmp_path: Path):
+    """AP242 without exact geometry: closed, outward, and no face is taken for an exact one."""
+    machine = Machine("Tessellated")
+    machine.add("Plate", triangles_alone(box((0.0, 0.0, 0.0), (50.0, 40.0, 10.0))), (0.0, 0.0, 100.0))
+    write_tessellated(machine, tmp_path / "plate.step")
+    assert b"TRIANGULATED_FACE" in (tmp_path / "plate.step").read_bytes()
+    scene, report = read_whole(tmp_path / "plate.step")
+    (mesh,) = scene.meshes
+    assert not report.diagnostics and is_closed(welded(mesh.vertices, mesh.faces))
+    assert solid_properties(mesh.vertices, mesh.faces, 1.0).mass == pytest.approx(50 * 40 * 10 * 1e-9)
+    np.testing.assert_allclose(scene.nodes[1].pose.translation, [0.0, 0.1, 0.0], atol=1e-12)
 
 
 def test_exact_faces_say_what_they_are():

@@ -176,9 +176,13 @@ def test_a_shape_that_cannot_be_read_leaves_the_link_its_others(tmp_path):
     assert [o.outcome.value for o in report.outcomes if o.code == "SHAPE_UNREADABLE"] == ["dropped"]
 
 
-@pytest.mark.parametrize("declaration", ["<?xml?>", "<?xml verison='1.0'?>", "\n<?xml version='1.0'?>"])
-def test_a_declaration_that_robot_programs_pass_over_is_passed_over(tmp_path, declaration):
-    scene = read(written(tmp_path, declaration + robot(A)), Report())
+LOOSE = ["<?xml?>", "<?xml verison='1.0'?>", "\n<?xml version='1.0'?>", "<!-- a -- b\n<!-- c -->"]
+
+
+@pytest.mark.parametrize("before", LOOSE)
+def test_what_robot_programs_pass_over_is_passed_over(tmp_path, before):
+    """Declarations without a version or after blanks, and two dashes within a comment."""
+    scene = read(written(tmp_path, before + robot(A)), Report())
     assert [node.name for node in scene.nodes] == ["r", "a"]
 
 

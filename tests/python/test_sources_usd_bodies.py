@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import math
 import subprocess
 import sys
 from pathlib import Path
 
+import kinefab
 import numpy as np
 import pytest
 from kinefab.model import ColliderKind, NodeKind
@@ -251,6 +253,25 @@ def test_animated_places_become_keys_and_what_physics_moves_does_not(tmp_path):
     steps = [angle_between(_matrix(a), _matrix(b)) for a, b in zip(track.rotations, track.rotations[1:])]
     assert sum(steps) == pytest.approx(2 * math.pi) and max(steps) < math.pi / 2
     assert any("animation of D" in o.feature for o in report.outcomes)
+
+
+@pytest.mark.parametrize("up, moments", [("Z", (3.0, 4.0, 2.0)), ("Y", (2.0, 3.0, 4.0))])
+@pytest.mark.parametrize("center", ["point3f physics:centerOfMass = (0, 0, 0);", ""])
+def test_an_inertia_without_principal_axes_is_along_the_prims_own(tmp_path, up, moments, center):
+    """Along X, Y, Z of the prim; the scene's X, Y, Z are the Y, Z, X of a stage whose Z is up."""
+    mass = f"float physics:mass = 2; {center} float3 physics:diagonalInertia = (2, 3, 4)"
+    scene, _ = scene_of(tmp_path, stage(body("B", mass=mass), up=up))
+    (node,) = scene.nodes
+    assert node.mass.inertia == pytest.approx(np.diag(moments))
+
+
+def test_the_fastest_turn_of_a_body_is_kept(tmp_path):
+    """PhysX's degrees a second; Unity's own is 7 rad/s."""
+    scene, _ = scene_of(tmp_path, stage(body("B", inside="float physxRigidBody:maxAngularVelocity = 1800")))
+    assert scene.nodes[0].dynamics.max_angular_velocity == pytest.approx(10.0 * math.pi)
+    path = kinefab.export(scene, tmp_path / "scene.kinefab").path
+    (entry,) = json.loads(path.read_text(encoding="utf-8"))["gameObjects"]
+    assert entry["components"][0]["maxAngularVelocity"] == pytest.approx(10.0 * math.pi)
 
 
 def test_samples_that_are_not_finite_are_left_out_by_name(tmp_path):

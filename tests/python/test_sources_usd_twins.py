@@ -8,7 +8,6 @@ from pathlib import Path
 
 import kinefab
 import pytest
-import test_sources_twins
 from test_sources_twins import TWINS, compare, exported, plain
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
@@ -19,8 +18,7 @@ ROUNDED = 2e-7
 
 
 @pytest.mark.parametrize("name", ["lever", "arm", "fourbar"])
-def test_a_stage_is_its_twin(tmp_path, name, monkeypatch):
-    monkeypatch.setattr(test_sources_twins, "CLOSE", ROUNDED)
+def test_a_stage_is_its_twin(tmp_path, name):
     document = exported(TWINS / f"{name}.usda", tmp_path)
     titles = {joint.id: joint.name for joint in kinefab_joints(TWINS / f"{name}.usda", tmp_path)}
     for entry in document["gameObjects"]:
@@ -28,7 +26,7 @@ def test_a_stage_is_its_twin(tmp_path, name, monkeypatch):
             if "because" in component:
                 component["because"] = [titles.get(word, word) for word in component["because"]]
     given = {key: value for key, value in plain(document, set()).items() if "/site:" not in key}
-    compare(plain(exported(TWINS / f"{name}.bundle.json", tmp_path), set()), given, name)
+    compare(plain(exported(TWINS / f"{name}.bundle.json", tmp_path), set()), given, name, ROUNDED)
 
 
 def kinefab_joints(path: Path, folder: Path):

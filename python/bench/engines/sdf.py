@@ -49,8 +49,12 @@ class DrakePlant:
         import xml.etree.ElementTree as ElementTree
 
         found = {}
-        text = path.read_text(encoding="utf-8", errors="replace")
-        for joint in ElementTree.fromstring(without_prefixes(text).encode()).iter("joint"):
+        text = path.read_text(encoding="utf-8", errors="replace").lstrip()
+        try:
+            root = ElementTree.fromstring(without_prefixes(text).encode())
+        except ElementTree.ParseError:  # Drake minds less; mimics in such a file are not followed
+            return found
+        for joint in root.iter("joint"):
             mimic = joint.find("axis/mimic")
             if mimic is not None:
                 factor, offset, reference = (

@@ -69,6 +69,7 @@ class Dynamics:
     kinematic: moved by scripts alone, pushing others.  gravity: whether it falls.
     linear_damping, angular_damping: 1/s, the share of its speed that it loses; None for the engine's own.
     velocity, angular_velocity: at the start, WORLD frame, m/s and rad/s, shape (3,), or None.
+    max_angular_velocity: rad/s at which the engine stops it from turning faster; None for the engine's own.
     """
 
     kinematic: bool = False
@@ -77,6 +78,7 @@ class Dynamics:
     angular_damping: float | None = None
     velocity: Array | None = None
     angular_velocity: Array | None = None
+    max_angular_velocity: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,11 +13,12 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 from xml.parsers import expat
 
-from ...diagnostics import Report
+from ...diagnostics import KinefabError, Report, Severity
 from ..reading.record import MAX_NUMBER, is_encodable, shown
 
 T = TypeVar("T")
 
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
 MAX_DEPTH = 128
@@ -151,8 +152,8 @@ class _Refused(Exception):
 class _Builder:
     """Takes the parser's events."""
 
-    def __init__(self, name: str, report: Report) -> None:
-        self.name, self.report = name, report
+    def __init__(self, name: str, report: Report, faults: Report) -> None:
+        self.name, self.report, self.faults = name, report, faults
         self.root: Element | None = None
         self.open: list[Element] = []
         self.pieces: list[list[str]] = []
@@ -191,23 +192,35 @@ class _Builder:
         return 0
 
     def refuse(self, code: str, **values: object) -> None:
-        self.report.add(code, f"{self.name}:{self.parser.CurrentLineNumber}", **values)
+        self.faults.add(code, f"{self.name}:{self.parser.CurrentLineNumber}", **values)
         raise _Refused
 
 
 def parse_xml(data: bytes, name: str, report: Report) -> Element:
     """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
-    builder, before = _Builder(name, report), len(report.diagnostics)
+    # Against the rules, and read by robot programs: blanks before the declaration, one without a version, -- in a comment.
+    data = _NO_VERSION.sub(b"", data.lstrip())
+    tried = Report()
+    root = _built(data, name, report, tried)
+    if root is None and any(d.code == "XML_SYNTAX" for d in tried.diagnostics):
+        root = _built(_COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data), name, report, Report())
+    if root is None:
+        report.extend(tried)
+        raise KinefabError(report.of(Severity.ERROR))
+    return root
+
+
+def _built(data: bytes, name: str, report: Report, faults: Report) -> Element | None:
+    """None where ``faults`` gets the reason.  report: of the elements."""
+    builder = _Builder(name, report, faults)
     try:
-        # Blanks before the declaration, and one without a version, are against the rules; robot programs read them.
-        builder.parser.Parse(_NO_VERSION.sub(b"", data.lstrip()), True)
+        builder.parser.Parse(data, True)
+        return builder.root
     except _Refused:
         pass
     except expat.ExpatError as error:
         detail = expat.errors.messages[error.code]
-        report.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)
+        faults.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)
     except (LookupError, ValueError) as error:  # an encoding that nobody knows, bytes that are none of it
-        report.add("XML_SYNTAX", f"{name}:1", detail=error)
-    report.raise_for_errors(before)
-    assert builder.root is not None
-    return builder.root
+        faults.add("XML_SYNTAX", f"{name}:1", detail=error)
+    return None

@@ -196,6 +196,8 @@ class Parts:
         for name in ("linearDamping", "angularDamping"):
             key = f"physxRigidBody:{name}"
             damping.append(max(0.0, values.number(prim, key, 0.0)) if values.authored(prim, key) else None)
+        key = "physxRigidBody:maxAngularVelocity"
+        fastest = values.number(prim, key, 0.0, open_ended=True) * self._opened.degree
         return Dynamics(
             kinematic,
             not values.flag(prim, "physxRigidBody:disableGravity", False),
@@ -203,6 +205,7 @@ class Parts:
             damping[1],
             _given(turned @ velocity),
             _given(turned @ spin),
+            fastest if math.isfinite(fastest) and fastest > 0.0 else None,
         )
 
 

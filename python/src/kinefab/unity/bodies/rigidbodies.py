@@ -99,6 +99,7 @@ def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], repo
         inertiaTensorRotation=quaternion4(frames.quaternion(quaternion_from_matrix(axes))),
         useGravity=dynamics.gravity,
         isKinematic=dynamics.kinematic,
+        maxAngularVelocity=dynamics.max_angular_velocity,
     )
 
 
@@ -121,6 +122,7 @@ def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> D
         angular_damping=first("angular_damping"),
         velocity=first("velocity"),
         angular_velocity=first("angular_velocity"),
+        max_angular_velocity=first("max_angular_velocity"),
     )
 
 

@@ -58,7 +58,9 @@ def body_mass(
     stated = _stated(prim, world, values, opened)
     counted = [s for s in solids if s.collider.enabled]
     if stated.mass is not None and stated.center is not None and stated.moments is not None:
-        axes = np.eye(3) if stated.axes is None else stated.axes
+        axes = (
+            opened.frame.turn if stated.axes is None else stated.axes
+        )  # without principal axes the prim's own
         return MassProperties(stated.mass, stated.center, axes @ np.diag(stated.moments) @ axes.T)
     parts = [_solid(s, stated.density, meshes, values, opened, report) for s in counted]
     parts = [p for p in parts if p is not None and p.mass > 0.0]
@@ -86,7 +88,7 @@ def _without_solids(prim: Any, stated: _Stated, opened: OpenStage, report: Repor
             node=identity(prim), what=what, mass=f"{mass:g}", radius=f"{POINT:g}",
         )  # fmt: skip
     moments = np.full(3, 0.4 * mass * POINT**2) if stated.moments is None else stated.moments
-    axes = np.eye(3) if stated.axes is None else stated.axes
+    axes = opened.frame.turn if stated.axes is None else stated.axes
     center = np.zeros(3) if stated.center is None else stated.center
     return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
 

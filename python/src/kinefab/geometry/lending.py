@@ -29,21 +29,19 @@ def without_lent_bodies(given: Scene, loaded: Scene) -> Scene:
     """
     nodes = list(loaded.nodes)
     for i, (node, before) in enumerate(zip(nodes, given.nodes)):
+        if before.colliders is None:  # nothing was lent
+            continue
         count = len(before.bodies)
         lent = iter(node.bodies[count:])
-        colliders = None
-        if before.colliders is not None:
-            filled = [
-                replace(c, mesh=next(lent).mesh, reference=None)
-                if c.reference is not None and c.mesh is None
-                else c
-                for c in before.colliders
-            ]
-            colliders = tuple(
-                new
-                for new, old in zip(filled, before.colliders)
-                if new.mesh is not None or old.reference is None
-            )
+        filled = [
+            replace(c, mesh=next(lent).mesh, reference=None)
+            if c.reference is not None and c.mesh is None
+            else c
+            for c in before.colliders
+        ]
+        colliders = tuple(
+            new for new, old in zip(filled, before.colliders) if new.mesh is not None or old.reference is None
+        )
         nodes[i] = replace(node, bodies=node.bodies[:count], colliders=colliders)
     return replace(loaded, nodes=nodes)
 

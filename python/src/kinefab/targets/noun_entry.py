@@ -114,7 +114,7 @@ def entry(noun: Noun) -> dict[str, Any]:
 
 
 def _written(key: str, value: Any) -> Any:
-    if key == "extras":
+    if key == "extras" or isinstance(value, (str, bool)):
         return value
     if is_dataclass(value):
         return entry(cast(Noun, value))

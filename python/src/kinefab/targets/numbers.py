@@ -15,6 +15,8 @@ def plain_value(value: Any) -> Any:
 
     Takes a number or sequences and mappings of them; an infinite number is None, anything else passes through.
     """
+    if isinstance(value, str):
+        return value
     if isinstance(value, float):
         return None if math.isinf(value) else _plain(round(value, DECIMALS))
     if isinstance(value, (list, tuple)):

@@ -193,3 +193,18 @@ def test_the_page_of_cad_programs_is_short():
     programs = "Inventor SolidWorks Fusion Onshape FreeCAD Creo NX CATIA Rhino Blender".split()
     assert {*programs, "Only STEP", "Only meshes"} == roads.keys()
     assert all(1 <= len(lines) <= 5 for lines in roads.values())
+
+
+def test_a_missing_mesh_does_not_hide_what_the_analysis_finds(tmp_path):
+    """A mate whose two sides stand a millimetre apart, and a part whose file is not there: both are told."""
+    sides = {
+        key: {"component": name, "geometry": "point", "in": "world", "p": [x, 0, 0]}
+        for key, name, x in (("a", "Base", 0.0), ("b", "Arm", 0.001))
+    }
+    mate = {"id": "Mate:1", "kind": "coincident", **sides}
+    values = bundle(part("Base", grounded=True, file="gone.stl"), part("Arm"), constraints=[mate])
+    values["meta"]["mesh"] = {"units": "m", "layout": "per_part", "coordinates": "part"}
+    path = tmp_path / "case.bundle.json"
+    path.write_text(json.dumps(values), encoding="utf-8")
+    found = codes(check(path))
+    assert "GEOMETRY_UNREADABLE" in found and "CONSTRAINT_GAP" in found

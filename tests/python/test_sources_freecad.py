@@ -270,3 +270,25 @@ def test_the_levers_asmt_has_its_motion(levers):
         assert np.abs(node.pose.rotation - pose.rotation).max() < 1e-6
     islands = [sum(island.mobility for island in analyse(one).islands) for one in (scene, *levers)]
     assert islands == [1, 1, 1]
+
+
+def test_a_material_of_the_library_and_a_mesh_are_told(tmp_path):
+    """Neither the library's density nor a mesh's points are in a form that is read; a material is told once."""
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
+        brep = file.read("Base.Shape.brp")
+
+    def made_of(uuid: str):
+        material = ("Materials::PropertyMaterial", f'<PropertyMaterial uuid="{uuid}"/>')
+        return "Part::Feature", {"Shape": shape("Base.Shape.brp"), "ShapeMaterial": material}
+
+    steel, default = "92589471-a6cb-4bbc-b748-d425a17dea7d", "7f9fd73b-50c9-41d8-b7b2-575a030c1eeb"
+    objects = {
+        "Base": made_of(steel),
+        "Lid": made_of(steel),
+        "Box": made_of(default),
+        "Scan": ("Mesh::Feature", {}),
+    }
+    scene, codes = written(tmp_path, objects, **{"Base.Shape.brp": brep})
+    assert sorted(codes) == ["FREECAD_MATERIAL", "SHAPE_NOT_READ"]
+    assert [node.name for node in scene.nodes] == ["Base", "Lid", "Box", "Scan"]

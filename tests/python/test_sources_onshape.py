@@ -96,6 +96,17 @@ def test_a_mesh_that_is_none_is_told(tmp_path):
     assert [d.code for d in report.diagnostics] == ["CAPTURE_MEMBER_FAILED"]
 
 
+def test_a_pose_that_is_none_loses_its_part_alone(tmp_path):
+    """A transform of zeros: the part and what hangs on it are told, the rest is read."""
+    path = copied(tmp_path)
+    values = json.loads(path.read_text("utf-8"))
+    values["rootAssembly"]["occurrences"][-1]["transform"] = [0.0] * 16
+    path.write_text(json.dumps(values), "utf-8")
+    report = Report()
+    assert len(sources.read(path, report).joints) == 4
+    assert [d.code for d in report.diagnostics] == ["CAPTURE_MEMBER_FAILED"] * 3
+
+
 def test_a_damaged_file_ends_in_findings(tmp_path):
     path, chance = copied(tmp_path), random.Random(8)
     given = {

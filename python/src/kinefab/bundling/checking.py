@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..diagnostics import KinefabError, Report, Severity
+from ..diagnostics import Diagnostic, KinefabError, Report, Severity, diagnostic_table
 from ..geometry.loading import MeshFiles, load_geometry
 from ..options import ExportOptions
 from ..pipeline import analysed, prepared, silent
@@ -17,7 +17,8 @@ from ..sources.reading.json_text import parse_json
 def check(path: Path) -> Report:
     """What an export of the bundle would find, and beside its first errors those that it would come to later.
 
-    The errors of the fields do not hide those of the mesh files.  Never raises for wrong data.
+    The errors of the fields do not hide those of the mesh files, nor these what the analysis finds; where fields are wrong,
+    joints are missing and nothing is analysed.  Never raises for wrong data.
     """
     report = Report()
     try:
@@ -28,7 +29,15 @@ def check(path: Path) -> Report:
             return report
         report = Report()
         options = ExportOptions()
-        analysed(prepared(path, options, report), options, report)
+        try:
+            analysed(prepared(path, options, report), options, report)
+        except KinefabError:
+            if all(_is_of_geometry(error) for error in report.of(Severity.ERROR)):
+                analysed(scene, options, report)
     except KinefabError:
         pass  # its findings are in the report
     return report
+
+
+def _is_of_geometry(error: Diagnostic) -> bool:
+    return diagnostic_table()[error.code]["stage"] == "geometry"

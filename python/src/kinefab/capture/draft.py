@@ -18,6 +18,8 @@ Record = dict[str, Any]
 """A record of ``schemas/bundle.schema.json``."""
 Numbers = Sequence[float]
 
+FLAT = 1e-6
+"""Volume that three unit axes span at least."""
 WRONG_ANSWER = (MemberFailed, AttributeError, TypeError, ValueError, KeyError, IndexError)
 """What is raised where a program answers something else than its documentation says."""
 
@@ -150,8 +152,11 @@ def frame(inside: str, o: Numbers, z: Numbers, x: Numbers | None = None) -> Reco
 
 
 def pose(o: Numbers, x: Numbers, y: Numbers, z: Numbers) -> Record:
-    """A component's pose.  Raises ValueError or TypeError for what is no vector."""
-    return {"o": three(o), "x": three(x), "y": three(y), "z": three(z)}
+    """A component's pose.  Raises ValueError or TypeError for what is no vector, and for axes in one plane."""
+    (a, b, c), (d, e, f), (g, h, i) = axes = three(x), three(y), three(z)
+    if abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < FLAT:
+        raise ValueError("the axes of its pose lie in one plane")
+    return {"o": three(o), **dict(zip("xyz", axes))}
 
 
 def three(values: Numbers) -> list[float]:

@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element
 
 from ...diagnostics import KinefabError, Report
 from ...model import AlphaMode, Scene, Surface
+from ..reading.record import shown
 from ..reading.xml_text import parse_xml
 from .archive import ArchiveError
 from .document import Document, Target, Thing
@@ -22,6 +23,8 @@ Look = tuple[int, int, int, float, float]
 """Red, green, blue 0..255, opacity and shininess 0..1."""
 
 DENSITY = re.compile(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([a-z]*)\s*/\s*(mm|cm|dm|m)\^?3\s*$")
+DEFAULT_MATERIAL = "7f9fd73b-50c9-41d8-b7b2-575a030c1eeb"
+"""What FreeCAD writes where nobody chose a material."""
 KILOGRAMS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 CUBIC_METRES = {"mm": 1e-9, "cm": 1e-6, "dm": 1e-3, "m": 1.0}
 
@@ -33,6 +36,7 @@ class Looks:
         self._scene, self._report, self._follow = scene, report, follow
         self._views: dict[int, dict[str, dict[str, Element]]] = {}
         self._surfaces: dict[Look, int] = {}
+        self._told: set[str] = set()
 
     def of(self, shape: ShownShape, faces: int) -> list[int]:
         """Surfaces of a shape's faces: one for each, one for all, or none where no look is saved."""
@@ -66,6 +70,14 @@ class Looks:
                         density = float(match[1]) * KILOGRAMS.get(match[2], 0.0) / CUBIC_METRES[match[3]]
                         if 0.0 < density < 1e9:
                             return density
+        given = shape.owner.values.get("ShapeMaterial")
+        material = "" if given is None else given.get("uuid", "")
+        if material not in ("", DEFAULT_MATERIAL) and material not in self._told:
+            self._told.add(material)
+            where = shape.owner.where
+            self._report.add(
+                "FREECAD_MATERIAL", where, object=shown(shape.owner.label), material=shown(material)
+            )
         return None
 
     def _view(self, thing: Thing) -> dict[str, Element]:

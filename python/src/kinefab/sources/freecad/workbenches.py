@@ -13,6 +13,7 @@ from .document import Document, Thing
 A2PLUS = (
     "it is a constraint of the A2plus workbench, whose geometry is not stored; make it a joint of Assembly"
 )
+MESH = "it is a mesh, whose points FreeCAD keeps in a form of its own; make a shape of it, or export the mesh as OBJ"
 ASSEMBLY4 = "Assembly4 places the part by an expression, which leaves it no freedom; it is taken as fixed"
 
 
@@ -36,5 +37,7 @@ def report_foreign(document: Document, report: Report) -> None:
             )
         elif thing.text("SolverId") == "Asm4EE" and thing.text("AttachedTo"):
             report.dropped(f"attachment of {label}", "FREECAD_JOINT_DROPPED", thing.where, reason=ASSEMBLY4)
+        elif thing.type.startswith("Mesh::"):
+            report.dropped(f"mesh {label}", "SHAPE_NOT_READ", thing.where, object=label, detail=MESH)
         elif thing.has("MotionType") and thing.has("Formula"):
             report.dropped(f"motion {label}", "JOINT_DRIVER_DROPPED", thing.where)

@@ -54,7 +54,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "targets": [
         {"numbers", "content"},
         {"noun_entry"},
-        {"kinefab_file", "prefab", "gltf"},
+        {"kinefab_file", "prefab", "gltf", "usd"},
         {"unitypackage"},
         {"__init__"},
     ],
@@ -63,6 +63,16 @@ FLOORS: dict[str, list[set[str]]] = {
         {"options", "assets", "objects", "folder"},
         {"losses", "articulation", "project"},
         {"exporting"},
+        {"__init__"},
+    ],
+    "targets/usd": [
+        {"api", "names"},
+        {"prims", "bodies"},
+        {"physics"},
+        {"looks"},
+        {"shapes", "clips"},
+        {"stage"},
+        {"files"},
         {"__init__"},
     ],
     "mates": [
@@ -101,7 +111,7 @@ HOMES = {
     "fsspec": {"batching/places"},
     "OCP": {"sources/occ", "sources/step"},
     "assimp_py": {"sources/parts"},
-    "pxr": {"sources/usd"},
+    "pxr": {"sources/usd", "targets/usd"},
 }
 """Where a library may be imported: a folder or file, by its path in the package without ``.py``."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tarfile
 from pathlib import Path
 
 import kinefab
@@ -111,7 +112,9 @@ def _object(index, node, nodes, content, scene_path, dialect) -> list[str]:
         if "mesh" in wanted:
             found += _mesh(wanted["mesh"], component["mesh"], content, scene_path, own)
         if wanted["type"] == "MeshRenderer":
-            names = [content["materials"][m]["name"] for m in wanted["materials"]]
+            names = [
+                content["materials"][m]["name"].replace("#", "_") for m in wanted["materials"]
+            ]  # as files are called
             read_names = [str(m.fields["m_Name"]) for m in component["materials"]]
             found += [] if names == read_names else [f"{own}: {names} became {read_names}"]
     return found
@@ -198,6 +201,40 @@ def test_the_lever_comes_back_with_every_kind_of_collider(tmp_path, colliders):
 @pytest.mark.parametrize("bundle", [b for b, _ in golden_pairs()], ids=lambda b: b.name.split(".")[0])
 def test_every_fixture_comes_back(tmp_path, bundle):
     assert compared(*both(bundle, tmp_path)) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "twins/arm.usda",
+        "lever/lever.usda",
+        "freecad/couplings.FCStd",
+        "lever/lever.FCStd",
+        "twins/arm.urdf",
+        "lever/lever.urdf",
+    ],
+)
+def test_robots_and_machines_of_other_formats_come_back(tmp_path, source):
+    """A USD robot, a FreeCAD machine, a URDF arm; the package holds what the prefab's folder holds, byte for byte."""
+    if source.endswith(".usda"):
+        pytest.importorskip("pxr", reason="usd-core is not installed")
+    scene, prefab = both(FIXTURES / source, tmp_path, colliders="hull")
+    assert compared(scene, prefab) == []
+    options = kinefab.ExportOptions(colliders="hull")
+    package = kinefab.export(FIXTURES / source, tmp_path / "both.unitypackage", options).path
+    with tarfile.open(package) as archive:
+        packed = {archive.extractfile(e).read() for e in archive.getmembers() if e.name.endswith("/asset")}
+    assert prefab.read_bytes() in packed
+    glb = kinefab.export(FIXTURES / source, tmp_path / "both.glb", options)
+    names = {
+        node["name"]
+        for node in json.loads(
+            glb.path.read_bytes()[20:].split(b"\0")[0][
+                : int.from_bytes(glb.path.read_bytes()[12:16], "little")
+            ]
+        )["nodes"]
+    }
+    assert {node.name for node in glb.analysed.scene.nodes} <= names
 
 
 def test_a_mesh_of_many_vertices_has_wide_indices(tmp_path):

@@ -113,7 +113,7 @@ def test_every_gprim_and_approximation_is_a_collider(tmp_path):
     found = {c.name.split("/")[1]: c for c in scene.nodes[0].colliders}
     kinds = {name: c.kind for name, c in found.items()}
     k = ColliderKind
-    assert [kinds[f"M{i}"] for i in range(6)] == [k.HULL, k.HULL, k.BOX, k.SPHERE, k.HULL, k.HULL]
+    assert [kinds[f"M{i}"] for i in range(6)] == [k.HULL, k.HULL, k.BOX, k.SPHERE, k.PIECES, k.HULL]
     assert [kinds[n] for n in ("Cube", "Sphere", "Capsule", "Cylinder", "Cone", "Plane")] == [
         k.BOX,
         k.SPHERE,

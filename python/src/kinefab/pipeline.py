@@ -163,6 +163,7 @@ def export(
             asked,
             options.strict,
             lambda fraction: progress("write", fraction),
+            options.colliders,
         )
         if os.path.lexists(path) and not os.path.isfile(
             path

@@ -62,8 +62,9 @@ def collision_meshes(
             if collider.kind is ColliderKind.CYLINDER:
                 size = (collider.radius, collider.length)
                 cylinders.setdefault(size, prism(*size))
-            elif collider.mesh is not None and (collider.kind is ColliderKind.HULL or moves):
+            elif collider.mesh is not None and (collider.kind is not ColliderKind.MESH or moves):
                 hulled.append((collider.mesh, name))
+                split += [(collider.mesh, name)] if collider.kind is ColliderKind.PIECES else []
     for body in not_convex:
         report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
     hulls = collision_hulls(scene, hulled, report)

@@ -15,6 +15,7 @@ class ColliderKind(str, Enum):
     CAPSULE = "capsule"
     CYLINDER = "cylinder"
     HULL = "hull"
+    PIECES = "pieces"
     MESH = "mesh"
 
 
@@ -46,7 +47,7 @@ class Collider:
     pose: the shape's frame in the node's; the shape's centre is its origin.
     size: of a box, full extents along X Y Z, metres.  radius: of a sphere, capsule or cylinder, metres.
     length: of a capsule between the centres of its caps, of a cylinder between its ends; both lie along Z.
-    mesh: index into ``Scene.meshes``, of a HULL (its convex hull) or MESH.  scale: of that mesh, along its own axes.
+    mesh: index into ``Scene.meshes``, of a HULL (its convex hull), of PIECES (convex ones that it is cut into) or MESH.  scale: of that mesh, along its own axes.
     reference: where that mesh is to be loaded from, or None.
     material: None for the engine's own.  trigger: tells of contacts and stops nothing.
     group: the source's collision group or layer, "" for none; what it means stands in the node's extras.

@@ -47,6 +47,7 @@ TARGETS = (
     Target("Kinefab scene", (".kinefab",), "kinefab_file"),
     Target("Unity prefab", (".prefab",), "prefab", PREFAB_OPTIONS),
     Target("glTF 2.0", (".glb",), "gltf"),
+    Target("USD", (".usda", ".usdc", ".usdz"), "usd", requires=("pxr",), extra="usd"),
     Target("Unity package", (".unitypackage",), "unitypackage", PREFAB_OPTIONS),
 )
 

@@ -9,6 +9,7 @@ from typing import Any
 from ..diagnostics import KinefabError, Outcome, Report, Severity
 from ..findings import JointFinding
 from ..model import Scene
+from ..options import ColliderShape
 from ..rigid import RigidGroups
 from ..unity.scene import UnityScene
 
@@ -21,6 +22,7 @@ class Content:
     findings: what the analysis found of the joints, by their ids.
     mapped: the scene in Unity's terms; ``unity`` makes it when a target asks, and the report tells its losses then.
     report: gets what the target cannot say.  options: values by the names of the target's ``options``.
+    colliders: shape asked for where a part states no colliders.
     strict: whether a loss that is worth a warning is an error.  progress: how much is written, 0 to 1.
     """
 
@@ -32,6 +34,7 @@ class Content:
     options: Mapping[str, Any] = field(default_factory=dict[str, Any])
     strict: bool = False
     progress: Callable[[float], None] = lambda fraction: None
+    colliders: ColliderShape = ColliderShape.AUTO
     _unity: UnityScene | None = None
 
     def unity(self) -> UnityScene:

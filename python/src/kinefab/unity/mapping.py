@@ -194,17 +194,15 @@ class _Builder:
         node = self.scene.nodes[index]
         for collider in node.colliders or ():
             material = self._physics_material(collider)
-            placed = stated_collider(
+            for placed in stated_collider(
                 collider, self.colliders, self._dynamic(index), material, node.id, self.report
-            )
-            if placed is None:
-                continue
-            holder = parent
-            if placed.pose is not None:
-                name = collider.name or collider.kind.value
-                id = self._free_id(f"{node.id}/collider:{name}")
-                holder = self._object(id, name, parent, placed.pose, placed.scale)
-            self.components[holder].append(placed.component)
+            ):
+                holder = parent
+                if placed.pose is not None:
+                    name = collider.name or collider.kind.value
+                    id = self._free_id(f"{node.id}/collider:{name}")
+                    holder = self._object(id, name, parent, placed.pose, placed.scale)
+                self.components[holder].append(placed.component)
 
     def _physics_material(self, collider: Collider) -> int | None:
         if collider.material is None:

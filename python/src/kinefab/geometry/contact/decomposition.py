@@ -93,7 +93,8 @@ def _libraries() -> list[str]:
 def _decomposed(mesh: Mesh) -> tuple[Mesh, ...]:
     numbers = welded(mesh.vertices, mesh.faces)
     kept, first = np.unique(numbers, return_index=True)
-    vertices = mesh.vertices[mesh.faces.reshape(-1)[first]]
+    # In the 32 bits that files have them in: the search hangs on the last digit, and a mesh read back is to be cut alike.
+    vertices = mesh.vertices[mesh.faces.reshape(-1)[first]].astype(np.float32).astype(np.float64)
     faces = np.searchsorted(kept, numbers).reshape(-1, 3)
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]  # not those that welding made a line
     size = float(np.ptp(vertices, axis=0).max())

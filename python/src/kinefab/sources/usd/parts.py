@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import Body, Collider, Combine, Dynamics, Node, NodeKind, PhysicsMaterial, Site
+from ...model import Body, Collider, Combine, Dynamics, Node, NodeKind, Physics, PhysicsMaterial, Site
 from ...spatial import Array, Pose
 from .api import UsdShade
 from .looks.library import Library
 from .looks.surfaces import Surfaces
 from .physics.colliders import Colliders
+from .physics.held import held_parts
 from .physics.mass import ROUND, Weighed, body_mass
 from .stage import OpenStage
 from .transforms import Stand, rotation_of, stand, taken_apart
@@ -49,6 +50,7 @@ class Parts:
         self._colliders = Colliders(opened, values, self.library, report)
         self._materials: dict[str, tuple[PhysicsMaterial | None, float]] = {}
         self._bound: dict[str, Any] = {}
+        self._held = held_parts(found, values)
         self.stands: dict[int, Stand] = {}
         self.nodes: list[int] = [len(found.groups) + i for i in range(len(found.parts))]
 
@@ -69,7 +71,7 @@ class Parts:
         for number, part in enumerate(found.parts):
             at = stand(part.world, self._opened.frame)
             self.stands[self.nodes[number]] = at
-            nodes.append(self._node(part, at))
+            nodes.append(self._node(number, part, at))
         return nodes
 
     def _resolve(self) -> None:
@@ -85,10 +87,11 @@ class Parts:
     def _drawn(self, piece: Piece) -> bool:
         return piece.purpose in self._purposes
 
-    def _node(self, part: Part, at: Stand) -> Node:
+    def _node(self, number: int, part: Part, at: Stand) -> Node:
         opened, values, prim = self._opened, self._values, part.prim
         moves = part.body and part.enabled
         kinematic = moves and values.flag(prim, "physics:kinematicEnabled", False)
+        pushed = moves and not kinematic and number not in self._held
         bodies: list[Body] = []
         colliders: list[Collider] = []
         weighed: list[Weighed] = []
@@ -99,7 +102,7 @@ class Parts:
                 continue
             material, density = self._material(piece.prim)
             group = self._groups.get(str(piece.prim.GetPath()), "")
-            made = self._colliders.of(piece, at, moves and not kinematic, material, group)
+            made = self._colliders.of(piece, at, pushed, material, group)
             colliders += made
             kind = str(piece.prim.GetTypeName())
             solid = values.word(piece.prim, "physics:approximation", "none") if kind == "Mesh" else ""
@@ -213,8 +216,8 @@ def _given(vector: Array) -> Array | None:
     return vector if np.abs(vector).max() > 0.0 else None
 
 
-def gravity(found: Found, opened: OpenStage, values: Values, report: Report) -> tuple[float, float, float]:
-    """m/s^2 in the scene's frame, of the first PhysicsScene."""
+def physics_of(found: Found, opened: OpenStage, values: Values, report: Report) -> Physics:
+    """Gravity and the step of time, as PhysX has it, of the first PhysicsScene."""
     down = np.zeros(3)
     down["XYZ".index(opened.up)] = -1.0
     magnitude = 9.81 / opened.frame.length
@@ -232,4 +235,6 @@ def gravity(found: Found, opened: OpenStage, values: Values, report: Report) -> 
         if stated >= 0.0:
             magnitude = stated
     vector = opened.frame.turn @ down * (magnitude * opened.frame.length)
-    return (float(vector[0]) + 0.0, float(vector[1]) + 0.0, float(vector[2]) + 0.0)
+    gravity = (float(vector[0]) + 0.0, float(vector[1]) + 0.0, float(vector[2]) + 0.0)
+    steps = values.number(found.scenes[0], "physxScene:timeStepsPerSecond", 0.0) if found.scenes else 0.0
+    return Physics(gravity, 1.0 / steps) if steps > 0.0 else Physics(gravity)

@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from ...diagnostics import Report
-from ...model import Physics, Scene, Source
+from ...model import Scene, Source
 from ..reading.request import Request
 from .animation import read_clips
 from .api import Tf, UsdUtils
-from .parts import DEFAULT_PURPOSES, Parts, gravity
+from .parts import DEFAULT_PURPOSES, Parts, physics_of
 from .physics.couplings import Couplings, tell_prims, tell_vendors
 from .physics.filters import collision_groups, filters, offered
 from .physics.joints import Joints
@@ -52,7 +52,7 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     parts = Parts(opened, values, found, collision_groups(found), _purposes(request), report)
     scene = Scene(
         source=Source(opened.name, opened.up, opened.frame.length, opened.sha256, opened.files),
-        physics=Physics(gravity(found, opened, values, report)),
+        physics=physics_of(found, opened, values, report),
         offers=offered(opened),
     )
     scene.nodes = parts.read()
@@ -64,6 +64,7 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     scene.animations = read_clips(found, scene.nodes, opened, report)
     couplings = Couplings(opened, values, scene, joints.readings, report)
     scene.couplings = couplings.read(found.joints)
+    scene.joints = couplings.screwed()
     tell_vendors([*found.joints, *(part.prim for part in found.parts)], opened, report)
     tell_prims(found.vendor, opened, report)
     scene.extras = filters(found, opened, values, report)

@@ -163,7 +163,7 @@ class _Document:
 
     def _add_collider(self, parent: int, collider: Collider, moves: bool) -> None:
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
-        if collider.kind in (ColliderKind.HULL, ColliderKind.MESH):
+        if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
             assert collider.mesh is not None
             self.nodes.append(
                 {
@@ -172,7 +172,7 @@ class _Document:
                 }
             )
             geometry: dict[str, Any] = {"node": len(self.nodes) - 1}
-            if collider.kind is ColliderKind.HULL or moves:
+            if collider.kind is not ColliderKind.MESH or moves:
                 geometry["convexHull"] = True
         else:
             geometry = self.physics.geometry(collider)

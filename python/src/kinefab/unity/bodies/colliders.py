@@ -71,8 +71,9 @@ class PlacedCollider:
 
 def stated_collider(
     collider: Collider, colliders: Colliders, dynamic: bool, material: int | None, node: str, report: Report
-) -> PlacedCollider | None:
-    """A collider that the source states; the report tells what Unity has no shape for.
+) -> list[PlacedCollider]:
+    """A collider that the source states, of several parts where it is convex pieces; the report tells what Unity has no
+    shape for.
 
     material: index of its physics material.  node: id, for the report.
     """
@@ -87,42 +88,44 @@ def stated_collider(
     center, turn = collider.pose.translation, collider.pose.rotation
     if collider.kind is ColliderKind.SPHERE:
         report.kept(feature, collider.where)
-        return PlacedCollider(
-            SphereCollider(**common, center=vector3(frames.point(center)), radius=collider.radius)
-        )
+        sphere = SphereCollider(**common, center=vector3(frames.point(center)), radius=collider.radius)
+        return [PlacedCollider(sphere)]
     if collider.kind is ColliderKind.BOX:
         size = _along_axes(np.array(collider.size), turn)
         report.kept(feature, collider.where)
         if size is None:
-            return PlacedCollider(BoxCollider(**common, size=collider.size), collider.pose)
-        return PlacedCollider(BoxCollider(**common, center=vector3(frames.point(center)), size=vector3(size)))
+            return [PlacedCollider(BoxCollider(**common, size=collider.size), collider.pose)]
+        return [
+            PlacedCollider(BoxCollider(**common, center=vector3(frames.point(center)), size=vector3(size)))
+        ]
     if collider.kind is ColliderKind.CAPSULE:
         height = collider.length + 2.0 * collider.radius
         size = _along_axes(np.array([0.0, 0.0, 1.0]), turn)
         report.kept(feature, collider.where)
         shape: dict[str, Any] = {**common, "radius": collider.radius, "height": height}
         if size is None:
-            return PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)
-        direction = "XYZ"[int(size.argmax())]
-        return PlacedCollider(
-            CapsuleCollider(**shape, center=vector3(frames.point(center)), direction=direction)
-        )
+            return [PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)]
+        shape |= {"center": vector3(frames.point(center)), "direction": "XYZ"[int(size.argmax())]}
+        return [PlacedCollider(CapsuleCollider(**shape))]
     if collider.kind is ColliderKind.CYLINDER:
         mesh = colliders.cylinder_of[collider.radius, collider.length]
         report.approximated(feature, "COLLIDER_CYLINDER_AS_MESH", collider.where, collider=feature)
-        return _meshed(MeshCollider(**common, mesh=mesh, convex=True), collider)
+        return [_meshed(MeshCollider(**common, mesh=mesh, convex=True), collider)]
     assert collider.mesh is not None, "a hull or mesh collider names its mesh"
     if collider.kind is ColliderKind.MESH and not dynamic:
         report.kept(feature, collider.where)
-        return _meshed(MeshCollider(**common, mesh=collider.mesh), collider)
+        return [_meshed(MeshCollider(**common, mesh=collider.mesh), collider)]
     if collider.mesh not in colliders.hull_of:
         report.dropped(feature, "COLLIDER_FLAT_DROPPED", collider.where, collider=feature)
-        return None
+        return []
     if collider.kind is ColliderKind.MESH:
         report.approximated(feature, "COLLIDER_MESH_AS_HULL", collider.where, collider=feature)
     else:
         report.kept(feature, collider.where)
-    return _meshed(MeshCollider(**common, mesh=colliders.hull_of[collider.mesh], convex=True), collider)
+    convex: Sequence[int] = (colliders.hull_of[collider.mesh],)
+    if collider.kind is ColliderKind.PIECES:
+        convex = colliders.pieces_of.get(collider.mesh, convex)
+    return [_meshed(MeshCollider(**common, mesh=mesh, convex=True), collider) for mesh in convex]
 
 
 def _meshed(component: MeshCollider, collider: Collider) -> PlacedCollider:

@@ -154,7 +154,6 @@ class Surfaces:
                 inputs.lost(name, "there is no such thing in Unity's standard surface")
         if inputs.number("useSpecularWorkflow", 0.0):
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
-        white = (1.0, 1.0, 1.0)
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
         emissive = inputs.sampler("emissiveColor")
         mode = (
@@ -166,13 +165,18 @@ class Surfaces:
         )
         return Surface(
             self._unique(title(material)),
-            (_unit(base[0]), _unit(base[1]), _unit(base[2]), _unit(alpha) if opacity is None else 1.0),
-            _unit(1.0 if metal and packed else inputs.number("metallic", 0.0)),
-            0.0 if rough and packed else 1.0 - _unit(inputs.number("roughness", 0.5)),
+            (
+                _unit(base[0]),
+                _unit(base[1]),
+                _unit(base[2]),
+                _unit(alpha if opacity is None else opacity.alpha),
+            ),
+            _unit(metal.tint[2] if metal and packed else inputs.number("metallic", 0.0)),
+            1.0 - _unit(rough.tint[1] if rough and packed else inputs.number("roughness", 0.5)),
             mode,
             _unit(threshold) if mode is AlphaMode.MASK else 0.5,
             False,
-            _emission(white if emissive else inputs.color("emissiveColor", (0.0, 0.0, 0.0))),
+            _emission(emissive.tint if emissive else inputs.color("emissiveColor", (0.0, 0.0, 0.0))),
             diffuse.texture if diffuse else None,
             _texture(inputs.sampler("normal")),
             packed,

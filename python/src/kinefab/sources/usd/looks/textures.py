@@ -31,11 +31,12 @@ WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "bla
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampler:
-    """texture; output: 'rgb', 'r', 'g', 'b' or 'a'.  tint: linear RGB that the image is multiplied by."""
+    """texture; output: 'rgb', 'r', 'g', 'b' or 'a'.  tint: linear RGB that the image is multiplied by, alpha: its opacity."""
 
     texture: Texture
     output: str
     tint: tuple[float, float, float]
+    alpha: float = 1.0
 
 
 def read_sampler(
@@ -63,17 +64,17 @@ def read_sampler(
             where,
             detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
         )
-    tint = _floats(_input(shader, "scale"), (1.0, 1.0, 1.0, 1.0))[:3]
+    *tint, alpha = _floats(_input(shader, "scale"), (1.0, 1.0, 1.0, 1.0))
     bias = _floats(_input(shader, "bias"), (0.0, 0.0, 0.0, 0.0))[:3]
-    normal_map = tint == (2.0, 2.0, 2.0) and bias == (-1.0, -1.0, -1.0)
+    normal_map = tint == [2.0, 2.0, 2.0] and bias == (-1.0, -1.0, -1.0)
     if any(bias) and not normal_map:
         report.approximated(
             feature, "USD_FEATURE_APPROXIMATED", where, detail=f"the bias {bias} was left out"
         )
     if normal_map:
-        tint = (1.0, 1.0, 1.0)
+        tint = [1.0, 1.0, 1.0]
     texture = Texture(name, path, data, media, wrap, uv_set, scale, offset, rotation)
-    return Sampler(texture, output, (tint[0], tint[1], tint[2]))
+    return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha)
 
 
 def _input(shader: Any, name: str) -> Any:

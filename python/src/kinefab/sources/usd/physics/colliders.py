@@ -14,15 +14,15 @@ from ..looks.gprims import axis_turn
 from ..looks.library import Library
 from ..stage import OpenStage
 from ..transforms import Stand, Stretch, taken_apart
-from ..values import Values, identity
+from ..values import Values, identity, schemas
 from ..walk import Piece
 
 THICKNESS = 0.01
 """Metres of the box that stands for a plane."""
 EVEN = 1e-6
 """Scales closer than this share are one."""
-HULLS = frozenset(("convexHull", "convexDecomposition", "sdf", "sphereFill"))
-KNOWN = frozenset(("none", "meshSimplification", "boundingSphere", "boundingCube")) | HULLS
+PIECES = frozenset(("convexDecomposition", "sdf", "sphereFill"))
+KNOWN = frozenset(("none", "convexHull", "meshSimplification", "boundingSphere", "boundingCube")) | PIECES
 
 
 class Colliders:
@@ -46,6 +46,7 @@ class Colliders:
             ColliderKind.BOX,
             name=piece.id,
             material=material,
+            trigger="PhysxTriggerAPI" in schemas(prim),
             enabled=self._values.flag(prim, "physics:collisionEnabled", True),
             group=group,
             where=where,
@@ -156,17 +157,19 @@ class Colliders:
                 return [replace(common, kind=ColliderKind.BOX, pose=pose, size=_triple(high - low))]
             radius = float(np.linalg.norm(vertices - middle, axis=1).max())
             return [replace(common, kind=ColliderKind.SPHERE, pose=pose, radius=radius)]
-        hull = wanted in HULLS
-        if hull and wanted != "convexHull":
-            self._approximated(prim, f"one convex hull stands for the approximation '{wanted}'")
-        elif not hull and dynamic:
+        convex = wanted == "convexHull" or (wanted in PIECES and dynamic)
+        if wanted in ("sdf", "sphereFill") and dynamic:
+            self._approximated(prim, f"convex pieces stand for the approximation '{wanted}'")
+        elif dynamic and not convex:
             self._approximated(
                 prim,
                 f"a body that moves needs a convex collider; a hull stands for the approximation '{wanted}'",
             )
         elif wanted == "meshSimplification":
             self._approximated(prim, "the mesh itself stands for its simplification")
-        kind = ColliderKind.HULL if hull or dynamic else ColliderKind.MESH
+        kind = ColliderKind.HULL if convex or dynamic else ColliderKind.MESH
+        if wanted in PIECES and dynamic:
+            kind = ColliderKind.PIECES
         return [replace(common, kind=kind, pose=at, mesh=shared.mesh, scale=scale)]
 
     def _scale(self, stretch: Stretch) -> tuple[float, float, float]:

@@ -3,13 +3,15 @@ vendors, which Unity's joints cannot have, are told."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ....diagnostics import Report
-from ....model import RX, TX, Coupling, CouplingKind, Joint, Scene, Term, unlocked_of
+from ....model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Scene, Term, unlocked_of
 from ..stage import OpenStage
 from ..values import Values, identity, schemas
 from .freedoms import DOFS
@@ -28,6 +30,16 @@ class Couplings:
         self._opened, self._values, self._scene, self._readings = opened, values, scene, readings
         self._report = report
         self._joints = {joint.id: joint for joint in scene.joints}
+        self._leads: dict[str, float] = {}
+
+    def screwed(self) -> list[Joint]:
+        """The scene's joints, with those as screws whose slide follows their own turn."""
+        return [
+            replace(joint, kind=JointKind.SCREW, lead=self._leads[joint.id])
+            if joint.id in self._leads
+            else joint
+            for joint in self._scene.joints
+        ]
 
     def read(self, prims: Sequence[Any]) -> list[Coupling]:
         """prims: the joint prims, gears and racks among them."""
@@ -86,6 +98,9 @@ class Couplings:
         factor = ratio * unit / led_unit * sense * led_sense
         if factor == 0.0:
             self._lost(feature, where, "its ratio is zero")
+            return None
+        if joint is led and joint.kind is JointKind.CYLINDRICAL and (freedom, led_freedom) == (TX, RX):
+            self._leads[joint.id] = 2.0 * math.pi * factor
             return None
         return Coupling(
             f"mimic:{identity(prim)}" + (f":{own}" if own else ""),

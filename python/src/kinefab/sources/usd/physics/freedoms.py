@@ -17,6 +17,8 @@ from ..values import Values, identity, schemas
 DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
 """USD's names of the freedoms TX..RZ."""
 PER_DEGREE = 180.0 / math.pi
+MOTOR_DAMPING = 0.999e9
+"""N s/m or N m s/rad from which on a drive without stiffness is a motor, which its largest force alone bounds."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,15 +108,21 @@ class Freedoms:
             where = self._opened.place(prim, prefix + "stiffness")
             self._report.dropped(feature, "USD_FEATURE_DROPPED", where, detail="its freedom is locked")
             return freedom
-        drive = Drive(
-            get(prim, prefix + "targetPosition", 0.0) * unit,
-            get(prim, prefix + "targetVelocity", 0.0) * unit,
-            stiffness * gain,
-            damping * gain,
-            most * self.units.force(turns),
-            acceleration,
+        force = most * self.units.force(turns)
+        velocity = get(prim, prefix + "targetVelocity", 0.0) * unit
+        if not stiffness and damping * gain >= MOTOR_DAMPING and not acceleration:
+            return replace(freedom, drive=Drive(target_velocity=velocity, max_force=force, motor=True))
+        target = get(prim, prefix + "targetPosition", 0.0) * unit
+        return replace(
+            freedom, drive=Drive(target, velocity, stiffness * gain, damping * gain, force, acceleration)
         )
-        return replace(freedom, drive=drive)
+
+    def standing(self, freedom: Freedom, prim: Any, instance: str, turns: bool) -> Freedom:
+        """The freedom with its coordinate at the exported pose, where PhysX's JointStateAPI says it."""
+        name = f"state:{instance}:physics:position"
+        if not self._values.authored(prim, name):
+            return freedom
+        return replace(freedom, at=self._values.number(prim, name, 0.0) * self.units.coordinate(turns))
 
 
 def turned_round(freedom: Freedom) -> Freedom:

@@ -149,6 +149,12 @@ class Joints:
         targets = self._values.targets(prim, name)
         position = self._values.vector(prim, f"physics:localPos{number}", (0.0, 0.0, 0.0))
         turn = self._values.rotation(prim, f"physics:localRot{number}")
+        whole = self._values.array(prim, f"kinefab:localPos{number}")
+        if whole is not None and len(whole) == 3 and np.array_equal(whole.astype(np.float32), position):
+            position = whole
+        whole_turn = self._values.rotation(prim, f"kinefab:localRot{number}")
+        if turn is not None and whole_turn is not None and np.abs(turn - whole_turn).max() <= ROUNDED:
+            turn = whole_turn
         rotation = np.eye(3) if turn is None else turn
         if len(targets) > 1:
             self._approximated(prim, f"{name} names {len(targets)} prims; the first was taken")
@@ -198,6 +204,7 @@ class Joints:
                 upper = self._values.number(prim, "physics:upperLimit", math.inf, open_ended=True)
                 freedom = self._freedoms.limited(prim, lower, upper, turns, instance)
                 freedom = self._freedoms.with_drive(freedom, prim, instance, turns)
+                freedom = self._freedoms.standing(freedom, prim, instance, turns)
                 freedom = passive_of(freedom, prim, turns, instance, self._values, self._freedoms.units)
                 self._other_instances(prim, {instance})
                 return _Draft(tuple(freedom if i == main else LOCKED for i in range(6)), order, extras)
@@ -259,6 +266,7 @@ class Joints:
         found: list[Freedom] = []
         for i, name in enumerate(DOFS):
             freedom = self._freedoms.with_drive(self._freedoms.of_limit(prim, i), prim, name, i >= RX)
+            freedom = self._freedoms.standing(freedom, prim, name, i >= RX)
             found.append(passive_of(freedom, prim, i >= RX, name, self._values, self._freedoms.units))
         known = {*DOFS, "distance"}
         if "PhysicsLimitAPI:distance" in schemas(prim):

@@ -1,0 +1,1 @@
+"""Bodies, colliders, joints: UsdPhysics, and vendors' attributes by name."""

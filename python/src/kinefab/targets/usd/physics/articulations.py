@@ -1,0 +1,81 @@
+"""Which joints make the trees of reduced coordinates, which close loops, and where each tree begins.
+
+A tree takes hinges, slides, balls and fixed joints that do not break, between bodies that forces move; every other joint is
+told to stand outside (``excludeFromArticulation``), as is one that closes a loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from ..prims import Prim
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Edge:
+    """A joint between two bodies (None: the world).  fits: an articulation can have it.  closing: the analysis closes a
+    loop with it, so that it is taken last."""
+
+    a: int | None
+    b: int | None
+    prim: Prim
+    fits: bool = True
+    closing: bool = False
+
+
+def mark_articulations(
+    edges: Sequence[Edge], kinematic: Callable[[int], bool], prim_of: Callable[[int], Prim], base: Prim | None
+) -> None:
+    """Exclude what is in no tree, and apply the root API: to the joint ``base`` that fixes the ground's body to the world,
+    for each tree that hangs on the world by another joint or on nothing to its first body."""
+    leader: dict[int | None, int | None] = {}
+
+    def find(body: int | None) -> int | None:
+        while (above := leader.setdefault(body, body)) != body:
+            leader[body] = leader.setdefault(above, above)
+            body = above
+        return body
+
+    taken: list[Edge] = []
+    for edge in sorted(edges, key=lambda e: e.closing):
+        bound = any(body is not None and kinematic(body) for body in (edge.a, edge.b))
+        if not edge.fits or bound or find(edge.a) == find(edge.b):
+            edge.prim.attribute("physics:excludeFromArticulation", "Bool", True, uniform=True)
+            continue
+        leader[find(edge.b)] = find(edge.a)
+        taken.append(edge)
+    _mark_roots(taken, prim_of, base)
+
+
+def _mark_roots(taken: Sequence[Edge], prim_of: Callable[[int], Prim], base: Prim | None) -> None:
+    """taken: edges of a forest, in which the world is a leaf of each of its trees."""
+    neighbours: dict[int, list[int]] = {}
+    hung: list[int] = []
+    for edge in taken:
+        a, b = edge.a, edge.b
+        for body in (a, b):
+            if body is not None:
+                neighbours.setdefault(body, [])
+        if a is None or b is None:
+            hung += [body for body in (a, b) if body is not None]
+            continue
+        neighbours[a].append(b)
+        neighbours[b].append(a)
+    seen: set[int] = set()
+    fixed = {edge.b for edge in taken if edge.prim is base}
+    for start in [*hung, *sorted(neighbours)]:
+        if start in seen:
+            continue
+        tree, waiting = 0, [start]
+        seen.add(start)
+        while waiting:
+            tree += 1
+            fresh = [n for n in neighbours[waiting.pop()] if n not in seen]
+            seen.update(fresh)
+            waiting += fresh
+        if start in fixed:
+            if tree > 1 and base is not None:
+                base.apply("PhysicsArticulationRootAPI")
+        elif tree > 1 or start in hung:
+            prim_of(start).apply("PhysicsArticulationRootAPI")

@@ -1,0 +1,108 @@
+"""What each freedom of a joint may do, as LimitAPI, DriveAPI and vendors' attributes have it.
+
+USD counts angles in degrees and angular gains per degree; everything else is SI, as the stage is in metres and kilograms.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ....model import RX, Drive, Freedom, Motion, Passive
+from ..prims import Prim
+
+DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
+"""USD's names of the freedoms TX..RZ."""
+MOTOR_DAMPING = 1e9
+"""N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
+
+
+def coordinate(value: float, turns: bool) -> float:
+    """Metres, or degrees of radians."""
+    return math.degrees(value) if turns else value
+
+
+def gain(value: float, turns: bool) -> float:
+    """A stiffness or damping per metre, or per degree of one per radian."""
+    return math.radians(value) if turns else value
+
+
+def write_limit_api(prim: Prim, index: int, freedom: Freedom) -> None:
+    """A freedom of a generic joint: free without a limit, locked by a lower end above the upper."""
+    if freedom.motion is Motion.FREE:
+        return
+    instance, turns = DOFS[index], index >= RX
+    low, high = 1.0, -1.0
+    if freedom.motion is Motion.LIMITED:
+        low, high = coordinate(freedom.lower, turns), coordinate(freedom.upper, turns)
+    prim.apply(f"PhysicsLimitAPI:{instance}")
+    prim.numbers({f"limit:{instance}:physics:low": low, f"limit:{instance}:physics:high": high})
+
+
+def write_soft_limit(prim: Prim, instance: str, freedom: Freedom, turns: bool) -> None:
+    """The spring, damper and bounce of a limit, as PhysX's schema has them."""
+    if freedom.motion is not Motion.LIMITED or not (
+        freedom.stiffness or freedom.damping or freedom.restitution
+    ):
+        return
+    prim.apply(f"PhysxLimitAPI:{instance}")
+    values = {
+        "stiffness": gain(freedom.stiffness, turns),
+        "damping": gain(freedom.damping, turns),
+        "restitution": freedom.restitution,
+    }
+    prim.numbers({f"physxLimit:{instance}:{name}": value for name, value in values.items() if value})
+
+
+def write_drive(prim: Prim, instance: str, drive: Drive, turns: bool) -> None:
+    """Of one freedom; a motor is the drive that its largest force bounds."""
+    prim.apply(f"PhysicsDriveAPI:{instance}")
+    prefix = f"drive:{instance}:physics:"
+    if drive.acceleration:
+        prim.attribute(f"{prefix}type", "Token", "acceleration", uniform=True)
+    stiffness, damping = (0.0, MOTOR_DAMPING) if drive.motor else (drive.stiffness, drive.damping)
+    values = {
+        "stiffness": gain(stiffness, turns),
+        "damping": gain(damping, turns),
+        "targetPosition": 0.0 if drive.motor else coordinate(drive.target, turns),
+        "targetVelocity": coordinate(drive.target_velocity, turns),
+    }
+    prim.numbers({prefix + name: value for name, value in values.items()})
+    if math.isfinite(drive.max_force):
+        prim.numbers({f"{prefix}maxForce": drive.max_force})
+
+
+def write_passive(prim: Prim, passive: Passive, turns: bool, instance: str) -> None:
+    """Friction, inertia and bounds of whatever drives a joint of one freedom, as Newton's and PhysX's schemas have them."""
+    newton = {
+        "armature": passive.armature,
+        "friction": passive.friction,
+        "damping": gain(passive.damping, turns),
+        "effortLimit": passive.effort,
+        "velocityLimit": coordinate(passive.speed, turns),
+    }
+    told = {name: value for name, value in newton.items() if value and math.isfinite(value)}
+    if told:
+        prim.apply("NewtonJointAPI")
+        prim.numbers({f"newton:{name}": value for name, value in told.items()})
+    physx = {"armature": newton["armature"], "maxJointVelocity": newton["velocityLimit"]}
+    physx = {name: value for name, value in physx.items() if name in told or name == "maxJointVelocity"}
+    physx = {name: value for name, value in physx.items() if value and math.isfinite(value)}
+    if physx:
+        prim.apply("PhysxJointAPI")
+        prim.numbers({f"physxJoint:{name}": value for name, value in physx.items()})
+
+
+def write_state(prim: Prim, instance: str, value: float, turns: bool) -> None:
+    """Where a coordinate stands as exported, metres or radians: engines of reduced coordinates begin there."""
+    if value:
+        prim.apply(f"PhysicsJointStateAPI:{instance}")
+        prim.numbers({f"state:{instance}:physics:position": coordinate(value, turns)})
+
+
+def even(freedoms: Sequence[Freedom]) -> bool:
+    """Whether two freedoms have the same hard range to both sides."""
+    first = freedoms[0]
+    alike = all((f.motion, f.lower, f.upper) == (first.motion, first.lower, first.upper) for f in freedoms)
+    hard = not any(f.stiffness or f.damping or f.restitution for f in freedoms)
+    return alike and hard and first.motion is Motion.LIMITED and first.lower == -first.upper

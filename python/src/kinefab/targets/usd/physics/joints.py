@@ -1,0 +1,231 @@
+"""Joints of the model as UsdPhysics joints.
+
+Both count b's frame as seen from a's, along and about a's axes, so body 0 is a's and body 1 is b's and no sign changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from ....diagnostics import Report
+from ....findings import JointFinding
+from ....model import RX, RZ, TX, Drive, Freedom, Joint, Motion, Passive, Scene, unlocked_of
+from ....spatial import Pose, quaternion_from_matrix, rotation_log
+from ....unity.joints.coordinates import CanonicalJoint, canonical, read_coordinates
+from ....unity.joints.mapping import GAP_ANGLE, GAP_LENGTH
+from ....unity.joints.passive import with_passive_drives
+from ..bodies import Bodies
+from ..prims import Prim, quaternion32, quaternion64, rounded, vector3d, vector3f
+from .articulations import Edge
+from .freedoms import (
+    DOFS,
+    coordinate,
+    even,
+    write_drive,
+    write_limit_api,
+    write_passive,
+    write_soft_limit,
+    write_state,
+)
+
+AXES = "XYZ"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WrittenJoint:
+    """instance_of: for each unlocked freedom TX..RZ of the source's joint what USD calls it.  typed: it has one freedom, which
+    needs no name."""
+
+    prim: Prim
+    instance_of: Mapping[int, str]
+    typed: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places:
+    """Prims and poses of what joints name.  prims: of each node.  root: the default prim, which stands for the world, so that
+    the stage may be referred to anywhere; root_pose: its own."""
+
+    scene: Scene
+    prims: Sequence[Prim]
+    root: Prim
+    root_pose: Pose
+
+    def write_sides(self, prim: Prim, sides: tuple[tuple[int | None, Pose], ...]) -> None:
+        """Bodies and frames.  sides: node of the body (None: the world) and the joint frame in the world."""
+        for i, (node, frame) in enumerate(sides):
+            pose = self.root_pose if node is None else self.scene.pose(node)
+            local = pose.inverse() @ frame
+            prim.relation(f"physics:body{i}", (self.root if node is None else self.prims[node]).path)
+            prim.attribute(f"physics:localPos{i}", "Point3f", vector3f(local.translation))
+            turn = quaternion_from_matrix(local.rotation)
+            prim.attribute(f"physics:localRot{i}", "Quatf", quaternion32(turn))
+            # The schema has 32 bits, in which the axes of a loop are not quite parallel: the whole numbers stand beside.
+            if rounded(local.translation):
+                prim.attribute(f"kinefab:localPos{i}", "Double3", vector3d(local.translation), custom=True)
+            if rounded(turn):
+                prim.attribute(f"kinefab:localRot{i}", "Quatd", quaternion64(turn), custom=True)
+
+
+@dataclass(slots=True, eq=False)
+class Joints:
+    """Writes joints below ``scope``.  places: of the bodies.  written: by the joints' ids."""
+
+    scene: Scene
+    bodies: Bodies
+    scope: Prim
+    places: Places
+    report: Report
+    ending: str
+    written: dict[str, WrittenJoint] = field(default_factory=dict[str, WrittenJoint])
+
+    def write(self, joint: Joint, name: str, finding: JointFinding | None) -> Edge:
+        """name: of its prim."""
+        feature, before = f"joint {joint.id}", len(self.report.outcomes)
+        bare, passives = _passive_apart(joint)
+        shape = canonical(with_passive_drives(bare, self.report))
+        values = self._standing(joint, shape)
+        kind, main = _kind(shape, joint)
+        prim = self.scope.child(joint.name or joint.id, kind, name=name)
+        prim.tell_source(joint.id)
+        ends = (self.bodies.carrier(joint.a), self.bodies.carrier(joint.b))
+        sides = (
+            (ends[0], self.scene.pose(joint.a) @ shape.frame_a),
+            (ends[1], self.scene.pose(joint.b) @ shape.frame_b),
+        )
+        self.places.write_sides(prim, sides)
+        for freedom, i in ((f, i) for i, f in enumerate(joint.freedoms) if f.drive is not None):
+            if freedom.motion is Motion.LOCKED:
+                self.report.add(
+                    "JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i)
+                )
+        if kind == "PhysicsJoint":
+            self._write_generic(prim, joint, shape, passives, values)
+        elif kind == "PhysicsSphericalJoint":
+            _write_cone(prim, shape)
+        elif main is not None:
+            _write_typed(prim, shape.freedoms[main], passives.get(shape.name_of[main]), main, values[main])
+        if math.isfinite(joint.break_force):
+            prim.numbers({"physics:breakForce": joint.break_force})
+        if math.isfinite(joint.break_torque):
+            prim.numbers({"physics:breakTorque": joint.break_torque})
+        if joint.collide:
+            prim.attribute("physics:collisionEnabled", "Bool", True)
+        if len(self.report.outcomes) == before:
+            self.report.kept(feature, joint.where)
+        free = unlocked_of(shape.freedoms)
+        names = {shape.name_of[i]: DOFS[i] for i in free}
+        self.written[joint.id] = WrittenJoint(prim, names, len(free) == 1)
+        turning = all(i >= RX for i in free)
+        breaks = math.isfinite(joint.break_force) or math.isfinite(joint.break_torque)
+        closing = finding is not None and finding.closure
+        return Edge(ends[0], ends[1], prim, (len(free) <= 1 or turning) and not breaks, closing)
+
+    def _write_generic(
+        self,
+        prim: Prim,
+        joint: Joint,
+        shape: CanonicalJoint,
+        passives: Mapping[int, Passive],
+        values: Sequence[float],
+    ) -> None:
+        for i, freedom in enumerate(shape.freedoms):
+            write_limit_api(prim, i, freedom)
+            if freedom.motion is Motion.LOCKED:
+                continue
+            write_soft_limit(prim, DOFS[i], freedom, i >= RX)
+            write_state(prim, DOFS[i], values[i], i >= RX)
+            if freedom.drive is not None and joint.slerp is None:
+                write_drive(prim, DOFS[i], freedom.drive, i >= RX)
+            if passives.get(shape.name_of[i]):
+                self.report.dropped(
+                    f"joint {joint.id}", "TARGET_FIELD_DROPPED", joint.where,
+                    field=f"friction, armature and bounds of {joint.freedom_name(shape.name_of[i])}",
+                    target=self.ending,
+                )  # fmt: skip
+        if joint.slerp is not None:
+            order = [i - RX for i in shape.name_of[RX:]]
+            turn, spin = rotation_log(joint.slerp.target)[order], joint.slerp.target_velocity[order]
+            given = joint.slerp
+            for k, i in enumerate(range(RX, RZ + 1)):
+                if shape.freedoms[i].motion is not Motion.LOCKED:
+                    one = Drive(
+                        float(turn[k]), float(spin[k]), given.stiffness, given.damping, given.max_force, given.acceleration
+                    )  # fmt: skip
+                    write_drive(prim, DOFS[i], one, True)
+            self.report.approximated(
+                f"joint {joint.id}", "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
+                detail="its drive about all three rotations became one about each",
+            )  # fmt: skip
+
+    def _standing(self, joint: Joint, shape: CanonicalJoint) -> list[float]:
+        """The six coordinates at the exported pose, metres and radians; the report tells where it does not meet the joint."""
+        relative = (self.scene.pose(joint.a) @ shape.frame_a).inverse() @ (
+            self.scene.pose(joint.b) @ shape.frame_b
+        )
+        found = read_coordinates(shape, relative)
+        if found.gap_length > GAP_LENGTH or found.gap_angle > GAP_ANGLE:
+            self.report.approximated(
+                f"joint {joint.id}", "JOINT_POSE_GAP", joint.where, joint=joint.id,
+                metres=f"{found.gap_length:.3g}", degrees=f"{math.degrees(found.gap_angle):.3g}",
+            )  # fmt: skip
+        return [
+            float(freedom.nearest_turn(value)) if i >= RX else float(value)
+            for i, (freedom, value) in enumerate(zip(shape.freedoms, found.values))
+        ]
+
+
+def _kind(shape: CanonicalJoint, joint: Joint) -> tuple[str, int | None]:
+    """The prim's type, and the one freedom that it leaves where there is just one."""
+    free = unlocked_of(shape.freedoms)
+    if not free:
+        return "PhysicsFixedJoint", None
+    if len(free) == 1 and joint.slerp is None:
+        return ("PhysicsRevoluteJoint" if free[0] >= RX else "PhysicsPrismaticJoint"), free[0]
+    if free == (RX, RX + 1, RZ) and joint.slerp is None:
+        twist, *swings = shape.freedoms[RX:]
+        driven = any(f.drive is not None for f in (twist, *swings))
+        open_swings = all(f.motion is Motion.FREE for f in swings)
+        if twist.motion is Motion.FREE and not driven and (open_swings or even(swings)):
+            return "PhysicsSphericalJoint", None
+    return "PhysicsJoint", None
+
+
+def _write_typed(prim: Prim, freedom: Freedom, passive: Passive | None, main: int, value: float) -> None:
+    """A hinge's or slide's only freedom."""
+    turns, instance = main >= RX, "angular" if main >= RX else "linear"
+    prim.attribute("physics:axis", "Token", AXES[main - RX if turns else main - TX], uniform=True)
+    if freedom.motion is Motion.LIMITED:
+        ends = {"physics:lowerLimit": freedom.lower, "physics:upperLimit": freedom.upper}
+        prim.numbers({name: coordinate(value, turns) for name, value in ends.items()})
+    write_soft_limit(prim, instance, freedom, turns)
+    write_state(prim, instance, value, turns)
+    if freedom.drive is not None:
+        write_drive(prim, instance, freedom.drive, turns)
+    if passive is not None:
+        write_passive(prim, passive, turns, instance)
+
+
+def _write_cone(prim: Prim, shape: CanonicalJoint) -> None:
+    prim.attribute("physics:axis", "Token", "X", uniform=True)
+    swing = shape.freedoms[RX + 1]
+    if swing.motion is Motion.LIMITED:
+        half = math.degrees(swing.upper)
+        prim.numbers({"physics:coneAngle0Limit": half, "physics:coneAngle1Limit": half})
+
+
+def _passive_apart(joint: Joint) -> tuple[Joint, dict[int, Passive]]:
+    """The joint with no more passive properties than a drive has room for, and the others by freedom."""
+    apart: dict[int, Passive] = {}
+    freedoms: list[Freedom] = []
+    for i, freedom in enumerate(joint.freedoms):
+        passive = freedom.passive
+        if passive is not None and freedom.motion is not Motion.LOCKED:
+            rest = replace(passive, stiffness=0.0, rest=0.0, damping=0.0)
+            if rest != Passive():
+                apart[i] = rest
+            freedom = replace(freedom, passive=Passive(passive.stiffness, passive.rest, passive.damping))
+        freedoms.append(freedom)
+    return replace(joint, freedoms=tuple(freedoms)), apart

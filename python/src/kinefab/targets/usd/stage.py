@@ -1,0 +1,196 @@
+"""The stage: its units, its hierarchy, and in which order what is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ... import __version__
+from ...model import Joint, Motion, NodeKind
+from ...rigid import active_nodes
+from ...spatial import Pose
+from ..content import Content
+from .api import Sdf
+from .bodies import Bodies, find_bodies
+from .clips import Clips
+from .looks.materials import Materials
+from .looks.textures import Textures
+from .names import sibling_names
+from .physics.articulations import Edge, mark_articulations
+from .physics.couplings import write_couplings
+from .physics.joints import Joints, Places
+from .physics.rigid import write_grounded, write_moving
+from .prims import Prim, vector3f
+from .shapes import Shapes
+
+JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES = "Joints", "Materials", "PhysicsMaterials", "Prototypes"
+"""Scopes below the default prim, beside the nodes."""
+TIMESTEP = 0.02
+"""Seconds: what is not said."""
+
+
+@dataclass(slots=True, eq=False)
+class Stage:
+    """A layer being filled.  name: of the default prim, where no single assembly holds everything.
+    target: ending of the file, for the report.  prims: of each node."""
+
+    content: Content
+    name: str
+    target: str
+    textures: Textures
+    layer: Any = field(default_factory=lambda: Sdf.Layer.CreateAnonymous(".usda"))
+    prims: list[Prim] = field(default_factory=list[Prim])
+
+    def write(self) -> None:
+        """Fill the layer; the report gets what became of joints, colliders, couplings and clips."""
+        content = self.content
+        scene, report = content.scene, content.report
+        joints = [joint for joint in scene.joints if self._is_written(joint)]
+        bodies = find_bodies(scene, content.groups, joints)
+        with Sdf.ChangeBlock():
+            clips = Clips(scene, bodies, report, self.target)
+            root = self._hierarchy(bodies, clips)
+            scopes = {
+                name: root.child(name, "Scope", name=name)
+                for name in (JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES)
+            }
+            self._metadata(root)
+            shapes = Shapes(scene, bodies, scopes[PHYSICS_MATERIALS], content.colliders, report, self.target)
+            materials = Materials(scopes[MATERIALS], self.textures)
+            active = active_nodes(scene)
+            for i, _ in enumerate(shapes.write(self.prims, scopes[PROTOTYPES], materials, active)):
+                content.progress(0.8 * (i + 1) / len(self.prims))
+            self._physics(root, scopes[JOINTS], bodies, joints)
+            clips.write(self.layer, self.prims)
+            for scope in scopes.values():
+                scope.remove_if_empty()
+
+    def _is_written(self, joint: Joint) -> bool:
+        """Whether a joint moves something; the report tells of the others."""
+        groups, report, feature = self.content.groups, self.content.report, f"joint {joint.id}"
+        lost = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
+        wrong = [f for f in joint.freedoms if f.motion is Motion.LIMITED and not f.lower <= f.upper]
+        if lost is not None:
+            names = {"joint": joint.id, "node": self.content.scene.nodes[lost].id}
+            report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, **names)
+        elif wrong:
+            names = {"lower": wrong[0].lower, "upper": wrong[0].upper, "joint": joint.id}
+            report.dropped(feature, "JOINT_LIMITS_REVERSED", joint.where, **names)
+        elif not groups.together(joint.a, joint.b):
+            return True
+        elif joint.unlocked:
+            report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+        else:
+            report.kept(feature, joint.where)
+        return False
+
+    def _metadata(self, root: Prim) -> None:
+        head = self.layer.pseudoRoot
+        for key, value in (("upAxis", "Y"), ("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0)):
+            head.SetInfo(key, value)
+        self.layer.defaultPrim = root.path.name
+        self.layer.customLayerData = {"creator": f"kinefab {__version__}"}
+        physics, taken = self.content.scene.physics, root.path.name == "PhysicsScene"
+        prim = Prim(
+            Sdf.PrimSpec(
+                self.layer, "PhysicsScene_" if taken else "PhysicsScene", Sdf.SpecifierDef, "PhysicsScene"
+            )
+        )
+        gravity = np.array(physics.gravity)
+        size = float(np.linalg.norm(gravity))
+        down = gravity / size if size > 0.0 else np.array([0.0, -1.0, 0.0])
+        prim.attribute("physics:gravityDirection", "Vector3f", vector3f(down))
+        prim.numbers({"physics:gravityMagnitude": size})
+        if physics.fixed_timestep != TIMESTEP:
+            prim.apply("PhysxSceneAPI")
+            steps = max(1, round(1.0 / physics.fixed_timestep))
+            prim.attribute("physxScene:timeStepsPerSecond", "UInt", steps)
+
+    def _hierarchy(self, bodies: Bodies, clips: Clips) -> Prim:
+        """A prim for each node, with its sites; returns the default prim."""
+        scene, active = self.content.scene, active_nodes(self.content.scene)
+        below: dict[int | None, list[int]] = {}
+        for i, above in enumerate(bodies.holder):
+            below.setdefault(above, []).append(i)
+        tops = below.get(None, [])
+        whole = len(tops) == 1 and scene.nodes[tops[0]].kind is NodeKind.ASSEMBLY
+        whole = whole and active[tops[0]] and bodies.inside[tops[0]] is None
+        names: dict[int, str] = {}
+        for above, members in below.items():
+            reserved = (JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES) if above in (None, *tops) else ()
+            named = [(scene.nodes[i].name, scene.nodes[i].id) for i in members]
+            names |= zip(members, sibling_names(named, reserved))
+        head = Prim(self.layer.pseudoRoot)
+        root = None if whole else head.child(self.name, "Xform")
+        for i, node in enumerate(scene.nodes):
+            above = bodies.holder[i]
+            parent = (root or head) if above is None else self.prims[above]
+            prim = parent.child(node.name, "Xform", name=names[i])
+            if root is None:
+                root = prim
+            self.prims.append(prim)
+            prim.tell_source(node.id)
+            if not active[i]:
+                prim.deactivate()
+            prim.place(scene.pose(above).inverse() @ node.pose, moves=i in clips.moving)
+            prim.reserve([names[k] for k in below.get(i, ())])
+            for site in node.sites:
+                prim.child(site.name, "Xform").place(site.pose)
+            self._tell_words(i, bodies)
+        assert root is not None
+        root.reserve((JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES))
+        root.info("kind", "component")
+        return root
+
+    def _tell_words(self, number: int, bodies: Bodies) -> None:
+        node, report = self.content.scene.nodes[number], self.content.report
+        for word, value in (("layer", node.layer), ("tag", node.tag)):
+            if value:
+                report.dropped(
+                    f"part {node.id}",
+                    "TARGET_FIELD_DROPPED",
+                    node.where,
+                    field=f"the {word} '{value}'",
+                    target=self.target,
+                )
+        if number in bodies.moving.carriers and bodies.taken_out(number):
+            report.kept(f"part {node.id}", node.where, "TARGET_BODY_BESIDE", node=node.id, target=self.target)
+
+    def _physics(self, root: Prim, scope: Prim, bodies: Bodies, joints: list[Joint]) -> None:
+        """Bodies, then what joins them."""
+        content, edges = self.content, list[Edge]()
+        scene, report = content.scene, content.report
+        for carrier, members in bodies.moving.carriers.items():
+            write_moving(self.prims[carrier], scene, carrier, members, report)
+        members_of: dict[int, list[int]] = {}
+        for i, inside in enumerate(bodies.inside):
+            if inside is not None:
+                members_of.setdefault(inside, []).append(i)
+        for ground in bodies.grounded:
+            write_grounded(self.prims[ground], scene, ground, tuple(members_of[ground]), report)
+        named = sibling_names([(joint.name or joint.id, joint.id) for joint in joints])
+        scope.reserve(named)
+        top = next((i for i, prim in enumerate(self.prims) if prim is root), None)
+        places = Places(scene, self.prims, root, scene.pose(top))
+        for ground in bodies.grounded:
+            on = None if ground == bodies.base else bodies.base
+            edges.append(self._fixed(scope, on, ground, places))
+        for own, connected in bodies.moving.fixed:
+            edges.append(self._fixed(scope, connected, own, places))
+        writer = Joints(scene, bodies, scope, places, report, self.target)
+        for joint, name in zip(joints, named):
+            edges.append(writer.write(joint, name, content.findings.get(joint.id)))
+        kinematic = {i for i in bodies.moving.carriers if not bodies.dynamic(i)}
+        base = edges[0].prim if bodies.grounded else None
+        mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)
+        write_couplings(scene, writer.written, report, self.target)
+
+    def _fixed(self, scope: Prim, a: int | None, b: int, places: Places) -> Edge:
+        """A joint that holds b to a (None: the world) as they stand."""
+        scene = self.content.scene
+        prim = scope.child(f"{scene.nodes[b].name} fixed", "PhysicsFixedJoint", scene.nodes[b].id)
+        at: Pose = scene.nodes[b].pose
+        places.write_sides(prim, ((a, at), (b, at)))
+        return Edge(a, b, prim)

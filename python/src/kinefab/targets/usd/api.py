@@ -1,6 +1,6 @@
 """The modules of pxr.  They have no types, so here they are Any, once for all."""
 
-# pyright: reportMissingTypeStubs=false, reportMissingImports=false
+# pyright: reportMissingTypeStubs=false, reportMissingImports=false, reportUnusedImport=false
 
 from __future__ import annotations
 

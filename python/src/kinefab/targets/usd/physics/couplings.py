@@ -121,7 +121,7 @@ def _write(
 
 def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:
     """Couplings for screws that nothing couples yet: a generic joint leaves the slide free of the turn."""
-    coupled = {c.joint for c in scene.couplings if c.joints == {c.joint}}
+    coupled = {c.joint for c in scene.couplings if c.joints == frozenset({c.joint})}
     found: list[Coupling] = []
     for joint in scene.joints:
         if joint.kind is not JointKind.SCREW or joint.id in coupled or joint.id not in joints:

@@ -217,7 +217,7 @@ def test_a_joint_to_the_world_alone_comes_back(tmp_path):
 def test_velocities_come_back(tmp_path):
     scene = scene_of(JointKind.REVOLUTE)
     dynamics = kinefab.model.Dynamics(
-        False, False, 0.1, 0.2, np.array([0.1, 0.2, -0.3]), np.array([0.4, -0.5, 0.6])
+        False, False, 0.1, 0.2, np.array([0.1, 0.2, -0.3]), np.array([0.4, -0.5, 0.6]), 40.0
     )
     scene.nodes[1] = replace(scene.nodes[1], dynamics=dynamics)
     _, _, back = there_and_back(scene, tmp_path)
@@ -225,6 +225,7 @@ def test_velocities_come_back(tmp_path):
     assert np.allclose(found.velocity, dynamics.velocity) and np.allclose(
         found.angular_velocity, dynamics.angular_velocity
     )
+    assert found.max_angular_velocity == pytest.approx(40.0, rel=1e-6)
     assert not found.gravity and (found.linear_damping, found.angular_damping) == pytest.approx((0.1, 0.2))
 
 

@@ -80,7 +80,7 @@ class Told:
                         "center": (linear @ np.array(c.centerOfMass) + place) / self.size,
                         "inertia": turn @ np.diag(c.inertiaTensor) @ turn.T / max(c.inertiaTensor),
                         "largest": np.log(max(c.inertiaTensor)), "kinematic": c.isKinematic,
-                        "gravity": c.useGravity, "damping": (c.linearDamping, c.angularDamping),
+                        "gravity": c.useGravity, "fastest": c.maxAngularVelocity or 0.0, "damping": (c.linearDamping, c.angularDamping),
                     }  # fmt: skip
         return found
 

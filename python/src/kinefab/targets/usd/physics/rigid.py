@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ....diagnostics import Report
@@ -26,6 +28,8 @@ def write_moving(prim: Prim, scene: Scene, node: int, members: tuple[int, ...], 
         prim.attribute("physics:angularVelocity", "Vector3f", vector3f(spin))
     damping = {"linearDamping": dynamics.linear_damping, "angularDamping": dynamics.angular_damping}
     stated = {f"physxRigidBody:{name}": value for name, value in damping.items() if value is not None}
+    if dynamics.max_angular_velocity is not None:
+        stated["physxRigidBody:maxAngularVelocity"] = math.degrees(dynamics.max_angular_velocity)
     if stated or not dynamics.gravity:
         prim.apply("PhysxRigidBodyAPI")
         prim.numbers(stated)

@@ -394,6 +394,16 @@ def test_a_weld_that_is_not_kept_holds_the_bodies_as_they_stand(tmp_path):
     assert "1 m" in found.message
 
 
+@pytest.mark.parametrize(("scale", "kind"), [("0", JointKind.SPHERICAL), (".5", JointKind.FIXED)])
+def test_a_weld_without_torques_holds_a_point(tmp_path, scale, kind):
+    scene, _ = loaded(
+        tmp_path,
+        LOOP,
+        tail=f"<equality><weld name='e' body1='a' body2='b' torquescale='{scale}'/></equality>",
+    )
+    assert next(j for j in scene.joints if j.id == "e").kind is kind
+
+
 def test_what_mujocos_parser_does_not_mind_is_read(tmp_path):
     """No blank between attributes, two dashes in a comment."""
     scene, _ = loaded(

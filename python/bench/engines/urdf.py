@@ -28,6 +28,8 @@ class PinocchioModel:
 
         self.pin = pinocchio
         text = path.read_text(encoding="utf-8", errors="replace")
+        if path.suffix == ".xacro" or "xmlns:xacro" in text and "<xacro:" in text:
+            raise Refused("a xacro, not expanded")
         try:
             self.model = pinocchio.buildModelFromXML(
                 re.sub(r"<mimic\b[^>]*?(/>|>.*?</mimic>)", "", text, flags=re.S)
@@ -40,7 +42,10 @@ class PinocchioModel:
         held = [i for i in range(1, self.model.njoints) if self._is_held(i)]
         if held:  # a range of one value is no motion: what it holds moves as one
             at = self._configuration({})
-            self.model = pinocchio.buildReducedModel(self.model, held, at)
+            try:
+                self.model = pinocchio.buildReducedModel(self.model, held, at)
+            except ValueError as error:  # a link and a joint of one name
+                raise Refused(str(error)) from None
             self.mimics = {k: v for k, v in self.mimics.items() if self.model.existJointName(k)}
         self.data = self.model.createData()
         self.start = self._configuration({})

@@ -55,8 +55,11 @@ class Equalities:
                 anchored.setdefault((a, b, active), []).append(point)
             elif kind == int(kinds.mjEQ_WELD):
                 a, b, frame_a, frame_b = self._ends(i, True)
-                frame_b = self._met(name, where, a, b, frame_a, frame_b)
-                self._close((name,), where, JointKind.FIXED, a, b, frame_a, frame_b, active)
+                fixed = float(m.eq_data[i][10]) != 0.0  # its torquescale: without torques it holds a point
+                if fixed:
+                    frame_b = self._met(name, where, a, b, frame_a, frame_b)
+                held = JointKind.FIXED if fixed else JointKind.SPHERICAL
+                self._close((name,), where, held, a, b, frame_a, frame_b, active)
             elif kind == int(kinds.mjEQ_JOINT):
                 self._joints(i, name, where, active)
             elif kind == int(kinds.mjEQ_TENDON):

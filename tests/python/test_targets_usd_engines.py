@@ -1,0 +1,129 @@
+"""USD: what engines make of an exported stage.  PhysX 5 itself (ovphysx, on the CPU) as an articulation, 1 s under gravity, against
+the exact solver of the same export in C#; Newton's bodies where it imports them (where ``newton`` is installed).
+
+Found: a double pendulum of asymmetric links is 0.001 m from the exact solver after a second of steps of 1 ms, half that at half the step; the lever, a closed
+loop in a horizontal plane, stays within 1e-6 m of where it was drawn.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from golden import FIXTURES
+from kinefab.model import Joint, JointKind, MassProperties, Node, Scene, freedoms_of
+from kinefab.spatial import Pose, rotation_about, rotation_exp
+from scene_kinematics import unity_point
+from test_dynamics_physx5 import PYTHON, TOOL, physx5
+
+pytest.importorskip("pxr", reason="usd-core is not installed")
+from pxr import Usd, UsdGeom  # noqa: E402
+
+needs_physx = pytest.mark.skipif(
+    PYTHON is None, reason="ovphysx is not installed, and KINEFAB_OVPHYSX names no Python that has it"
+)
+BARE = kinefab.ExportOptions(colliders="none")
+
+
+def double_pendulum() -> Scene:
+    """A grounded base and two links askew, hinged about a tilted axis; it turns slower than Unity's 7 rad/s."""
+    axis = rotation_exp(np.array([0.3, 0.2, 0.1]))
+    nodes = [Node("Base", "Base", grounded=True, pose=Pose(axis, np.array([0.1, 1.0, -0.2])))]
+    joints = []
+    at = nodes[0].pose
+    for i, (angle, mass, length) in enumerate(((0.5, 2.0, 0.6), (-0.3, 0.7, 0.4))):
+        start = at @ Pose(rotation_about(np.array([1.0, 0, 0]), angle))
+        inertia = np.array([[0.06, 0.001, 0.0], [0.001, 0.05, 0.002], [0.0, 0.002, 0.03]]) * mass
+        weight = MassProperties(mass, np.array([0.02, -0.5 * length, 0.01]), inertia)
+        name = f"Link{i}"
+        nodes.append(Node(name, name, pose=start, mass=weight))
+        frame = at if i == 0 else Pose(np.eye(3), np.array([0.0, -0.6, 0.0]))
+        own = nodes[0].pose.inverse() @ frame if i == 0 else frame
+        joints.append(
+            Joint(f"J{i}", JointKind.REVOLUTE, i, i + 1, own, Pose(), freedoms_of(JointKind.REVOLUTE))
+        )
+        at = start @ Pose(np.eye(3), np.array([0.0, -length, 0.0]))
+    return Scene(nodes, joints=joints)
+
+
+def exact(path: Path, seconds: float, step: float) -> dict[str, np.ndarray]:
+    """Positions of each body by its id, in Unity's frame."""
+    written = path.with_suffix(".moved.json")
+    command = [
+        str(TOOL),
+        "simulate",
+        str(path),
+        "--seconds",
+        str(seconds),
+        "--step",
+        str(step),
+        "-o",
+        str(written),
+    ]
+    subprocess.run([*command, "--solver", "exact"], check=True, capture_output=True, timeout=300)
+    bodies = json.loads(written.read_text("utf-8"))["bodies"]
+    return {entry["id"]: np.array(entry["poses"])[1:, :3] for entry in bodies}
+
+
+@needs_physx
+@pytest.mark.skipif(TOOL is None, reason="dotnet-kinefab is not on the PATH")
+def test_an_articulation_swings_as_the_exact_solver_has_it(tmp_path):
+    scene, step = double_pendulum(), 0.0005
+    stage = kinefab.export(scene, tmp_path / "swing.usda", BARE).path
+    found = physx5(stage, 1.0, step, ["/swing/Link0", "/swing/Link1"])
+    found = found[..., [2, 0, 1]] * (
+        -1.0,
+        -1.0,
+        1.0,
+    )  # that helper takes a stage with Z up; this one has Y up
+    expected = exact(kinefab.export(scene, tmp_path / "swing.kinefab", BARE).path, 1.0, step)
+    assert float(np.ptp(expected["Link1"], axis=0).max()) > 0.1
+    for i, name in enumerate(("Link0", "Link1")):
+        apart = float(np.abs(found[:, i] - expected[name][: len(found)]).max())
+        assert apart < 1e-3, name
+
+
+@needs_physx
+def test_a_closed_loop_stands_still_where_gravity_moves_nothing(tmp_path):
+    """Three joints of the articulation and one that closes it, in PhysX 5, 1 s."""
+    result = kinefab.export(FIXTURES / "lever" / "lever.bundle.json", tmp_path / "lever.usda", BARE)
+    names = ["Crank_1", "BarC_1", "SliderD_1"]
+    found = physx5(result.path, 1.0, 1.0 / 240.0, [f"/Lever/{name}" for name in names])
+    drawn = [
+        next(
+            n.pose.translation
+            for n in result.analysed.scene.nodes
+            if n.id == f"Lever/{name.replace('_', ':')}"
+        )
+        for name in names
+    ]
+    assert float(np.abs(found - np.array([unity_point(p) for p in drawn])).max()) < 1e-6
+
+
+@pytest.mark.parametrize("source", ["lever/lever.bundle.json", "twins/arm.urdf", "twins/fourbar.bundle.json"])
+def test_newton_puts_the_bodies_where_they_stand(tmp_path, source):
+    """By its own forward kinematics from the joints' states, loops among them; masses and axes of inertia by the way."""
+    newton = pytest.importorskip("newton", reason="newton is not installed")
+    from newton.usd import SchemaResolverNewton, SchemaResolverPhysx
+
+    result = kinefab.export(FIXTURES / source, tmp_path / "stage.usda", BARE)
+    builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
+    builder.add_usd(str(result.path), schema_resolvers=[SchemaResolverNewton(), SchemaResolverPhysx()])
+    model = builder.finalize()
+    state = model.state()
+    newton.eval_fk(model, model.joint_q, model.joint_qd, state)
+    stage = Usd.Stage.Open(str(result.path))
+    cache = UsdGeom.XformCache()
+    assert model.body_count > 3
+    for label, pose in zip(model.body_label, state.body_q.numpy()):
+        world = cache.GetLocalToWorldTransform(stage.GetPrimAtPath(label))
+        assert np.allclose(pose[:3], world.ExtractTranslation(), atol=2e-6)
+        turn = world.ExtractRotationQuat()
+        assert math.isclose(
+            abs(float(np.dot(pose[3:], [*turn.GetImaginary(), turn.GetReal()]))), 1.0, abs_tol=1e-5
+        )

@@ -1,5 +1,8 @@
 """From a constraint's geometry and verb to equations: every pairing that CAD programs offer.
 
+Verbs whose equations do not depend on where things lie are built for all constraints of one kind at once: the sides
+are then stacks of n features (see ``Side``), and a value has shape (n,).  The others choose by the geometry, one by one.
+
 The number of rows is what the constraint removes in general position; special positions (parallel axes,
 coplanar rods) lower the rank later, where it is measured.  Where one vendor's words mean other rows than
 another's, ``Constraint.reading`` decides (``schemas/SPEC.md``, "Constraint readings").
@@ -8,7 +11,7 @@ another's, ``Constraint.reading`` decides (``schemas/SPEC.md``, "Constraint read
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -48,15 +51,36 @@ class Context:
     axes: for each pair of bodies (lower number first), directions that another constraint makes common,
         WORLD; an angle without a reference vector is measured about one of them.
     ranges: coordinates that have a range instead of a value, filled in while building.
+    value: of the constraint that is being built; of a stack, of all of them, shape (n,).
     """
 
     axes: dict[tuple[int, int], list[Array]] = field(default_factory=dict[tuple[int, int], list[Array]])
     ranges: list[RangedCoordinate] = field(default_factory=list[RangedCoordinate])
+    value: float | Array = 0.0
 
 
 def build(rows: Rows, constraint: Constraint, sides: list[Side], context: Context) -> None:
     """Add the constraint's equations.  Raises UnknownPairing when there are none for its geometry."""
+    context.value = constraint.value
     _BUILDERS[constraint.kind](rows, constraint, *sides, context=context)
+
+
+def stack_of(constraint: Constraint, sides: tuple[tuple[FeatureKind, bool], ...]) -> Hashable:
+    """Equal for constraints that ``build_stack`` takes together; None where one goes through ``build``.
+
+    sides: kind and ``framed`` of each of its features.
+    """
+    if constraint.kind in _BY_GEOMETRY or _ranged(constraint):
+        return None
+    if constraint.kind is ConstraintKind.DISTANCE and FeatureKind.PLANE not in (kind for kind, _ in sides):
+        return None  # a distance of nothing has other equations
+    return constraint.kind, sides, constraint.lock_rotation, constraint.reading.get("offset")
+
+
+def build_stack(rows: Rows, constraints: list[Constraint], sides: list[Side], context: Context) -> None:
+    """As ``build``, of constraints with one ``stack_of``; ``rows.owner`` and the sides are stacks of them."""
+    context.value = np.array([c.value for c in constraints])
+    _BUILDERS[constraints[0].kind](rows, constraints[0], *sides, context=context)
 
 
 def _ordered(a: Side, b: Side, *order: str) -> tuple[Side, Side, tuple[str, str]]:
@@ -67,12 +91,18 @@ def _ordered(a: Side, b: Side, *order: str) -> tuple[Side, Side, tuple[str, str]
     return b, a, (fb, fa)
 
 
+def pair_of(a: Side, b: Side) -> tuple[int, int]:
+    """The bodies of two single sides, the lower number first."""
+    low, high = sorted((int(a.body), int(b.body)))
+    return low, high
+
+
 def _ranged(c: Constraint) -> bool:
     return c.lower is not None or c.upper is not None
 
 
-def _nearest_sign(value: float, measured: float) -> float:
-    return value if abs(measured - value) <= abs(measured + value) else -value
+def _nearest_sign(value: float | Array, measured: Array) -> Array:
+    return np.where(np.abs(measured - value) <= np.abs(measured + value), value, np.negative(value))
 
 
 def _nearest_turn(value: float, measured: float) -> float:
@@ -80,15 +110,14 @@ def _nearest_turn(value: float, measured: float) -> float:
     return measured + math.remainder(value - measured, math.tau)
 
 
-def _offset(
-    rows: Rows, c: Constraint, plane: Side, other: Side, context: Context, value: float | None = None
-) -> None:
+def _offset(rows: Rows, c: Constraint, plane: Side, other: Side, context: Context) -> None:
     """A signed distance along the plane's normal: an equation, or a range that is only noted."""
-    measured = float(plane.z @ (other.p - plane.p))
+    measured = np.sum(plane.z * (other.p - plane.p), axis=-1)
     if _ranged(c):
-        context.ranges.append(RangedCoordinate(c, plane.body, other.body, plane.z, False, measured))
+        bodies = int(plane.body), int(other.body)
+        context.ranges.append(RangedCoordinate(c, *bodies, plane.z, False, float(measured)))
         return
-    value = c.value if value is None else value
+    value = context.value
     if c.reading.get("offset") != "along_normal":
         value = _nearest_sign(value, measured)
     rows.plane(plane, plane.z, other, value)
@@ -154,7 +183,7 @@ def _angle(
     if about is not None:
         measured = math.atan2(about @ cross(a.z, b.z), a.z @ b.z)
         if _ranged(c):
-            context.ranges.append(RangedCoordinate(c, a.body, b.body, about, True, measured))
+            context.ranges.append(RangedCoordinate(c, int(a.body), int(b.body), about, True, measured))
             return
         value = _nearest_turn(c.value, measured)
         if reference is None and c.reading.get("angle") != "directed":
@@ -174,7 +203,7 @@ def _angle_axis(c: Constraint, a: Side, b: Side, reference: Side | None, context
     if reference is not None:
         candidates = [reference.z]
     else:
-        candidates = context.axes.get((min(a.body, b.body), max(a.body, b.body)), [])
+        candidates = context.axes.get(pair_of(a, b), [])
     for axis in candidates:
         if max(abs(axis @ a.z), abs(axis @ b.z)) < PARALLEL_SINE:
             across = axis - a.z * (axis @ a.z)
@@ -230,7 +259,7 @@ def _lock(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> N
         rows.point(a, b)
     else:
         for axis in rows.axes.T:
-            rows.plane(a, axis, b, float(axis @ (b.p - a.p)))
+            rows.plane(a, axis, b, (b.p - a.p) @ axis)
 
 
 def _concentric(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) -> None:
@@ -334,3 +363,9 @@ _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
     ConstraintKind.RACK: coupled,
     ConstraintKind.LINEAR: coupled,
 }
+
+_BY_GEOMETRY = frozenset((
+    ConstraintKind.ANGLE, ConstraintKind.TANGENT, ConstraintKind.SYMMETRY, ConstraintKind.PIN_SLOT,
+    ConstraintKind.SCREW, ConstraintKind.GEAR, ConstraintKind.BELT, ConstraintKind.RACK, ConstraintKind.LINEAR,
+))  # fmt: skip
+"""Their builders look at where things lie and take single sides; the others take stacks too."""

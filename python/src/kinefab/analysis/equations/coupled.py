@@ -20,14 +20,14 @@ def screw(rows: Rows, c: Constraint, a: Side, b: Side, *, context: object) -> No
     spin(rows, row, a, b, -c.value / math.tau)
 
 
-def slide(rows: Rows, row: int, a: Side, b: Side, weight: float) -> None:
+def slide(rows: Rows, row: slice, a: Side, b: Side, weight: float) -> None:
     """weight * (translation of b along a's direction since the exported pose), added to a row."""
     rows.atom(
         row, Atom.PIP, a.body, b.body, p_a=a.p, dir_a=a.z, p_b=b.p, d=float(a.z @ (b.p - a.p)), weight=weight
     )
 
 
-def spin(rows: Rows, row: int, a: Side, b: Side, weight: float) -> None:
+def spin(rows: Rows, row: slice, a: Side, b: Side, weight: float) -> None:
     """weight * (rotation of b about a's direction since the exported pose), added to a row."""
     rows.atom(row, Atom.ANG, a.body, b.body, dir_a=a.x, k=a.z, p_b=b.p, dir_b=a.x, d=0.0, weight=weight)
 

@@ -1,4 +1,4 @@
-"""Builds the arrays of a ``System`` one equation at a time."""
+"""Builds the arrays of a ``System``, one equation at a time or a stack of alike ones at once."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...model import FeatureKind
-from ...spatial import Array
+from ...spatial import Array, IntArray
 from .atoms import LENGTHS, Atom
 from .system import System
 
@@ -21,9 +21,10 @@ class Side:
     body: number of its body.  p: point, metres.  z: direction, or zeros where the feature has none.
     x, y: complete z to a right-handed frame; the feature's own where it states a secondary direction.
     framed: x is the source's own, not a choice of ours.
+    Of a stack of constraints: body has shape (n,), p, x, y, z have (n, 3), and the rest is the same for all.
     """
 
-    body: int
+    body: int | IntArray
     p: Array
     z: Array
     x: Array
@@ -37,43 +38,48 @@ class Side:
 class Rows:
     """Collects equations; ``owner`` is the number of the statement that the next ones belong to.
 
+    Where it is an array of n numbers, each equation is n of them, one of each statement: numpy's cost of a call is
+    then paid once for all constraints of a kind.  ``system`` brings them into the order of the statements.
     axes: see ``System.axes``.
     """
 
     def __init__(self, axes: Array | None = None) -> None:
         self.axes = np.eye(3) if axes is None else axes
-        self.owner = 0
-        self._owners: list[int] = []
-        self._is_length: list[bool] = []
+        self.owner: int | IntArray = 0
+        self._count = 0
+        self._rows: list[tuple[slice, int | IntArray, bool]] = []  # rows, owner, is_length
         self._numbers: list[
-            tuple[Atom, int, float, int, int, float]
-        ] = []  # kind, row, weight, body_a, body_b, d
+            tuple[slice, Atom, float, int | IntArray, int | IntArray, float | Array]
+        ] = []  # rows, kind, weight, body_a, body_b, d
         self._vectors: list[tuple[Array, ...]] = []  # p_a, a, k, p_b, b
 
-    def row(self, is_length: bool) -> int:
-        self._owners.append(self.owner)
-        self._is_length.append(is_length)
-        return len(self._owners) - 1
+    def row(self, is_length: bool) -> slice:
+        """The number of a new row, as a slice: of a stack, those of one new row each."""
+        first = self._count
+        self._count += self.owner.size if isinstance(self.owner, np.ndarray) else 1
+        row = slice(first, self._count)
+        self._rows.append((row, self.owner, is_length))
+        return row
 
     def atom(
         self,
-        row: int,
+        row: slice,
         kind: Atom,
-        a: int,
-        b: int,
+        a: int | IntArray,
+        b: int | IntArray,
         *,
         p_a: Array = NOWHERE,
         dir_a: Array = NOWHERE,
         k: Array = NOWHERE,
         p_b: Array = NOWHERE,
         dir_b: Array = NOWHERE,
-        d: float = 0.0,
+        d: float | Array = 0.0,
         weight: float = 1.0,
     ) -> None:
-        self._numbers.append((kind, row, weight, a, b, d))
+        self._numbers.append((row, kind, weight, a, b, d))
         self._vectors.append((p_a, dir_a, k, p_b, dir_b))
 
-    def plane(self, a: Side, normal: Array, b: Side, d: float = 0.0) -> None:
+    def plane(self, a: Side, normal: Array, b: Side, d: float | Array = 0.0) -> None:
         """Point of b at height d over the plane of a with this normal."""
         self.atom(self.row(True), Atom.PIP, a.body, b.body, p_a=a.p, dir_a=normal, p_b=b.p, d=d)
 
@@ -103,27 +109,45 @@ class Rows:
         self.atom(row, Atom.ANG, a.body, b.body, p_a=a.p, dir_a=along_a, k=about, p_b=b.p, dir_b=along_b, d=d)
 
     def system(self, bodies: int) -> System:
-        """Everything collected, for bodies 0..bodies-1 (body 0: ground)."""
-        count = len(self._numbers)
-        numbers = np.array(self._numbers, dtype=float).reshape(count, 6).T
-        vectors = np.array(self._vectors, dtype=float).reshape(count, 5, 3)
-        kind, row, body_a, body_b = (numbers[i].astype(np.int64) for i in (0, 1, 3, 4))
+        """Everything collected, for bodies 0..bodies-1 (body 0: ground), rows and their atoms by owner."""
+        owner = np.empty(self._count, dtype=np.int64)
+        is_length = np.empty(self._count, dtype=bool)
+        for rows, own, lengths in self._rows:
+            owner[rows], is_length[rows] = own, lengths
+        count = sum(rows.stop - rows.start for rows, *_ in self._numbers)
+        kind, row, body_a, body_b = np.empty((4, count), dtype=np.int64)
+        weight, d = np.empty((2, count))
+        vectors = np.empty((5, count, 3))
+        at = 0
+        for (rows, *numbers), own in zip(self._numbers, self._vectors):
+            here = slice(at, at + rows.stop - rows.start)
+            row[here] = np.arange(rows.start, rows.stop)
+            kind[here], weight[here], body_a[here], body_b[here], d[here] = numbers
+            for of_all, vector in zip(vectors, own):
+                of_all[here] = vector
+            at = here.stop
+        order = np.argsort(owner, kind="stable")
+        number = np.empty_like(order)
+        number[order] = np.arange(len(order))
+        atoms = np.argsort(number[row], kind="stable")
+        p_a, a, k, p_b, b = vectors[:, atoms]
         return System(
-            kind=kind,
-            row=row,
-            weight=numbers[2],
-            body_a=body_a,
-            body_b=body_b,
-            **{
-                name: np.ascontiguousarray(vectors[:, i])
-                for i, name in enumerate(("p_a", "a", "k", "p_b", "b"))
-            },
-            d=numbers[5],
-            owner=np.array(self._owners, dtype=np.int64),
-            is_length=np.array(self._is_length, dtype=bool),
+            kind=kind[atoms],
+            row=number[row[atoms]],
+            weight=weight[atoms],
+            body_a=body_a[atoms],
+            body_b=body_b[atoms],
+            p_a=p_a,
+            a=a,
+            k=k,
+            p_b=p_b,
+            b=b,
+            d=d[atoms],
+            owner=owner[order],
+            is_length=is_length[order],
             center=np.zeros((bodies, 3)),
             length=np.ones(bodies),
-            row_length=np.ones(len(self._owners)),
+            row_length=np.ones(len(owner)),
             axes=self.axes,
         )
 

@@ -25,15 +25,16 @@ from ...model import (
 )
 from ...spatial import Array
 from .atoms import Atom
-from .constraints import Context, RangedCoordinate, build
-from .features import UnknownPairing, sides_of
+from .building import constraint_rows
+from .constraints import Context, RangedCoordinate
+from .features import LEAST_LENGTH, Numbers, Sides, numbers_of, sides_of
 from .rows import Rows, Side, has_direction
 from .system import System
 
 NEEDED_FEATURES = {ConstraintKind.SYMMETRY: 3, ConstraintKind.GROUND: 0}
+_NOT_PLAIN = (ConstraintKind.GROUND, ConstraintKind.OTHER, ConstraintKind.SYMMETRY)
 DEFAULT_LENGTH = 0.1
 """Characteristic length of an assembly whose geometry is all in one point, metres."""
-AXIS_MAKERS = (ConstraintKind.COINCIDENT, ConstraintKind.CONCENTRIC, ConstraintKind.INSERT)
 
 
 @dataclass(slots=True)
@@ -69,35 +70,16 @@ def equations_of(
     axes: see ``System.axes``.  source: the same statements in the source's order, where that is another one.
     """
     axes = np.eye(3) if axes is None else axes
-    usable = [c for c in scene.constraints if _usable(c, scene, report)]
-    sides = sides_of(scene, [f for c in usable for f in c.features], axes)
+    given = numbers_of([f for c in scene.constraints for f in c.features])
+    used = [plain or _usable(c, scene, report) for c, plain in zip(scene.constraints, _plain(scene, given))]
+    usable = [c for c, own in zip(scene.constraints, used) if own]
+    if not all(used):
+        counts = [len(c.features) for c in scene.constraints]
+        given = given.kept(np.flatnonzero(np.repeat(np.array(used, dtype=bool), counts)))
+    sides = sides_of(scene, given, axes)
     rows, context = Rows(axes), Context()
-    statements: list[Constraint | Joint | Coupling] = []
-    directions: dict[int, float] = {}
-    spans: list[list[Side]] = []
-    at = 0
-    for constraint in usable:
-        spans.append(sides[at : at + len(constraint.features)])
-        at += len(constraint.features)
-    for constraint, own in zip(usable, spans):
-        _note_axis(constraint, own, context)
-    for constraint, own in zip(usable, spans):
-        rows.owner = len(statements)
-        statements.append(constraint)
-        if len(own) > 1:
-            directions[rows.owner] = float(own[0].z @ own[1].z)
-        try:
-            build(rows, constraint, own, context)
-        except UnknownPairing:
-            names = " and ".join(f.kind.value for f in constraint.features)
-            report.dropped(
-                f"constraint {constraint.id}",
-                "CONSTRAINT_PAIRING_UNKNOWN",
-                constraint.where,
-                id=constraint.id,
-                kind=constraint.kind.value,
-                features=names,
-            )
+    statements: list[Constraint | Joint | Coupling] = [*usable]
+    constraint_rows(rows, usable, sides, context, report)
     by_id: dict[str, Joint] = {}
     for joint in scene.joints:
         rows.owner = len(statements)
@@ -112,8 +94,22 @@ def equations_of(
     stated = scene if source is None else source
     places = {s.id: i for i, s in enumerate([*stated.constraints, *stated.joints, *stated.couplings])}
     return Equations(
-        system, statements, context.ranges, characteristic_length(system, scene), directions, places
+        system,
+        statements,
+        context.ranges,
+        characteristic_length(system, scene),
+        _directions(usable, sides),
+        places,
     )
+
+
+def _directions(constraints: list[Constraint], sides: Sides) -> dict[int, float]:
+    """The cosine of the angle between the first two directions of each constraint that has two features."""
+    counts = np.array([len(c.features) for c in constraints], dtype=np.int64)
+    two = np.flatnonzero(counts > 1)
+    at = (np.cumsum(counts) - counts)[two]
+    cosines = np.einsum("ni,ni->n", sides.z[at], sides.z[at + 1])
+    return dict(zip(two.tolist(), cosines.tolist()))
 
 
 def characteristic_length(system: System, scene: Scene) -> float:
@@ -130,6 +126,24 @@ def characteristic_length(system: System, scene: Scene) -> float:
         return DEFAULT_LENGTH
     radius = float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
     return radius if radius > 1e-12 * float(np.abs(points).max()) else DEFAULT_LENGTH
+
+
+def _plain(scene: Scene, given: Numbers) -> list[bool]:
+    """Constraints that are usable at first sight, all looked at together; the others go through ``_usable``.
+
+    given: all their features.
+    """
+    constraints = scene.constraints
+    plain = np.array([not (c.suppressed or c.kind in _NOT_PLAIN) for c in constraints], dtype=bool)
+    plain &= np.isfinite(np.array([c.value for c in constraints], dtype=float))
+    counts = np.array([len(c.features) for c in constraints], dtype=np.int64)
+    plain &= counts > 1
+    first = (np.cumsum(counts) - counts)[plain]
+    plain[plain] = given.node[first] != given.node[first + 1]
+    active = np.array([True, *(not n.suppressed for n in scene.nodes), False])
+    there = active[np.minimum(given.node + 1, len(active) - 1)]  # NO_NODE: the last, as those beyond it
+    plain[np.repeat(np.arange(len(constraints)), counts)[~(there & given.sound())]] = False
+    return plain.tolist()
 
 
 def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
@@ -150,7 +164,7 @@ def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
         if not all(map(math.isfinite, chain(*numbers, (c.value, f.radius, f.half_angle)))):
             report.dropped(feature, "CONSTRAINT_NOT_FINITE", c.where, id=c.id)
             return False
-        if has_direction(f.kind) and (f.direction is None or not math.hypot(*f.direction) > 1e-12):
+        if has_direction(f.kind) and (f.direction is None or not math.hypot(*f.direction) > LEAST_LENGTH):
             report.dropped(feature, "CONSTRAINT_AXIS_ZERO", c.where, id=c.id, kind=f.kind.value)
             return False
     if any(f.node is not None and scene.nodes[f.node].suppressed for f in c.features):
@@ -164,13 +178,6 @@ def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
         report.dropped(feature, "CONSTRAINT_WITH_ITSELF", c.where, id=c.id, part=name)
         return False
     return True
-
-
-def _note_axis(c: Constraint, sides: list[Side], context: Context) -> None:
-    lines = (FeatureKind.POINT, FeatureKind.SPHERE, FeatureKind.PLANE, FeatureKind.BODY)
-    if c.kind in AXIS_MAKERS and not any(s.kind in lines for s in sides[:2]):
-        pair = (min(sides[0].body, sides[1].body), max(sides[0].body, sides[1].body))
-        context.axes.setdefault(pair, []).append(sides[0].z)
 
 
 def joint_sides(joint: Joint, scene: Scene) -> tuple[Side, Side]:
@@ -219,7 +226,7 @@ def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:
 
 
 def coordinate(
-    rows: Rows, row: int, a: Side, b: Side, freedom: int, weight: float, offset: float = 0.0
+    rows: Rows, row: slice, a: Side, b: Side, freedom: int, weight: float, offset: float = 0.0
 ) -> None:
     """weight * (joint coordinate - offset), added to a row."""
     axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)
@@ -242,7 +249,7 @@ def coordinate(
         )
 
 
-def joint_coordinate(rows: Rows, row: int, a: Side, b: Side, freedom: int, joint: Joint) -> None:
+def joint_coordinate(rows: Rows, row: slice, a: Side, b: Side, freedom: int, joint: Joint) -> None:
     """A coordinate as the joint means it, added to a row.
 
     Of two rotations the first (RX; RY where X is locked) is about an axis that b carries, measured from a's second axis,

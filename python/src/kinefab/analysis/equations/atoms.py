@@ -41,6 +41,19 @@ LENGTHS = (Atom.PIP, Atom.DIST, Atom.PLD, Atom.LLD, Atom.CPT, Atom.MOM)
 """Atoms whose residual is a length; the others' is an angle or its cosine."""
 
 
+USED: Mapping[Atom, str] = {
+    Atom.PIP: "p_a a p_b",
+    Atom.DOT: "a b",
+    Atom.ANG: "a k b",
+    Atom.DIST: "p_a p_b",
+    Atom.PLD: "p_a a p_b",
+    Atom.LLD: "p_a a p_b b",
+    Atom.CPT: "p_a a k p_b b",
+    Atom.MOM: "p_a a p_b b",
+}
+"""What an atom's value and wrench depend on (where there is no force, not on its point); the rest need not be moved."""
+
+
 def _dot(x: Array, y: Array) -> Array:
     return np.einsum("...i,...i->...", x, y)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import lstsq
+from scipy.linalg.lapack import dgelsy, dgelsy_lwork
 from scipy.sparse import coo_matrix, csr_matrix, identity
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
@@ -235,14 +235,18 @@ def minimum_norm(jacobian: Array, residual: Array) -> Array:
     """Least-squares solutions of least norm of J y = r, shapes (m, R, n), (m, R) to (m, n).
 
     A complete orthogonal factorisation finds the rank as well as singular values do, several times faster where
-    there is more than one body; thousands of single bodies cost less as one stack.
+    there is more than one body; thousands of single bodies cost less as one stack.  LAPACK is called directly, since
+    what scipy's ``lstsq`` does around a call takes as long as one of these small problems.
     """
-    if jacobian.shape[2] > 6:
-        solutions: list[Array] = [
-            lstsq(matrix, right, cond=CUT, lapack_driver="gelsy", check_finite=False)[0]
-            for matrix, right in zip(jacobian, residual)
-        ]
-        return np.array(solutions)
+    count, height, width = jacobian.shape
+    if width > 6:
+        solutions = np.zeros((count, max(height, width)))
+        solutions[:, :height] = residual
+        work = int(dgelsy_lwork(height, width, 1, CUT)[0])
+        for i, matrix in enumerate(jacobian):
+            pivots = np.zeros(width, dtype=np.int32)
+            solutions[i] = dgelsy(matrix, solutions[i], pivots, CUT, work)[1]
+        return solutions[:, :width]
     u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     kept = s > CUT * s[:, :1]
     inverse = np.divide(1.0, s, out=np.zeros_like(s), where=kept)

@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 
 from ...spatial import Array, BoolArray, IntArray, cross, skew
-from .atoms import LENGTHS, Atom, Valued, evaluate
+from .atoms import LENGTHS, USED, Atom, Valued, evaluate
 
 TURN = 2.0 * np.pi
 IN_ONE_PLACE = 1e-5
@@ -170,25 +170,27 @@ class System:
         self.length = size[body_part + 1]
         self.row_length = size[row_part + 1]
 
-    def current(self, state: State, atoms: IntArray) -> tuple[Array, Array, Array, Array, Array, Array]:
-        """The geometry p_a, a, k, p_b, b of some atoms, WORLD, at a pose, and their d."""
-        i, j = self.body_a[atoms], self.body_b[atoms]
-        ra, rb = state.rotation[i], state.rotation[j]
-        ca, cb = self.center[i], self.center[j]
+    def current(
+        self, state: State, atoms: IntArray, used: str = "p_a a k p_b b"
+    ) -> tuple[Array, Array, Array, Array, Array]:
+        """The geometry p_a, a, k, p_b, b of some atoms, WORLD, at a pose.
 
-        def turned(r: Array, v: Array) -> Array:
-            return np.einsum("nij,nj->ni", r, v)
+        used: names of those that are asked for; the others are given as they are at the start pose."""
+        sides = {"a": self.body_a.take(atoms), "b": self.body_b.take(atoms)}
+        rotation = {end: state.rotation.take(body, axis=0) for end, body in sides.items()}
 
-        p_a = turned(ra, self.p_a[atoms] - ca) + ca + state.shift[i]
-        p_b = turned(rb, self.p_b[atoms] - cb) + cb + state.shift[j]
-        return (
-            p_a,
-            turned(ra, self.a[atoms]),
-            turned(ra, self.k[atoms]),
-            p_b,
-            turned(rb, self.b[atoms]),
-            self.d[atoms],
-        )
+        def moved(name: str, end: str) -> Array:
+            own: Array = getattr(self, name).take(atoms, axis=0)
+            if name not in used.split():
+                return own
+            if name[0] != "p":
+                return np.einsum("nij,nj->ni", rotation[end], own)
+            body = sides[end]
+            center = self.center.take(body, axis=0)
+            arm = np.einsum("nij,nj->ni", rotation[end], own - center)
+            return arm + center + state.shift.take(body, axis=0)
+
+        return moved("p_a", "a"), moved("a", "a"), moved("k", "a"), moved("p_b", "b"), moved("b", "b")
 
     def values(self, state: State, kinds: tuple[Atom, ...] = tuple(Atom)) -> Valued:
         """Residuals and wrenches of every atom in its own unit."""
@@ -197,7 +199,9 @@ class System:
         for kind in kinds:
             atoms = np.flatnonzero(self.kind == kind)
             if len(atoms):
-                value[atoms], f[atoms], c[atoms], tau[atoms] = evaluate(kind, *self.current(state, atoms))
+                value[atoms], f[atoms], c[atoms], tau[atoms] = evaluate(
+                    kind, *self.current(state, atoms, USED[kind]), self.d[atoms]
+                )
                 if kind is Atom.ANG:
                     last = state.angle[atoms] - self.d[atoms]
                     value[atoms] = last + np.remainder(value[atoms] - last + np.pi, TURN) - np.pi

@@ -15,7 +15,7 @@ from scipy.sparse import csr_matrix
 
 from ...model import RX, RY, RZ, TX, Freedom, JointKind, freedoms_of, unlocked_of
 from ...spatial import Array, IntArray
-from ..equations.atoms import Atom, evaluate
+from ..equations.atoms import USED, Atom, evaluate
 from ..equations.system import TURN, System, exponential
 from .stacks import alike
 
@@ -159,7 +159,7 @@ def _violations(
             atoms = np.flatnonzero((system.kind == kind) & (b_moves == b_side))
             if not len(atoms):
                 continue
-            p = atom_pair[atoms]
+            p, used = atom_pair[atoms], USED[kind].split()
 
             def turn(v: Array, p: IntArray = p) -> Array:
                 return np.einsum("nsij,nj->nsi", rotation[p], v)
@@ -173,15 +173,11 @@ def _violations(
             on_a, on_b = (stay, turn) if b_side else (turn, stay)
             at_a, at_b = (stay, move) if b_side else (move, stay)
             d = np.broadcast_to(system.d[atoms][:, None], (len(atoms), samples))
-            value[atoms] = evaluate(
-                kind,
-                at_a(system.p_a[atoms]),
-                on_a(system.a[atoms]),
-                on_a(system.k[atoms]),
-                at_b(system.p_b[atoms]),
-                on_b(system.b[atoms]),
-                d,
-            )[0]
+            ways = {"p_a": at_a, "a": on_a, "k": on_a, "p_b": at_b, "b": on_b}
+            geometry = [
+                (way if name in used else stay)(getattr(system, name)[atoms]) for name, way in ways.items()
+            ]
+            value[atoms] = evaluate(kind, *geometry, d)[0]
     angles = system.kind == Atom.ANG
     value[angles] = np.remainder(value[angles] + np.pi, TURN) - np.pi
     scale = system.weight / np.where(system.is_length[system.row], lengths[atom_pair], 1.0)

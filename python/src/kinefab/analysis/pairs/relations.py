@@ -101,7 +101,7 @@ def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Ar
     p = inside[used]
     pointed = np.isin(system.kind[used], LENGTHS)
     count = np.bincount(p[pointed], minlength=len(pairs))
-    p_a, _, _, p_b, _, _ = system.current(state, np.flatnonzero(used))
+    p_a, _, _, p_b, _ = system.current(state, np.flatnonzero(used), "p_a p_b")
     middle = 0.5 * (p_a + p_b)
     origin = np.zeros((len(pairs), 3))
     for i in range(3):

@@ -75,8 +75,11 @@ class Assembly:
     @cached_property
     def poses(self) -> list[Pose]:
         """World poses of the nodes with every constraint closed."""
-        shifted = self.closing
-        return [shifted.displacement(shifted.body[i + 1]) @ n.pose for i, n in enumerate(self.scene.nodes)]
+        body = self.closing.body[1:]
+        turn, inner = self.closing.rotation[body], [n.pose for n in self.scene.nodes]
+        rotation = turn @ np.array([p.rotation for p in inner]).reshape(-1, 3, 3)
+        place = turn @ np.array([p.translation for p in inner]).reshape(-1, 3, 1)
+        return [Pose(*own) for own in zip(rotation, place[..., 0] + self.closing.translation[body])]
 
     def blocks_with(self, edges: list[tuple[int, int]], bodies: int) -> Blocks:
         """The blocks of the same bodies, and further ones, joined by these edges."""

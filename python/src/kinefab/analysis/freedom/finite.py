@@ -13,7 +13,7 @@ from typing import cast
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from ...model import RX, RY, RZ, TX, Freedom, JointKind, freedoms_of, unlocked_of
+from ...model import RX, RY, RZ, TX, UNLOCKED, Freedom, JointKind, freedoms_of, unlocked_of
 from ...spatial import Array, IntArray
 from ..equations.atoms import USED, Atom, evaluate
 from ..equations.system import TURN, System, exponential
@@ -49,7 +49,7 @@ class Candidate:
 
     @property
     def unlocked(self) -> tuple[int, ...]:
-        return unlocked_of(self.six)
+        return unlocked_of(self.freedoms) if self.freedoms else UNLOCKED.get(self.kind, ())
 
     @property
     def dof(self) -> int:

@@ -50,7 +50,7 @@ class TwistSpace:
         return float(self._fixed(self.velocity[0]) @ self.rotations[0])
 
     def _fixed(self, v: Array) -> Array:
-        return v - self.translations.T @ (self.translations @ v)
+        return v - self.translations.T @ (self.translations @ v) if self.t else v
 
 
 def twist_space(basis: Array, origin: Array, length: float, axes: Array, split: float = SPLIT) -> TwistSpace:

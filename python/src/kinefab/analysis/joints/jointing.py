@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import compress
+from functools import cache
 
 import numpy as np
 
 from ...diagnostics import Report
 from ...findings import JointFinding
-from ...model import RX, TY, TZ, Constraint, Coupling, Joint, JointKind, MassProperties, Node
+from ...model import RX, TY, TZ, Constraint, Coupling, Joint, MassProperties, Node
 from ...spatial import Array, Pose
 from ..assembly.assemble import Assembly
 from ..freedom.finite import Candidate
 from ..pairs.relations import Relation, find_joints, relations_of
 from .links import Link, Links
 from .resolving import find_by_finite_motions, joints_of_each, missed
+from .writing import Draft, written
 
 MIDDLE_SHARE = 0.1
 """Mass of a middle body against the lighter of its neighbours."""
@@ -35,7 +35,7 @@ class _Jointing:
         self.assembly, self.report = assembly, report
         self.depth = np.empty(assembly.system.bodies, dtype=np.int64)
         self.depth[assembly.blocks.order] = np.arange(assembly.system.bodies)
-        self.links: list[Link] = []
+        self.found: list[Link | Draft] = []
         self.nodes: list[Node] = []
         statements = assembly.equations.statements
         self.names = {s.id for s in statements if isinstance(s, Joint)}
@@ -71,9 +71,14 @@ class _Jointing:
             found = relation.joint
             if found is not None and not self._kept_explicit(relation, found, names):
                 self._add(relation.first, relation.second, found, relation, names)
-        return Links(
-            self.links, self._aside(relations), self.nodes, system.bodies + len(self.nodes), relations
-        )
+        bodies = system.bodies + len(self.nodes)
+        return Links(self._links(), self._aside(relations), self.nodes, bodies, relations)
+
+    def _links(self) -> list[Link]:
+        drafts = [own for own in self.found if isinstance(own, Draft)]
+        poses = [*self.assembly.poses, *(n.pose for n in self.nodes)]
+        joints = iter(written(drafts, self.assembly, poses))
+        return [next(joints) if isinstance(own, Draft) else own for own in self.found]
 
     def _aside(self, relations: list[Relation]) -> list[Joint]:
         spoken = {o for r in relations for o in r.owners}
@@ -110,7 +115,7 @@ class _Jointing:
     def _link_explicit(self, joint: Joint) -> None:
         a, b = (self.assembly.body_of(n) for n in (joint.a, joint.b))
         joint = joint if joint.because else replace(joint, because=(joint.id,))
-        self.links.append(Link(a, b, joint, JointFinding(joint.id)))
+        self.found.append(Link(a, b, joint, JointFinding(joint.id)))
 
     def _doubled(self, joint: Joint) -> list[str]:
         equations = self.assembly.equations
@@ -191,43 +196,16 @@ class _Jointing:
     def _add(
         self, first: int, second: int, candidate: Candidate, relation: Relation, names: list[str]
     ) -> None:
-        """Write a candidate between two bodies as a joint of the model."""
+        """A joint of the model is to be written from a candidate between two bodies."""
         bodies = (first, second)
         first_is_a = candidate.first_is_a
         if not order_matters(candidate.unlocked):
             first_is_a = self._rank(first) <= self._rank(second)
         a, b = bodies if first_is_a else bodies[::-1]
-        axes = candidate.axes
-        if candidate.kind is not JointKind.UNIVERSAL:
-            axes = _along(axes, self._directions(relation, a))
-        world = Pose(axes, candidate.origin)
         node_a, node_b = self._node(a, relation), self._node(b, relation)
-        joint = Joint(
-            self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}"),
-            candidate.kind,
-            node_a,
-            node_b,
-            self._pose(node_a).inverse() @ world,
-            self._pose(node_b).inverse() @ world,
-            candidate.six,
-            lead=candidate.lead,
-            because=tuple(names),
-            where=self.where.get(names[0], ""),
-        )
-        self.links.append(Link(a, b, joint, JointFinding(joint.id, misfit=relation.missed)))
-
-    def _directions(self, relation: Relation, body: int) -> Iterator[Array]:
-        """Directions that the relation's constraints name, this body's first, WORLD at the closed pose."""
-        named = [
-            feature
-            for owner in relation.owners
-            for feature in getattr(self.assembly.equations.statements[owner], "features", ())
-            if feature.direction is not None
-        ]
-        mine = [self.assembly.body_of(f.node) == body for f in named]
-        for whose in (True, False):
-            for feature in compress(named, (own == whose for own in mine)):
-                yield self._pose(feature.node).direction(feature.direction)
+        id = self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}")
+        where = self.where.get(names[0], "")
+        self.found.append(Draft(id, a, b, node_a, node_b, candidate, relation, names, where))
 
     def _rank(self, body: int) -> int:
         return int(self.depth[body]) if body < len(self.depth) else body
@@ -248,12 +226,6 @@ class _Jointing:
         nodes = self.assembly.scene.nodes
         return nodes[node].id if node < len(nodes) else self.nodes[node - len(nodes)].id
 
-    def _pose(self, node: int | None) -> Pose:
-        nodes = self.assembly.scene.nodes
-        if node is None:
-            return Pose()
-        return self.assembly.poses[node] if node < len(nodes) else self.nodes[node - len(nodes)].pose
-
 
 def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]:
     """The nodes that a statement joins."""
@@ -264,6 +236,7 @@ def nodes_of(statement: Constraint | Joint | Coupling) -> tuple[int | None, ...]
     return ()
 
 
+@cache
 def order_matters(unlocked: tuple[int, ...]) -> bool:
     """Whether a joint moves differently when its two bodies change places (plain freedoms)."""
     slides, turns = (tuple(i for i in unlocked if (i >= RX) == turning) for turning in (False, True))
@@ -274,12 +247,3 @@ def order_matters(unlocked: tuple[int, ...]) -> bool:
     if len(turns) == 3:
         return 0 < len(slides) < 3
     return True
-
-
-def _along(axes: Array, directions: Iterable[Array]) -> Array:
-    """The frame with X along the first of the source's own directions that it is parallel to."""
-    for direction in directions:
-        cosine = float(direction @ axes[:, 0])
-        if abs(cosine) > 1.0 - 1e-6:
-            return axes if cosine > 0.0 else axes @ np.diag([-1.0, 1.0, -1.0])
-    return axes

@@ -41,7 +41,7 @@ class Geometry:
     def frame(self, x: Array) -> Array:
         """Joint axes with X along ``x`` (unit vector), the others where the geometry's axes put them."""
         y = perpendicular(x, self.axes)
-        return np.column_stack([x, y, cross(x, y)])
+        return np.array([x, y, cross(x, y)]).T.copy()
 
 
 def candidates(space: TwistSpace, geometry: Geometry, length: float) -> Iterator[Candidate]:

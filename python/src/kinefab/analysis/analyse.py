@@ -110,7 +110,7 @@ def _in_source_order(assembly: Assembly, links: list[Link]) -> list[Joint]:
 
 
 def _closed_scene(assembly: Assembly, found: Links) -> Scene:
-    scene = assembly.scene.with_poses(assembly.poses)
+    scene = assembly.closed_scene
     return replace(scene, nodes=[*scene.nodes, *found.nodes])
 
 

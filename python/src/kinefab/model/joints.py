@@ -67,7 +67,7 @@ def kind_of(free: tuple[int, ...]) -> JointKind:
 
 def unlocked_of(freedoms: tuple[Freedom, ...]) -> tuple[int, ...]:
     """Indices of the freedoms that may move."""
-    return tuple([i for i, f in enumerate(freedoms) if f.motion is not Motion.LOCKED])
+    return tuple(i for i, f in enumerate(freedoms) if f.motion is not Motion.LOCKED)
 
 
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:

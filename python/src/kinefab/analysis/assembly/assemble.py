@@ -75,11 +75,18 @@ class Assembly:
     @cached_property
     def poses(self) -> list[Pose]:
         """World poses of the nodes with every constraint closed."""
+        if not self.closing.moved:
+            return [n.pose for n in self.scene.nodes]
         body = self.closing.body[1:]
         turn, inner = self.closing.rotation[body], [n.pose for n in self.scene.nodes]
         rotation = turn @ np.array([p.rotation for p in inner]).reshape(-1, 3, 3)
         place = turn @ np.array([p.translation for p in inner]).reshape(-1, 3, 1)
         return [Pose(*own) for own in zip(rotation, place[..., 0] + self.closing.translation[body])]
+
+    @cached_property
+    def closed_scene(self) -> Scene:
+        """The scene with every constraint closed."""
+        return self.scene.with_poses(self.poses) if self.closing.moved else self.scene
 
     def blocks_with(self, edges: list[tuple[int, int]], bodies: int) -> Blocks:
         """The blocks of the same bodies, and further ones, joined by these edges."""
@@ -200,8 +207,9 @@ def _moving_as_one(
         neighbours.setdefault(j, set()).add(i)
     groups: dict[int, list[IntArray]] = {}
     doubtful: dict[int, BlockFreedom] = {}
+    apart = set(solver.row_part[breakable[relative.owner]].tolist())
     for part, (first, last) in enumerate(zip(freedoms, finite)):
-        if breakable[relative.owner[first.rows]].any():
+        if part in apart:
             continue
         root = int(blocks.root[blocks.block[first.bodies[0]]])
         if first.mobility == 0:

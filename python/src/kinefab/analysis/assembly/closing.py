@@ -8,7 +8,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Constraint, ConstraintKind, Joint, Sense
-from ...spatial import Array, IntArray, Pose
+from ...spatial import Array, IntArray
 from ..equations.atoms import Atom
 from ..equations.scene_equations import Equations
 from ..equations.solve import Solver
@@ -40,7 +40,7 @@ class Closing:
     system: the equations with the closed pose as their start, bodies as stated.  gaps: constraints that
     the exported pose misses by more than rounding.  worst: (metres, degrees) over all constraints.
     body: shape (nodes + 1,), the stated body of each node.
-    rotation, translation: of each body, the displacement that closes the pose.
+    rotation, translation: of each body, the displacement that closes the pose.  moved: whether there is any.
     contradictory: constraints that cannot hold together.
     """
 
@@ -51,9 +51,7 @@ class Closing:
     rotation: Array
     translation: Array
     contradictory: list[str]
-
-    def displacement(self, body: int) -> Pose:
-        return Pose(self.rotation[body], self.translation[body])
+    moved: bool = False
 
 
 def closed(equations: Equations, body: IntArray, report: Report) -> Closing:
@@ -82,7 +80,8 @@ def closed(equations: Equations, body: IntArray, report: Report) -> Closing:
             metres=f"{gap.metres:.4g}",
             degrees=f"{gap.degrees:.4g}",
         )
-    if np.abs(residual).max(initial=0.0) > TIGHT:
+    moved = bool(np.abs(residual).max(initial=0.0) > TIGHT)
+    if moved:
         state, left = solver.project(start)
         for part in np.flatnonzero(left > ABSORBED).tolist():
             contradictory += _contradiction(
@@ -91,7 +90,7 @@ def closed(equations: Equations, body: IntArray, report: Report) -> Closing:
         rotation, translation = relative.displacement(state)
         blocks.carry(rotation, translation, blocks.order)
         system = _displaced(system, rotation, translation)
-    return Closing(system, gaps, worst, body, rotation, translation, contradictory)
+    return Closing(system, gaps, worst, body, rotation, translation, contradictory, moved)
 
 
 def _displaced(system: System, rotation: Array, translation: Array) -> System:

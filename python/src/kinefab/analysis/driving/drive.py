@@ -32,7 +32,7 @@ class Drive:
 
     def __init__(self, assembly: Assembly, joints: Sequence[tuple[Joint, int]]):
         self.assembly, self.joints = assembly, list(joints)
-        scene = assembly.scene.with_poses(assembly.poses)
+        scene = assembly.closed_scene
         blocks: dict[int, list[int]] = {}
         for i, (joint, _) in enumerate(self.joints):
             part = block_of(assembly, joint)

@@ -160,9 +160,10 @@ def _violations(
             if not len(atoms):
                 continue
             p, used = atom_pair[atoms], USED[kind].split()
+            turning = rotation.take(p, axis=0)
 
-            def turn(v: Array, p: IntArray = p) -> Array:
-                return np.einsum("nsij,nj->nsi", rotation[p], v)
+            def turn(v: Array, turning: Array = turning) -> Array:
+                return np.einsum("nsij,nj->nsi", turning, v)
 
             def stay(v: Array) -> Array:
                 return np.broadcast_to(v[:, None], (len(v), samples, 3))

@@ -16,6 +16,7 @@ from ...spatial import Array, IntArray
 from ..equations.solve import Solver
 from ..equations.system import State
 from .first_order import BlockFreedom, block_freedoms
+from .stacks import alike
 
 STEP = 1e-3
 """Size of a trial step, radians or fractions of the length."""
@@ -62,17 +63,40 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     found = [FiniteFreedom(f.mobility, f.basis, False) for f in first_order]
     doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
     if doubtful.any():
-        draw = np.random.default_rng(11)
+        draw, blocks = np.random.default_rng(11), dict(enumerate(first_order))
         for _ in range(TRIALS):
-            directions = {
-                int(p): _random_direction(first_order[p].basis, draw) for p in np.flatnonzero(doubtful)
-            }
-            moved = _trial(solver, dict(enumerate(first_order)), start, directions) if directions else {}
-            for part, direction in directions.items():
-                if np.linalg.norm(moved[part] - direction) > SURVIVES * np.linalg.norm(direction):
-                    found[part] = _searched(solver, part, first_order[part])
-                    doubtful[part] = False
+            directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
+            moved = _trial(solver, blocks, start, directions) if directions else {}
+            for part in _changed(directions, moved):
+                found[part] = _searched(solver, part, first_order[part])
+                doubtful[part] = False
     return found
+
+
+def _random_directions(
+    first_order: Mapping[int, BlockFreedom], parts: list[int], draw: np.random.Generator
+) -> dict[int, Array]:
+    """As ``_random_direction``, of many parts."""
+    numbers = [draw.standard_normal((first_order[p].mobility,)) for p in parts]
+    found: dict[int, Array] = dict.fromkeys(parts, np.zeros(0))
+    for _, group in alike(first_order[p].basis.shape for p in parts):
+        members: list[int] = group.tolist()
+        bases = np.array([first_order[parts[i]].basis for i in members])
+        directions = (bases @ np.array([numbers[i] for i in members])[..., None])[..., 0]
+        directions /= np.abs(directions).max(axis=1)[:, None]
+        found.update(zip((parts[i] for i in members), directions))
+    return found
+
+
+def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array]) -> list[int]:
+    """Parts of whose direction a trial step has kept less than ``SURVIVES`` asks for, ascending."""
+    parts, changed = list(directions), list[int]()
+    for _, group in alike(directions[p].shape for p in parts):
+        members = [parts[i] for i in group.tolist()]
+        wanted, kept = (np.array([own[p] for p in members]) for own in (directions, moved))
+        lost = np.linalg.norm(kept - wanted, axis=1) > SURVIVES * np.linalg.norm(wanted, axis=1)
+        changed += [p for p, gone in zip(members, lost.tolist()) if gone]
+    return sorted(changed)
 
 
 def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
@@ -119,8 +143,8 @@ def _trial(
     state = solver.system.moved(start, bodies, twists)
     state, _ = solver.project(state, active, _floor(solver, start))
     moved = _displacement(solver, bodies, start, state) / step
-    ends = np.cumsum([6 * len(first_order[p].bodies) for p in directions])
-    return dict(zip(directions, np.split(moved, ends[:-1])))
+    ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
+    return {part: moved[at:end] for part, at, end in zip(directions, [0, *ends], ends)}
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:

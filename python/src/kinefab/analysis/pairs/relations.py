@@ -210,7 +210,8 @@ def _geometries(system: System, pairs: Pairs, length: Array) -> list[Geometry]:
 def _distinct(vectors: Array, taken: BoolArray, tolerance: Array) -> list[Array]:
     """Of each stack of vectors, shape (n, m, 3), the first ``MOST`` that are taken (a mask), without those near an
     earlier one; tolerance: shape (n,)."""
-    first = np.argsort(~taken, axis=1, kind="stable")[:, :MOST]
+    most = min(MOST, int(taken.sum(axis=1).max(initial=0)))
+    first = np.argsort(~taken, axis=1, kind="stable")[:, :most]
     vectors, taken = (
         np.take_along_axis(vectors, first[..., None], axis=1),
         np.take_along_axis(taken, first, axis=1),

@@ -113,8 +113,8 @@ class Solver:
                 groups.append(
                     _Group(
                         lot,
-                        np.stack([row_order[row_start[p] : row_start[p] + shape_rows] for p in lot]),
-                        np.stack([body_order[body_start[p] : body_start[p] + shape_bodies] for p in lot]),
+                        row_order[row_start[lot][:, None] + np.arange(shape_rows)],
+                        body_order[body_start[lot][:, None] + np.arange(shape_bodies)],
                         atoms,
                         index(s.body_a[atoms]),
                         index(s.body_b[atoms]),

@@ -28,12 +28,13 @@ class State:
 
     rotation: shape (n, 3, 3).  shift: shape (n, 3), metres, of the bodies' own points g.
     angle: shape (atoms,), radians, the last value of each ANG, so that a coupling counts whole turns; of other
-    atoms nothing.
+    atoms nothing.  at_start: nothing is displaced, so that no geometry need be moved.
     """
 
     rotation: Array
     shift: Array
     angle: Array
+    at_start: bool = False
 
     def copy(self) -> State:
         return State(self.rotation.copy(), self.shift.copy(), self.angle.copy())
@@ -82,7 +83,7 @@ class System:
     def start(self) -> State:
         n = self.bodies
         state = State(
-            np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind))
+            np.broadcast_to(np.eye(3), (n, 3, 3)).copy(), np.zeros((n, 3)), np.zeros(len(self.kind)), True
         )
         self.remember(state)
         return state
@@ -176,6 +177,10 @@ class System:
         """The geometry p_a, a, k, p_b, b of some atoms, WORLD, at a pose.
 
         used: names of those that are asked for; the others are given as they are at the start pose."""
+        if state.at_start:
+            geometry = self.p_a, self.a, self.k, self.p_b, self.b
+            p_a, a, k, p_b, b = (own.take(atoms, axis=0) for own in geometry)
+            return p_a, a, k, p_b, b
         sides = {"a": self.body_a.take(atoms), "b": self.body_b.take(atoms)}
         rotation = {end: state.rotation.take(body, axis=0) for end, body in sides.items()}
 

@@ -64,9 +64,10 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
     if doubtful.any():
         draw, blocks = np.random.default_rng(11), dict(enumerate(first_order))
+        floor = _floor(solver, start)
         for _ in range(TRIALS):
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
-            moved = _trial(solver, blocks, start, directions) if directions else {}
+            moved = _trial(solver, blocks, start, directions, floor=floor) if directions else {}
             for part in _changed(directions, moved):
                 found[part] = _searched(solver, part, first_order[part])
                 doubtful[part] = False
@@ -134,14 +135,17 @@ def _trial(
     start: State,
     directions: dict[int, Array],
     step: float = STEP,
+    floor: Array | None = None,
 ) -> dict[int, Array]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows."""
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows.
+
+    floor: see ``_floor``, where it is known."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
     twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
     active = np.zeros(solver.parts, dtype=bool)
     active[list(directions)] = True
     state = solver.system.moved(start, bodies, twists)
-    state, _ = solver.project(state, active, _floor(solver, start))
+    state, _ = solver.project(state, active, _floor(solver, start) if floor is None else floor)
     moved = _displacement(solver, bodies, start, state) / step
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
     return {part: moved[at:end] for part, at, end in zip(directions, [0, *ends], ends)}

@@ -220,7 +220,9 @@ def _distinct(vectors: Array, taken: BoolArray, tolerance: Array) -> list[Array]
     for x in np.moveaxis(vectors, 2, 0):
         near &= np.abs(x[:, :, None] - x[:, None]) <= tolerance[:, None, None]
     fresh = taken & ~near.any(axis=2)
-    return [own[kept] for own, kept in zip(vectors, fresh)]
+    ends: list[int] = np.cumsum(fresh.sum(axis=1)).tolist()
+    kept = vectors[fresh]
+    return [kept[at:end] for at, end in zip([0, *ends], ends)]
 
 
 def find_joints(system: System, relations: list[Relation], residual: Array) -> None:

@@ -38,3 +38,20 @@ def test_bars_on_one_axis_in_a_ring_are_idle_together_as_before():
     found = analyse(ring([np.array([x, y, 0.0]) for x, y in places], [f"bar{i}" for i in range(7)]))
     told = [([found.source.nodes[n].id for n in idle.nodes], idle.count) for idle in found.idle]
     assert told == [(["bar1"], 1), (["bar2"], 1)]
+
+
+@pytest.mark.parametrize("count", [40, 160])
+def test_a_ring_takes_no_decomposition_as_large_as_itself(monkeypatch, count):
+    """Whose time would grow as its cube: each has one side that is that of a body or a joint."""
+    sides: list[int] = []
+    for name in ("svd", "qr", "eigh", "inv", "solve", "cholesky"):
+        plain = getattr(np.linalg, name)
+
+        def noted(matrix, *args, plain=plain, **more):
+            sides.append(min(np.shape(matrix)[-2:]))
+            return plain(matrix, *args, **more)
+
+        monkeypatch.setattr(np.linalg, name, noted)
+    found = analyse(ring(pins(count), [f"bar{i}" for i in range(count)]))
+    assert [f.dof for f in found.freedoms] == [0, 1, 2, *[3] * (count - 5), 2, 1]
+    assert found.mobility == count - 3 and max(sides) <= 12

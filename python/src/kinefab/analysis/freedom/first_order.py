@@ -2,7 +2,8 @@
 
 A small block's Jacobian goes to an SVD as it is, many blocks of one shape at a time.  A large block is
 first written in the freedoms of a spanning tree, J_cut T y = 0: the bodies' six-vectors T y follow the
-tree, only the rows outside it remain, and the matrix shrinks from 6 n columns to the tree's freedoms.
+tree, only the rows outside it remain, and the matrix shrinks from 6 n columns to the tree's freedoms.  T has
+orthonormal columns and the loops take few of them, so that a ring costs the square of its bodies, not the cube.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.lapack import dgeqrf, dgeqrf_lwork, dormqr
 from scipy.sparse import csr_matrix, diags
 
 from ...spatial import Array, IntArray, skew
@@ -72,26 +74,64 @@ def large_null_space(
     jacobian = csr_matrix(diags(factor) @ jacobian)
     tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian)
     point = (system.center + state.shift)[bodies] / system.length[bodies, None]
-    carried = np.zeros((len(bodies), 6, sum(basis.shape[1] for _, _, basis in tree)))
-    at = 0
-    for parent, body, basis in tree:
-        if parent >= 0:
-            carried[body] = carried[parent]
-            carried[body][:3] -= skew(point[body] - point[parent]) @ carried[parent][3:]
-        carried[body][:, at : at + basis.shape[1]] += basis
-        at += basis.shape[1]
-    flat = carried.reshape(width, at)
-    flat /= np.maximum(np.abs(flat).max(axis=0), 1e-300)
-    rest = np.setdiff1d(np.arange(rows), tree_rows)
-    loops = jacobian[rest] @ flat
-    if len(rest) > at:
+    free = tree_motions(tree, point)
+    loops = jacobian[np.setdiff1d(np.arange(rows), tree_rows)] @ free
+    if not len(loops):
+        return width - free.shape[1], free, np.inf
+    if len(loops) > free.shape[1]:
         loops = np.linalg.qr(loops, mode="r")
-    _, s, vt = np.linalg.svd(
-        np.concatenate([loops, np.zeros((max(0, at - len(loops)), at))]), full_matrices=False
-    )
+    _, s, vt = np.linalg.svd(loops, full_matrices=False)
     rank, gap = rank_of(s)
-    moving = np.linalg.qr(flat @ vt[int(rank) :].T)[0]
+    moving = _without(free, vt[: int(rank)])
     return width - moving.shape[1], moving, float(gap)
+
+
+def tree_motions(tree: list[tuple[int, int, Array]], point: Array) -> Array:
+    """Orthonormal twists (v / length, w) of all bodies, shape (6 n, freedoms), that the joints of a tree allow.
+
+    tree: see ``_spanning_tree``.  point: shape (n, 3), where each body's v is, as fractions of the length.
+    For the freedoms S of a joint and the articulated inertia A of all that hangs on its body, with masses and inertias
+    of 1: what stands still before the joint moves behind it by Z = S (S' A S)^(-1/2), and what moves before it carries
+    on by Phi = (1 - S (S' A S)^(-1) S' A) X, X the change of point.  Such motions are orthonormal as they stand: the
+    square root of the mass matrix of a tree (Rodriguez, Jain & Kreutz-Delgado 1992, *Spatial operator algebra for
+    multibody system dynamics*; Featherstone 2008, ch. 7), without a decomposition of a matrix as large as the tree.
+    """
+    inertia = np.broadcast_to(np.eye(6), (len(point), 6, 6)).copy()
+    passed: list[Array] = []
+    begun: list[Array] = []
+    for parent, body, free in reversed(tree):
+        behind = inertia[body]
+        root = np.linalg.cholesky(free.T @ behind @ free)
+        start = np.linalg.solve(root, free.T).T
+        passing = np.eye(6) - start @ (start.T @ behind)
+        if parent >= 0:
+            passing[:, 3:] -= passing[:, :3] @ skew(point[body] - point[parent])
+            inertia[parent] += passing.T @ behind @ passing
+        passed.append(passing)
+        begun.append(start)
+    carried = np.zeros((len(point), 6, sum(free.shape[1] for _, _, free in tree)))
+    at = 0
+    for (parent, body, free), passing, start in zip(tree, reversed(passed), reversed(begun)):
+        end = at + free.shape[1]
+        if parent >= 0:
+            carried[body, :, :at] = passing @ carried[parent, :, :at]
+        carried[body, :, at:end] = start
+        at = end
+    return carried.reshape(6 * len(point), at)
+
+
+def _without(basis: Array, rows: Array) -> Array:
+    """An orthonormal basis, shape (m, n), without the directions in it that orthonormal rows (r, n) stand for.
+
+    The reflections that turn the rows into the first r axes take n r steps for each row of the basis, not n^2.
+    """
+    if not len(rows):
+        return basis
+    work = int(dgeqrf_lwork(rows.shape[1], len(rows))[0])
+    reflections, scales, _, _ = dgeqrf(rows.T, work)
+    work = int(dormqr("L", "T", reflections, scales, basis.T, -1)[1][0])
+    turned = dormqr("L", "T", reflections, scales, basis.T, work)[0]
+    return turned[len(rows) :].T
 
 
 def _spanning_tree(

@@ -63,7 +63,10 @@ def spans(columns: Sequence[Array], cut: float | None = None) -> list[Array]:
     found = list(columns)
     for _, group in alike(own.shape for own in columns):
         members: list[int] = group.tolist()
-        u, s, _ = np.linalg.svd(np.array([columns[i] for i in members]), full_matrices=False)
+        stack = np.array([columns[i] for i in members])
+        if stack.shape[2] > stack.shape[1]:  # of many columns in few dimensions, their triangular factor
+            stack = np.swapaxes(np.linalg.qr(np.swapaxes(stack, 1, 2), mode="r"), 1, 2)
+        u, s, _ = np.linalg.svd(stack, full_matrices=False)
         rank = rank_of(s)[0] if cut is None and s.size else np.sum(s > (cut or 0.0) * s[:, :1], axis=1)
         for i, basis, count in zip(members, u, rank):
             found[i] = basis[:, :count]

@@ -1,0 +1,66 @@
+"""The null space of a large block by its tree's motions is that of its dense Jacobian."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from kinefab.analysis import analyse
+from kinefab.analysis.equations.solve import Solver
+from kinefab.analysis.freedom.first_order import large_null_space, tree_motions
+from kinefab.analysis.freedom.rank import factored
+from kinefab.spatial import skew
+from linkages import flat_ladder, ring
+from mechanism_cases import scene
+from test_analysis_cost import pins
+
+CASES = {
+    "four-bar": lambda: scene("M01"),
+    "parallelogram at its change point": lambda: scene("M05"),
+    "Bennett": lambda: scene("M12"),
+    "Stewart platform": lambda: scene("M14"),
+    "Delta": lambda: scene("M18"),
+    "two planetary stages": lambda: scene("M43"),
+    "40 four-bars": lambda: scene("M40"),
+    "wobble plate": lambda: scene("M47"),
+    "ladder in one line": lambda: flat_ladder(6),
+    "ring": lambda: ring(pins(50), [f"bar{i}" for i in range(50)]),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_rank_and_null_space_are_those_of_the_dense_jacobian(case):
+    """Also where the rank is a matter of the gap between singular values."""
+    whole = analyse(CASES[case]()).assembly.solver
+    assert whole.parts
+    for part in range(whole.parts):
+        system = whole.alone(part)
+        solver, start = Solver(system), system.start()
+        (group,) = solver.groups
+        _, at_a, at_b = system.linearise(start)
+        jacobian = solver.sparse_jacobian(group, at_a, at_b)
+        rank, basis, _ = large_null_space(system, start, group.bodies[0], group.atoms, jacobian)
+        ranks, _, vt = factored(jacobian.toarray()[None])
+        assert rank == ranks[0]
+        assert np.abs(basis.T @ basis - np.eye(basis.shape[1])).max(initial=0.0) < 1e-12
+        assert np.linalg.norm(vt[0, :rank] @ basis) < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_motions_of_a_tree_are_orthonormal_and_those_of_its_joints(seed):
+    """A tree of 400 bodies with joints of one to three freedoms."""
+    draw = np.random.default_rng(seed)
+    point = draw.standard_normal((400, 3))
+    tree = [
+        (int(draw.integers(max(0, i - 3), i)) if i else -1, i,
+         np.linalg.qr(draw.standard_normal((6, int(draw.integers(1, 4)))))[0])
+        for i in range(400)
+    ]  # fmt: skip
+    found = tree_motions(tree, point)
+    assert np.abs(found.T @ found - np.eye(found.shape[1])).max() < 1e-11
+    twists = found.reshape(400, 6, -1)
+    for parent, body, free in tree:
+        own = twists[body].copy()
+        if parent >= 0:
+            own -= twists[parent]
+            own[:3] += skew(point[body] - point[parent]) @ twists[parent, 3:]
+        assert np.abs(own - free @ (free.T @ own)).max() < 1e-11

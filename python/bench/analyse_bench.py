@@ -2,7 +2,7 @@
 
 The large assembly is many small mechanisms (four-bars, slider-cranks, levers with locked parts) on their
 own plates plus long open chains, written as constraints; the block is one ladder of hinged bars in which
-every body is in loops with every other.
+every body is in loops with every other; the ring is one loop of hinges.
 """
 
 from __future__ import annotations
@@ -110,6 +110,15 @@ def block(bodies: int) -> Scene:
     return Scene(nodes=assembly.nodes, constraints=assembly.constraints)
 
 
+def ring(hinges: int) -> Scene:
+    """Bars end to end along a circle, the first one on the ground."""
+    assembly = Assembly()
+    bars = [0, *(assembly.part(Pose()) for _ in range(hinges - 1))]
+    for i, turn in enumerate(np.linspace(0.0, math.tau, hinges, endpoint=False)):
+        assembly.hinge(bars[i], bars[(i + 1) % hinges], Pose(), (math.cos(turn), math.sin(turn), 0.0))
+    return Scene(nodes=assembly.nodes, constraints=assembly.constraints)
+
+
 def measure(name: str, scene: Scene) -> dict[str, object]:
     begin, busy = time.perf_counter(), time.process_time()
     found = analyse(scene)
@@ -126,6 +135,7 @@ def measure(name: str, scene: Scene) -> dict[str, object]:
         "parts": len(scene.nodes) - 1,
         "constraints": len(scene.constraints),
         "seconds": round(seconds, 3),
+        "processor": round(busy, 3),
         "mobility": found.mobility,
     }
 
@@ -143,6 +153,10 @@ def main() -> int:
     rows.append(measure("one block", block(401)))
     rows.append(measure("M40", block(81)))
     print(f"growth exponent {exponent:.2f} from {rows[0]['parts']} to {rows[1]['parts']} parts")
+    rings = [measure("ring", ring(hinges)) for hinges in (125, 500)]
+    growth = math.log(rings[1]["processor"] / rings[0]["processor"]) / math.log(500 / 125)
+    rows += rings
+    print(f"growth exponent of a ring {growth:.2f} from 125 to 500 hinges, by seconds of processor")
     if options.json:
         print(json.dumps({"analyse": rows, "exponent": round(exponent, 3)}))
     return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 
 import numpy as np
@@ -55,3 +56,10 @@ def test_a_ring_takes_no_decomposition_as_large_as_itself(monkeypatch, count):
     found = analyse(ring(pins(count), [f"bar{i}" for i in range(count)]))
     assert [f.dof for f in found.freedoms] == [0, 1, 2, *[3] * (count - 5), 2, 1]
     assert found.mobility == count - 3 and max(sides) <= 12
+
+
+def test_the_collector_runs_again_after_an_analysis_that_fails():
+    """It is paused meanwhile."""
+    with pytest.raises(AttributeError):
+        analyse(None)
+    assert gc.isenabled()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,6 +37,20 @@ class AnalysisOptions:
     limits: bool = False
 
 
+@contextmanager
+def _collector_paused() -> Generator[None, None, None]:
+    """Without Python's search for cycles: what an analysis makes stays, hundreds of thousands of small objects that each
+    search would walk again for nothing, a seventh of the time."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
+
+
+@_collector_paused()
 def analyse(
     scene: Scene,
     options: AnalysisOptions = AnalysisOptions(),

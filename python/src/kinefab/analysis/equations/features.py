@@ -34,7 +34,8 @@ class Numbers:
 
     def kept(self, which: IntArray) -> Numbers:
         own = self.node[which], self.point[which], self.direction[which], self.secondary[which]
-        return Numbers([self.features[i] for i in which.tolist()], *own, self.size[which])
+        places: list[int] = which.tolist()
+        return Numbers([self.features[i] for i in places], *own, self.size[which])
 
     def sound(self) -> BoolArray:
         """Those whose numbers are finite and whose direction is one, where the kind needs it."""

@@ -175,10 +175,10 @@ def _violations(
             at_a, at_b = (stay, move) if b_side else (move, stay)
             d = np.broadcast_to(system.d[atoms][:, None], (len(atoms), samples))
             ways = {"p_a": at_a, "a": on_a, "k": on_a, "p_b": at_b, "b": on_b}
-            geometry = [
+            p_a, a, k, p_b, b = (
                 (way if name in used else stay)(getattr(system, name)[atoms]) for name, way in ways.items()
-            ]
-            value[atoms] = evaluate(kind, *geometry, d)[0]
+            )
+            value[atoms] = evaluate(kind, p_a, a, k, p_b, b, d)[0]
     angles = system.kind == Atom.ANG
     value[angles] = np.remainder(value[angles] + np.pi, TURN) - np.pi
     scale = system.weight / np.where(system.is_length[system.row], lengths[atom_pair], 1.0)

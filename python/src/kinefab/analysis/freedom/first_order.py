@@ -9,6 +9,7 @@ orthonormal columns and the loops take few of them, so that a ring costs the squ
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from scipy.linalg.lapack import dgeqrf, dgeqrf_lwork, dormqr
@@ -101,8 +102,8 @@ def tree_motions(tree: list[tuple[int, int, Array]], point: Array) -> Array:
     begun: list[Array] = []
     for parent, body, free in reversed(tree):
         behind = inertia[body]
-        root = np.linalg.cholesky(free.T @ behind @ free)
-        start = np.linalg.solve(root, free.T).T
+        root = cast(Array, np.linalg.cholesky(free.T @ behind @ free))
+        start = cast(Array, np.linalg.solve(root, free.T)).T
         passing = np.eye(6) - start @ (start.T @ behind)
         if parent >= 0:
             passing[:, 3:] -= passing[:, :3] @ skew(point[body] - point[parent])

@@ -93,7 +93,8 @@ def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array]) -> lis
     """Parts of whose direction a trial step has kept less than ``SURVIVES`` asks for, ascending."""
     parts, changed = list(directions), list[int]()
     for _, group in alike(directions[p].shape for p in parts):
-        members = [parts[i] for i in group.tolist()]
+        places: list[int] = group.tolist()
+        members = [parts[i] for i in places]
         wanted, kept = (np.array([own[p] for p in members]) for own in (directions, moved))
         lost = np.linalg.norm(kept - wanted, axis=1) > SURVIVES * np.linalg.norm(wanted, axis=1)
         changed += [p for p, gone in zip(members, lost.tolist()) if gone]

@@ -222,3 +222,11 @@ def test_a_target_of_another_ending_is_refused(tmp_path, name):
     with pytest.raises(ValueError, match="must end in .kinefab"):
         kinefab.export(kinefab.Scene(), tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_mass_that_is_a_mere_number_is_a_wrong_call():
+    """It would leave the inertia open; nothing is added."""
+    scene = kinefab.Scene()
+    with pytest.raises(TypeError, match="the mass of Door is 12.0; pass MassProperties"):
+        scene.add_part("Door", mass=12.0)
+    assert scene.nodes == []

@@ -15,13 +15,25 @@ from pathlib import Path
 
 
 class Severity(str, Enum):
+    """How bad a finding is: an ERROR keeps the target from being written, a WARNING of a loss where ``strict`` asks for it.
+
+    >>> import kinefab
+    >>> kinefab.Severity("warning") is kinefab.Severity.WARNING
+    True
+    """
+
     ERROR = "error"
     WARNING = "warning"
     INFO = "info"
 
 
 class Outcome(str, Enum):
-    """What became of a feature of the source."""
+    """What became of a feature of the source.
+
+    >>> import kinefab
+    >>> [outcome.value for outcome in kinefab.Outcome]
+    ['kept', 'approximated', 'dropped']
+    """
 
     KEPT = "kept"
     APPROXIMATED = "approximated"
@@ -36,6 +48,14 @@ class Diagnostic:
     message, remedy: the table's templates, filled in.
     where: where in the source: a file, with a JSON pointer (``lever.bundle.json#/joints/3``), a line
         (``lever.csv:12``) or an id; empty when there is no narrower place than the call itself.
+
+    >>> import kinefab
+    >>> try:
+    ...     result = kinefab.export("gone.urdf", "gone.kinefab")
+    ... except kinefab.KinefabError as error:
+    ...     found = error.diagnostics[0]
+    >>> found.code, found.severity.value, found.message
+    ('SOURCE_NOT_FOUND', 'error', 'There is no file gone.urdf.')
     """
 
     code: str
@@ -54,6 +74,11 @@ class FeatureOutcome:
     """One line of the loss report: a feature of the source and what became of it.
 
     feature: kind and id in the source (``joint Hinge:1``).  code: empty when kept without remark.
+
+    >>> import kinefab
+    >>> outcome = kinefab.FeatureOutcome("joint Hinge", kinefab.Outcome.KEPT)
+    >>> outcome.feature, outcome.outcome.value, outcome.code
+    ('joint Hinge', 'kept', '')
     """
 
     feature: str
@@ -93,6 +118,13 @@ class KinefabError(Exception):
     """The data cannot be carried on; holds the diagnostics that say why, and everything found until then.
 
     Its text lists the first findings of each code (``listed``).
+
+    >>> import kinefab
+    >>> try:
+    ...     result = kinefab.export("gone.urdf", "gone.kinefab")
+    ... except kinefab.KinefabError as error:
+    ...     print(error.diagnostics[0].remedy)
+    Check the path.
     """
 
     def __init__(self, diagnostics: Iterable[Diagnostic], report: Report | None = None):
@@ -132,7 +164,14 @@ def diagnostic(code: str, where: str = "", **values: object) -> Diagnostic:
 
 @dataclass(slots=True)
 class Report:
-    """What a run found (``diagnostics``) and what became of each feature (``outcomes``), in order."""
+    """What a run found (``diagnostics``) and what became of each feature (``outcomes``), in order.
+
+    >>> import kinefab
+    >>> report = kinefab.Report()
+    >>> report.kept("joint Hinge")
+    >>> len(report.of(kinefab.Severity.ERROR)), [outcome.feature for outcome in report.outcomes]
+    (0, ['joint Hinge'])
+    """
 
     diagnostics: list[Diagnostic] = field(default_factory=list[Diagnostic])
     outcomes: list[FeatureOutcome] = field(default_factory=list[FeatureOutcome])

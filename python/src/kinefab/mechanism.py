@@ -24,6 +24,14 @@ def motion(source: str | Path | Scene) -> Mechanism:
     source: a file that a reader of ``kinefab.sources`` knows, a written ``NAME.kinefab``, or a Scene made in code; treated
     as read-only.  A written scene moves by its joints, in the right-handed frame; its parts are the Rigidbodies.
     Raises KinefabError, with every error found, when the data is wrong.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> mechanism = kinefab.motion(scene)
+    >>> mechanism.mobility, mechanism.parts
+    (1, ('Door',))
     """
     report = Report()
     if isinstance(source, Scene):

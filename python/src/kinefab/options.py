@@ -18,7 +18,12 @@ DEFAULT_SMOOTH = 30.0
 
 
 class ColliderShape(str, Enum):
-    """AUTO: the mesh itself where nothing moves it by force, else its hull, or convex pieces where it is hollow."""
+    """AUTO: the mesh itself where nothing moves it by force, else its hull, or convex pieces where it is hollow.
+
+    >>> import kinefab
+    >>> kinefab.ExportOptions(colliders="box").colliders is kinefab.ColliderShape.BOX
+    True
+    """
 
     AUTO = "auto"
     NONE = "none"
@@ -33,6 +38,10 @@ class Closures(str, Enum):
 
     EXACT: whole, as every other joint, so that the loop holds in Unity's solver under loads across its plane too.
     MINIMAL: with its independent equations only; right for a direct solver, which repeated equations make singular.
+
+    >>> import kinefab
+    >>> kinefab.ExportOptions(closures="minimal").closures is kinefab.Closures.MINIMAL
+    True
     """
 
     EXACT = "exact"
@@ -85,6 +94,13 @@ class ExportOptions:
 
     colliders, closures and ground may be given by their words ("box").  Raises ValueError for a word that is none and for a
     density or angle out of its range, TypeError for one that is no number and for a flag that is no bool.
+
+    >>> import kinefab
+    >>> kinefab.ExportOptions(density=7850, ground="world").density
+    7850
+    >>> kinefab.ExportOptions(density=-1)
+    Traceback (most recent call last):
+    ValueError: the density is -1; it must be a number above zero
     """
 
     colliders: ColliderShape = ColliderShape.AUTO

@@ -45,6 +45,13 @@ def view(source: str | Path | Scene, target: str | Path, options: ExportOptions 
     options: what the source is exported with.  Its reading option ``mates``, "auto" or a ``NAME.mates.json``, has those
     mates listed by number, to be switched and copied back; of a written scene they are listed only.
     Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> kinefab.view(scene, "door.html").name
+    'door.html'
     """
     return _written(source, Path(target), options, told=False)
 
@@ -184,7 +191,15 @@ def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, 
 
 
 def report(source: str | Path | Scene, target: str | Path, options: ExportOptions = ExportOptions()) -> Path:
-    """As ``view``, with the analysis in words, plots of the driven freedoms and the loss report under it."""
+    """As ``view``, with the analysis in words, plots of the driven freedoms and the loss report under it.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> kinefab.report(scene, "door.html").name
+    'door.html'
+    """
     return _written(source, Path(target), options, told=True)
 
 

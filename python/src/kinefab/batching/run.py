@@ -32,7 +32,12 @@ def silent(done: int, total: int, record: Record) -> None:
 
 @dataclass(frozen=True, slots=True)
 class BatchResult:
-    """records: in the order of the plan.  index: the page that lists them."""
+    """What a batch did.  records: in the order of the plan, what is not even tried first.  index: the page that lists them.
+
+    >>> import kinefab
+    >>> kinefab.BatchResult((), "out/index.html").counts
+    {}
+    """
 
     records: tuple[Record, ...]
     index: str
@@ -72,6 +77,11 @@ def batch(
     timeout: seconds a file.  memory: bytes a file.  force: convert what is up to date, overwrite what others wrote.
     Raises ValueError for a kind that no target has and for a number that is not above zero, KinefabError where ``out``
     cannot be written.  What goes wrong with a file is in its record.
+
+    >>> import kinefab
+    >>> result = kinefab.batch(["gone.urdf"], "out", timeout=120)
+    >>> result.counts, [*result.records[0].codes]
+    ({'refused': 1}, ['SOURCE_NOT_FOUND'])
     """
     ending = f".{to.lstrip('.')}"
     if ending not in known_endings():

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..model import MassProperties
 from ..spatial import Array, matrix_from_quaternion, rotation_about, vector
 
 Vector = Sequence[float]
@@ -30,6 +31,12 @@ def checked_vector(what: str, values: Any) -> Array:
     if array is None or not np.abs(array).max() <= LARGEST:
         raise ValueError(f"{what} is {values!r}; pass three numbers, none beyond {LARGEST:g}")
     return array
+
+
+def checked_mass(name: str, mass: object) -> None:
+    """Raises TypeError for what is neither None nor MassProperties; a number alone would leave the inertia open."""
+    if mass is not None and not isinstance(mass, MassProperties):
+        raise TypeError(f"the mass of {name} is {mass!r}; pass MassProperties, or a density instead")
 
 
 def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite: bool = False) -> float:

@@ -28,7 +28,7 @@ from ..model import (
 )
 from ..options import ColliderShape
 from ..spatial import Pose, frame_from_axes
-from .arguments import Vector, checked_color, checked_number, checked_pose, checked_vector
+from .arguments import Vector, checked_color, checked_mass, checked_number, checked_pose, checked_vector
 from .ids import Ids
 from .materials import colliders_of, materials_of
 from .motions import FreedomLike, Range, angular, freedoms_asked, kind_of_word
@@ -50,7 +50,16 @@ class Scene(model.Scene):
     """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
 
     A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without
-    length, a number that is not finite, limits in the wrong order) and adds nothing; the message says what to pass.
+    length, a number that is not finite, limits in the wrong order) and adds nothing; the message says what to pass.  Frame: right-handed, +Y up, metres, degrees.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> handle = scene.add_part("Handle", trimesh.creation.box((0.1, 0.02, 0.02)), translation=(0.75, 1.0, 0.05))
+    >>> latch = scene.add_hinge(door, handle, point=(0.75, 1, 0.05), axis=(0, 0, 1), limits=(-45, 0), name="Latch")
+    >>> kinefab.motion(scene).mobility
+    2
     """
 
     __slots__ = ("_given", "_joint_ids", "_node_ids", "_number")
@@ -93,6 +102,7 @@ class Scene(model.Scene):
         """
         if density is not None and not 0.0 < density < math.inf:
             raise ValueError(f"the density of {name} is {density}; it must be a number above zero")
+        checked_mass(name, mass)
         shapes = [] if mesh is None else shapes_of(name, mesh, unit)
         looks, touch = materials_of(name, material)
         if color is not None:

@@ -19,6 +19,13 @@ SEAM = 1e-6
 
 
 class Motion(str, Enum):
+    """Whether a freedom moves, and how far.
+
+    >>> import kinefab
+    >>> [motion.value for motion in kinefab.Motion]
+    ['locked', 'limited', 'free']
+    """
+
     LOCKED = "locked"
     LIMITED = "limited"
     FREE = "free"
@@ -31,6 +38,11 @@ class Drive:
     Force = stiffness * (target - q) + damping * (target_velocity - qdot), clamped to +-max_force.
     acceleration: the gains are per unit of inertia instead (rad/s^2, m/s^2).
     motor: ``target_velocity`` is held with up to ``max_force`` (stiffness and damping are not used).
+
+    >>> import kinefab
+    >>> drive = kinefab.Drive(target=0.5, stiffness=200.0, damping=5.0, max_force=40.0)
+    >>> drive.acceleration, drive.motor
+    (False, False)
     """
 
     target: float = 0.0
@@ -88,6 +100,11 @@ class Freedom:
     at: the coordinate at the exported pose where the source states it: its frames tell an angle up to whole turns only.
     turns: whole turns by which the source displays more than the coordinate, its limits too; for messages only.
     name, where: what the source calls the freedom and where it speaks of it, empty where it does not; for messages only.
+
+    >>> import kinefab
+    >>> freedom = kinefab.Freedom(kinefab.Motion.LIMITED, lower=-0.5, upper=1.5)
+    >>> freedom.displayed(freedom.lower, freedom.upper)
+    (-0.5, 1.5)
     """
 
     motion: Motion = Motion.LOCKED

@@ -12,7 +12,12 @@ from .freedoms import FREE, FREEDOM_NAMES, LOCKED, RX, RY, RZ, TX, TY, TZ, Freed
 
 
 class JointKind(str, Enum):
-    """Lower pairs and their relatives.  In brackets: the unlocked freedoms of the joint's frame."""
+    """Lower pairs and their relatives.  In brackets: the unlocked freedoms of the joint's frame.
+
+    >>> import kinefab
+    >>> kinefab.JointKind("revolute") is kinefab.JointKind.REVOLUTE
+    True
+    """
 
     FIXED = "fixed"
     REVOLUTE = "revolute"  # rx
@@ -93,6 +98,13 @@ class Joint:
     enabled: False for a joint that the source has and switches off.  collide: whether the two bodies collide.
     slerp: one drive about all three rotations, instead of single ones.
     because: ids of the source's constraints or joints that this one comes from.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> drawer = scene.add_part("Drawer", trimesh.creation.box((0.4, 0.1, 0.4)))
+    >>> slide = scene.add_slider(None, drawer, point=(0, 0, 0), axis=(0, 0, 1), limits=(0, 0.4))
+    >>> slide.kind.value, slide.unlocked, slide.freedoms[0].upper  # TX, metres
+    ('prismatic', (0,), 0.4)
     """
 
     id: str

@@ -46,7 +46,13 @@ class Body:
 @dataclass(frozen=True, slots=True, eq=False)
 class MassProperties:
     """mass: kg.  center: centre of mass, node's frame, metres, shape (3,).
-    inertia: about the centre of mass, along the node's axes, kg m^2, shape (3, 3)."""
+    inertia: about the centre of mass, along the node's axes, kg m^2, shape (3, 3).
+
+    >>> import kinefab, numpy
+    >>> ball = kinefab.MassProperties(2.0, numpy.zeros(3), 0.008 * numpy.eye(3))
+    >>> ball.mass, ball.center.shape, ball.inertia.shape
+    (2.0, (3,), (3, 3))
+    """
 
     mass: float
     center: Array

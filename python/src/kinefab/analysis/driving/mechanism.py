@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from ...model import RX, Joint, Motion, Scene
 from ...spatial import Array, quaternions_from_matrices
 from ..assembly.assemble import Assembly
 from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
+from .trajectory import Coordinate, Stop, Trajectory
 from .walk import Poses, Walk
 from .way import Way, walked
 
@@ -22,75 +22,18 @@ STRAIGHT = 1e-9
 """Difference between steps, as a share of the step, up to which they are one straight way."""
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate:
-    """A joint's coordinate.
-
-    name: by which it is driven.  joint: the joint's id.  unit: ``deg`` or ``m``.  value: at the exported pose.
-    lower, upper: the joint's own limits, infinite where it has none.  All as the source shows them.
-    """
-
-    name: str
-    joint: str
-    unit: str
-    value: float
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """Why a motion ended before its last frame.
-
-    reason: ``limit`` or ``dead point``.  coordinate: whose limit it is; at a dead point, the driven one that stops.
-    value: of that coordinate there, in its ``unit``.  frames: those reached.
-    """
-
-    reason: str
-    coordinate: str
-    value: float
-    unit: str
-    frames: int
-
-    def __str__(self) -> str:
-        what = "its limit" if self.reason == "limit" else "a dead point"
-        return f"{self.coordinate} is at {what} at {self.value:.6g} {self.unit}"
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Trajectory:
-    """Poses of a mechanism, frame by frame.
-
-    parts: ids.  poses: shape (frames, parts, 7), in the WORLD (right-handed, +Y up, +Z forward): position, metres, and
-    quaternion (x, y, z, w).  coordinates: for each joint coordinate its values, shape (frames,), degrees or metres.
-    stop: why there are fewer frames than asked for, or None.  gap: how far the loops are from closed at most, radians
-    or fractions of their size.
-    """
-
-    parts: tuple[str, ...]
-    poses: Array
-    coordinates: Mapping[str, Array]
-    stop: Stop | None
-    gap: float
-
-    def __len__(self) -> int:
-        return len(self.poses)
-
-    def __getitem__(self, name: str) -> Array:
-        """The values of a coordinate, shape (frames,), or else the poses of a part.  Raises KeyError."""
-        return self.coordinates[name] if name in self.coordinates else self.part(name)
-
-    def part(self, id: str) -> Array:
-        """The poses of a part, shape (frames, 7).  Raises KeyError."""
-        if id in self.parts:
-            return self.poses[:, self.parts.index(id)]
-        raise KeyError(f"{id!r} is neither a coordinate ({', '.join(self.coordinates)}) nor a part's id")
-
-
 class Mechanism:
     """What an analysis found, to be driven.  Every motion starts from the exported pose.
 
-    scene: at the closed pose, with its joints.
+    scene: at the closed pose, with its joints, right-handed, +Y up, metres.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> mechanism = kinefab.motion(scene)
+    >>> [(c.name, c.unit, round(c.lower), round(c.upper)) for c in mechanism.coordinates]
+    [('Hinge', 'deg', 0, 110)]
     """
 
     def __init__(self, assembly: Assembly, joints: Sequence[Driven], scene: Scene):

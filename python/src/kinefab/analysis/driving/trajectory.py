@@ -1,0 +1,86 @@
+"""What a motion is: the coordinates it goes by, the poses on the way, and why it ended.
+
+Coordinates are as the source shows them: degrees and metres, counted from the joint's own zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...spatial import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinate:
+    """A joint's coordinate.
+
+    name: by which it is driven.  joint: the joint's id.  unit: ``deg`` or ``m``.  value: at the exported pose.
+    lower, upper: the joint's own limits, infinite where it has none.  All as the source shows them.
+    """
+
+    name: str
+    joint: str
+    unit: str
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Why a motion ended before its last frame.
+
+    reason: ``limit`` or ``dead point``.  coordinate: whose limit it is; at a dead point, the driven one that stops.
+    value: of that coordinate there, in its ``unit``.  frames: those reached.
+    """
+
+    reason: str
+    coordinate: str
+    value: float
+    unit: str
+    frames: int
+
+    def __str__(self) -> str:
+        what = "its limit" if self.reason == "limit" else "a dead point"
+        return f"{self.coordinate} is at {what} at {self.value:.6g} {self.unit}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trajectory:
+    """Poses of a mechanism, frame by frame.
+
+    parts: ids.  poses: shape (frames, parts, 7), in the WORLD (right-handed, +Y up, +Z forward): position, metres, and
+    quaternion (x, y, z, w).  coordinates: for each joint coordinate its values, shape (frames,), degrees or metres.
+    stop: why there are fewer frames than asked for, or None.  gap: how far the loops are from closed at most, radians
+    or fractions of their size.
+
+    >>> import kinefab, trimesh
+    >>> scene = kinefab.Scene()
+    >>> door = scene.add_part("Door", trimesh.creation.box((0.8, 2.0, 0.04)), translation=(0.4, 1.0, 0.0))
+    >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> motion = kinefab.motion(scene).sweep("Hinge", 0, 120, frames=61)
+    >>> len(motion), motion["Hinge"].shape, motion["Door"].shape, motion.poses.shape
+    (56, (56,), (56, 7), (56, 1, 7))
+    >>> print(motion.stop)
+    Hinge is at its limit at 110 deg
+    """
+
+    parts: tuple[str, ...]
+    poses: Array
+    coordinates: Mapping[str, Array]
+    stop: Stop | None
+    gap: float
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def __getitem__(self, name: str) -> Array:
+        """The values of a coordinate, shape (frames,), or else the poses of a part.  Raises KeyError."""
+        return self.coordinates[name] if name in self.coordinates else self.part(name)
+
+    def part(self, id: str) -> Array:
+        """The poses of a part, shape (frames, 7).  Raises KeyError."""
+        if id in self.parts:
+            return self.poses[:, self.parts.index(id)]
+        raise KeyError(f"{id!r} is neither a coordinate ({', '.join(self.coordinates)}) nor a part's id")

@@ -194,6 +194,15 @@ def test_a_run_that_ended_after_the_target_and_before_its_record_is_gone_on_with
     assert (out / "a.kinefab").read_bytes() == plain
 
 
+def test_what_a_target_reads_of_its_own_is_no_source(tmp_path):
+    """A prefab's folder holds a list of what is in it, which the next export reads and writes anew."""
+    folder, out = sources(tmp_path / "in", "a"), tmp_path / "out"
+    assert kinefab.batch([folder], out, "prefab", jobs=1).counts == {"written": 1}
+    options = kinefab.ExportOptions(ground="world")
+    assert kinefab.batch([folder], out, "prefab", options, jobs=1).counts == {"written": 1}
+    assert kinefab.batch([folder], out, "prefab", options, jobs=1).counts == {"up_to_date": 1}
+
+
 def test_a_target_that_was_cut_short_is_made_again(tmp_path):
     folder, out = sources(tmp_path / "in", "a"), tmp_path / "out"
     assert kinefab.batch([folder], out, jobs=1).counts == {"written": 1}

@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, cast
@@ -122,6 +122,15 @@ class Reading:
             found = os.stat(real)
             if os.path.isfile(real) and not real.startswith(self._apart):
                 self.paths.setdefault(real, (found.st_mtime_ns, found.st_size))
+
+    def leave_out(self, files: Iterable[Path], target: Path) -> None:
+        """What the target's own writer reads of what it wrote: the files, a folder of the target's name beside them, and
+        the hidden ones that it writes into first."""
+        own = {os.path.realpath(path) for path in files}
+        folder = os.path.realpath(target.parent)
+        heads = (os.path.join(folder, target.stem, ""), os.path.join(folder, f".{target.stem}."))
+        for path in [path for path in self.paths if path in own or path.startswith(heads)]:
+            del self.paths[path]
 
     def changed(self) -> list[str]:
         """Those that are not as they were when they were first opened."""

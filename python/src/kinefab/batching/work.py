@@ -71,6 +71,7 @@ def _converted(job: Job, reading: Reading, start: float) -> Record | None:
         reading.add(source)
         with reading.listening():
             result = export(source, target, options_of_json(job.options))
+        reading.leave_out(result.files, target)
         for file in result.analysed.scene.source.files:
             reading.add(source.parent / file.uri)
         files = [str(path) for path in result.files]

@@ -81,6 +81,26 @@ def test_a_mesh_that_changed_counts_as_read(tmp_path):
     assert run() == {"lever": "written"}
 
 
+def test_what_is_read_counts_wherever_the_batch_is_started(tmp_path):
+    """The folder of the sources is then on Python's own path; what is no file of the user's does not count."""
+    (tmp_path / "in").mkdir()
+    for name in ("lever.bundle.json", "lever.obj", "lever.mtl"):
+        shutil.copy(ROOT / "fixtures" / "lever" / name, tmp_path / "in" / name)
+    command = [sys.executable, "-m", "kinefab", "batch", "in", "-o", "out", "--json"]
+
+    def run() -> str:
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)["outcome"]
+
+    assert (run(), run()) == ("written", "up_to_date")
+    (record,) = (tmp_path / "out" / ".kinefab-batch" / "records").glob("*.json")
+    read = json.loads(record.read_text("utf-8"))["read"]
+    assert {Path(path).name for path in read} == {"lever.bundle.json", "lever.obj", "lever.mtl"}
+    with (tmp_path / "in" / "lever.obj").open("a") as file:
+        file.write("\n# seen again\n")
+    assert run() == "written"
+
+
 def test_a_bad_file_costs_only_itself(tmp_path):
     folder = bundles(tmp_path / "in", "good")
     (folder / "torn.bundle.json").write_text("{")

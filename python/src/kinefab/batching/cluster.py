@@ -35,7 +35,12 @@ def executor_of(scheduler: str | None) -> Generator[Executor | None, None, None]
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Mismatched versions", Warning)  # an error below
             client = Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+    except (
+        OSError,
+        ValueError,
+        TimeoutError,
+        AssertionError,
+    ) as error:  # the last where its own thread does not start
         raise _unusable(scheduler, f"it does not answer ({type(error).__name__})") from None
     with client:
         if not client.scheduler_info()["workers"]:

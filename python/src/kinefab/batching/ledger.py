@@ -5,12 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import site
 import sys
+import sysconfig
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, cast
 
+from ..diagnostics import schema_directory
 from . import places
 from .job import Job, Record
 
@@ -93,15 +96,26 @@ def _digest(path: str) -> str:
     return "" if content is None else hashlib.sha256(content).hexdigest()
 
 
+CODE = (".py", ".pyc", ".so", ".pyd")
+"""What an import reads, wherever it stands: the folder that a batch is started in is a place of modules too."""
+
+
+def _programs() -> tuple[str, ...]:
+    """Folders of Python, of what is installed in it, of Kinefab and of the running system: no sources stand there."""
+    paths = sysconfig.get_paths()
+    folders = {paths[name] for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    folders |= {*site.getsitepackages(), site.getusersitepackages(), str(schema_directory())}
+    folders |= {str(Path(__file__).parents[1]), "/proc", "/sys", "/dev"}
+    return tuple(sorted(os.path.realpath(folder) + os.sep for folder in folders))
+
+
 class Reading:
     """Files that this process opens for reading, by Python's own audit events; libraries' own are named beside it."""
 
     def __init__(self) -> None:
         self.paths: dict[str, tuple[int, int]] = {}
         self._on = False
-        self._apart = tuple(
-            os.path.realpath(p) + os.sep for p in {sys.prefix, sys.base_prefix, *sys.path} if p
-        )
+        self._apart = _programs()
         sys.addaudithook(self._heard)
 
     @contextmanager
@@ -120,7 +134,7 @@ class Reading:
         with suppress(OSError, ValueError):
             real = os.path.realpath(path)
             found = os.stat(real)
-            if os.path.isfile(real) and not real.startswith(self._apart):
+            if os.path.isfile(real) and not real.startswith(self._apart) and not real.endswith(CODE):
                 self.paths.setdefault(real, (found.st_mtime_ns, found.st_size))
 
     def leave_out(self, files: Iterable[Path], target: Path) -> None:

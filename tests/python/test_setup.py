@@ -28,7 +28,7 @@ def checkout(tmp_path: Path, *tools: str) -> tuple[Path, dict[str, str]]:
     return tmp_path, {"PATH": str(programs)}
 
 
-def setup(place: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
+def set_up(place: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         ["bash", str(place / "python" / "bootstrap.sh")], env=environment, capture_output=True, text=True
     )
@@ -36,7 +36,7 @@ def setup(place: Path, environment: dict[str, str]) -> subprocess.CompletedProce
 
 def test_setup_without_sha256sum_says_so(tmp_path):
     place, environment = checkout(tmp_path)
-    done = setup(place, environment)
+    done = set_up(place, environment)
     assert done.returncode != 0 and "sha256sum is not on the PATH" in done.stderr
 
 
@@ -45,7 +45,7 @@ def test_setup_with_an_old_python_says_so(tmp_path):
     old = tmp_path / "programs" / "python3"
     old.write_text('#!/usr/bin/env bash\ncase "$2" in *exit*) exit 1;; *) echo Python 3.9;; esac\n')
     old.chmod(0o755)
-    done = setup(place, environment)
+    done = set_up(place, environment)
     assert done.returncode != 0 and not (place / ".venv").exists()
     assert "Python 3.9 is on the PATH; kinefab needs Python 3.10 or newer" in done.stderr
 
@@ -55,7 +55,7 @@ def test_setup_leaves_a_foreign_environment_alone(tmp_path):
     mine = place / ".venv" / "mine.txt"
     mine.parent.mkdir()
     mine.write_text("mine")
-    done = setup(place, environment)
+    done = set_up(place, environment)
     assert done.returncode != 0 and mine.read_text() == "mine" and os.listdir(place / ".venv") == ["mine.txt"]
     assert "was not made here" in done.stderr and "Move it away" in done.stderr
 

@@ -17,6 +17,8 @@ from trimesh.visual.material import PBRMaterial
 
 RED = (1.0, 0.0, 0.0, 1.0)
 
+OLD_TRIMESH = tuple(map(int, trimesh.__version__.split(".")[:2])) < (4, 6)
+
 
 def exported(part, tmp_path, **options) -> tuple[dict, kinefab.ExportResult]:
     scene = kinefab.Scene()
@@ -130,7 +132,8 @@ def test_the_red_of_an_obj_arrives_through_a_script(loaded, tmp_path):
     path = write_obj(tmp_path, "red", "1 0 0")
     content, _ = exported(trimesh.load(path) if loaded else path, tmp_path)
     (material,) = content["materials"]
-    assert material["name"] == "paint" and material["color"] == [*RED]
+    assert material["color"] == [*RED]
+    assert material["name"] == "paint" or (loaded and OLD_TRIMESH)  # it makes a material of its own of it
     assert material["smoothness"] == pytest.approx(1.0 - np.sqrt(2.0 / 102.0))
     assert "uv" in content["meshes"][0]
 
@@ -240,6 +243,7 @@ def test_an_obj_s_textures_are_named_or_told(tmp_path):
     assert all(o.outcome is Outcome.DROPPED for o in lost)
 
 
+@pytest.mark.skipif(OLD_TRIMESH, reason="trimesh before 4.6 reads no glTF that lacks a picture")
 def test_a_picture_that_a_gltf_cannot_read_is_told(tmp_path):
     image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
     files = painted(baseColorTexture=image.new("RGB", (2, 2))).export(file_type="gltf", merge_buffers=True)

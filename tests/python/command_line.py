@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from inspect import signature
 from pathlib import Path
 
 import jsonschema
@@ -13,8 +14,15 @@ import kinefab
 import pytest
 from kinefab.diagnostics import schema_directory
 from scenes import lid_scene
+from typer.testing import CliRunner
 
 LEVER = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
+
+
+def runner() -> CliRunner:
+    """In this process.  click before 8.2 puts both streams into one unless it is told not to."""
+    apart = {"mix_stderr": False} if "mix_stderr" in signature(CliRunner).parameters else {}
+    return CliRunner(**apart)
 
 
 def run(*arguments, cwd=None, **environment):

@@ -3,12 +3,14 @@ rest goes on."""
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 from pathlib import Path
 
 import kinefab
 import pytest
+from command_line import runner
 from dask_processes import dask, free_port
 from kinefab.batching import cluster as clusters
 from kinefab.batching.job import Job, Outcome, Record, options_as_json
@@ -16,7 +18,6 @@ from kinefab.batching.ledger import Reading
 from kinefab.batching.work import work
 from kinefab.cli import app
 from kinefab.diagnostics import KinefabError
-from typer.testing import CliRunner
 
 PAIR = Path(__file__).resolve().parents[2] / "fixtures" / "pairs" / "P01.bundle.json"
 
@@ -50,7 +51,7 @@ def test_numbers_that_allow_nothing_are_a_wrong_call(tmp_path, numbers):
     (name,) = numbers
     with pytest.raises(ValueError, match=f"{name} is .* above zero"):
         kinefab.batch([sources(tmp_path / "in", "a")], tmp_path / "out", **numbers)
-    done = CliRunner().invoke(
+    done = runner().invoke(
         app, ["batch", str(tmp_path), "-o", str(tmp_path / "out"), f"--{name}", str(numbers[name])]
     )
     assert done.exit_code == 2 and f"--{name}" in done.stderr and not (tmp_path / "out").exists()
@@ -107,7 +108,7 @@ def test_an_input_without_a_source_is_not_success(tmp_path, name):
     result = kinefab.batch([sources(tmp_path / "in", "a"), tmp_path / name], tmp_path / "out", jobs=1)
     assert result.counts == {"written": 1, "failed": 1}
     assert told(result.records[0], "BATCH_INPUT_EMPTY", str(tmp_path / name))
-    done = CliRunner().invoke(app, ["batch", str(tmp_path / name), "-o", str(tmp_path / "out")])
+    done = runner().invoke(app, ["batch", str(tmp_path / name), "-o", str(tmp_path / "out")])
     assert done.exit_code == 1 and "BATCH_INPUT_EMPTY" in done.stderr
 
 
@@ -233,8 +234,13 @@ def refused(address: str) -> str:
 def test_a_scheduler_that_is_not_there_or_no_address(monkeypatch):
     pytest.importorskip("distributed", reason="the Python package distributed is not installed")
     monkeypatch.setattr(clusters, "CONNECT_SECONDS", 1)
+    from distributed import Client
+
     for address in (f"tcp://127.0.0.1:{free_port()}", "nonsense://here", "127.0.0.1"):
         assert address in refused(address) and "does not answer" in refused(address)
+        assert not any(
+            isinstance(thing, Client) for thing in gc.get_objects()
+        )  # half of one would stop the next
 
 
 def test_a_scheduler_without_workers(tmp_path):

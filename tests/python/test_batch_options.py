@@ -6,8 +6,8 @@ import shutil
 from pathlib import Path
 
 import typer
+from command_line import runner
 from kinefab.cli import app
-from typer.testing import CliRunner
 
 LEVER = Path(__file__).resolve().parents[2] / "fixtures" / "lever"
 OF_ONE_FILE = {"--output", "--report", "--json"}
@@ -37,10 +37,10 @@ def test_the_same_options_write_the_same_bytes(tmp_path):
         tmp_path / "lever.bundle.json",
         "--closures minimal --ground world --smooth 0 --colliders box",
     )
-    runner, words = CliRunner(), [*given.split(), "--density", "2700", "--limits", "--solve"]
-    one = runner.invoke(app, ["export", str(source), "-o", str(tmp_path / "lever.kinefab"), *words])
-    many = runner.invoke(app, ["batch", str(source), "-o", str(tmp_path / "many"), *words])
-    plain = runner.invoke(app, ["batch", str(source), "-o", str(tmp_path / "plain")])
+    cli, words = runner(), [*given.split(), "--density", "2700", "--limits", "--solve"]
+    one = cli.invoke(app, ["export", str(source), "-o", str(tmp_path / "lever.kinefab"), *words])
+    many = cli.invoke(app, ["batch", str(source), "-o", str(tmp_path / "many"), *words])
+    plain = cli.invoke(app, ["batch", str(source), "-o", str(tmp_path / "plain")])
     assert (one.exit_code, many.exit_code, plain.exit_code) == (0, 0, 0), one.output + many.output
     written = (tmp_path / "lever.kinefab").read_bytes()
     assert (tmp_path / "many" / "lever.kinefab").read_bytes() == written
@@ -48,5 +48,5 @@ def test_the_same_options_write_the_same_bytes(tmp_path):
 
 
 def test_an_option_out_of_range_is_wrong_usage_and_nothing_is_made(tmp_path):
-    done = CliRunner().invoke(app, ["batch", str(LEVER), "-o", str(tmp_path / "out"), "--smooth", "200"])
+    done = runner().invoke(app, ["batch", str(LEVER), "-o", str(tmp_path / "out"), "--smooth", "200"])
     assert done.exit_code == 2 and "--smooth" in done.stderr and not (tmp_path / "out").exists()

@@ -12,13 +12,13 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
+from command_line import runner
 from kinefab.cli import app
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.geometry.files import read_mesh_file
 from kinefab.sources.parts.readers import part_readers
 from source_bundles import FIXTURES, bundle, part
 from test_sources_freecad_bad_input import damaged
-from typer.testing import CliRunner
 
 sys.path.insert(0, str(FIXTURES))
 READERS = part_readers()
@@ -203,13 +203,13 @@ def test_init_takes_every_format_that_is_read(tmp_path):
     (folder / "Plate.step").write_bytes((FIXTURES / "step" / "two_plates_inch_ap242.step").read_bytes())
     (folder / "Box.wrl").write_bytes(vrml())
     BOX.export(folder / "Cube.stl")
-    done = CliRunner().invoke(
+    done = runner().invoke(
         app, ["bundle", "init", str(folder), "--units", "mm", "-o", str(folder / "m.bundle.json")]
     )
     assert done.exit_code == 0, done.output
     values = json.loads((folder / "m.bundle.json").read_text("utf-8"))
     assert [c["id"] for c in values["components"]] == ["Box", "Cube", "Plate"]
-    checked = CliRunner().invoke(app, ["bundle", "check", str(folder / "m.bundle.json")])
+    checked = runner().invoke(app, ["bundle", "check", str(folder / "m.bundle.json")])
     assert checked.exit_code == 0, checked.output
 
 

@@ -10,10 +10,10 @@ import jsonschema
 import kinefab
 import pytest
 import typer
+from command_line import runner
 from kinefab.cli import app
 from kinefab.diagnostics import schema_directory
 from scenes import lid_scene
-from typer.testing import CliRunner
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 LEVER = FIXTURES / "lever" / "lever.bundle.json"
@@ -28,7 +28,7 @@ def schema(name: str) -> jsonschema.Draft202012Validator:
 
 def printed(name: str, *arguments: object, status: int = 0) -> dict:
     """The one object on stdout, valid by the schema of that name."""
-    done = CliRunner().invoke(app, [*map(str, arguments), "--json"])
+    done = runner().invoke(app, [*map(str, arguments), "--json"])
     assert done.exit_code == status, done.output
     values = json.loads(done.stdout)
     schema(name).validate(values)
@@ -150,7 +150,7 @@ def test_batch_prints_and_keeps_a_record_a_line(tmp_path):
     shutil.copy(FIXTURES / "pairs" / "P01.bundle.json", tmp_path / "in" / "a.bundle.json")
     broken(tmp_path / "in", "torn.bundle.json")
     out = tmp_path / "out"
-    done = CliRunner().invoke(app, ["batch", str(tmp_path / "in"), "-o", str(out), "--json"])
+    done = runner().invoke(app, ["batch", str(tmp_path / "in"), "-o", str(out), "--json"])
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
         schema("batch_record").validate(line)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import kinefab
 import pytest
+from command_line import runner
 from golden import FIXTURES, golden_pairs
 from kinefab.cli import app
-from typer.testing import CliRunner
 
 SOURCES = [*(bundle for bundle, _ in golden_pairs()), FIXTURES / "lever" / "lever_paper.csv"]
 
@@ -17,7 +17,7 @@ SOURCES = [*(bundle for bundle, _ in golden_pairs()), FIXTURES / "lever" / "leve
 @pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.name)
 def test_analyse_tells_what_export_writes(source: Path, tmp_path: Path):
     """Mobility, redundancy, each island's numbers, each part's directions and the joints' constraints."""
-    done = CliRunner().invoke(app, ["analyse", str(source), "--json"])
+    done = runner().invoke(app, ["analyse", str(source), "--json"])
     assert done.exit_code == 0
     told = json.loads(done.stdout)
     content = json.loads(kinefab.export(source, tmp_path / "out.kinefab").path.read_text("utf-8"))

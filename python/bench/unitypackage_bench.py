@@ -10,12 +10,10 @@ as float64 and faces as int64.
 from __future__ import annotations
 
 import argparse
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from export_bench import generate
+from export_bench import generate, run
 
 TRIMESH = """
 import resource, sys, time
@@ -39,13 +37,6 @@ kinefab.export(sys.argv[1], sys.argv[2], kinefab.ExportOptions(colliders=sys.arg
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 print(time.process_time() - start, peak, " ".join(f"{k} until {v:.1f}" for k, v in stages.items()))
 """
-
-
-def run(code: str, *arguments: object) -> list[str]:
-    done = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(done.stderr)
-    return done.stdout.split(maxsplit=2)
 
 
 def main() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..geometry.contact.depth import Depths, Solid, is_available
+from ..geometry.contact.nearness import close_pairs
 from ..geometry.primitives import box, sphere
 from ..spatial import Array, IntArray, matrix_from_quaternion
 from .scene import BoxCollider, CapsuleCollider, Joint, MeshCollider, Rigidbody, SphereCollider, UnityScene
@@ -152,21 +153,12 @@ def _tolerated(first: _Placed, second: _Placed) -> float:
 
 
 def _close(placed: list[_Placed]) -> list[tuple[_Placed, _Placed]]:
-    """Pairs whose boxes overlap by more than is tolerated, by a sweep along X."""
+    """Pairs whose boxes overlap by more than is tolerated."""
     if not placed:
         return []
-    low: Array = np.array([p.low for p in placed])
-    high: Array = np.array([p.high for p in placed])
-    order = np.argsort(low[:, 0], kind="stable")
-    stops = low[order, 0].searchsorted(high[order, 0], side="right")
-    near: list[tuple[int, int]] = []
-    places: list[int] = order.tolist()
-    for k, i in enumerate(places):
-        others = order[k + 1 : stops[k]]
-        depth = np.minimum(high[others], high[i]) - np.maximum(low[others], low[i])
-        beside: list[int] = others[(depth > 0.0).all(axis=1)].tolist()
-        near += [(min(i, j), max(i, j)) for j in beside]
-    pairs = [(placed[i], placed[j]) for i, j in sorted(near)]
+    near = close_pairs(np.array([p.low for p in placed]), np.array([p.high for p in placed]))
+    numbers: list[list[int]] = near.tolist()
+    pairs = [(placed[i], placed[j]) for i, j in numbers]
     return [(a, b) for a, b in pairs if _box_depth(a, b) > _tolerated(a, b)]
 
 

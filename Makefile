@@ -16,7 +16,7 @@ help: ## this list
 
 extras: # libraries of single formats, so that their tests run; where the index has none of them, those are skips
 	@[ -f .venv/extras.stamp ] || { [ -x .venv/bin/pip ] && .venv/bin/pip install --quiet --disable-pip-version-check \
-		--retries 1 --timeout 15 -e 'python[dev,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || true
+		--retries 1 --timeout 15 -e 'python[dev,dev-s3,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || true
 
 setup: ## .venv with everything Python needs
 	@bash python/bootstrap.sh

@@ -177,21 +177,48 @@ class Report:
     outcomes: list[FeatureOutcome] = field(default_factory=list[FeatureOutcome])
 
     def add(self, code: str, where: str = "", **values: object) -> Diagnostic:
+        """Note a finding and return it; the arguments as ``diagnostic`` has them.
+
+        >>> kinefab.Report().add("SOURCE_NOT_FOUND", "arm.urdf", path="arm.urdf").severity.value
+        'error'
+        """
         found = diagnostic(code, where, **values)
         self.diagnostics.append(found)
         return found
 
     def kept(self, feature: str, where: str = "", code: str = "", **values: object) -> None:
-        """code: of a remark, where the one who looks at the scene may wonder."""
+        """Note that a feature is in the scene as the source has it.
+
+        feature: kind and id (``joint Hinge:1``).  code: of a remark, where the one who looks at the scene may wonder.
+
+        >>> report = kinefab.Report()
+        >>> report.kept("joint Hinge:1")
+        >>> report.outcomes[0].outcome.value
+        'kept'
+        """
         if code:
             self._told(feature, Outcome.KEPT, code, where, values)
         else:
             self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
 
     def approximated(self, feature: str, code: str, where: str = "", **values: object) -> None:
+        """Note that a feature is in the scene nearly as the source has it, and the finding that says how nearly.
+
+        >>> report = kinefab.Report()
+        >>> report.approximated("joint Wrist", "JOINT_ZERO_SHIFTED", joint="Wrist")
+        >>> report.outcomes[0].outcome.value
+        'approximated'
+        """
         self._told(feature, Outcome.APPROXIMATED, code, where, values)
 
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
+        """Note that a feature is not in the scene, and the finding that says why.
+
+        >>> report = kinefab.Report()
+        >>> report.dropped("spring Return", "JOINT_REST_DROPPED")
+        >>> report.outcomes[0].outcome.value
+        'dropped'
+        """
         self._told(feature, Outcome.DROPPED, code, where, values)
 
     def _told(
@@ -202,7 +229,13 @@ class Report:
 
     def forgive(self, since: int, feature: str, code: str) -> bool:
         """Turn the errors after the first ``since`` findings into the loss of a feature, each with its place and its
-        message as ``detail``; whether there were any."""
+        message as ``detail``; whether there were any.
+
+        >>> report = kinefab.Report()
+        >>> _ = report.add("SOURCE_NOT_FOUND", path="bolt.stl")
+        >>> report.forgive(0, "mesh of Bolt", "SHAPE_UNREADABLE"), len(report.of(kinefab.Severity.ERROR))
+        (True, 0)
+        """
         later = self.diagnostics[since:]
         errors = [d for d in later if d.severity is Severity.ERROR]
         if errors:
@@ -212,14 +245,30 @@ class Report:
         return bool(errors)
 
     def extend(self, other: Report) -> None:
+        """Append what another run found.
+
+        >>> report, other = kinefab.Report(), kinefab.Report()
+        >>> other.kept("joint Hinge:1")
+        >>> report.extend(other)
+        >>> len(report.outcomes)
+        1
+        """
         self.diagnostics.extend(other.diagnostics)
         self.outcomes.extend(other.outcomes)
 
     def of(self, severity: Severity) -> list[Diagnostic]:
+        """The findings of one severity, in order.
+
+        >>> kinefab.Report().of(kinefab.Severity.WARNING)
+        []
+        """
         return [d for d in self.diagnostics if d.severity is severity]
 
     def raise_for_errors(self, since: int = 0) -> None:
-        """Raise KinefabError with every error found so far, if there is any (after the first ``since`` findings)."""
+        """Raise KinefabError with every error found so far, if there is any (after the first ``since`` findings).
+
+        >>> kinefab.Report().raise_for_errors()
+        """
         if any(d.severity is Severity.ERROR for d in self.diagnostics[since:]):
             raise KinefabError(self.of(Severity.ERROR))
 

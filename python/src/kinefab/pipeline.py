@@ -75,7 +75,13 @@ class ExportResult:
 
     @property
     def numbers(self) -> tuple[int, int, int]:
-        """Objects, joints and meshes: in Unity's terms where the target asked for them, else of the model."""
+        """Objects, joints and meshes: in Unity's terms where the target asked for them, else of the model.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 0, 0), axis=(0, 1, 0))
+        >>> kinefab.export(scene, "door.kinefab").numbers
+        (2, 1, 0)
+        """
         mapped, scene = self.content.in_unity, self.analysed.scene
         if mapped is None:
             return len(scene.nodes), len(scene.joints), len(scene.meshes)
@@ -84,7 +90,13 @@ class ExportResult:
 
     @property
     def unity(self) -> UnityScene:
-        """What was exported, in Unity's terms."""
+        """What was exported, in Unity's terms.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 0, 0), axis=(0, 1, 0))
+        >>> [entry.name for entry in kinefab.export(scene, "door.kinefab").unity.gameObjects]
+        ['Ground', 'Door']
+        """
         return self.content.unity()
 
 

@@ -44,13 +44,21 @@ class BatchResult:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many of each outcome."""
+        """How many of each outcome.
+
+        >>> kinefab.batch(["gone.urdf"], "out", jobs=1).counts
+        {'refused': 1}
+        """
         counted = Counter(record.outcome for record in self.records)
         return {outcome.value: counted[outcome] for outcome in Outcome if counted[outcome]}
 
     @property
     def worst(self) -> Outcome:
-        """The worst outcome; UP_TO_DATE of an empty batch."""
+        """The worst outcome; UP_TO_DATE of an empty batch.
+
+        >>> kinefab.batch([], "out").worst.value
+        'up_to_date'
+        """
         order = list(Outcome)
         return max((record.outcome for record in self.records), key=order.index, default=Outcome.UP_TO_DATE)
 

@@ -6,17 +6,15 @@ import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 
 from .. import model
 from ..model import (
-    FREEDOM_NAMES,
     Body,
     Collider,
     Coupling,
-    CouplingKind,
     Joint,
     JointKind,
     MassProperties,
@@ -24,20 +22,17 @@ from ..model import (
     NodeKind,
     PhysicsMaterial,
     Surface,
-    Term,
 )
 from ..options import ColliderShape
 from ..spatial import Pose, frame_from_axes
 from .arguments import Vector, checked_color, checked_mass, checked_number, checked_pose, checked_vector
+from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .materials import colliders_of, materials_of
-from .motions import FreedomLike, Range, angular, freedoms_asked, kind_of_word
+from .motions import FreedomLike, Range, freedoms_asked, kind_of_word
 from .shapes import shapes_of
 
 _numbers = itertools.count()
-
-JointLike = Union[Joint, str, tuple[Union[Joint, str], str]]
-"""A joint or its id; with the name of one of its freedoms where it has several."""
 
 
 class PartIndex(int):
@@ -99,6 +94,10 @@ class Scene(model.Scene):
         collider: ``auto``, ``none``, ``box``, ``hull``, ``decompose`` or ``mesh`` for this part, or colliders of its own, in its frame.
         Raises TypeError for a mesh that is none, ValueError for a rotation that is none (a reflection, a scale), a number
         that is not finite, a mesh without triangles, a density not above zero or a colour outside 0..1.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.add_part("Bar", trimesh.creation.box((0.4, 0.02, 0.03)), rotation=("XYZ", (30, 0, 90)), density=2700)
+        0
         """
         if density is not None and not 0.0 < density < math.inf:
             raise ValueError(f"the density of {name} is {density}; it must be a number above zero")
@@ -152,7 +151,13 @@ class Scene(model.Scene):
         flexible: bool = True,
     ) -> int:
         """Add an assembly to put parts under, and return its index.  flexible: whether its parts may move
-        against each other; otherwise they are one rigid body.  The pose as ``add_part`` has it."""
+        against each other; otherwise they are one rigid body.  The pose as ``add_part`` has it.
+
+        >>> scene = kinefab.Scene()
+        >>> gripper = scene.add_assembly("Gripper", translation=(0, 1.2, 0))
+        >>> scene.nodes[scene.add_part("Finger", parent=gripper)].id
+        'Gripper/Finger'
+        """
         return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
 
     def _add_node(
@@ -221,6 +226,12 @@ class Scene(model.Scene):
         Raises TypeError for a side that is no index, ValueError for one that no node of this scene has, for an axis without
         length, for a number that is not finite (but for the ends of a range), for a freedom that the kind does not leave,
         and for a part joined to itself.
+
+        >>> scene = kinefab.Scene()
+        >>> bolt = scene.add_part("Bolt")
+        >>> screw = scene.add_joint("screw", None, bolt, point=(0, 0, 0), axis=(0, 1, 0), lead=0.002, rx=(-10, 80))
+        >>> screw.freedoms[3].motion.value, screw.freedoms[0].motion.value
+        ('limited', 'free')
         """
         kind = kind_of_word(kind)
         if a is not None:
@@ -271,6 +282,11 @@ class Scene(model.Scene):
 
         limits: (lower, upper) in degrees from the present pose, or None.  drive, spring, damping, collide: see ``add_joint``.
         Raises ValueError for limits in the wrong order, and what ``add_joint`` raises.
+
+        >>> scene = kinefab.Scene()
+        >>> lid = scene.add_part("Lid")
+        >>> scene.add_hinge(None, lid, point=(0, 0.2, -0.15), axis=(-1, 0, 0), limits=(-10, 80), name="Hinge").id
+        'Hinge'
         """
         options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
         return self.add_joint(
@@ -292,7 +308,14 @@ class Scene(model.Scene):
         name: str = "",
     ) -> Joint:
         """Add a slider: ``b`` moves against ``a`` along ``axis``.  limits: (lower, upper) in metres from the
-        present pose, or None.  The rest as ``add_hinge`` has it."""
+        present pose, or None.  The rest as ``add_hinge`` has it.
+
+        >>> scene = kinefab.Scene()
+        >>> table = scene.add_part("Table")
+        >>> drive = {"target": 0.2, "stiffness": 5000, "damping": 300}
+        >>> scene.add_slider(None, table, point=(0, 0, 0), axis=(1, 0, 0), limits=(0, 0.4), drive=drive).unlocked  # TX
+        (0,)
+        """
         options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
         return self.add_joint(
             JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, collide=collide, **options
@@ -315,6 +338,11 @@ class Scene(model.Scene):
         """Add a ball joint: ``b`` turns against ``a`` about ``point``.
 
         axis: that ``rx`` turns about.  limits and the rest: by ``rx``, ``ry``, ``rz``; see ``add_joint``.
+
+        >>> scene = kinefab.Scene()
+        >>> arm = scene.add_part("Arm")
+        >>> scene.add_ball(None, arm, point=(0, 1.4, 0), limits={"rx": (-10, 80)}).unlocked  # RX, RY, RZ
+        (3, 4, 5)
         """
         options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
         return self.add_joint(
@@ -322,7 +350,12 @@ class Scene(model.Scene):
         )
 
     def add_fixed(self, a: int | None, b: int, *, collide: bool = False, name: str = "") -> Joint:
-        """Fix ``b`` to ``a`` where they stand now.  Raises what ``add_joint`` raises."""
+        """Fix ``b`` to ``a`` where they stand now.  Raises what ``add_joint`` raises.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.add_fixed(scene.add_part("Plate"), scene.add_part("Bracket")).unlocked
+        ()
+        """
         self._check_index(b, "b")
         point = tuple(self.nodes[b].pose.translation.tolist())
         return self.add_joint(JointKind.FIXED, a, b, point=point, name=name, collide=collide)
@@ -334,38 +367,16 @@ class Scene(model.Scene):
 
         a, b: a joint, its id, or (joint, "rx") where it has several freedoms.
         Raises ValueError for a joint of another scene, a freedom that is locked, and a ratio of 0 or that is no number.
+
+        >>> scene = kinefab.Scene()
+        >>> sun, gear = (
+        ...     scene.add_hinge(None, scene.add_part(name), point=(x, 0, 0), axis=(0, 0, 1))
+        ...     for name, x in (("Sun", 0), ("Gear", 0.06))
+        ... )
+        >>> scene.add_coupling(sun, gear, ratio=-0.5).kind.value  # 20 teeth drive 40
+        'gear'
         """
-        (joint_a, freedom_a), (joint_b, freedom_b) = self._coordinate("a", a), self._coordinate("b", b)
-        factor, shift = checked_number("the ratio", ratio), checked_number("the offset", offset)
-        if factor == 0.0:
-            raise ValueError("the ratio is 0; nothing would follow. Pass how far b moves for one of a")
-        turns = [angular(FREEDOM_NAMES[f]) for f in (freedom_a, freedom_b)]
-        unit_a, unit_b = (math.radians(1.0) if turn else 1.0 for turn in turns)
-        kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR
-        coupling = Coupling(
-            name or f"{kind.value}:{len(self.couplings) + 1}",
-            kind,
-            joint_b.id,
-            freedom_b,
-            (Term(joint_a.id, freedom_a, factor * unit_b / unit_a),),
-            shift * unit_b,
-        )
+        number = len(self.couplings) + 1
+        coupling = coupling_between(self.joints, a, b, ratio, offset, name, number)
         self.couplings.append(coupling)
         return coupling
-
-    def _coordinate(self, argument: str, asked: JointLike) -> tuple[Joint, int]:
-        which, name = asked if isinstance(asked, tuple) else (asked, "")
-        wanted = which.id if isinstance(which, Joint) else which
-        joint = next((joint for joint in self.joints if joint.id == wanted), None)
-        if joint is None:
-            raise ValueError(f"{argument} is {asked!r}; pass a joint of this scene, or its id")
-        free = [FREEDOM_NAMES[i] for i in joint.unlocked]
-        if not name and len(free) != 1:
-            raise ValueError(
-                f"{argument} is joint {joint.id}, which leaves {', '.join(free) or 'nothing'} free; pass (joint, name)"
-            )
-        if name and name not in free:
-            raise ValueError(
-                f"{argument} is {name!r} of joint {joint.id}, which leaves {', '.join(free)} free"
-            )
-        return joint, FREEDOM_NAMES.index(name or free[0])

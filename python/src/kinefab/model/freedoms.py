@@ -121,7 +121,11 @@ class Freedom:
     where: str = field(default="", compare=False)
 
     def displayed(self, *values: float) -> tuple[float, ...]:
-        """Values of the coordinate, radians or metres, as the source shows them."""
+        """Values of the coordinate, radians or metres, as the source shows them.
+
+        >>> kinefab.Freedom(kinefab.Motion.FREE).displayed(0.25)
+        (0.25,)
+        """
         return tuple(value + 2.0 * math.pi * self.turns for value in values)
 
     def nearest_turn(self, value: float) -> float:
@@ -129,6 +133,10 @@ class Freedom:
 
         It is the one nearest to where the source says that the pose is.  Where it does not say: the one nearest to the
         middle of the range; of a range with one end ``value`` itself where it lies inside, else the nearest to that end.
+
+        >>> turned = kinefab.Freedom(kinefab.Motion.LIMITED, lower=3.0, upper=9.0)
+        >>> round(turned.nearest_turn(0.5), 6)  # a whole turn on
+        6.783185
         """
         turn = 2.0 * math.pi
         open_ends = math.isinf(self.lower) + math.isinf(self.upper)

@@ -127,14 +127,29 @@ class Joint:
 
     @property
     def unlocked(self) -> tuple[int, ...]:
-        """The freedoms TX..RZ that may move."""
+        """The freedoms TX..RZ that may move.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.add_joint("cylindrical", None, scene.add_part("Rod"), point=(0, 0, 0)).unlocked
+        (0, 3)
+        """
         return unlocked_of(self.freedoms)
 
     def freedom_name(self, freedom: int) -> str:
-        """What the source calls a freedom TX..RZ, or its name in the joint's own frame."""
+        """What the source calls a freedom TX..RZ, or its name in the joint's own frame.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.add_hinge(None, scene.add_part("Door"), point=(0, 0, 0), axis=(0, 1, 0)).freedom_name(3)
+        'rx'
+        """
         return self.freedoms[freedom].name or FREEDOM_NAMES[freedom]
 
     @property
     def locked(self) -> tuple[int, ...]:
-        """The freedoms TX..RZ that may not."""
+        """The freedoms TX..RZ that may not.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.add_hinge(None, scene.add_part("Door"), point=(0, 0, 0), axis=(0, 1, 0)).locked
+        (0, 1, 2, 4, 5)
+        """
         return tuple(i for i, f in enumerate(self.freedoms) if f.motion is Motion.LOCKED)

@@ -6,7 +6,7 @@ Coordinates are as the source shows them: degrees and metres, counted from the j
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -14,12 +14,9 @@ from ...model import RX, Joint, Motion, Scene
 from ...spatial import Array, quaternions_from_matrices
 from ..assembly.assemble import Assembly
 from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
+from .run import Run, shares, straight
 from .trajectory import Coordinate, Stop, Trajectory
-from .walk import Poses, Walk
-from .way import Way, walked
-
-STRAIGHT = 1e-9
-"""Difference between steps, as a share of the step, up to which they are one straight way."""
+from .way import Way
 
 
 class Mechanism:
@@ -59,17 +56,35 @@ class Mechanism:
 
     @property
     def mobility(self) -> int:
-        """How many freedoms it has, those of floating islands left out."""
+        """How many freedoms it has, those of floating islands left out.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).mobility
+        1
+        """
         return sum(block.mobility for block in self.blocks)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """All joint coordinates that can move."""
+        """All joint coordinates that can move.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> [coordinate.name for coordinate in kinefab.motion(scene).coordinates]
+        ['Hinge']
+        """
         return tuple(self._coordinates.values())
 
     @property
     def freedoms(self) -> tuple[Coordinate, ...]:
-        """As many coordinates as there are freedoms, where the joints have so many: what one would put on sliders."""
+        """As many coordinates as there are freedoms, where the joints have so many: what one would put on sliders.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> [coordinate.name for coordinate in kinefab.motion(scene).freedoms]
+        ['Hinge']
+        """
         chosen = ((block, i) for block in self.blocks for i in sorted(block.independent()))
         return tuple(self._coordinates[self.name_of(block, i)] for block, i in chosen)
 
@@ -81,6 +96,11 @@ class Mechanism:
         start, stop: degrees or metres as the source shows them; without them the joint's limits, or a whole turn from
         where it stands.  frames: at least 2.
         Raises ValueError for a name that is none, a number that is not finite, and a slide without limits and stop.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).sweep("Hinge", frames=3)["Hinge"].round(9).tolist()
+        [0.0, 55.0, 110.0]
         """
         coordinate = self.coordinate(name)
         if stop is None:
@@ -97,39 +117,70 @@ class Mechanism:
         values: by name, each of shape (frames,), degrees or metres as the source shows them.
         Raises ValueError for a name that is none, for values of different lengths or not finite, and for coordinates of
         which one already moves the other.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).follow({"Hinge": [10, 80, 20]})["Hinge"].round(9).tolist()
+        [10.0, 80.0, 20.0]
         """
         driven = self._driven(values)
         frames = len(next(iter(driven.values()))[1][0])
-        runs: list[_Run] = [
-            _Run(block, places, np.array(columns).T) for block, (places, columns) in driven.items()
+        runs: list[Run] = [
+            Run(block, places, np.array(columns).T) for block, (places, columns) in driven.items()
         ]
-        pieces = _straight(np.concatenate([run.goals for run in runs], axis=1))
+        pieces = straight(np.concatenate([run.goals for run in runs], axis=1))
         reached, stop = frames, None
         for first, last in pieces:
             ways = [run.go(first, last) for run in runs]
             share = min(way.reached for way in ways)
             if share < 1.0:
                 at = next(i for i, way in enumerate(ways) if way.reached == share)
-                reached = 0 if first < 0 else first + int(np.sum(_shares(first, last) <= share))
+                reached = 0 if first < 0 else first + int(np.sum(shares(first, last) <= share))
                 stop = self._stopped(runs[at], ways[at], reached)
                 break
         return self._trajectory(runs, reached, stop)
 
     def name_of(self, block: DrivenBlock, i: int) -> str:
-        """The name of a block's coordinate."""
+        """The name of a block's coordinate.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> mechanism = kinefab.motion(scene)
+        >>> mechanism.name_of(mechanism.blocks[0], 0)
+        'Hinge'
+        """
         return self._names[id(block), i]
 
     def coordinate(self, name: str) -> Coordinate:
-        """A coordinate by its name, or by the id or name of a joint that has only one.  Raises ValueError."""
+        """A coordinate by its name, or by the id or name of a joint that has only one.  Raises ValueError.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> round(kinefab.motion(scene).coordinate("Hinge").upper)
+        110
+        """
         return self._coordinates[self._named(name)]
 
     def freedom_of(self, name: str) -> int:
-        """TX..RZ of a coordinate."""
+        """TX..RZ of a coordinate.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).freedom_of("Hinge")  # RX
+        3
+        """
         block, i = self._place[name]
         return block.joint(i)[1]
 
     def internal(self, coordinate: Coordinate) -> tuple[float, float, float]:
-        """Value, lower and upper of a coordinate, metres or radians from where the joint's frames meet."""
+        """Value, lower and upper of a coordinate, metres or radians from where the joint's frames meet.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> mechanism = kinefab.motion(scene)
+        >>> [round(x, 3) for x in mechanism.internal(mechanism.coordinate("Hinge"))]
+        [0.0, 0.0, 1.92]
+        """
         block, i = self._place[coordinate.name]
         joint, freedom = block.joint(i)
         shown = (coordinate.value, coordinate.lower, coordinate.upper)
@@ -139,19 +190,38 @@ class Mechanism:
         return value, lower, upper
 
     def bodies_of(self, block: DrivenBlock) -> tuple[int, list[int]]:
-        """A block's root and its bodies, as ``body_of_part`` numbers them (0: the ground)."""
+        """A block's root and its bodies, as ``body_of_part`` numbers them (0: the ground).
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> mechanism = kinefab.motion(scene)
+        >>> mechanism.bodies_of(mechanism.blocks[0])
+        (0, [1])
+        """
         bodies = self._assembly.freedoms[block.part].bodies
         blocks = self._assembly.blocks
         return int(blocks.root[blocks.block[bodies[0]]]), bodies.tolist()
 
     @property
     def body_of_part(self) -> list[int]:
-        """The body that each part moves with."""
+        """The body that each part moves with.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).body_of_part
+        [1]
+        """
         return self._assembly.body[1:].tolist()
 
     @property
     def generation_of(self) -> dict[int, int]:
-        """How many blocks each block is from its island's root, by its number."""
+        """How many blocks each block is from its island's root, by its number.
+
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+        >>> kinefab.motion(scene).generation_of
+        {0: 0}
+        """
         blocks, found = self._assembly.blocks, dict[int, int]()
         for depth, bodies in enumerate(blocks.generations()):
             found |= {self._assembly.part_of_block[int(blocks.block[b])]: depth for b in bodies}
@@ -212,7 +282,7 @@ class Mechanism:
                 raise ValueError(f"{names} move together; drive fewer of them")
         return driven
 
-    def _stopped(self, run: _Run, way: Way, frames: int) -> Stop:
+    def _stopped(self, run: Run, way: Way, frames: int) -> Stop:
         i = way.limit if way.limit is not None else run.driven[0]
         coordinate = self._coordinates[self.name_of(run.block, i)]
         joint, freedom = run.block.joint(i)
@@ -225,7 +295,7 @@ class Mechanism:
             frames,
         )
 
-    def _trajectory(self, runs: Sequence[_Run], frames: int, stop: Stop | None) -> Trajectory:
+    def _trajectory(self, runs: Sequence[Run], frames: int, stop: Stop | None) -> Trajectory:
         assembly = self._assembly
         bodies = assembly.system.bodies
         turn = np.broadcast_to(np.eye(3), (frames, bodies, 3, 3)).copy()
@@ -254,59 +324,6 @@ class Mechanism:
                 column = np.asarray(_shown(joint, freedom, run.column(i, frames)))
             coordinates[name] = column
         return Trajectory(self.parts, poses, coordinates, stop, max((run.gap for run in runs), default=0.0))
-
-
-class _Run:
-    """One block through the values of some of its coordinates.  goals: (frames, driven), metres and radians."""
-
-    def __init__(self, block: DrivenBlock, driven: list[int], goals: Array):
-        self.block, self.driven, self.goals = block, driven, goals
-        self.walk = Walk(block.measured, block.independent(driven))
-        self.before = block.measured.read(block.measured.start, block.measured.turns)[0]
-        self.gap = 0.0
-        self._poses: list[Poses] = []
-        self._values: list[Array] = []
-
-    def go(self, first: int, last: int) -> Way:
-        """Walk from frame ``first`` (-1: where it stands now) straight to frame ``last`` and keep the frames after it."""
-        target = self.walk.values.copy()
-        target[: len(self.driven)] = self.goals[last]
-        shares = _shares(first, last)
-        way = walked(self.block, self.walk, target, shares, self.before)
-        new = way.poses.at > 0.0 if first >= 0 else way.poses.at == 1.0
-        self._poses.append(way.poses.taken(new))
-        self._values.append(way.values[new])
-        if len(way.values):
-            self.before = way.values[-1]
-        self.gap = max(self.gap, way.residual)
-        return way
-
-    def poses(self, frames: int) -> tuple[Array, Array]:
-        rotation, shift = (
-            np.concatenate([getattr(poses, name) for poses in self._poses])[:frames]
-            for name in ("rotation", "shift")
-        )
-        return rotation, shift
-
-    def column(self, i: int, frames: int) -> Array:
-        return np.concatenate(self._values)[:frames, i]
-
-
-def _shares(first: int, last: int) -> Array:
-    """Of a straight way between two frames, where the frames are; of the way to the first one, its end."""
-    return np.array([0.0, 1.0]) if first < 0 else np.linspace(0.0, 1.0, last - first + 1)
-
-
-def _straight(goals: Array) -> Iterator[tuple[int, int]]:
-    """The pieces of a path that can be walked straight: the way to its first frame (-1, 0), then (first, last)."""
-    yield -1, 0
-    first = 0
-    steps = np.diff(goals, axis=0)
-    for i in range(1, len(goals)):
-        bends = i < len(steps) and not np.allclose(steps[i], steps[i - 1], rtol=STRAIGHT, atol=1e-12)
-        if bends or i == len(goals) - 1:
-            yield first, i
-            first = i
 
 
 def _carry(assembly: Assembly, turn: Array, move: Array) -> None:

@@ -80,7 +80,14 @@ class Trajectory:
         return self.coordinates[name] if name in self.coordinates else self.part(name)
 
     def part(self, id: str) -> Array:
-        """The poses of a part, shape (frames, 7).  Raises KeyError."""
+        """The poses of a part, shape (frames, 7).  Raises KeyError.
+
+        >>> scene = kinefab.Scene()
+        >>> table = scene.add_part("Table")
+        >>> slide = scene.add_slider(None, table, point=(0, 0, 0), axis=(1, 0, 0), name="Slide")
+        >>> kinefab.motion(scene).sweep("Slide", 0, 0.4, frames=2).part("Table")[:, 0].round(9).tolist()
+        [0.0, 0.4]
+        """
         if id in self.parts:
             return self.poses[:, self.parts.index(id)]
         raise KeyError(f"{id!r} is neither a coordinate ({', '.join(self.coordinates)}) nor a part's id")

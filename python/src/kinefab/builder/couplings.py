@@ -1,0 +1,48 @@
+"""What a script says of one joint that follows another, in degrees and metres, as the model's coupling."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Union
+
+from ..model import FREEDOM_NAMES, RX, Coupling, CouplingKind, Joint, Term
+from .arguments import checked_number
+
+JointLike = Union[Joint, str, tuple[Union[Joint, str], str]]
+"""A joint or its id; with the name of one of its freedoms where it has several."""
+
+
+def coupling_between(
+    joints: Sequence[Joint], a: JointLike, b: JointLike, ratio: float, offset: float, name: str, number: int
+) -> Coupling:
+    """The coupling q_b = ratio q_a + offset; ratio and offset in degrees and metres.
+
+    joints: of the scene.  name: without one it is called by its kind and ``number``.
+    Raises ValueError for a joint that is none of them, a freedom that is locked, and a ratio of 0 or that is no number.
+    """
+    (joint_a, freedom_a), (joint_b, freedom_b) = _coordinate(joints, "a", a), _coordinate(joints, "b", b)
+    factor, shift = checked_number("the ratio", ratio), checked_number("the offset", offset)
+    if factor == 0.0:
+        raise ValueError("the ratio is 0; nothing would follow. Pass how far b moves for one of a")
+    turns = [freedom >= RX for freedom in (freedom_a, freedom_b)]
+    unit_a, unit_b = (math.radians(1.0) if turn else 1.0 for turn in turns)
+    kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR
+    term = Term(joint_a.id, freedom_a, factor * unit_b / unit_a)
+    return Coupling(name or f"{kind.value}:{number}", kind, joint_b.id, freedom_b, (term,), shift * unit_b)
+
+
+def _coordinate(joints: Sequence[Joint], argument: str, asked: JointLike) -> tuple[Joint, int]:
+    which, name = asked if isinstance(asked, tuple) else (asked, "")
+    wanted = which.id if isinstance(which, Joint) else which
+    joint = next((joint for joint in joints if joint.id == wanted), None)
+    if joint is None:
+        raise ValueError(f"{argument} is {asked!r}; pass a joint of this scene, or its id")
+    free = [FREEDOM_NAMES[i] for i in joint.unlocked]
+    if not name and len(free) != 1:
+        raise ValueError(
+            f"{argument} is joint {joint.id}, which leaves {', '.join(free) or 'nothing'} free; pass (joint, name)"
+        )
+    if name and name not in free:
+        raise ValueError(f"{argument} is {name!r} of joint {joint.id}, which leaves {', '.join(free)} free")
+    return joint, FREEDOM_NAMES.index(name or free[0])

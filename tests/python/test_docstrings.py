@@ -20,8 +20,7 @@ def documented(name: str) -> set[str]:
     return {name} | {
         f"{name}.{own}"
         for own, what in attributes
-        if not own.startswith("_")
-        and (inspect.isfunction(what) or isinstance(what, kinds))
+        if not own.startswith("_") and (inspect.isfunction(what) or isinstance(what, kinds))
     }
 
 
@@ -29,16 +28,8 @@ def documented(name: str) -> set[str]:
 def test_the_example_of_a_public_name_runs(name, tmp_path, monkeypatch):
     """What a class's own example imports, those of its methods need not import again."""
     monkeypatch.chdir(tmp_path)
-    found = [
-        test
-        for test in doctest.DocTestFinder().find(getattr(kinefab, name), name)
-        if test.examples
-    ]
-    assert documented(name) <= {test.name for test in found}, (
-        f"kinefab.{name} is in part without an example"
-    )
+    found = [test for test in doctest.DocTestFinder().find(getattr(kinefab, name), name) if test.examples]
+    assert documented(name) <= {test.name for test in found}, f"kinefab.{name} is in part without an example"
     for test in found:
-        test.globs = (
-            {} if test.name == name else {"kinefab": kinefab, "trimesh": trimesh}
-        )
+        test.globs = {} if test.name == name else {"kinefab": kinefab, "trimesh": trimesh}
         assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test).failed == 0

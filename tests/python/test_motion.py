@@ -18,7 +18,7 @@ from kinefab.model import JointKind
 from kinefab.spatial import matrix_from_quaternion, quaternions_from_matrices, rotation_about
 from kinefab.unity import frames
 from kinefab.unity.mapping import GROUND_ID
-from linkages import five_bar
+from linkages import five_bar, ring
 from mechanism_cases import scene, table
 
 ROOT = Path(__file__).parents[2]
@@ -124,6 +124,53 @@ def test_a_crank_that_cannot_go_round_stops_at_its_dead_point():
     assert math.radians(abs(motion.stop.value + start - limit)) < 1e-8
     assert motion["base - crank"][-1] <= motion.stop.value < motion["base - crank"][-1] + 1.0
     assert "dead point at" in str(motion.stop)
+
+
+def four_bar(crank, coupler, rocker, ground, degrees):
+    """Lying in x and y, the crank at this angle; of the two ways to close it, the one above."""
+    angle = math.radians(degrees)
+    tip = crank * np.array([math.cos(angle), math.sin(angle)])
+    across = np.array([ground, 0.0]) - tip
+    far = float(np.linalg.norm(across))
+    along = (coupler**2 - rocker**2 + far**2) / (2.0 * far)
+    up = math.sqrt(coupler**2 - along**2) * np.array([-across[1], across[0]]) / far
+    pins = [np.zeros(2), tip, tip + along * across / far + up, np.array([ground, 0.0])]
+    return ring([np.array([*pin, 0.0]) for pin in pins], ["base", "crank", "coupler", "rocker"])
+
+
+BRANCHING = [  # crank, coupler, rocker, ground; at which angles of the crank all of it lies in one line
+    ((0.1, 0.25, 0.1, 0.25), [180.0, 360.0]),  # a parallelogram
+    ((0.1, 0.1, 0.25, 0.25), [180.0, 360.0]),  # a kite, crank and coupler alike
+    ((0.1, 0.25, 0.25, 0.1), [360.0]),  # a kite, crank and ground alike
+    ((0.1, 0.25, 0.18, 0.22), []),  # Grashof's: never flat
+    ((0.1, 0.25, 0.1001, 0.25), []),  # nearly a parallelogram
+]
+
+
+@pytest.mark.parametrize(("lengths", "flat"), BRANCHING)
+def test_where_a_linkage_lies_flat_another_motion_branches_off(lengths, flat):
+    """All the way round, straight and frame by frame, and both ways; never where it does not lie flat."""
+    mechanism = kinefab.motion(four_bar(*lengths, 57.0))
+    name = mechanism.freedoms[0].name
+    turn = mechanism.coordinate(name).value - 57.0  # from the crank's angle to the hinge's
+    for path in (np.linspace(57.0, 417.0, 101), 57.0 + 360.0 * np.linspace(0.0, 1.0, 40) ** 1.1):
+        motion = mechanism.follow({name: path + turn})
+        assert [b.value - turn for b in motion.branchings] == pytest.approx(flat, abs=1e-3)
+        assert all(path[b.frames - 1] < b.value - turn + 1e-3 for b in motion.branchings)
+    back = mechanism.sweep(name, 57.0 + turn, -10.0 + turn, frames=30)
+    assert [b.value - turn for b in back.branchings] == pytest.approx([0.0] * bool(flat), abs=1e-3)
+    assert all(f"another motion branches off where {name} is at" in str(b) for b in back.branchings)
+
+
+def test_a_dead_point_is_no_branching():
+    """Neither where a motion ends at it nor where it passes one of what is not driven: a slider-crank's both ends."""
+    motion = kinefab.motion(scene("M07")).sweep("base - crank", 0.0, 360.0, frames=50)
+    assert motion.stop is None and motion.branchings == ()
+    slid = kinefab.motion(scene("M07"))
+    slide = next(c.name for c in slid.coordinates if c.unit == "m")
+    for end in (-10.0, 10.0):
+        ended = slid.sweep(slide, slid.coordinate(slide).value, end, frames=50)
+        assert ended.stop.reason == "dead point" and ended.branchings == ()
 
 
 def lid(limits=(-10.0, 80.0)):

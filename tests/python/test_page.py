@@ -13,6 +13,7 @@ from command_line import run
 from kinefab.views.page.blob import Blob
 from kinefab.views.page.meshes import MOST_TRIANGLES, packed_meshes
 from kinefab.views.page.page import script_safe
+from linkages import ring
 
 ROOT = Path(__file__).parents[2]
 LEVER = ROOT / "fixtures" / "lever" / "lever.kinefab"
@@ -178,6 +179,14 @@ def test_a_report_s_reach_ends_at_limits_and_dead_points():
         "a dead point",
         "a dead point",
     )
+
+
+def test_a_report_says_where_another_motion_branches_off(tmp_path):
+    pins = [np.array(pin) for pin in ((0.0, 0.0, 0.0), (0.0, 0.1, 0.0), (0.25, 0.1, 0.0), (0.25, 0.0, 0.0))]
+    parallelogram = ring(pins, ["base", "crank", "coupler", "rocker"])
+    words = kinefab.report(parallelogram, tmp_path / "report.html").read_text("utf-8")
+    found = re.search(r"At (\S+), (\S+) degrees another motion branches off", words)
+    assert found and sorted(abs(float(x)) for x in found.groups()) == pytest.approx([90.0, 270.0], abs=0.01)
 
 
 def test_names_in_a_report_stay_text(tmp_path):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
-from .analysis.driving.mechanism import Coordinate, Mechanism, Stop, Trajectory
+from .analysis.driving.mechanism import Branching, Coordinate, Mechanism, Stop, Trajectory
 from .analysis.joints.dof_records import joints_of_dof_records
 from .diagnostics import Report
 from .model import Scene
@@ -15,7 +15,7 @@ from .rigid import rigid_groups
 from .unity.back.restored import restored
 from .views.overview import read_scene_file
 
-__all__ = ["Coordinate", "Mechanism", "Stop", "Trajectory", "mechanism_of", "motion"]
+__all__ = ["Branching", "Coordinate", "Mechanism", "Stop", "Trajectory", "mechanism_of", "motion"]
 
 
 def motion(source: str | Path | Scene) -> Mechanism:

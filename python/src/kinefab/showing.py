@@ -159,7 +159,8 @@ def stroke_of(mechanism: Mechanism, name: str) -> Stroke:
         values = motion[other.name]
         if other.name != name and len(motion) and float(np.ptp(values)) > 1e-6:
             moving.append((other.name, other.unit, values))
-    return Stroke(name, coordinate.unit, motion[name], ends, moving)
+    branchings = [branching.value for branching in motion.branchings]
+    return Stroke(name, coordinate.unit, motion[name], ends, moving, branchings)
 
 
 def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, str]]:

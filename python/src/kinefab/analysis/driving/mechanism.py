@@ -15,7 +15,7 @@ from ...spatial import Array, quaternions_from_matrices
 from ..assembly.assemble import Assembly
 from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
 from .run import Run, shares, straight
-from .trajectory import Coordinate, Stop, Trajectory
+from .trajectory import Branching, Coordinate, Stop, Trajectory
 from .way import Way
 
 
@@ -295,6 +295,16 @@ class Mechanism:
             frames,
         )
 
+    def _branchings(self, runs: Sequence[Run]) -> tuple[Branching, ...]:
+        found: list[Branching] = []
+        for run in runs:
+            coordinate = self._coordinates[self.name_of(run.block, run.driven[0])]
+            joint, freedom = run.block.joint(run.driven[0])
+            for frames, held in run.crossings():
+                value = float(_shown(joint, freedom, float(held[0])))
+                found.append(Branching(coordinate.name, value, coordinate.unit, frames))
+        return tuple(found)
+
     def _trajectory(self, runs: Sequence[Run], frames: int, stop: Stop | None) -> Trajectory:
         assembly = self._assembly
         bodies = assembly.system.bodies
@@ -323,7 +333,8 @@ class Mechanism:
             else:
                 column = np.asarray(_shown(joint, freedom, run.column(i, frames)))
             coordinates[name] = column
-        return Trajectory(self.parts, poses, coordinates, stop, max((run.gap for run in runs), default=0.0))
+        gap = max((run.gap for run in runs), default=0.0)
+        return Trajectory(self.parts, poses, coordinates, stop, gap, self._branchings(runs))
 
 
 def _carry(assembly: Assembly, turn: Array, move: Array) -> None:

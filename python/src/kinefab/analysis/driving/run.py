@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ...spatial import Array
+from ..equations.system import State
+from .branching import crossings
 from .coordinates import DrivenBlock
 from .walk import Poses, Walk
 from .way import Way, walked
@@ -25,10 +28,11 @@ class Run:
         self.gap = 0.0
         self._poses: list[Poses] = []
         self._values: list[Array] = []
+        self._legs: list[_Leg] = []
 
     def go(self, first: int, last: int) -> Way:
         """Walk from frame ``first`` (-1: where it stands now) straight to frame ``last`` and keep the frames after it."""
-        target = self.walk.values.copy()
+        start, target = self.walk.values, self.walk.values.copy()
         target[: len(self.driven)] = self.goals[last]
         way = walked(self.block, self.walk, target, shares(first, last), self.before)
         new = way.poses.at > 0.0 if first >= 0 else way.poses.at == 1.0
@@ -37,6 +41,7 @@ class Run:
         if len(way.values):
             self.before = way.values[-1]
         self.gap = max(self.gap, way.residual)
+        self._legs.append(_Leg(first, last, start, target, way.knots))
         return way
 
     def poses(self, frames: int) -> tuple[Array, Array]:
@@ -48,6 +53,48 @@ class Run:
 
     def column(self, i: int, frames: int) -> Array:
         return np.concatenate(self._values)[:frames, i]
+
+    def crossings(self) -> list[tuple[int, Array]]:
+        """Where another motion crosses this one: how many frames lie up to there, and all held values, metres and radians."""
+        legs = self._legs
+        if len(self.block.measured.bodies) < 2:  # a body by itself has no loop
+            return []
+
+        def leg_at(place: float) -> tuple[_Leg, float]:
+            number = min(int(place), len(legs) - 1)
+            return legs[number], place - number
+
+        def pose(place: float) -> State | None:
+            leg, share = leg_at(place)
+            return self.walk.single(leg.knots, share, leg.start, leg.target)
+
+        found: list[tuple[int, Array]] = []
+        for place in crossings(self.block.measured.system, _end_to_end([leg.knots for leg in legs]), pose):
+            leg, share = leg_at(place)
+            frames = leg.first + int(np.sum(shares(leg.first, leg.last) <= share))
+            found.append((frames, leg.start + share * (leg.target - leg.start)))
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Leg:
+    """One straight piece from frame ``first`` to frame ``last``, as far as it was walked.
+
+    start, target: of the held values, metres and radians.
+    """
+
+    first: int
+    last: int
+    start: Array
+    target: Array
+    knots: Poses
+
+
+def _end_to_end(legs: list[Poses]) -> Poses:
+    """The knots of pieces one after the other, ``at`` counting pieces; where one begins the one before has ended."""
+    moved = [replace(knots, at=knots.at + i) for i, knots in enumerate(legs)]
+    kept = [knots if i == 0 else knots.taken(knots.at > i) for i, knots in enumerate(moved)]
+    return Poses(*(np.concatenate([getattr(k, f.name) for k in kept]) for f in fields(Poses)))
 
 
 def shares(first: int, last: int) -> Array:

@@ -46,14 +46,30 @@ class Stop:
         return f"{self.coordinate} is at {what} at {self.value:.6g} {self.unit}"
 
 
+@dataclass(frozen=True, slots=True)
+class Branching:
+    """Where another motion crosses the way (a folded parallelogram): it goes on straight, a built mechanism may not.
+
+    coordinate: the driven one.  value: of it there, in its ``unit``.  frames: those that lie up to there.
+    """
+
+    coordinate: str
+    value: float
+    unit: str
+    frames: int
+
+    def __str__(self) -> str:
+        return f"another motion branches off where {self.coordinate} is at {self.value:.6g} {self.unit}"
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
     """Poses of a mechanism, frame by frame.
 
     parts: ids.  poses: shape (frames, parts, 7), in the WORLD (right-handed, +Y up, +Z forward): position, metres, and
     quaternion (x, y, z, w).  coordinates: for each joint coordinate its values, shape (frames,), degrees or metres.
-    stop: why there are fewer frames than asked for, or None.  gap: how far the loops are from closed at most, radians
-    or fractions of their size.
+    stop: why there are fewer frames than asked for, or None.  branchings: where the mechanism could have gone another way.
+    gap: how far the loops are from closed at most, radians or fractions of their size.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -71,6 +87,7 @@ class Trajectory:
     coordinates: Mapping[str, Array]
     stop: Stop | None
     gap: float
+    branchings: tuple[Branching, ...] = ()
 
     def __len__(self) -> int:
         return len(self.poses)

@@ -22,7 +22,7 @@ class Way:
 
     reached: share of the way.  limit: the coordinate (its place) whose limit ended it, and ``bound``, the value there;
     None at a dead point.
-    residual: largest of the block's rows, scaled.
+    residual: largest of the block's rows, scaled.  knots: the poses that were walked through, as far as it was reached.
     """
 
     poses: Poses
@@ -31,6 +31,7 @@ class Way:
     limit: int | None
     bound: float
     residual: float
+    knots: Poses
 
 
 def watched(block: DrivenBlock) -> np.ndarray:
@@ -67,7 +68,8 @@ def walked(block: DrivenBlock, walk: Walk, target: Array, shares: Array, before:
         reached = _met(block, walk, knots, poses, (start, target), (sample, limit, bound), values)
     kept = np.isin(poses.at, asked) & (poses.at <= reached)
     found = poses.taken(kept)
-    return Way(found, values[kept], reached, limit, bound, walk.misfit(found))
+    walked_through = knots.taken(knots.at <= reached)
+    return Way(found, values[kept], reached, limit, bound, walk.misfit(found), walked_through)
 
 
 def _past(block: DrivenBlock, values: Array) -> tuple[int, int, float] | None:

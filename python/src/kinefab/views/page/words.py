@@ -23,6 +23,7 @@ class Stroke:
 
     name, unit: of the driven coordinate.  values: of it, ascending.  ends: what stops it at either end, in words.
     followers: name, unit and values of the coordinates that move with it.
+    branchings: values of it where the mechanism could go another way.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Stroke:
     values: Array
     ends: tuple[str, str]
     followers: Sequence[tuple[str, str, Array]]
+    branchings: Sequence[float] = ()
 
 
 def report_words(description: Entry, strokes: Sequence[Stroke]) -> str:
@@ -61,6 +63,9 @@ def _stroke(stroke: Stroke) -> str:
     low, high = (_rounded(stroke.values[i]) for i in (0, -1))
     parts = [f"<h2>{_text(stroke.name)}</h2>"]
     reach = f"From {low:.4g} {unit} ({stroke.ends[0]}) to {high:.4g} {unit} ({stroke.ends[1]})."
+    if stroke.branchings:
+        places = ", ".join(f"{value:.6g}" for value in stroke.branchings)
+        reach += f" At {places} {unit} another motion branches off; the plots go straight on."
     parts.append(f"<p>{_text(reach)}</p>")
     rows: list[tuple[str, str]] = []
     for name, other, values in stroke.followers:

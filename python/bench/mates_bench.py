@@ -5,12 +5,16 @@
 Each machine of ``fixtures/step/catalogue.py`` is written as STEP, read, its mates found, and the joints of the analysis are
 held against those it was built with: kind, pair of bodies, axis within 1e-6 m and 1e-6 rad; what is one body; mobility.
 A variant has another clearance, size, place, unit, order of parts and names without meaning.
+
+``--parts 2000`` instead measures a production line (``fixtures/step/line.py``) of an eighth, a quarter, half and all of so
+many parts: seconds of processor for reading it and for finding its mates, and how they grow.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+import os
 import random
 import sys
 import tempfile
@@ -30,7 +34,9 @@ from kinefab.mates.apply import with_found  # noqa: E402
 from kinefab.model import ConstraintKind, Scene  # noqa: E402
 from kinefab.options import Closures  # noqa: E402
 from kinefab.sources import read  # noqa: E402
+from kinefab.sources.occ.guard import end_idle  # noqa: E402
 from step.catalogue import MACHINES  # noqa: E402
+from step.line import line  # noqa: E402
 from step.machine import Machine, Truth  # noqa: E402
 from step.solids import scaled  # noqa: E402
 from step.writer import write_step  # noqa: E402
@@ -227,6 +233,39 @@ def variants(count: int, seed: int) -> list[Variant]:
     return found
 
 
+def large(parts: int) -> None:
+    """Time and score of the line, and the exponents of its growth, by least squares of the logarithms."""
+    rows: list[tuple[int, float, float]] = []
+    with tempfile.TemporaryDirectory() as folder:
+        for wanted in (parts // 8, parts // 4, parts // 2, parts):
+            path = Path(folder) / "line.step"
+            machine = line(wanted)
+            write_step(machine, path)
+            began, wall = processor(), time.perf_counter()
+            scene = read(path, Report())
+            end_idle()  # so that the child's seconds count
+            middle, wall = processor(), time.perf_counter() - wall
+            find_mates(scene, ground=machine.ground)
+            end = processor()
+            count, products = len(machine.parts), len({part.product for part in machine.parts})
+            rows.append((count, middle - began, end - middle))
+            own = score(machine, scene)
+            print(
+                f"{count:6} parts of {products:4} products  read {middle - began:5.1f} s (wall {wall:5.1f} s)  mates {end - middle:5.1f} s"
+                f"  precision {own.precision:.3f}  recall {own.recall:.3f}  mobility {own.mobility}/{own.machines}",
+                flush=True,
+            )
+    counts, reading, finding = (np.log(np.array(column)) for column in zip(*rows, strict=True))
+    print(
+        f"exponent         read {np.polyfit(counts, reading, 1)[0]:.2f}  mates {np.polyfit(counts, finding, 1)[0]:.2f}"
+    )
+
+
+def processor() -> float:
+    """Seconds of this process and of the children that have ended."""
+    return sum(os.times()[:4])
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -235,7 +274,11 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", nargs="*", default=())
     parser.add_argument("--verbose", action="store_true")
+    parser.add_argument("--parts", type=int, default=0)
     asked = parser.parse_args()
+    if asked.parts:
+        large(asked.parts)
+        return
     total, drawn = Score(), Score()
     began = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:

@@ -10,7 +10,7 @@ from ..rigid import active_nodes, rigid_groups
 from .deciding.bodies import Bodies
 from .deciding.decide import Decided, decide
 from .deciding.fasten import Parts
-from .from_decided import mate_of_fixing, mate_of_mesh, mates_of_edge
+from .from_decided import axles_of, mate_of_fixing, mate_of_mesh, mates_of_edge
 from .mate import Mates
 from .shapes.features import Shape, placed, shape_of
 from .shapes.gears import Wheel, meshes, wheel_of
@@ -41,7 +41,8 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
     ]
     for edge in decided.edges:
         found += mates_of_edge(edge, nodes, middles)
-    found += [mate for mesh in meshing if (mate := mate_of_mesh(mesh, decided, nodes)) is not None]
+    axles = axles_of(decided.edges)
+    found += [mate for mesh in meshing if (mate := mate_of_mesh(mesh, decided, axles, nodes)) is not None]
     numbered = tuple(replace(mate, number=i) for i, mate in enumerate(found, 1))
     still, reason = _ground(scene, nodes, shapes, decided, ground)
     held = {side.node for mate in numbered for side in mate.sides} | {still}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,8 @@ import numpy as np
 from ..model import ConstraintKind, FeatureKind, JointKind
 from ..spatial import Array, cross
 from .deciding.bodies import Fixing
-from .deciding.decide import Decided, Edge
+from .deciding.decide import Decided
+from .deciding.edge import Edge
 from .deciding.freedom import null_space
 from .deciding.pairs import Pair, pair_of
 from .mate import Mate, MateSide
@@ -74,17 +76,17 @@ def mates_of_edge(edge: Edge, nodes: Sequence[int], middles: Sequence[Array]) ->
     return [Mate(0, kind, sides, pair.kind.value, edge.reason, edge.confidence, value)]
 
 
-def mate_of_mesh(mesh: Mesh, decided: Decided, nodes: Sequence[int]) -> Mate | None:
+def mate_of_mesh(mesh: Mesh, decided: Decided, axles: Axles, nodes: Sequence[int]) -> Mate | None:
     """Two wheels in mesh, counted from what carries both: a body on which the one turns, and which turns about the
     other's axis or carries that too.  None where there is no such body, or both wheels are one."""
     bodies = decided.bodies
     a, b = bodies.of(mesh.first), bodies.of(mesh.second)
-    carriers = _turning_on(decided, a, mesh.a) + _turning_on(decided, b, mesh.b)
+    carriers = _turning_on(axles, a, mesh.a) + _turning_on(axles, b, mesh.b)
     for carrier in carriers:
         if carrier in (a, b) or a == b:
             continue
-        others = [w for body, w in ((a, mesh.a), (b, mesh.b)) if carrier not in _turning_on(decided, body, w)]
-        if all(_turns_about(decided, carrier, wheel) for wheel in others):
+        others = [w for body, w in ((a, mesh.a), (b, mesh.b)) if carrier not in _turning_on(axles, body, w)]
+        if all(_turning_on(axles, carrier, wheel) for wheel in others):
             sides = tuple(
                 MateSide(
                     nodes[part],
@@ -101,28 +103,29 @@ def mate_of_mesh(mesh: Mesh, decided: Decided, nodes: Sequence[int]) -> Mate | N
     return None
 
 
-def _turning_on(decided: Decided, body: int, wheel: Wheel) -> list[int]:
-    """Bodies that a body turns against about a wheel's axis."""
-    found: list[int] = []
-    for edge in decided.edges:
-        if body in edge.pair and edge.space.shape[1] and _is_about(edge, wheel):
-            found.append(edge.pair[1] if edge.pair[0] == body else edge.pair[0])
+Axles = Mapping[int, Sequence[tuple[int, Pair, float]]]
+"""By body: the bodies that it turns on or that turn on it, the pair they make, and its length, metres."""
+
+
+def axles_of(edges: Sequence[Edge]) -> Axles:
+    found: defaultdict[int, list[tuple[int, Pair, float]]] = defaultdict(list)
+    for edge in edges:
+        pair = pair_of(edge.space, edge.scale)
+        if pair.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL):
+            for body, other in (edge.pair, edge.pair[::-1]):
+                found[body].append((other, pair, edge.scale.length))
     return found
 
 
-def _turns_about(decided: Decided, body: int, wheel: Wheel) -> bool:
-    return bool(_turning_on(decided, body, wheel))
-
-
-def _is_about(edge: Edge, wheel: Wheel) -> bool:
-    pair = pair_of(edge.space, edge.scale)
-    if pair.kind not in (JointKind.REVOLUTE, JointKind.CYLINDRICAL):
-        return False
-    if float(np.linalg.norm(cross(pair.axis, wheel.axis))) > SNAP:
-        return False
-    return float(np.linalg.norm(cross(pair.point - wheel.point, wheel.axis))) < SNAP * max(
-        wheel.high, edge.scale.length
-    )
+def _turning_on(axles: Axles, body: int, wheel: Wheel) -> list[int]:
+    """Bodies that a body turns against about a wheel's axis."""
+    return [
+        other
+        for other, pair, length in axles.get(body, ())
+        if float(np.linalg.norm(cross(pair.axis, wheel.axis))) <= SNAP
+        and float(np.linalg.norm(cross(pair.point - wheel.point, wheel.axis)))
+        < SNAP * max(wheel.high, length)
+    ]
 
 
 _LOWER = {

@@ -32,9 +32,11 @@ class Bodies:
     contacts: list[Contact]
     fixings: list[Fixing] = field(default_factory=list[Fixing])
     _leader: list[int] = field(default_factory=list[int])
+    _count: list[int] = field(default_factory=list[int])
 
     def __post_init__(self) -> None:
         self._leader = list(range(len(self.shapes)))
+        self._count = [1] * len(self.shapes)
 
     def of(self, part: int) -> int:
         """The body of a part: the number of its first part."""
@@ -42,6 +44,10 @@ class Bodies:
             self._leader[part] = self._leader[self._leader[part]]
             part = self._leader[part]
         return part
+
+    def count(self, part: int) -> int:
+        """How many parts its body has."""
+        return self._count[self.of(part)]
 
     def fix(
         self, first: int, second: int, reason: str, confidence: float, contacts: tuple[Contact, ...] = ()
@@ -51,6 +57,7 @@ class Bodies:
         if a == b:
             return False
         self._leader[max(a, b)] = min(a, b)
+        self._count[min(a, b)] += self._count[max(a, b)]
         self.fixings.append(Fixing(first, second, reason, confidence, contacts))
         return True
 

@@ -15,28 +15,14 @@ import numpy as np
 from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
+from .edge import Edge
 from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fix_pins
 from .freedom import RANK, Scale, freedom_of, null_space
+from .motions import held_rows, motions_of
 from .rolling import join_races
 
 DENSE = 400
 """Bodies of a connected piece up to which its mobility is counted; beyond, seats stay seats."""
-
-
-@dataclass(slots=True, eq=False)
-class Edge:
-    """A pair of bodies with its contacts.  space: twists left free, chosen.  otherwise: what it would be as the doubtful
-    case, None where there is no doubt.  one_sided: nothing in it holds both ways."""
-
-    pair: tuple[int, int]
-    contacts: list[Contact]
-    scale: Scale
-    space: Array
-    confidence: float
-    reason: str
-    otherwise: Array | None = None
-    one_sided: bool = False
-    area: float = 0.0
 
 
 @dataclass(slots=True, eq=False)
@@ -253,22 +239,22 @@ def _parted(count: int, chosen: list[Edge], inside: list[Edge]) -> list[tuple[li
 
 def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], list[Edge]]:
     members = sorted({b for e in [*edges, *resting] for b in e.pair})
-    if len(members) > DENSE:
-        return [*edges, *resting], []
     doubtful = [e for e in edges if e.otherwise is not None]
-    motions = _motions(members, edges)
+    if len(members) > DENSE or not (doubtful or resting):
+        return [*edges, *resting], []
+    motions = motions_of(members, edges)
     if doubtful and not motions.shape[1]:
         for edge in doubtful:
             _swap(edge)
-        moving = _motions(members, edges)
+        moving = motions_of(members, edges)
         for edge in doubtful:
             if not _moves(members, edge, moving):
                 _swap(edge)
-        motions = _motions(members, edges)
+        motions = motions_of(members, edges)
     stops: list[Edge] = []
     base = edges[0].scale
     for edge in resting:
-        left = motions @ null_space(_held_rows(members, edge, base) @ motions)
+        left = motions @ null_space(held_rows(members, edge, base) @ motions)
         if motions.shape[1] and not left.shape[1]:
             stops.append(edge)
             continue
@@ -280,34 +266,6 @@ def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], l
 def _swap(edge: Edge) -> None:
     if edge.otherwise is not None:
         edge.space, edge.otherwise = edge.otherwise, edge.space
-
-
-def _held_rows(members: list[int], edge: Edge, base: Scale) -> Array:
-    """What an edge holds, as rows on the twists of all members about ``base``."""
-    held = null_space(edge.space.T).T if edge.space.shape[1] else np.eye(6)
-    moved = held @ _shift(edge.scale, base)
-    block = np.zeros((len(moved), 6 * len(members)))
-    a, b = (6 * members.index(body) for body in edge.pair)
-    block[:, b : b + 6], block[:, a : a + 6] = moved, -moved
-    return block
-
-
-def _motions(members: list[int], edges: Sequence[Edge]) -> Array:
-    """Twists of all bodies, the first one still, about the first edge's centre; shape (6 n, k)."""
-    rows = np.concatenate([_held_rows(members, edge, edges[0].scale) for edge in edges])[:, 6:]
-    moving = null_space(rows)
-    return np.vstack([np.zeros((6, moving.shape[1])), moving])
-
-
-def _shift(own: Scale, base: Scale) -> Array:
-    """What takes a twist about ``base`` to one about ``own``: v' = v + w x (c' - c), w' = w L'/L."""
-    offset = own.center - base.center
-    x, y, z = offset / base.length
-    matrix = np.eye(6)
-    # w x d = -[d]x w
-    matrix[:3, 3:] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
-    matrix[3:, 3:] *= own.length / base.length
-    return matrix
 
 
 def _moves(members: list[int], edge: Edge, motions: Array) -> bool:

@@ -172,8 +172,7 @@ def fix_pins(bodies: Bodies, parts: Parts) -> None:
             body = bodies.of(contact.other(part))
             if body != bodies.of(part):
                 by_body[body].append(contact)
-        alone = sum(bodies.of(other) == bodies.of(part) for other in range(len(parts.turned))) == 1
-        if len(by_body) < 2 or not alone:
+        if len(by_body) < 2 or bodies.count(part) > 1:
             continue
 
         host = min(by_body, key=lambda body: _looseness(by_body[body], body))  # noqa: B023 (called at once)

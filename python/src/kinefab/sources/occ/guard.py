@@ -93,7 +93,8 @@ def guarded(module: str, function: str, *arguments: object, seconds: float) -> I
 
 
 @atexit.register
-def _end_all() -> None:
+def end_idle() -> None:
+    """End the children that wait for a question; the next one starts anew."""
     while _idle:
         _idle.pop().end()
 

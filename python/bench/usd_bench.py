@@ -1,10 +1,11 @@
 """Export of a large generated stage against usd-core alone, which walks the same prims and reads the same arrays.
 
-    python python/bench/usd_bench.py [--parts 10000] [--prototypes 500] [--triangles 10000000] [--bare]
+    python python/bench/usd_bench.py [--parts 10000] [--prototypes 500] [--triangles 10000000] [--unique]
 
 Each part is an instance of one of the prototypes, with a rigid body, mass and a pose of its own.  ``triangles`` counts what
 is drawn; with ``--unique`` the prototypes together have as many.  Each side runs in a process of its own; seconds are
-without the start of Python, memory is the highest of the process less what it has with its libraries loaded.
+those of the processor without the start of Python, memory is the highest of the process less what it has with its
+libraries loaded.
 """
 
 from __future__ import annotations
@@ -18,12 +19,21 @@ from pathlib import Path
 
 import numpy as np
 
+PEAK = """
+import resource
+def peak():  # kB; ru_maxrss starts with what the parent had, VmHWM with nothing
+    try:
+        return next(int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmHWM"))
+    except OSError:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+"""
+
 BARE = """
-import resource, sys, time
+import sys, time
 import numpy as np
 from pxr import Usd, UsdGeom, UsdPhysics
-base = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-start = time.perf_counter()
+base = peak()
+start = time.process_time()
 stage = Usd.Stage.Open(sys.argv[1])
 cache = UsdGeom.XformCache()
 sizes = {}
@@ -36,21 +46,21 @@ for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
                                                 mesh.GetFaceVertexIndicesAttr(), mesh.GetNormalsAttr())]
         key = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else str(prim.GetPath())
         sizes[key] = sum(a.nbytes for a in arrays)
-print(time.perf_counter() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - base, sum(sizes.values()))
+print(time.process_time() - start, peak() - base, sum(sizes.values()))
 """
 
 EXPORT = """
-import resource, sys, time
+import sys, time
 import numpy as np, scipy.spatial, trimesh
 from pxr import Usd, UsdGeom, UsdPhysics
 import kinefab.pipeline, kinefab.sources.usd.reader, kinefab.targets.kinefab_file
 from kinefab import export
-base = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-start = time.perf_counter()
+base = peak()
+start = time.process_time()
 stages = {}
 result = export(sys.argv[1], sys.argv[2],
-                progress=lambda stage, fraction: stages.setdefault(stage, time.perf_counter() - start))
-print(time.perf_counter() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - base,
+                progress=lambda stage, fraction: stages.setdefault(stage, time.process_time() - start))
+print(time.process_time() - start, peak() - base,
       " ".join(f"{k}@{v:.2f}" for k, v in stages.items()))
 """
 
@@ -123,7 +133,7 @@ def ring(rng: np.random.Generator, triangles: int) -> tuple[np.ndarray, np.ndarr
 
 def run(script: str, *arguments: str) -> list[str]:
     done = subprocess.run(
-        [sys.executable, "-c", script, *arguments], capture_output=True, text=True, check=True
+        [sys.executable, "-c", PEAK + script, *arguments], capture_output=True, text=True, check=True
     )
     return done.stdout.split()
 

@@ -328,3 +328,15 @@ def test_an_open_stage_is_exported_as_it_is(tmp_path):
     (node,) = result.analysed.scene.nodes
     assert node.mass.mass == pytest.approx(1000.0 * 0.02**3)  # centimetres where nobody says
     assert opened.GetSessionLayer().empty
+
+
+def test_a_mesh_at_home_in_a_turned_body_is_the_bodys_own(tmp_path):
+    """The last bit of a turned body's matrix makes no GameObject."""
+    mesh = f'def Mesh "M" {{\n{TETRAHEDRON}\nuniform token subdivisionScheme = "none"\n}}'
+    turned = (
+        f'def Xform "B" {BODY} {{\ndouble3 xformOp:translate = (1, -2, 3)\nfloat3 xformOp:rotateXYZ = (17, -33, 71)\n'
+        f'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]\n{mesh}\n}}'
+    )
+    (tmp_path / "stage.usda").write_text(stage(turned, metres=0.001))
+    result = kinefab.export(tmp_path / "stage.usda", tmp_path / "stage.kinefab")
+    assert [entry.id for entry in result.unity.gameObjects] == ["B"]

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Freedom, Motion, Node, Scene
+from ..model import Freedom, Motion, Scene
 from ..spatial import Array
 
 LARGE = 100.0
@@ -28,13 +28,16 @@ STEP = math.pi / 12.0
 NEAR = 2e-3
 """What pi is rounded to on the way, radians."""
 
+CORNERS = np.array(np.meshgrid(*3 * [[False, True]])).reshape(3, -1).T
+"""Which end of a box each of its eight corners takes, by axis."""
+
 Box = tuple[Array, Array]
 """Lowest and highest corner of a node's geometry in its own frame."""
 
 
 def check_plausible(scene: Scene, density: float, report: Report) -> None:
     """Tell what is likely in another unit than it says.  density: kg/m^3 of bodies that state none."""
-    boxes = {i: box for i, node in enumerate(scene.nodes) if (box := _box(scene, node)) is not None}
+    boxes = _boxes(scene)
     _check_sizes(scene, boxes, report)
     _check_masses(scene, boxes, report)
     _check_densities(scene, density, report)
@@ -45,18 +48,26 @@ def check_plausible(scene: Scene, density: float, report: Report) -> None:
         report.add("SOURCE_LIKELY_LEFT_HANDED", scene.source.uri, count=mirrored)
 
 
-def _box(scene: Scene, node: Node) -> Box | None:
-    corners: list[Array] = []
-    for body in node.bodies:
-        if body.mesh is not None:
-            vertices = scene.meshes[body.mesh].vertices
-            low, high = vertices.min(axis=0), vertices.max(axis=0)
-            eight = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T * np.array(body.scale)
-            corners.append(eight @ body.pose.rotation.T + body.pose.translation)
-    if not corners:
-        return None
-    every = np.concatenate(corners)
-    return every.min(axis=0), every.max(axis=0)
+def _boxes(scene: Scene) -> dict[int, Box]:
+    """Of each node with geometry, by its number."""
+    drawn = [(i, b, b.mesh) for i, node in enumerate(scene.nodes) for b in node.bodies if b.mesh is not None]
+    if not drawn:
+        return {}
+    used = {mesh: number for number, mesh in enumerate({mesh for _, _, mesh in drawn})}
+    ends = np.array([(v.min(axis=0), v.max(axis=0)) for v in (scene.meshes[m].vertices for m in used)])
+    ends = ends[[used[mesh] for _, _, mesh in drawn]] * np.array([b.scale for _, b, _ in drawn])[:, None]
+    eight = np.where(CORNERS, ends[:, 1:], ends[:, :1])
+    rotations = np.array([b.pose.rotation for _, b, _ in drawn])
+    eight = (
+        eight @ rotations.transpose(0, 2, 1) + np.array([b.pose.translation for _, b, _ in drawn])[:, None]
+    )
+    boxes: dict[int, Box] = {}
+    for (i, _, _), low, high in zip(drawn, eight.min(axis=1), eight.max(axis=1)):
+        before = boxes.get(i)
+        boxes[i] = (
+            (low, high) if before is None else (np.minimum(low, before[0]), np.maximum(high, before[1]))
+        )
+    return boxes
 
 
 def _outside(box: Box, point: Array) -> float:
@@ -90,29 +101,30 @@ def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
 
 def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
     """Of masses, whoever stated them: that they lie in their part, and are spread no wider than it."""
-    away: list[tuple[float, Node]] = []
-    wide: list[tuple[float, Node]] = []
-    dense: list[tuple[float, Node]] = []
-    for i, box in boxes.items():
-        node, size = scene.nodes[i], _size(box)
-        if node.mass is None or not size > 0.0:
-            continue
-        far = _outside(box, node.mass.center)
-        if far > size:
-            away.append((far / size, node))
-            continue
-        reach = _norm(np.maximum(abs(box[0] - node.mass.center), abs(box[1] - node.mass.center)))
-        ratio = float(np.linalg.eigvalsh(node.mass.inertia)[2]) / (node.mass.mass * reach * reach)
-        if ratio > SPREAD:
-            wide.append((ratio, node))
-        extents = np.maximum(box[1] - box[0], 1e-3 * size)
-        if (packed := node.mass.mass / float(extents.prod())) > HEAVY:
-            dense.append((packed, node))
-    for code, found in (
-        ("CENTER_OF_MASS_IMPLAUSIBLE", away),
-        ("INERTIA_IMPLAUSIBLE", wide),
-        ("MASS_IMPLAUSIBLE", dense),
+    weighed = [
+        (node, node.mass, box) for i, box in boxes.items() if (node := scene.nodes[i]).mass is not None
+    ]
+    if not weighed:
+        return
+    low, high = (np.array([box[end] for _, _, box in weighed]) for end in (0, 1))
+    masses = np.array([mass.mass for _, mass, _ in weighed])
+    centers = np.array([mass.center for _, mass, _ in weighed])
+    moments = np.linalg.eigvalsh(np.array([mass.inertia for _, mass, _ in weighed]))[:, 2]
+    sizes = np.linalg.norm(high - low, axis=1)
+    far = np.linalg.norm(np.maximum(np.maximum(low - centers, centers - high), 0.0), axis=1)
+    reach = np.linalg.norm(np.maximum(abs(low - centers), abs(high - centers)), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):  # parts without size
+        away = far / sizes
+        wide = moments / (masses * reach * reach)
+        dense = masses / np.maximum(high - low, 1e-3 * sizes[:, None]).prod(axis=1)
+    sized = sizes > 0.0
+    within = sized & (far <= sizes)
+    for code, ratios, odd in (
+        ("CENTER_OF_MASS_IMPLAUSIBLE", away, sized & (far > sizes)),
+        ("INERTIA_IMPLAUSIBLE", wide, within & (wide > SPREAD)),
+        ("MASS_IMPLAUSIBLE", dense, within & (dense > HEAVY)),
     ):
+        found = [(float(ratios[i]), weighed[i][0]) for i in np.flatnonzero(odd).tolist()]
         if found:
             ratio, node = max(found, key=lambda entry: entry[0])
             report.add(

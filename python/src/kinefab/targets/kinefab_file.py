@@ -239,8 +239,7 @@ def canonical_json(content: dict[str, Any]) -> str:
     Floats are written in their shortest form that reads back the same; NaN and Infinity raise ValueError.
     """
 
-    def flat(value: Any) -> str:
-        return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(", ", ": "))
+    flat = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(", ", ": ")).encode
 
     def block(lines: list[str], indent: str) -> str:
         return "[\n" + ",\n".join(indent + line for line in lines) + "\n" + indent[:-2] + "]"

@@ -87,16 +87,24 @@ def unsaid(noun: type[Noun]) -> tuple[str, ...]:
     return tuple(field.name for field in fields(noun) if field.name not in known)
 
 
+@cache
+def _said(noun: type[Noun]) -> tuple[tuple[_Property, Any], ...]:
+    """What is written of a noun, each with the noun's own default where it may be left out, in the schema's order."""
+    names, usual = {field.name for field in fields(noun)}, _defaults(noun)
+    return tuple(
+        (rule, usual.get(rule.key, _NONE)) for rule in _properties(definition_of(noun)) if rule.key in names
+    )
+
+
 def entry(noun: Noun) -> dict[str, Any]:
     """A noun in the order of its definition, less the fields at the default that the definition states."""
     definition = definition_of(type(noun))
     if definition not in _definitions():  # stated where it is used, without defaults
         return {field.name: _written(field.name, getattr(noun, field.name)) for field in fields(noun)}
     found: dict[str, Any] = {"type": definition} if definition[0].isupper() else {}
-    usual = _defaults(type(noun))
-    for rule in _properties(definition):
-        value = getattr(noun, rule.key, None)
-        if value is None or value is usual.get(rule.key, _NONE):
+    for rule, usual in _said(type(noun)):
+        value = getattr(noun, rule.key)
+        if value is None or value is usual:
             continue
         if (
             not value
@@ -113,13 +121,18 @@ def entry(noun: Noun) -> dict[str, Any]:
     return found
 
 
+@cache
+def _is_noun(kind: Any) -> bool:
+    return is_dataclass(kind)
+
+
 def _written(key: str, value: Any) -> Any:
     if key == "extras" or isinstance(value, (str, bool)):
         return value
-    if is_dataclass(value):
+    if _is_noun(value.__class__):
         return entry(cast(Noun, value))
     if isinstance(value, tuple) and value:
         items = cast(tuple[Any, ...], value)
-        if is_dataclass(items[0]):
+        if _is_noun(items[0].__class__):
             return [entry(item) for item in items]
     return significant(value) if key in SIGNIFICANT else plain_value(value)

@@ -15,12 +15,12 @@ def plain_value(value: Any) -> Any:
 
     Takes a number or sequences and mappings of them; an infinite number is None, anything else passes through.
     """
-    if isinstance(value, str):
-        return value
     if isinstance(value, float):
         return None if math.isinf(value) else _plain(round(value, DECIMALS))
     if isinstance(value, (list, tuple)):
         return [plain_value(item) for item in cast(Sequence[Any], value)]
+    if isinstance(value, (str, int)):
+        return value
     if isinstance(value, Mapping):
         return {key: plain_value(item) for key, item in cast(Mapping[Any, Any], value).items()}
     return value
@@ -35,4 +35,4 @@ def significant(value: Any) -> Any:
 
 def _plain(x: float) -> float | int:
     """Whole numbers without a decimal point, so that -0.0 and 0.0 are both 0."""
-    return int(x) if abs(x) < 1e15 and x.is_integer() else x
+    return int(x) if x.is_integer() and abs(x) < 1e15 else x

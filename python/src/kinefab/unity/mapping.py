@@ -266,8 +266,11 @@ class _Builder:
         return [coupling for coupling in mapped if coupling is not None]
 
 
+HOME = Pose()
+
+
 def _at_home(body: Body) -> bool:
     """Whether a body's mesh lies in its node's own frame."""
     pose = body.pose
-    unmoved = not pose.translation.any() and bool((pose.rotation == Pose().rotation).all())
+    unmoved = not pose.translation.any() and bool((pose.rotation == HOME.rotation).all())
     return unmoved and body.scale == ONE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,8 @@ from .physics.colliders import Colliders
 from .physics.held import held_parts
 from .physics.mass import ROUND, Weighed, body_mass
 from .stage import OpenStage
-from .transforms import Stand, rotation_of, stand, taken_apart
-from .values import Values, schemas, title
+from .transforms import Stand, Stretch, all_taken_apart, rotation_of, stands
+from .values import Values, title
 from .walk import Found, Part, Piece
 
 DEFAULT_PURPOSES = ("default", "render")
@@ -56,23 +57,31 @@ class Parts:
 
     def read(self) -> list[Node]:
         """The nodes: groups, then parts."""
-        found = self._found
+        found, frame = self._found, self._opened.frame
         nodes: list[Node] = []
-        for number, group in enumerate(found.groups):
-            at = stand(group.world, self._opened.frame)
-            self.stands[number] = at
+        worlds = np.array([entry.world for entry in (*found.groups, *found.parts)]).reshape(-1, 4, 4)
+        standing = stands(worlds, frame)
+        self.stands = {number: at for number, (at, _) in enumerate(standing)}
+        for group, (_, pose) in zip(found.groups, standing):
             nodes.append(
                 Node(
                     group.id, title(group.prim), NodeKind.ASSEMBLY, None if group.parent < 0 else group.parent,
-                    at.pose, flexible=True, where=self._opened.place(group.prim),
+                    pose, flexible=True, where=self._opened.place(group.prim),
                 )
             )  # fmt: skip
         self._resolve()
+        stretches = self._stretches()
         for number, part in enumerate(found.parts):
-            at = stand(part.world, self._opened.frame)
-            self.stands[self.nodes[number]] = at
-            nodes.append(self._node(number, part, at))
+            at, pose = standing[self.nodes[number]]
+            nodes.append(self._node(number, part, at, pose, stretches))
         return nodes
+
+    def _stretches(self) -> Iterator[Stretch | None]:
+        """Of all pieces in their order, as their parts see them."""
+        pieces = [(piece.world, i) for i, part in zip(self.nodes, self._found.parts) for piece in part.pieces]
+        worlds = np.array([world[:3, :3] for world, _ in pieces]).reshape(-1, 3, 3)
+        turned = np.array([self.stands[i].rotation.T for _, i in pieces]).reshape(-1, 3, 3)
+        return iter(all_taken_apart(turned @ worlds))
 
     def _resolve(self) -> None:
         """Materials of everything at once."""
@@ -87,7 +96,9 @@ class Parts:
     def _drawn(self, piece: Piece) -> bool:
         return piece.purpose in self._purposes
 
-    def _node(self, number: int, part: Part, at: Stand) -> Node:
+    def _node(
+        self, number: int, part: Part, at: Stand, pose: Pose, stretches: Iterator[Stretch | None]
+    ) -> Node:
         opened, values, prim = self._opened, self._values, part.prim
         moves = part.body and part.enabled
         kinematic = moves and values.flag(prim, "physics:kinematicEnabled", False)
@@ -96,15 +107,16 @@ class Parts:
         colliders: list[Collider] = []
         weighed: list[Weighed] = []
         for piece in part.pieces:
-            if self._drawn(piece) and (body := self._body(piece, at)) is not None:
+            stretch = next(stretches)
+            if self._drawn(piece) and (body := self._body(piece, at, stretch)) is not None:
                 bodies.append(body)
             if not piece.collides:
                 continue
             material, density = self._material(piece.prim)
             group = self._groups.get(str(piece.prim.GetPath()), "")
-            made = self._colliders.of(piece, at, pushed, material, group)
+            made = self._colliders.of(piece, at, stretch, pushed, material, group)
             colliders += made
-            kind = str(piece.prim.GetTypeName())
+            kind = values.traits(piece.prim).kind
             solid = values.word(piece.prim, "physics:approximation", "none") if kind == "Mesh" else ""
             weighed += [
                 Weighed(c, piece.prim, piece.world, density, kind if kind in ROUND else solid) for c in made
@@ -113,7 +125,7 @@ class Parts:
         if moves:
             mass = body_mass(prim, part.world, at, weighed, self.library.meshes, values, opened, self._report)
         return Node(
-            part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, at.pose,
+            part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
             bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),
             dynamics=self._dynamics(prim, at, kinematic) if moves else Dynamics(),
             sites=tuple(
@@ -123,9 +135,7 @@ class Parts:
             where=opened.place(prim),
         )  # fmt: skip
 
-    def _body(self, piece: Piece, at: Stand) -> Body | None:
-        linear = at.linear(piece.world)
-        stretch = taken_apart(linear)
+    def _body(self, piece: Piece, at: Stand, stretch: Stretch | None) -> Body | None:
         feature, where = f"body {piece.id}", self._opened.place(piece.prim)
         if stretch is None:
             self._report.dropped(feature, "USD_SCALE_ZERO", where)
@@ -151,7 +161,7 @@ class Parts:
     def _material(self, prim: Any) -> tuple[PhysicsMaterial | None, float]:
         """The physics material bound to a prim, and its density in the stage's units, 0 for none."""
         material = self._bound.get(str(prim.GetPath()))
-        if material is None or "PhysicsMaterialAPI" not in schemas(material):
+        if material is None or "PhysicsMaterialAPI" not in self._values.traits(material).schemas:
             return None, 0.0
         key = str(material.GetPath())
         if key not in self._materials:
@@ -187,9 +197,13 @@ class Parts:
 
     def _dynamics(self, prim: Any, at: Stand, kinematic: bool) -> Dynamics:
         values, frame = self._values, self._opened.frame
-        turned = frame.turn @ at.rotation
-        velocity = values.vector(prim, "physics:velocity", (0.0, 0.0, 0.0)) * frame.length
-        spin = values.vector(prim, "physics:angularVelocity", (0.0, 0.0, 0.0)) * self._opened.degree
+
+        def moving(name: str, unit: float) -> Array | None:
+            if not values.authored(prim, name):
+                return None
+            given = frame.turn @ at.rotation @ (values.vector(prim, name, (0.0, 0.0, 0.0)) * unit)
+            return given if np.abs(given).max() > 0.0 else None
+
         if values.flag(prim, "physics:startsAsleep", False):
             self._report.dropped(
                 f"startsAsleep of {prim.GetPath()}", "USD_FEATURE_DROPPED", self._opened.place(prim),
@@ -206,14 +220,10 @@ class Parts:
             not values.flag(prim, "physxRigidBody:disableGravity", False),
             damping[0],
             damping[1],
-            _given(turned @ velocity),
-            _given(turned @ spin),
+            moving("physics:velocity", frame.length),
+            moving("physics:angularVelocity", self._opened.degree),
             fastest if math.isfinite(fastest) and fastest > 0.0 else None,
         )
-
-
-def _given(vector: Array) -> Array | None:
-    return vector if np.abs(vector).max() > 0.0 else None
 
 
 def physics_of(found: Found, opened: OpenStage, values: Values, report: Report) -> Physics:

@@ -34,6 +34,15 @@ def rotation_of(linear: Array) -> Array:
     return left @ right * np.sign(np.linalg.det(left) * np.linalg.det(right))
 
 
+def rotations_of(linears: Array) -> Array:
+    """As ``rotation_of`` of each, shape (n, 3, 3); those that are rotations already in one stack."""
+    off = np.abs(linears.transpose(0, 2, 1) @ linears - np.eye(3)).max(axis=(1, 2), initial=0.0)
+    found = linears.copy()
+    for i in np.flatnonzero(~((off <= EXACT) & (np.linalg.det(linears) > 0.0))).tolist():
+        found[i] = rotation_of(linears[i])
+    return found
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
     """A linear map taken apart: rotation @ diag(scale) @ bake.
@@ -63,6 +72,24 @@ def taken_apart(linear: Array) -> Stretch | None:
     return Stretch(rotation, np.ones(3), rotation.T @ linear, True)
 
 
+def all_taken_apart(linears: Array) -> list[Stretch | None]:
+    """As ``taken_apart`` of each, shape (n, 3, 3); those that only turn and scale in one stack.
+
+    What turns by no more than rounding does not turn: a mesh lies as squarely in a body that is turned as in one that is not.
+    """
+    lengths = np.linalg.norm(linears, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        axes = linears / lengths[:, None, :]
+        off = np.abs(axes.transpose(0, 2, 1) @ axes - np.eye(3)).max(axis=(1, 2), initial=0.0)
+        easy = (off <= EXACT) & (np.linalg.det(linears) > 0.0)
+    scales = _plain(lengths)
+    axes[np.abs(axes - np.eye(3)).max(axis=(1, 2), initial=0.0) <= EXACT] = np.eye(3)
+    return [
+        Stretch(axes[i], scales[i], None, False) if plain else taken_apart(linears[i])
+        for i, plain in enumerate(easy.tolist())
+    ]
+
+
 def _plain(lengths: Array) -> Array:
     """Scales that are one but for rounding are one."""
     return np.where(np.abs(lengths - 1.0) <= 1e-9, 1.0, lengths)
@@ -70,10 +97,11 @@ def _plain(lengths: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Local:
-    """A prim's matrix in its parent's, and whether it ignores the parent."""
+    """A prim's matrix in its parent's, whether it ignores the parent, and whether it has several time samples."""
 
     matrix: Array
     resets: bool
+    moves: bool = False
 
 
 IDENTITY = Local(np.eye(4), False)
@@ -84,12 +112,13 @@ def local_of(prim: Any, time: Any = None) -> Local:
     xform = UsdGeom.Xformable(prim)
     if not xform or not prim.GetAttribute("xformOpOrder").HasAuthoredValue():
         return IDENTITY
+    ops = xform.GetOrderedXformOps()
+    moves = any(op.MightBeTimeVarying() for op in ops)
     if time is None:
         time = Usd.TimeCode.Default()
-        ops = xform.GetOrderedXformOps()
         if any(op.GetNumTimeSamples() and op.GetAttr().Get(time) is None for op in ops):
             time = Usd.TimeCode.EarliestTime()
-    return Local(matrix(xform.GetLocalTransformation(time)), xform.GetResetXformStack())
+    return Local(matrix(xform.GetLocalTransformation(ops, time)), xform.GetResetXformStack(), moves)
 
 
 def placed(parent: Array, local: Local) -> Array:
@@ -132,3 +161,13 @@ class Stand:
 
 def stand(world: Array, frame: SourceFrame) -> Stand:
     return Stand(rotation_of(world[:3, :3]), world[:3, 3].copy(), frame)
+
+
+def stands(worlds: Array, frame: SourceFrame) -> list[tuple[Stand, Pose]]:
+    """As ``stand`` of each, shape (n, 4, 4), with its pose."""
+    rotations, origins = rotations_of(worlds[:, :3, :3]), worlds[:, :3, 3].copy()
+    turned, moved = frame.turn @ rotations @ frame.turn.T, origins @ frame.turn.T * frame.length
+    return [
+        (Stand(rotation, origin, frame), Pose(r, t))
+        for rotation, origin, r, t in zip(rotations, origins, turned, moved)
+    ]

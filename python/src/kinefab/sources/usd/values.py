@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -22,23 +22,58 @@ UNBOUNDED = 0.5e38
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Traits:
+    """What is asked of prims again and again; prims that agree in it share it.
+
+    kind: name of the type.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
+    fallbacks: what other properties give, by name: that of the type and its schemas.
+    """
+
+    kind: str
+    schemas: tuple[str, ...]
+    names: frozenset[str]
+    fallbacks: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Values:
-    """Reads prims of one stage."""
+    """Reads prims of one stage, which does not change meanwhile."""
 
     opened: OpenStage
     report: Report
+    _of_prim: dict[Any, Traits] = field(default_factory=dict[Any, Traits])
+    _traits: dict[tuple[Any, ...], Traits] = field(default_factory=dict[tuple[Any, ...], Traits])
+    _fallbacks: dict[tuple[Any, ...], dict[str, Any]] = field(
+        default_factory=dict[tuple[Any, ...], dict[str, Any]]
+    )
+
+    def traits(self, prim: Any) -> Traits:
+        found = self._of_prim.get(prim)
+        if found is None:
+            kind, applied, names = (
+                str(prim.GetTypeName()),
+                schemas(prim),
+                tuple(prim.GetAuthoredPropertyNames()),
+            )
+            found = self._traits.get((kind, applied, names))
+            if found is None:
+                fallbacks = self._fallbacks.setdefault((kind, applied), {})
+                found = Traits(kind, applied, frozenset(names), fallbacks)
+                self._traits[kind, applied, names] = found
+            self._of_prim[prim] = found
+        return found
 
     def get(self, prim: Any, name: str) -> Any:
         """The raw value at the exported time, None where the attribute is missing, blocked or empty."""
-        attribute = prim.GetAttribute(name)
-        if not attribute:
-            return None
-        value = attribute.Get(Usd.TimeCode.Default())
-        return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+        traits = self.traits(prim)
+        if name in traits.names:
+            return _value(prim, name)
+        if name not in traits.fallbacks:
+            traits.fallbacks[name] = _value(prim, name)
+        return traits.fallbacks[name]
 
     def authored(self, prim: Any, name: str) -> bool:
-        attribute = prim.GetAttribute(name)
-        return bool(attribute) and attribute.HasAuthoredValue()
+        return name in self.traits(prim).names and prim.GetAttribute(name).HasAuthoredValue()
 
     def number(self, prim: Any, name: str, default: float, open_ended: bool = False) -> float:
         """A finite number.  open_ended: infinity is allowed, and what is as good as infinite becomes it."""
@@ -100,14 +135,14 @@ class Values:
         if value is None:
             return None
         try:
-            parts = np.array([*value.GetImaginary(), value.GetReal()], dtype=np.float64)
+            parts = (*(float(v) for v in value.GetImaginary()), float(value.GetReal()))
         except AttributeError:
             self.wrong(prim, name, value)
             return None
-        if not np.isfinite(parts).all():
+        if not all(map(math.isfinite, parts)):
             self.wrong(prim, name, value)
             return None
-        return matrix_from_quaternion(parts) if np.linalg.norm(parts) > 1e-6 else None
+        return matrix_from_quaternion(np.array(parts)) if math.hypot(*parts) > 1e-6 else None
 
     def targets(self, prim: Any, name: str) -> list[Any]:
         """Paths that a relationship leads to, forwarded."""
@@ -124,10 +159,17 @@ class Values:
         )
 
 
+def _value(prim: Any, name: str) -> Any:
+    attribute = prim.GetAttribute(name)
+    if not attribute:
+        return None
+    value = attribute.Get(Usd.TimeCode.Default())
+    return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+
+
 def schemas(prim: Any) -> tuple[str, ...]:
     """All applied API schemas, also those that no plug-in registers."""
-    listed = prim.GetMetadata("apiSchemas")
-    return tuple(listed.GetAddedOrExplicitItems()) if listed is not None else ()
+    return tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
 
 
 def title(prim: Any) -> str:

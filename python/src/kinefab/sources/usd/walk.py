@@ -14,7 +14,7 @@ from .api import Sdf, Usd, UsdGeom, UsdPhysics
 from .instancer import instances
 from .stage import OpenStage
 from .transforms import IDENTITY, Local, local_of, placed
-from .values import Values, schemas
+from .values import Traits, Values
 
 PREDICATE = Usd.TraverseInstanceProxies()
 MAX_PRIMS = 5_000_000
@@ -122,7 +122,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
         below = _look(prim, context, found, groups_of, opened, values, report)
         if below is None:
             continue
-        if prim.GetTypeName() == "PointInstancer":  # what lies below it is prototypes
+        if values.traits(prim).kind == "PointInstancer":  # what lies below it is prototypes
             pending += _instanced(prim, below, opened, report)
         else:
             pending += [(child, below) for child in reversed(prim.GetFilteredChildren(PREDICATE))]
@@ -145,10 +145,10 @@ def _look(
     report: Report,
 ) -> _Context | None:
     """Note what a prim is; what its children inherit, or None where nothing below matters."""
-    kind = str(prim.GetTypeName())
+    traits = values.traits(prim)
+    kind, applied = traits.kind, traits.schemas
     if kind in LOOKS or kind in SKIPPED:
         return None
-    applied = schemas(prim)
     if prim.IsA(UsdPhysics.Scene):
         found.scenes.append(prim)
         return None
@@ -173,24 +173,18 @@ def _look(
     if kind.startswith(("Mjc", "Newton", "Physx")):
         found.vendor.append(prim)
         return None
-    local = local_of(prim)
-    if not np.isfinite(local.matrix).all():
+    local = local_of(prim) if "xformOpOrder" in traits.names else IDENTITY
+    if local is not IDENTITY and not np.isfinite(local.matrix).all():
         values.wrong(prim, "xformOpOrder", "a transform that is not finite")
-        local = Local(np.eye(4), local.resets)
+        local = Local(np.eye(4), local.resets, local.moves)
     world = placed(context.world, local)
     # An instance of a PointInstancer has an id of its own beside the prototype's path.
     path = str(prim.GetPath())
     own = f"{context.id}/{prim.GetName()}" if context.id else path[1:]
     found.worlds.setdefault(path, world)
-    if local is not IDENTITY and UsdGeom.Xformable(prim).TransformMightBeTimeVarying():
+    if local.moves:
         found.animated[path] = prim
-    visible, purpose = context.visible, context.purpose
-    imageable = UsdGeom.Imageable(prim)
-    if imageable:
-        visible = visible and imageable.GetVisibilityAttr().Get() != "invisible"
-        attribute = imageable.GetPurposeAttr()
-        if attribute.HasAuthoredValue():
-            purpose = str(attribute.Get())
+    visible, purpose = _shown(prim, traits, context)
     part = context.part
     below = _Context(world, context.pending, context.group, part, visible, purpose, own if context.id else "")
     collides = "PhysicsCollisionAPI" in applied
@@ -227,6 +221,18 @@ def _look(
             world, (*context.pending, (prim, own, world)), context.group, -1, visible, purpose, below.id
         )
     return below
+
+
+def _shown(prim: Any, traits: Traits, context: _Context) -> tuple[bool, str]:
+    """Whether it and all above it are shown, and the purpose it has or inherits."""
+    visible, purpose = context.visible, context.purpose
+    if "visibility" in traits.names and (imageable := UsdGeom.Imageable(prim)):
+        visible = visible and imageable.GetVisibilityAttr().Get() != "invisible"
+    if "purpose" in traits.names and (imageable := UsdGeom.Imageable(prim)):
+        attribute = imageable.GetPurposeAttr()
+        if attribute.HasAuthoredValue():
+            purpose = str(attribute.Get())
+    return visible, purpose
 
 
 def _outer_group(context: _Context, found: Found, groups_of: dict[str, int]) -> int:

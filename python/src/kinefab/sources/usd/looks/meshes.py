@@ -169,11 +169,11 @@ def _indexed(
     split = [p for p in primvars if p.interpolation in ("faceVarying", "uniform")]
     if not split:
         used = element["vertex"]
-        kept = np.arange(len(points))
-        first, inverse = None, used
-        if len(np.unique(used)) < len(points):
-            kept, inverse = np.unique(used, return_inverse=True)
-        chosen = kept
+        first, inverse, chosen = None, used, np.arange(len(points))
+        named = np.zeros(len(points), dtype=bool)
+        named[used] = True
+        if not named.all():
+            chosen, inverse = np.flatnonzero(named), (np.cumsum(named) - 1)[used]
     else:
         keys = element["vertex"].astype(np.uint64)
         for p in split:

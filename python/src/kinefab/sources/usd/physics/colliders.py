@@ -13,8 +13,8 @@ from ....spatial import Array, Pose
 from ..looks.gprims import axis_turn
 from ..looks.library import Library
 from ..stage import OpenStage
-from ..transforms import Stand, Stretch, taken_apart
-from ..values import Values, identity, schemas
+from ..transforms import Stand, Stretch
+from ..values import Values, identity
 from ..walk import Piece
 
 THICKNESS = 0.01
@@ -32,12 +32,13 @@ class Colliders:
         self._opened, self._values, self._library, self._report = opened, values, library, report
 
     def of(
-        self, piece: Piece, stand: Stand, dynamic: bool, material: PhysicsMaterial | None, group: str
-    ) -> list[Collider]:
-        """dynamic: the body moves, so that a mesh must be convex."""
+        self, piece: Piece, stand: Stand, stretch: Stretch | None, dynamic: bool,
+        material: PhysicsMaterial | None, group: str,
+    ) -> list[Collider]:  # fmt: skip
+        """stretch: of the piece as its part sees it, None for a flat one.  dynamic: the body moves, so that a mesh must be
+        convex."""
         prim = piece.prim
-        kind = str(prim.GetTypeName())
-        stretch = taken_apart(stand.linear(piece.world))
+        kind = self._values.traits(prim).kind
         where = self._opened.place(prim)
         if stretch is None:
             self._report.dropped(f"collider {prim.GetPath()}", "USD_SCALE_ZERO", where)
@@ -46,7 +47,7 @@ class Colliders:
             ColliderKind.BOX,
             name=piece.id,
             material=material,
-            trigger="PhysxTriggerAPI" in schemas(prim),
+            trigger="PhysxTriggerAPI" in self._values.traits(prim).schemas,
             enabled=self._values.flag(prim, "physics:collisionEnabled", True),
             group=group,
             where=where,

@@ -20,7 +20,7 @@ from ....spatial import Array, Pose
 from ..looks.gprims import axis_turn
 from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
-from ..values import Values, identity, schemas
+from ..values import Values, identity
 
 WATER = 1000.0
 """kg/m^3 of what states nothing."""
@@ -55,13 +55,13 @@ def body_mass(
     prim: Any, world: Array, stand: Stand, solids: Sequence[Weighed], meshes: Sequence[Mesh], values: Values, opened: OpenStage, report: Report
 ) -> MassProperties:  # fmt: skip
     """Mass of a body, kg; centre and inertia in its node's frame."""
-    stated = _stated(prim, world, values, opened)
+    stated = _stated(prim, world, values, opened, stand.rotation)
     counted = [s for s in solids if s.collider.enabled]
     if stated.mass is not None and stated.center is not None and stated.moments is not None:
         axes = (
             opened.frame.turn if stated.axes is None else stated.axes
         )  # without principal axes the prim's own
-        return MassProperties(stated.mass, stated.center, axes @ np.diag(stated.moments) @ axes.T)
+        return MassProperties(stated.mass, stated.center, (axes * stated.moments) @ axes.T)
     parts = [_solid(s, stated.density, meshes, values, opened, report) for s in counted]
     parts = [p for p in parts if p is not None and p.mass > 0.0]
     if not parts:
@@ -93,8 +93,11 @@ def _without_solids(prim: Any, stated: _Stated, opened: OpenStage, report: Repor
     return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
 
 
-def _stated(prim: Any, world: Array, values: Values, opened: OpenStage) -> _Stated:
-    if "PhysicsMassAPI" not in schemas(prim):
+def _stated(
+    prim: Any, world: Array, values: Values, opened: OpenStage, rotation: Array | None = None
+) -> _Stated:
+    """rotation: of the prim's matrix ``world``, where it is known."""
+    if "PhysicsMassAPI" not in values.traits(prim).schemas:
         return _Stated()
     frame = opened.frame
     mass = values.number(prim, "physics:mass", 0.0)
@@ -111,7 +114,8 @@ def _stated(prim: Any, world: Array, values: Values, opened: OpenStage) -> _Stat
     raw = values.array(prim, "physics:centerOfMass")
     if raw is not None and len(raw) == 3 and np.isfinite(raw).all():
         # In the prim's own space, its scale too.
-        scale = rotation_of(world[:3, :3]).T @ world[:3, :3]
+        linear = world[:3, :3]
+        scale = (rotation_of(linear) if rotation is None else rotation).T @ linear
         center = frame.turn @ (scale @ raw) * frame.length
     elif raw is not None and (len(raw) != 3 or np.isnan(raw).any()):
         values.wrong(prim, "physics:centerOfMass", raw)

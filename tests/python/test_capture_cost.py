@@ -87,7 +87,7 @@ def test_calls_are_linear_and_as_many_as_stated(program, most):
     assert each <= most
 
 
-def test_onshape_is_asked_four_times_and_once_a_part():
+def test_onshape_is_asked_four_times_twice_a_part_and_once_a_studio():
     values = chain(50, 0, 120)
     known = answers(described(values))
     calls: list[str] = []
@@ -97,4 +97,4 @@ def test_onshape_is_asked_four_times_and_once_a_part():
         return known[question] if question in known else b" " * 80 + b"\0\0\0\0"
 
     onshape(Answers(fetch=fetch), Draft("Onshape", "m", "Z"))
-    assert len(calls) == 5 and math.isclose(len(set(calls)), len(calls))
+    assert len(calls) == 7 and math.isclose(len(set(calls)), len(calls))

@@ -29,6 +29,40 @@ def test_joints_give_the_scene_of_the_bundle(name, tmp_path):
     assert report.diagnostics == []
 
 
+def every_motion() -> list[list[dict]]:
+    """A record with joints of every type, links between them and as-built ones."""
+    values = only_joints("gears")
+    hinge = values["joints"][0]
+    at = {k: dict(hinge[k]) for k in ("frameA", "frameB")}
+    for word, names in (
+        ("cylindrical", ("tz", "rz")),
+        ("pin_slot", ("tx", "rz")),
+        ("planar", ("tx", "ty", "rz")),
+        ("ball", ()),
+    ):
+        dofs = [
+            {"name": name, "value": 0.1, "min": -0.2, "max": 0.3, "minEnabled": True, "maxEnabled": True}
+            for name in names
+        ]
+        frames = {key: dict(frame) for key, frame in at.items()}
+        values["joints"].append({**hinge, **frames, "id": word, "name": word, "type": word, "dof": dofs})
+    return [
+        Fusion(described(values)).record(),
+        Fusion(described(values), tuple(j["id"] for j in values["joints"])).record(),
+    ]
+
+
+def test_joints_of_every_type_are_captured(tmp_path):
+    for number, answers in enumerate(every_motion()):
+        report = Report()
+        found = capture("fusion", answers, tmp_path, "Z", report)
+        kinds = [joint["type"] for joint in found.draft.joints]
+        assert kinds == ["revolute", "revolute", "cylindrical", "pin_slot", "planar", "ball"], number
+        names = [dof["name"] for dof in found.draft.joints[4]["dof"]]
+        assert names == ["tx", "ty", "rz"]
+        assert "CAPTURE_MEMBER_FAILED" not in [entry.code for entry in report.diagnostics]
+
+
 def test_as_built_joints_are_placed_by_their_values(tmp_path):
     values = only_joints("gears")
     for coupling in values["couplings"]:

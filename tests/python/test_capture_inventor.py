@@ -8,7 +8,7 @@ from cad.captures import capture, scene_differences
 from cad.described import described, mechanism
 from cad.inventor import Inventor
 from kinefab.capture.draft import Draft
-from kinefab.capture.inventor.occurrences import mass_record
+from kinefab.capture.masses import mass_record
 
 
 @pytest.mark.parametrize("name", ["lever/lever.bundle.json", "mechanisms/M04.bundle.json"])
@@ -30,20 +30,10 @@ def test_inertia_is_read_whatever_its_sign_and_point(tmp_path):
         moments = [given[0, 0], given[1, 1], given[2, 2]]
         moments += [sign * given[0, 1], sign * given[1, 2], sign * given[0, 2]]
         draft = Draft("Inventor", "cm", "Z")
-        properties = Mass(mass, center, moments, np.linalg.eigvalsh(tensor).tolist())
-        found = mass_record(properties, draft, "X")
+        principal = np.linalg.eigvalsh(tensor).tolist()
+        found = mass_record(draft, "X", mass, center.tolist(), moments, principal, "centre")
         assert found["inertia"] == pytest.approx([3.0, 5.0, 6.0, 0.4, 0.7, -0.2])
         assert draft.report.diagnostics == []
     draft = Draft("Inventor", "cm", "Z")
-    mass_record(Mass(mass, center, [9.0, 1.0, 1.0, 0.0, 0.0, 0.0], [1.0, 2.0, 3.0]), draft, "X")
+    mass_record(draft, "X", mass, center.tolist(), [9.0, 1.0, 1.0, 0.0, 0.0, 0.0], [1.0, 2.0, 3.0], "centre")
     assert [entry.code for entry in draft.report.diagnostics] == ["CAPTURE_INERTIA"]
-
-
-class Mass:
-    """Mass properties with numbers chosen by the test."""
-
-    def __init__(self, mass, center, moments, principal):
-        self.Mass, self.Volume = mass, 1.0
-        self.CenterOfMass = type("Point", (), dict(zip("XYZ", center.tolist())))()
-        self.XYZMomentsOfInertia = lambda: moments
-        self.PrincipalMomentsOfInertia = lambda: principal

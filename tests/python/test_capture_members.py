@@ -1,13 +1,29 @@
-"""The interfaces that captures are written against are exactly the documented members of ``cad/members.csv``."""
+"""The interfaces that captures are written against are exactly the documented members of ``cad/members.csv``; every one of them is
+asked of a double, and nothing else is."""
 
 from __future__ import annotations
 
+import copy
 import inspect
 import re
 from importlib import import_module
 
+import numpy as np
 import pytest
-from cad.documented import members
+from cad.captures import Program, call, capture
+from cad.described import described, mechanism
+from cad.documented import KIND, TOUCHED, Answers, Refused, members
+from cad.fusion import Fusion
+from cad.inventor import Inventor
+from cad.solidworks import SolidWorks
+from cad.tetrahedron import fusion_bodies, inventor_bodies, solidworks_bodies
+from kinefab.capture.channel import Live
+from test_capture_fusion import every_motion
+from test_capture_kinds import BOTH, SOLIDWORKS, machine, pair, side
+from test_capture_matter import machine as block
+from test_capture_patterns import BOLTS, as_mates, rigid
+from test_capture_patterns import machine as patterned
+from test_capture_rigid_bodies import GROUPS, JOINTS
 
 PROGRAMS = ("inventor", "solidworks", "fusion")
 MEMBER = re.compile(r"    (?:def )?(\w+)(\(|:).*?  # (.*?) \| (.*?) \| (.+)")
@@ -44,3 +60,66 @@ def test_a_name_is_a_method_in_all_classes_or_in_none(program):
     for (_, name), row in members(program).items():
         kinds.setdefault(name, set()).add(row["kind"])
     assert [name for name, found in kinds.items() if len(found) > 1] == []
+
+
+NOT_ASKED: dict[tuple[str, str, str], str] = {}
+"""Members of the table that no case asks for, each with why not."""
+
+
+def cases(program: str) -> list:
+    """Records that together hold everything that a capture of the program can meet."""
+    row = ["Row", [["M/Bolt-2"], ["M/Bolt-3"]]]
+    rows = patterned(*BOLTS, patterns=[row], joints=[rigid("Base", "Bolt-1"), rigid("Arm", "Bolt-2")])
+    if program == "inventor":
+        lever = mechanism("lever/lever.bundle.json") | {"rigidBodies": {"groups": GROUPS, "joints": JOINTS}}
+        reference = {**BOTH["angle"], "c": side("Base", "line"), "solution": 78595}
+        spheres = pair("coincident", side("Base", "sphere", r=0.02), side("Sub/Arm", "sphere", r=0.02))
+        flush = {**BOTH["distance in a range"], "inventor": "flush"}
+        kinds = machine(*BOTH.values(), flush, reference, spheres)
+        return [
+            Inventor(described(lever)).record(), Inventor(described(lever), order="columns").record(),
+            Inventor(described(kinds)).record(), Inventor(described(rows)).record(),
+            Inventor(described(block("mm", "Z")), facets=inventor_bodies).record(),
+        ]  # fmt: skip
+    if program == "solidworks":
+        ranges = [{**BOTH["angle"], "min": -0.1, "max": 0.9}, BOTH["distance in a range"]]
+        hinge = {**BOTH["insert, aligned"], "min": -0.2, "max": 1.4}
+        hinge["across"] = {"a": np.array([1.0, 0.0, 0.0]), "b": np.array([0.0, 1.0, 0.0])}
+        kinds = machine(*BOTH.values(), *SOLIDWORKS.values(), *ranges, hinge)
+        return [
+            SolidWorks(described(kinds)).record(), SolidWorks(described(as_mates(rows))).record(),
+            SolidWorks(described(block("mm", "Z")), solidworks_bodies).record(),
+        ]  # fmt: skip
+    rows["assemblyConstraints"] = [["Constraint1", "M/Arm", "M/Base"]]
+    bodies = Fusion(described(block("mm", "Z")), bodies=fusion_bodies).record()
+    odd = copy.deepcopy(bodies)
+    for entry in odd:
+        if 'itemById("opaque_albedo")' in entry:
+            entry['itemById("odd_color")'] = entry.pop('itemById("opaque_albedo")')
+    grouped = Fusion(described(rows)).record(groups=(("Group", ["M/Arm", "M/Bolt-1"]),))
+    return [grouped, *every_motion(), bodies, odd]
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_every_documented_member_is_asked_for(program, tmp_path):
+    TOUCHED.clear()
+    for record in cases(program):
+        capture(program, record, tmp_path, "Z")
+    asked = {(kind, name) for of, kind, name in TOUCHED if of == program}
+    excused = {(kind, name) for of, kind, name in NOT_ASKED if of == program}
+    assert members(program).keys() - asked == excused
+
+
+def test_a_double_refuses_what_its_table_does_not_list(tmp_path):
+    """Whoever asks, and by which road: no capture can catch it and go on."""
+    answers = Answers("inventor")
+    answers.application("Application", ActiveDocument=answers.made("Document", DisplayName="X"))
+    live = Live(Program(answers.objects), frozenset(), call)
+    with pytest.raises(Refused, match=r"Document\.Caption"):
+        _ = live.root.ActiveDocument.Caption
+    with pytest.raises(KeyError):
+        answers.made("Document", Caption="X")
+    record = Inventor(described(mechanism("lever/lever.bundle.json"))).record()
+    next(entry for entry in record if entry.get("Name") == "BarC:1")[KIND] = "inventor.Parameter"
+    with pytest.raises(Refused, match=r"Parameter\.\w+"):
+        capture("inventor", record, tmp_path, "Z")

@@ -13,8 +13,8 @@ from cad.described import described, mechanism
 from cad.gears import gear_pair
 from cad.onshape import answers
 from command_line import run
-from kinefab.capture.onshape.definition import stl
 from kinefab.capture.onshape.mates import quantity
+from kinefab.capture.onshape.parts import stl
 from kinefab.capture.run import capture_onshape
 from kinefab.diagnostics import KinefabError, Report
 
@@ -131,7 +131,9 @@ def test_over_http_with_keys_and_a_record_without_them(tmp_path):
     assert found.calls == len(server.asked)
     assert all(login.startswith("Basic ") for _, login in server.asked)
     parts = {c["definition"] for c in found.draft.components if c["kind"] == "part"}
-    assert found.calls == 4 + len(parts)  # definition, name, features, matevalues; a mesh for each definition
+    assert found.calls == 4 + 3 * len(
+        parts
+    )  # definition, name, features, matevalues; mesh and mass of each part, looks of each studio
     assert len(found.files) == 1 + len(parts)
     assert "on-secret" not in record.read_text("utf-8") and "Basic" not in record.read_text("utf-8")
     again = run("capture", "--replay", record, "-o", tmp_path / "y.bundle.json", "--up", values["meta"]["up"])

@@ -5,16 +5,15 @@ from __future__ import annotations
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
 
 import kinefab
 import numpy as np
 import pytest
 from cad.captures import Program, call, capture
 from cad.described import described, mechanism
-from cad.documented import Metres
 from cad.inventor import Inventor
 from cad.solidworks import SolidWorks
+from cad.tetrahedron import fusion_bodies, inventor_bodies, solidworks_bodies
 from command_line import run
 from kinefab.capture.channel import Live
 from kinefab.capture.inventor.capture import METHODS
@@ -50,34 +49,6 @@ def test_a_blanked_record_has_no_names_and_the_same_mechanism(tmp_path):
     assert len(again.components) == len(live.draft.components)
     assert [j["type"] for j in again.joints] == [j["type"] for j in live.draft.joints]
     assert [j["frameA"] for j in again.joints] == [j["frameA"] for j in live.draft.joints]
-
-
-TETRAHEDRON = np.array([[0.0, 0.0, 0.0], [0.03, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.05]])
-FACES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-
-
-def inventor_bodies(double: Inventor, part: Any) -> list[Any]:
-    if part.assembly:
-        return []
-    points, corners = (TETRAHEDRON * 100.0).ravel().tolist(), [i + 1 for face in FACES for i in face]
-    facets = {"0.005": [4, 4, points, [0.0] * 12, corners]}
-    return [double.answers.made("Body", Name="Solid1", CalculateFacets=facets)]
-
-
-def solidworks_bodies(double: SolidWorks, part: Any) -> list[Any] | None:
-    if part.assembly:
-        return None
-    corners = TETRAHEDRON[[i for face in FACES for i in face]].ravel().tolist()
-    face = double.answers.made("Face", GetTessTriangles={"true": corners})
-    return [double.answers.made("Body", Name="Solid1", GetFaces=[face])]
-
-
-def fusion_bodies(double: Fusion, part: Any) -> list[Any]:
-    a = double.answers
-    points = Metres(TETRAHEDRON.ravel())
-    mesh = a.made("Mesh", nodeCoordinatesAsDouble=points, nodeIndices=[i for face in FACES for i in face])
-    calculator = a.made("MeshCalculator", setQuality={"11": True}, calculate=mesh)
-    return [a.made("Body", name="Solid1", meshManager=a.made("MeshManager", createMeshCalculator=calculator))]
 
 
 @pytest.mark.parametrize("program", ["inventor", "solidworks", "fusion"])

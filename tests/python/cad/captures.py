@@ -8,6 +8,7 @@ from typing import Any
 
 import jsonschema
 import kinefab
+from cad.documented import watch
 from golden import differences
 from kinefab.capture.channel import question, record
 from kinefab.capture.run import Captured, replay
@@ -53,4 +54,5 @@ class Program:
 
 
 def call(target: Program, name: str, arguments: tuple[Any, ...] | None) -> Any:
+    watch(target.answers[target.own], name)
     return target.seen(target.answers[target.own][question(name, arguments)])

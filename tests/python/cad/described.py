@@ -17,6 +17,9 @@ ANGLE = {"rad": 1.0, "deg": np.pi / 180.0}
 
 @dataclass
 class Part:
+    """mass: ``mass`` kg, ``center`` and the 3 x 3 tensor ``inertia`` about it, metres, the part's axes.
+    look: ``material`` and ``srgb``, red green blue and opacity as bytes."""
+
     id: str
     name: str
     parent: str
@@ -25,6 +28,8 @@ class Part:
     origin: np.ndarray
     flags: dict[str, bool]
     definition: str
+    mass: dict[str, Any] | None = None
+    look: dict[str, Any] | None = None
 
     def local(self, p: np.ndarray) -> np.ndarray:
         return np.linalg.solve(self.rotation, p - self.origin)
@@ -110,6 +115,8 @@ def described(values: dict[str, Any]) -> Described:
             {k: c.get(k, False) for k in ("grounded", "flexible", "suppressed")}
             | {"visible": c.get("visible", True)},
             c.get("definition", c["id"].rpartition("/")[2]),
+            _mass(c.get("mass"), unit),
+            c.get("look"),
         )
 
     def world(record: dict[str, Any], component: str) -> None:
@@ -150,6 +157,14 @@ def described(values: dict[str, Any]) -> Described:
         root, values["meta"]["up"], parts, values.get("joints", []), values.get("constraints", []),
         values.get("couplings", []), values.get("dof", []), values,
     )  # fmt: skip
+
+
+def _mass(record: dict[str, Any] | None, unit: float) -> dict[str, Any] | None:
+    if record is None:
+        return None
+    xx, yy, zz, xy, yz, xz = np.array(record["inertia"]) * unit**2
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return {"mass": record["mass"], "center": np.array(record["center"]) * unit, "inertia": tensor}
 
 
 def owned(assembly: Described, owner: str) -> list[dict[str, Any]]:

@@ -1,4 +1,8 @@
-"""Records of a program, built member by member as ``members.csv`` documents them."""
+"""Records of a program, built member by member as ``members.csv`` documents them.
+
+Every object of such a record carries its class: what is asked of it that the table does not list is refused, whoever asks, and what
+is asked is kept in ``TOUCHED``.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from kinefab.capture import run
+from kinefab.capture.channel import SET, Replay, question
+
 TABLE = Path(__file__).with_name("members.csv")
 
 
@@ -16,6 +23,42 @@ def members(program: str) -> dict[tuple[str, str], dict[str, str]]:
     with TABLE.open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream, delimiter=";"))
     return {(row["class"], row["member"]): row for row in rows if row["program"] == program}
+
+
+KIND = "#kind"
+"""Where an object of a record says its program and class; no capture asks for it."""
+TOUCHED: set[tuple[str, str, str]] = set()
+"""Program, class and member of everything that was asked of a double."""
+
+
+SHAPES = frozenset({"Plane", "Line", "Circle", "Cylinder", "Sphere", "Point"})
+"""Inventor's geometry has no kind that all versions name alike: it is told by which of these members it has."""
+
+
+class Refused(BaseException):
+    """A question that the documentation's table does not list; no capture catches it."""
+
+
+def watch(answers: dict[str, Any], name: str) -> None:
+    """Note that a member is asked of an object.  Raises Refused where its class has none of the name."""
+    if KIND in answers:
+        program, kind = answers[KIND].split(".")
+        name = name.removesuffix(SET)
+        if (kind, name) in members(program):
+            TOUCHED.add((program, kind, name))
+        elif kind not in SHAPES or not any((other, name) in members(program) for other in SHAPES):
+            raise Refused(f"{program} documents no {kind}.{name}")
+
+
+class Watched(Replay):
+    """A replay that holds the capture to the table."""
+
+    def ask(self, number: int, name: str, arguments: tuple[Any, ...] | None) -> Any:
+        watch(self._answers[number], name)
+        return super().ask(number, name, arguments)
+
+
+run.Replay = Watched
 
 
 @dataclass(frozen=True)
@@ -41,11 +84,13 @@ class Answers:
         self.objects[0] = self._checked(kind, answers)
 
     def _checked(self, kind: str, answers: dict[str, Any]) -> dict[str, Any]:
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = {KIND: f"{self.program}.{kind}"}
         table = members(self.program)
         for name, answer in answers.items():
-            row = table[kind, name]
-            if row["kind"] == "property":
+            row = table[kind, name.removesuffix(SET)]
+            if name.endswith(SET):  # a list of what it may be set to
+                found |= {question(name, (value,)): None for value in answer}
+            elif row["kind"] == "property":
                 found[name] = scaled(answer, row["unit"])
             elif isinstance(answer, dict) and "object" not in answer and "failed" not in answer:
                 found |= {f"{name}({key})": scaled(value, row["unit"]) for key, value in answer.items()}

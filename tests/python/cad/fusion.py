@@ -51,11 +51,19 @@ class Fusion:
             )
             for name, members in groups
         ]
+        constraints = [
+            a.made(
+                "AssemblyConstraint", name=name, occurrenceOne=self.occurrences[one], occurrenceTwo=self.occurrences.get(two),
+                isSuppressed=False,
+            )
+            for name, one, two in self.assembly.values.get("assemblyConstraints", [])
+        ]  # fmt: skip
         root = a.made(
             "RootComponent", name=self.assembly.root, occurrences=self.listed(self.top),
             allJoints=self.listed([j for n, j in self.joints.items() if n not in self.as_built]),
             allAsBuiltJoints=self.listed([j for n, j in self.joints.items() if n in self.as_built]),
-            allRigidGroups=self.listed(made), allAssemblyConstraints=self.listed([]),
+            allRigidGroups=self.listed(made), allAssemblyConstraints=self.listed(constraints),
+            features=self._features(),
         )  # fmt: skip
         design = a.made(
             "Design",
@@ -69,6 +77,59 @@ class Fusion:
         a.application("Application", version="2.0.20000", activeDocument=document, activeProduct=design)
         return a.objects
 
+    def _features(self) -> dict[str, int]:
+        """The root's patterns, all of them rectangular; of a pattern of faces the elements hold no occurrences."""
+        a = self.answers
+        made: list[Any] = []
+        for name, elements, *_ in self.assembly.values.get("patterns", {}).get(self.assembly.root, []):
+            listed = [
+                a.made("PatternElement", occurrences=[self.occurrences[c] for c in element])
+                for element in elements
+            ]
+            listed.append(a.made("PatternElement", occurrences=None))
+            made.append(a.made("PatternFeature", name=name, patternElements=self.listed(listed)))
+        others = {
+            kind: self.listed([])
+            for kind in ("circularPatternFeatures", "pathPatternFeatures", "mirrorFeatures")
+        }
+        return a.made("Features", rectangularPatternFeatures=self.listed(made), **others)
+
+    def _component(self, part: Part) -> dict[str, int]:
+        a = self.answers
+        bodies = self.bodies(self, part) if self.bodies else []
+        return a.made(
+            "Component",
+            name=part.definition,
+            bRepBodies=self.listed(bodies),
+            getPhysicalProperties={"2": self._mass(part)},
+        )
+
+    def _mass(self, part: Part) -> dict[str, int] | None:
+        """kg, cm, about the component's origin."""
+        if part.mass is None:
+            return None
+        m, c, a = part.mass["mass"], part.mass["center"], self.answers
+        i = (part.mass["inertia"] + m * (c @ c * np.eye(3) - np.outer(c, c))) * 1e4
+        moments = np.linalg.eigvalsh(part.mass["inertia"] * 1e4).tolist()
+        return a.made(
+            "PhysicalProperties", mass=m, centerOfMass=a.made("Point", asArray=Metres(c)),
+            getXYZMomentsOfInertia=[True, i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[1, 2], i[0, 2]],
+            getPrincipalMomentsOfInertia=[True, *moments],
+        )  # fmt: skip
+
+    def looks(self, part: Part) -> dict[str, Any]:
+        """material and appearance of a body: sRGB and opacity as bytes."""
+        if part.look is None:
+            return {"material": None, "appearance": None}
+        a, (r, g, b, opacity) = self.answers, part.look["srgb"]
+        held = a.made("ColorProperty", value=a.made("Color", red=r, green=g, blue=b, opacity=opacity))
+        shown = a.made(
+            "Appearance",
+            name="Glossy",
+            appearanceProperties=a.made("Properties", itemById={'"opaque_albedo"': held}),
+        )
+        return {"material": a.made("Material", name=part.look["material"]), "appearance": shown}
+
     def matrix(self, rotation: np.ndarray, origin: np.ndarray) -> dict[str, int]:
         m = np.eye(4)
         m[:3, :3], m[:3, 3] = rotation, origin * 100.0
@@ -77,10 +138,9 @@ class Fusion:
     def _occurrence(self, part: Part) -> dict[str, int]:
         a = self.answers
         children = [self._occurrence(child) for child in self.assembly.children(part.id)]
-        bodies = self.bodies(self, part) if self.bodies else []
         made = a.made(
             "Occurrence", name=part.name, fullPathName=part.id.removeprefix(self.assembly.root + "/").replace("/", "+"),
-            component=a.made("Component", name=part.definition, bRepBodies=self.listed(bodies)),
+            component=self._component(part),
             transform2=self.matrix(part.rotation, part.origin), childOccurrences=self.listed(children),
             isGrounded=part.flags["grounded"], isLightBulbOn=part.flags["visible"],
         )  # fmt: skip
@@ -111,6 +171,22 @@ class Fusion:
                 "rotationAxisVector": self.vector(fa["z"]),
                 "rotationValue": dofs["rz"].get("value", 0.0),
                 "rotationLimits": self.limits(dofs["rz"]),
+            }
+        if j["type"] == "planar":
+            motion |= {
+                "normalDirectionVector": self.vector(fa["z"]),
+                "primarySlideDirectionVector": self.vector(fa["x"]),
+            }
+            for word, key in (("primary", "tx"), ("secondary", "ty")):
+                motion |= {
+                    f"{word}SlideValue": Metres(dofs[key].get("value", 0.0)),
+                    f"{word}SlideLimits": self.limits(dofs[key]),
+                }
+        if j["type"] == "pin_slot":
+            motion |= {
+                "slideDirectionVector": self.vector(fa["x"]),
+                "slideValue": Metres(dofs["tx"].get("value", 0.0)),
+                "slideLimits": self.limits(dofs["tx"]),
             }
         if "tz" in dofs:
             motion |= {

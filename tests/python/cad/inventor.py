@@ -51,10 +51,10 @@ class Inventor:
 
     def record(self, **changes: Any) -> list[dict[str, Any]]:
         a = self.answers
-        results = a.made("RigidBodyResults", RigidBodyGroups=a.listed([]), RigidBodyJoints=a.listed([]))
         definition = a.made(
             "Definition", Occurrences=a.listed(self.top), Constraints=a.listed(self.constraints),
-            Joints=a.listed(self.joints), RigidBodyAnalysis={"null": results},
+            Joints=a.listed(self.joints), RigidBodyAnalysis={"null": self._rigid_bodies()},
+            OccurrencePatterns=self._patterns(self.assembly.root),
         )  # fmt: skip
         document = a.made("Document", **{
             "DocumentType": 12291, "FullFileName": f"C:\\Work\\{self.assembly.root}.iam",
@@ -64,6 +64,59 @@ class Inventor:
         version = a.made("SoftwareVersion", Major=self.major, DisplayVersion="2024")
         a.application("Application", SoftwareVersion=version, ActiveDocument=document)
         return a.objects
+
+    def _rigid_bodies(self) -> dict[str, int]:
+        """Groups (grounded, components) and joints (type, number of one group, of the other) of the description; without them
+        every part is a group of its own."""
+        a, said = self.answers, self.assembly.values.get("rigidBodies", {"groups": [], "joints": []})
+        groups = [
+            a.made(
+                "RigidBodyGroup", Occurrences=a.listed([self.occurrences[c] for c in components]), Grounded=grounded,
+                GroupID=number,
+            )
+            for number, (grounded, components) in enumerate(said["groups"])
+        ]  # fmt: skip
+        joints = [
+            a.made("RigidBodyJoint", JointType=kind, GroupOne=groups[one], GroupTwo=groups[two])
+            for kind, one, two in said["joints"]
+        ]
+        return a.made("RigidBodyResults", RigidBodyGroups=a.listed(groups), RigidBodyJoints=a.listed(joints))
+
+    def _patterns(self, owner: str) -> dict[str, int]:
+        """The patterns of an assembly: name, and elements as lists of components; the first are the seeds."""
+        a = self.answers
+        made: list[Any] = []
+        for name, elements, *states in self.assembly.values.get("patterns", {}).get(owner, []):
+            state = dict(states[0]) if states else {}
+            listed = [
+                a.made(
+                    "PatternElement", Suppressed=state.get(i) == "suppressed", Independent=state.get(i) == "independent",
+                    Occurrences=a.listed([self.occurrences[c] for c in element if c in self.occurrences]),
+                )
+                for i, element in enumerate(elements)
+            ]  # fmt: skip
+            made.append(a.made("OccurrencePattern", Name=name, OccurrencePatternElements=a.listed(listed)))
+        return a.listed(made)
+
+    def _mass(self, part: Part) -> dict[str, int] | None:
+        """The description's mass, centre and tensor; the moments with products as entries of the tensor, about the centre."""
+        if part.mass is None:
+            return None
+        a, i = self.answers, part.mass["inertia"] * 1e4
+        return a.made(
+            "MassProperties", Mass=part.mass["mass"], CenterOfMass=self.point(part.mass["center"]),
+            XYZMomentsOfInertia=[i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[1, 2], i[0, 2]],
+            PrincipalMomentsOfInertia=np.linalg.eigvalsh(i).tolist(),
+        )  # fmt: skip
+
+    def asset(self, part: Part) -> dict[str, int] | None:
+        """An appearance of the generic schema: sRGB bytes, opacity from 0 to 1."""
+        if part.look is None:
+            return None
+        a, (r, g, b, opacity) = self.answers, part.look["srgb"]
+        color = a.made("Color", Red=r, Green=g, Blue=b, Opacity=opacity / 255.0)
+        value = a.made("AssetValue", Value=color)
+        return a.made("Asset", DisplayName="Glossy", Item={'"generic_diffuse"': value})
 
     def matrix(self, rotation: np.ndarray, origin: np.ndarray) -> dict[str, int]:
         m = np.eye(4)
@@ -75,11 +128,13 @@ class Inventor:
     def _occurrence(self, part: Part, parent: dict[str, int] | None) -> dict[str, int]:
         a = self.answers
         if part.definition not in self.definitions:
-            document = a.made("Document", DisplayName=part.definition)
+            material = None if part.look is None else a.made("Asset", DisplayName=part.look["material"])
+            document = a.made("Document", DisplayName=part.definition, ActiveMaterial=material)
             bodies = self.facets(self, part) if self.facets else []
             self.definitions[part.definition] = a.made(
-                "Definition", Document=document, SurfaceBodies=a.listed(bodies), MassProperties=None,
+                "Definition", Document=document, SurfaceBodies=a.listed(bodies), MassProperties=self._mass(part),
                 Constraints=a.listed(self._constraints(part) if part.flags["flexible"] else []), Joints=a.listed([]),
+                OccurrencePatterns=a.listed([]),
             )  # fmt: skip
         made = a.made("Occurrence")
         self.occurrences[part.id] = made
@@ -98,9 +153,15 @@ class Inventor:
             "Definition": self.definitions[part.definition], "DefinitionDocumentType": 12291 if part.assembly else 12290,
             "Transformation": self.matrix(part.rotation, part.origin), "Grounded": part.flags["grounded"],
             "Suppressed": part.flags["suppressed"], "Visible": part.flags["visible"], "Flexible": part.flags["flexible"],
-            "Adaptive": False, "IsPatternElement": False, "GetDegreesOfFreedom": freedoms,
+            "Adaptive": False, "IsPatternElement": self._in_pattern(part.id), "GetDegreesOfFreedom": freedoms,
         })  # fmt: skip
         return made
+
+    def _in_pattern(self, component: str) -> bool:
+        patterns = self.assembly.values.get("patterns", {}).values()
+        return any(
+            component in element for listed in patterns for pattern in listed for element in pattern[1]
+        )
 
     def _constraints(self, owner: Part) -> list[dict[str, int]]:
         """Those that an assembly states, in its own space."""

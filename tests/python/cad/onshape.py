@@ -3,6 +3,8 @@ frame, mate coordinate systems in the frame of the mated occurrence, limits as e
 
 from __future__ import annotations
 
+import base64
+import struct
 from typing import Any
 
 import numpy as np
@@ -20,7 +22,13 @@ OF = {"documentId": "d" * 24, "documentMicroversion": "m" * 24, "configuration":
 
 def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
     """definition, features and matevalues.  unit: of the limits' lengths; angles are in degrees."""
-    keys = {part.id: f"I{number:03d}" for number, part in enumerate(assembly.parts.values())}
+    keys: dict[str, str] = {}
+    inside: dict[tuple[str, str], str] = {}
+    for number, part in enumerate(
+        assembly.parts.values()
+    ):  # all occurrences of an assembly hold the same instances
+        owner = part.parent if part.parent in ("", assembly.root) else assembly.parts[part.parent].definition
+        keys[part.id] = inside.setdefault((owner, part.name), f"I{number:03d}")
 
     def path(component: str) -> list[str]:
         found: list[str] = []
@@ -106,17 +114,67 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
         features.append(
             {"id": f"R{number}", "suppressed": False, "featureType": "mateRelation", "featureData": data}
         )
+
+    def patterns(owner: str) -> list[dict[str, Any]]:
+        return [
+            {
+                "id": f"P{number}", "name": name, "type": "LINEAR", "suppressed": False,
+                "seedToPatternInstances": {
+                    keys[seed]: [keys[element[i]] for element in copies] for i, seed in enumerate(seeds)
+                },
+            }
+            for number, (name, (seeds, *copies), *_) in enumerate(assembly.values.get("patterns", {}).get(owner, []))
+        ]  # fmt: skip
+
     subs = [
-        {"instances": instances(part.id), "features": [], "elementId": f"E{part.definition}", **OF}
+        {
+            "patterns": patterns(part.id),
+            "instances": instances(part.id),
+            "features": [],
+            "elementId": f"E{part.definition}",
+            **OF,
+        }
         for part in assembly.parts.values()
         if part.assembly and part.id != assembly.root
     ]
     return {
         "definition": {
-            "rootAssembly": {"instances": instances(assembly.root), "occurrences": occurrences, "features": features},
+            "rootAssembly": {"instances": instances(assembly.root), "occurrences": occurrences, "features": features,
+                             "patterns": patterns(assembly.root)},
             "subAssemblies": subs, "parts": [],
         },
         "features": {"features": parameters},
         "matevalues": {"mateValues": values},
         "name": [{"id": "e", "name": assembly.root}],
     }  # fmt: skip
+
+
+def masses(assembly: Described) -> dict[str, Any]:
+    """What is answered for the parts: looks of each Part Studio, mass of each part; moments SI, about the centroid."""
+    found: dict[str, Any] = {}
+    for part in assembly.parts.values():
+        where = f"{OF['documentId']} {OF['documentMicroversion']} E{part.definition}"
+        if part.mass is not None:
+            tensor = part.mass["inertia"]
+            body = {
+                "hasMass": True, "mass": [part.mass["mass"]] * 3, "centroid": part.mass["center"].tolist() * 3,
+                "inertia": tensor.ravel().tolist() * 3, "principalInertia": np.linalg.eigvalsh(tensor).tolist(),
+            }  # fmt: skip
+            found[f"mass {where} JHD default"] = {"bodies": {"JHD": body}}
+        if part.look is not None:
+            red, green, blue, opacity = part.look["srgb"]
+            shown = {"color": {"red": red, "green": green, "blue": blue}, "opacity": opacity}
+            entry = {"partId": "JHD", "appearance": shown, "material": {"displayName": part.look["material"]}}
+            found[f"parts {where} - default"] = [entry]
+    return found
+
+
+def stl(assembly: Described, points: np.ndarray, faces: list[list[int]]) -> dict[str, Any]:
+    """A binary STL in metres for every part."""
+    facets = b"".join(
+        struct.pack("<12fH", 0.0, 0.0, 0.0, *points[face].ravel().tolist(), 0) for face in faces
+    )
+    content = base64.b64encode(b" " * 80 + struct.pack("<I", len(faces)) + facets).decode()
+    where = f"{OF['documentId']} {OF['documentMicroversion']}"
+    parts = [part for part in assembly.parts.values() if not part.assembly]
+    return {f"stl {where} E{part.definition} JHD default": {"base64": content} for part in parts}

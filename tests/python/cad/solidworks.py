@@ -24,6 +24,15 @@ class SolidWorks:
         self.assembly, self.bodies, self.revision = assembly, bodies, revision
         self.answers = Answers("solidworks")
         self.components: dict[str, dict[str, int]] = {}
+        self.patterns = assembly.values.get("patterns", {})
+        self.instances = {
+            c
+            for listed in self.patterns.values()
+            for _, elements, *_ in listed
+            for e in elements[1:]
+            for c in e
+        }
+        self.opened: list[dict[str, int]] = []
         top = [self._component(part) for part in assembly.children(assembly.root)]
         self.top = self.answers.made("Component", Name2=assembly.root, GetChildren=top)
 
@@ -31,12 +40,21 @@ class SolidWorks:
         a, root = self.answers, self.assembly.root
         configuration = a.made("Configuration", GetRootComponent3={"true": self.top})
         manager = a.made("ConfigurationManager", ActiveConfiguration=configuration)
+        features = self._features(root, True)
+        number = len(a.objects)
+        for data in self.opened:  # the model is an argument: its number is the next but the extension
+            a.objects[data["object"]][f"AccessSelections(#{number + 1}, null)"] = True
         model = a.made("Model", **{
             "ConfigurationManager": manager, "Extension": a.made("Extension", NeedsRebuild2=0), "LengthUnit": 0,
             "GetType": kind, "GetTitle": f"{root}.SLDASM", "GetPathName": f"C:\\Work\\{root}.SLDASM",
-            "GetSaveFlag": False, "FirstFeature": self._features(root, True), **changes,
+            "GetSaveFlag": False, "FirstFeature": features, **changes,
         })  # fmt: skip
-        a.application("Application", ActiveDoc=model, RevisionNumber=self.revision)
+        a.application(
+            "Application",
+            ActiveDoc=model,
+            RevisionNumber=self.revision,
+            **{"CommandInProgress=": [True, False]},
+        )
         return a.objects
 
     def _component(self, part: Part) -> dict[str, int]:
@@ -49,14 +67,19 @@ class SolidWorks:
         if part.assembly and part.flags["flexible"]:
             model = a.made("Model", LengthUnit=0, FirstFeature=self._features(part.id, False))
         elif not part.assembly:
-            model = a.made("Model", MaterialPropertyValues=None)
+            look = [v / 255.0 for v in part.look["srgb"]] if part.look else None
+            color = [*look[:3], 0.5, 1.0, 0.3, 0.4, 1.0 - look[3], 0.0] if look else None
+            model = a.made(
+                "Model", MaterialPropertyValues=color, MaterialUserName=part.look["material"] if part.look else "",
+                Extension=a.made("Extension", CreateMassProperty2=self._mass(part)),
+            )  # fmt: skip
         a.objects[made["object"]] = a._checked("Component", {
             "Name2": part.id.removeprefix(self.assembly.root + "/"), "Transform2": a.made("Transform", ArrayData=m.tolist()),
             "ReferencedConfiguration": "Default", "Visible": 1 if part.flags["visible"] else 0,
             "Solving": 1 if part.flags["flexible"] else 0 if part.assembly else -1, "GetChildren": children,
             "GetPathName": f"C:\\Work\\{part.definition}.SLD{'ASM' if part.assembly else 'PRT'}", "GetModelDoc2": model,
             "GetSuppression2": 0 if part.flags["suppressed"] else 2, "IsFixed": part.flags["grounded"],
-            "IsMirrored": bool(np.linalg.det(part.rotation) < 0.0), "IsPatternInstance": False,
+            "IsMirrored": bool(np.linalg.det(part.rotation) < 0.0), "IsPatternInstance": part.id in self.instances,
             "GetBodies2": {"0": self.bodies(self, part) if self.bodies else None},
         })  # fmt: skip
         return made
@@ -67,13 +90,48 @@ class SolidWorks:
         mates = [self._mate(c, base) for c in owned(self.assembly, owner)]
         for one, two in zip(mates, [*mates[1:], None]):
             a.objects[one["object"]]["GetNextSubFeature()"] = two
+        following = None
+        for pattern in reversed(self.patterns.get(owner, [])):
+            following = self._pattern(pattern, base, following)
         group = a.made(
             "Feature",
             GetTypeName2="MateGroup",
-            GetNextFeature=None,
+            GetNextFeature=following,
             GetFirstSubFeature=mates[0] if mates else None,
         )
         return a.made("Feature", GetTypeName2="OriginProfileFeature", GetNextFeature=group)
+
+    def _pattern(self, pattern: Any, base: Part, following: Any) -> dict[str, int]:
+        """A linear component pattern: its sub-features are the instances, its definition names the seeds."""
+        a, (name, (seeds, *elements), *_) = self.answers, pattern
+
+        def feature(component: str) -> dict[str, int]:
+            return a.made(
+                "Feature", GetSpecificFeature2=self._relative(component, base), GetNextSubFeature=None
+            )
+
+        instances = [feature(c) for element in elements for c in element]
+        for one, two in zip(instances, [*instances[1:], None]):
+            a.objects[one["object"]]["GetNextSubFeature()"] = two
+        data = a.made(
+            "PatternData", SeedComponentArray=[feature(c) for c in seeds], ReleaseSelectionAccess=None
+        )
+        self.opened.append(data)
+        return a.made(
+            "Feature", Name=name, GetTypeName2="LocalLPattern", GetNextFeature=following, GetDefinition=data,
+            GetFirstSubFeature=instances[0] if instances else None,
+        )  # fmt: skip
+
+    def _mass(self, part: Part) -> dict[str, int] | None:
+        """SI, about the centre, products as entries of the tensor."""
+        if part.mass is None:
+            return None
+        tensor = part.mass["inertia"]
+        return self.answers.made(
+            "MassProperty", Mass=part.mass["mass"], CenterOfMass=Metres(part.mass["center"]),
+            GetMomentOfInertia={"0": tensor.ravel().tolist()},
+            PrincipalMomentsOfInertia=np.linalg.eigvalsh(tensor).tolist(), **{"UseSystemUnits=": [True]},
+        )  # fmt: skip
 
     def entity(self, side: dict[str, Any], base: Part, word: str = "") -> dict[str, int]:
         component = None if side["component"] == "ground" else self._relative(side["component"], base)

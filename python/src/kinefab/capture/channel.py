@@ -15,6 +15,8 @@ from typing import Any, Protocol, cast
 
 FORMAT, VERSION = "kinefab.capture", "1.0"
 FAILURE = "failed"
+SET = "="
+"""Behind the name of a member that is set: ``UseSystemUnits=(true)``."""
 
 
 class MemberFailed(Exception):
@@ -30,7 +32,7 @@ class RecordBroken(Exception):
 
 
 class Asked:
-    """An object of the program: its members are asked for by attribute."""
+    """An object of the program: its members are asked for, and set, by attribute."""
 
     def __init__(self, channel: Channel, number: int) -> None:
         self._channel, self._number = channel, number
@@ -45,6 +47,12 @@ class Asked:
 
             return called
         return self._channel.ask(self._number, name, None)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            object.__setattr__(self, name, value)
+        else:
+            self._channel.ask(self._number, f"{name}{SET}", (value,))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Asked) and other._number == self._number
@@ -169,6 +177,8 @@ def seen(channel: Channel, key: str, answer: Any, objects: int) -> Any:
 
 def plainly(target: Any, name: str, arguments: tuple[Any, ...] | None) -> Any:
     """A member of a Python object."""
+    if name.endswith(SET):
+        return setattr(target, name[: -len(SET)], *(arguments or ()))
     member = getattr(target, name)
     return member if arguments is None else member(*arguments)
 
@@ -182,7 +192,7 @@ def record(program: str, answers: object, blank: bool = False) -> dict[str, Any]
 
 NAMED = frozenset(
     "Name Name2 name fullPathName FullFileName DisplayName GetPathName GetTitle ReferencedConfiguration "
-    "mateName Description".split()
+    "mateName Description MaterialUserName".split()
 )
 """Members and fields that hold what a user or a file system named."""
 
@@ -190,7 +200,10 @@ NAMED = frozenset(
 def blanked(value: Any, names: dict[str, str], field: str = "") -> Any:
     """The same answers with names replaced; the parts of a path and the number of a copy stay apart."""
     if isinstance(value, dict):
-        return {key: blanked(entry, names, key) for key, entry in cast("dict[str, Any]", value).items()}
+        held = cast("dict[str, Any]", value)
+        if isinstance(failed := held.get(FAILURE), str):  # what a program says of a failure may hold a path
+            return {FAILURE: failed.partition(":")[0]}
+        return {key: blanked(entry, names, key) for key, entry in held.items()}
     if isinstance(value, list):
         return [blanked(entry, names, field) for entry in cast("list[Any]", value)]
     if isinstance(value, str) and field.partition("(")[0] in NAMED and value:

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analysis import analyse
 from ..analysis.equations.scene_equations import Equations, equations_of, joint_sides
 from ..diagnostics import KinefabError, Report
 from ..model import RX, Constraint, Joint, JointKind, Scene, Sense
@@ -65,7 +64,7 @@ def _closing(draft: Draft, kind: str, open_ones: list[Record], poses: Poses) -> 
 def residuals(draft: Draft, **records: list[Record]) -> dict[str, float]:
     """Largest residual of each joint or constraint at the captured pose, metres or radians, by id; those that no
     equation is known for, or that the bundle's reader refuses, have none."""
-    values = {**_plain(draft), **records}
+    values = {**plain(draft), **records}
     for key in ("couplings", "dof", *(CHECKED - records.keys())):
         values.pop(key, None)
     if "joints" in values:
@@ -147,20 +146,7 @@ def _off_value(joint: Joint, record: Record, scene: Scene, length: float) -> flo
     return off
 
 
-def compare_freedoms(draft: Draft) -> None:
-    """What the program says of each part's freedoms against what the analysis finds; differences are told."""
-    if not draft.dof:
-        return
-    try:
-        scene = scene_from_values(_plain(draft), Path("capture.bundle.json"), b"", Report())
-        found = analyse(scene)
-    except KinefabError:
-        return  # whoever exports the bundle is told why
-    told = ("DOF_RECORD_DIFFERS", "DOF_DIRECTION_DIFFERS")
-    draft.report.diagnostics += [d for d in found.report.diagnostics if d.code in told]
-
-
-def _plain(draft: Draft) -> Record:
+def plain(draft: Draft) -> Record:
     """The bundle's values without geometry and materials."""
     values = draft.values()
     values.pop("materials", None)

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import Any
 
 from ..diagnostics import KinefabError, Report
-from .channel import Live
+from .channel import SET, Live, plainly
 
 NOT_RUNNING = -2147221021
 """MK_E_UNAVAILABLE."""
@@ -46,10 +46,10 @@ def patient(
         pause, waited = FIRST_PAUSE, 0.0
         while True:
             try:
-                member = getattr(target, name)
-                if arguments is None:
-                    return member
+                if arguments is None or name.endswith(SET):
+                    return plainly(target, name, arguments)
                 # Bound late, a method without arguments is asked as if it were a property.
+                member = getattr(target, name)
                 return member(*arguments) if callable(member) else member
             except failure as error:
                 if getattr(error, "hresult", None) not in BUSY or waited >= PATIENCE:

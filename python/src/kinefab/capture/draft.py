@@ -34,6 +34,15 @@ class BodyMesh:
     triangles: list[int]
 
 
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """Copies that are fixed to their seed.  name: the program's.  seed, copies: components."""
+
+    name: str
+    seed: str
+    copies: tuple[str, ...]
+
+
 @dataclass(slots=True)
 class Draft:
     """A bundle that is being captured; lengths in ``length``, angles in radians, masses in kilograms.
@@ -57,6 +66,7 @@ class Draft:
     dof: list[Record] = field(default_factory=list[Record])
     owners: dict[str, str] = field(default_factory=dict[str, str])
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
+    patterns: list[Pattern] = field(default_factory=list[Pattern])
     ids: set[str] = field(default_factory=set[str])
     notes: Record = field(default_factory=dict[str, Any])
 

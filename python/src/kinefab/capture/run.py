@@ -12,7 +12,8 @@ from typing import Any
 from ..diagnostics import KinefabError, Report
 from ..replacing import write_whole
 from .channel import Asked, Channel, Live, MemberFailed, RecordBroken, Replay, opened, record
-from .checking import check, compare_freedoms
+from .checking import check
+from .comparing import compare
 from .draft import Draft
 from .writing import mesh_files, write_files
 
@@ -130,7 +131,7 @@ def drafted(
     report.raise_for_errors()
     draft.settle()
     check(draft)
-    compare_freedoms(draft)
+    compare(draft)
     return draft
 
 

@@ -43,11 +43,38 @@ class RootComponent(Protocol):
     allAsBuiltJoints: Collection  # - | root | Component.allAsBuiltJoints Property
     allRigidGroups: Collection  # - | root | Component.allRigidGroups Property
     allAssemblyConstraints: Collection  # - | root | Component.allAssemblyConstraints Property
+    features: Features  # - | - | Component.features Property
+
+
+class Features(Protocol):
+    rectangularPatternFeatures: Collection  # - | - | Features.rectangularPatternFeatures Property
+    circularPatternFeatures: Collection  # - | - | Features.circularPatternFeatures Property
+    pathPatternFeatures: Collection  # - | - | Features.pathPatternFeatures Property
+    mirrorFeatures: Collection  # - | - | Features.mirrorFeatures Property
+
+
+class PatternFeature(Protocol):
+    name: str  # text | - | RectangularPatternFeature.name Property
+    patternElements: Collection  # - | - | RectangularPatternFeature.patternElements Property
+
+
+class PatternElement(Protocol):
+    occurrences: Sequence[Occurrence] | None  # of a pattern of occurrences | - | PatternElement.occurrences Property
 
 
 class Component(Protocol):
     name: str  # text | - | Component.name Property
     bRepBodies: Collection  # - | component | Component.bRepBodies Property
+
+    def getPhysicalProperties(self, accuracy: int) -> PhysicalProperties | None: ...  # CalculationAccuracy | - | Component.getPhysicalProperties Method
+
+
+class PhysicalProperties(Protocol):
+    mass: float  # kg | - | PhysicalProperties.mass Property
+    centerOfMass: Point  # - | component | PhysicalProperties.centerOfMass Property
+
+    def getXYZMomentsOfInertia(self) -> Sequence[Any]: ...  # flag, kg cm^2 about the origin: xx yy zz xy yz xz | component | PhysicalProperties.getXYZMomentsOfInertia Method
+    def getPrincipalMomentsOfInertia(self) -> Sequence[Any]: ...  # flag, kg cm^2 | - | PhysicalProperties.getPrincipalMomentsOfInertia Method
 
 
 class Occurrence(Protocol):
@@ -69,12 +96,38 @@ class Vector(Protocol):
 
 
 class Point(Protocol):
-    def asArray(self) -> Sequence[float]: ...  # cm | root | Point3D.asArray Method
+    def asArray(self) -> Sequence[float]: ...  # cm | as its owner | Point3D.asArray Method
 
 
 class Body(Protocol):
     name: str  # text | - | BRepBody.name Property
     meshManager: MeshManager  # - | component | BRepBody.meshManager Property
+    material: Material | None  # - | - | BRepBody.material Property
+    appearance: Appearance | None  # - | - | BRepBody.appearance Property
+
+
+class Material(Protocol):
+    name: str  # text | - | Material.name Property
+
+
+class Appearance(Protocol):
+    name: str  # text | - | Appearance.name Property
+    appearanceProperties: Properties  # - | - | Appearance.appearanceProperties Property
+
+
+class Properties(Protocol):
+    def itemById(self, id: str) -> ColorProperty | None: ...  # by key name | - | Properties.itemById Method
+
+
+class ColorProperty(Protocol):
+    value: Color | None  # - | - | ColorProperty.value Property
+
+
+class Color(Protocol):
+    red: int  # 0 to 255 | - | Color.red Property
+    green: int  # 0 to 255 | - | Color.green Property
+    blue: int  # 0 to 255 | - | Color.blue Property
+    opacity: int  # 0 to 255 | - | Color.opacity Property
 
 
 class MeshManager(Protocol):

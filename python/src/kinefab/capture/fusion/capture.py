@@ -9,12 +9,14 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from ..channel import methods_of
-from ..draft import BodyMesh, Draft, Record, pose_of_rows
+from ..draft import Draft, Record, pose_of_rows
 from . import api
-from .api import Application, Body, Collection, Component, Occurrence
+from .api import Application, Collection, Occurrence
 from .joints import read_as_built, read_constraint, read_group, read_joint, read_link
+from .parts import Parts
+from .patterns import read_patterns
 
-NAME, DESIGN, NORMAL_QUALITY = "Fusion", "DesignProductType", 11
+NAME, DESIGN = "Fusion", "DesignProductType"
 INTERFACES = tuple(
     value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
 )
@@ -37,7 +39,7 @@ def capture(application: Application, draft: Draft) -> None:
     draft.components.append(
         {"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity}
     )
-    _occurrences(draft, root.occurrences, name, name)
+    _occurrences(draft, root.occurrences, name, name, Parts(draft))
 
     def component(occurrence: Occurrence | None) -> str:
         return "ground" if occurrence is None else f"{name}/{_path(occurrence)}"
@@ -54,6 +56,8 @@ def capture(application: Application, draft: Draft) -> None:
             for index in range(collection.count):
                 with draft.safely(f"{words} {index + 1}"):
                     read(draft, collection.item(index), component)
+    with draft.safely("patterns"):
+        read_patterns(draft, root.features, component)
     with draft.safely("motion links"):
         _links(draft, root.allJoints)
     with draft.safely("contact sets"):
@@ -66,13 +70,13 @@ def _path(occurrence: Occurrence) -> str:
     return occurrence.fullPathName.replace("/", "_").replace("+", "/")
 
 
-def _occurrences(draft: Draft, occurrences: Collection, parent: str, root: str) -> None:
+def _occurrences(draft: Draft, occurrences: Collection, parent: str, root: str, parts: Parts) -> None:
     for index in range(occurrences.count):
         with draft.safely(f"occurrence {index + 1} of {parent}"):
-            _occurrence(draft, cast(Occurrence, occurrences.item(index)), parent, root)
+            _occurrence(draft, cast(Occurrence, occurrences.item(index)), parent, root, parts)
 
 
-def _occurrence(draft: Draft, occurrence: Occurrence, parent: str, root: str) -> None:
+def _occurrence(draft: Draft, occurrence: Occurrence, parent: str, root: str, parts: Parts) -> None:
     own = f"{root}/{_path(occurrence)}"
     children = occurrence.childOccurrences
     is_assembly = children.count > 0
@@ -90,31 +94,9 @@ def _occurrence(draft: Draft, occurrence: Occurrence, parent: str, root: str) ->
     draft.components.append(record)
     if is_assembly:
         record["flexible"] = True
-        _occurrences(draft, children, own, root)
+        _occurrences(draft, children, own, root, parts)
     else:
-        _meshes(draft, definition, record)
-
-
-def _meshes(draft: Draft, component: Component, record: Record) -> None:
-    """The bodies of a component, read once for all its occurrences."""
-    name = record["definition"]
-    if name not in draft.meshes:
-        draft.meshes[name] = []
-        with draft.safely(f"meshes of {name}"):
-            bodies = component.bRepBodies
-            draft.meshes[name] = [_mesh(cast(Body, bodies.item(i))) for i in range(bodies.count)]
-    if draft.meshes[name]:
-        record["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in draft.meshes[name]]
-    else:
-        del draft.meshes[name]
-
-
-def _mesh(body: Body) -> BodyMesh:
-    calculator = body.meshManager.createMeshCalculator()
-    calculator.setQuality(NORMAL_QUALITY)
-    mesh = calculator.calculate()
-    points = [float(v) for v in mesh.nodeCoordinatesAsDouble]
-    return BodyMesh(" ".join(body.name.split()), points, [int(i) for i in mesh.nodeIndices])
+        record.update(parts.read(record["definition"], definition))
 
 
 def _links(draft: Draft, joints: Collection) -> None:

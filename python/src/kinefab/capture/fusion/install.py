@@ -15,12 +15,17 @@ MODULES = (
     "capture/__init__.py",
     "capture/channel.py",
     "capture/draft.py",
+    "capture/looks.py",
+    "capture/masses.py",
+    "capture/patterns.py",
     "capture/writing.py",
     "capture/fusion/__init__.py",
     "capture/fusion/api.py",
     "capture/fusion/capture.py",
     "capture/fusion/inside.py",
     "capture/fusion/joints.py",
+    "capture/fusion/parts.py",
+    "capture/fusion/patterns.py",
 )
 SCRIPT = '''"""Writes the open design as a CAD bundle of Kinefab, and the raw answers beside it."""
 

@@ -29,6 +29,7 @@ class Document(Protocol):
     RequiresUpdate: bool  # flag | - | Document.RequiresUpdate Property
     Dirty: bool  # flag | - | Document.Dirty Property
     ComponentDefinition: Definition  # - | - | AssemblyDocument.ComponentDefinition Property
+    ActiveMaterial: Asset | None  # - | - | PartDocument.ActiveMaterial Property
 
 
 class Collection(Protocol):
@@ -42,10 +43,22 @@ class Definition(Protocol):
     Occurrences: Collection  # - | - | AssemblyComponentDefinition.Occurrences Property
     Constraints: Collection  # - | the definition's own | AssemblyComponentDefinition.Constraints Property
     Joints: Collection  # - | the definition's own | AssemblyComponentDefinition.Joints Property
+    OccurrencePatterns: Collection  # - | - | AssemblyComponentDefinition.OccurrencePatterns Property
     SurfaceBodies: Collection  # - | part | PartComponentDefinition.SurfaceBodies Property
     MassProperties: MassProperties | None  # - | part | PartComponentDefinition.MassProperties Property
 
     def RigidBodyAnalysis(self, Options: None) -> RigidBodyResults: ...  # - | - | AssemblyComponentDefinition.RigidBodyAnalysis Method
+
+
+class OccurrencePattern(Protocol):
+    Name: str  # text | - | OccurrencePattern.Name Property
+    OccurrencePatternElements: Collection  # the first holds what is repeated | - | OccurrencePattern.OccurrencePatternElements Property
+
+
+class PatternElement(Protocol):
+    Occurrences: Collection  # - | - | OccurrencePatternElement.Occurrences Property
+    Suppressed: bool  # flag | - | OccurrencePatternElement.Suppressed Property
+    Independent: bool  # flag | - | OccurrencePatternElement.Independent Property
 
 
 class RigidBodyResults(Protocol):
@@ -207,13 +220,30 @@ class Intent(Protocol):
 
 class Body(Protocol):
     Name: str  # text | - | SurfaceBody.Name Property
+    Appearance: Asset | None  # - | - | SurfaceBody.Appearance Property
 
     def CalculateFacets(self, Tolerance: float) -> Sequence[Any]: ...  # counts, cm, normals, corners from 1 | part | SurfaceBody.CalculateFacets Method
 
 
+class Asset(Protocol):
+    DisplayName: str  # text, in the user's language | - | Asset.DisplayName Property
+
+    def Item(self, Index: str) -> AssetValue: ...  # by key name | - | Asset.Item Property
+
+
+class AssetValue(Protocol):
+    Value: Color  # - | - | ColorAssetValue.Value Property
+
+
+class Color(Protocol):
+    Red: int  # 0 to 255 | - | Color.Red Property
+    Green: int  # 0 to 255 | - | Color.Green Property
+    Blue: int  # 0 to 255 | - | Color.Blue Property
+    Opacity: float  # 0 to 1 | - | Color.Opacity Property
+
+
 class MassProperties(Protocol):
     Mass: float  # kg | - | MassProperties.Mass Property
-    Volume: float  # cm^3 | - | MassProperties.Volume Property
     CenterOfMass: Point  # cm | part | MassProperties.CenterOfMass Property
 
     def XYZMomentsOfInertia(self) -> Sequence[float]: ...  # kg cm^2: xx yy zz xy yz xz | part | MassProperties.XYZMomentsOfInertia Method

@@ -20,6 +20,7 @@ from .api import (
 from .constraints import Owner, read_constraint
 from .joints import read_joint
 from .occurrences import ASSEMBLY, Occurrences
+from .patterns import read_patterns
 
 NAME, LEAST_MAJOR = "Inventor", 23
 """Version 23 is 2019: from there on a mate states its solution."""
@@ -71,6 +72,7 @@ def _statements(owner: Owner, definition: Definition) -> None:
     for index in _indices(owner, definition.Constraints, "constraints"):
         with owner.draft.safely(f"constraint {index} of {owner.id}"):
             read_constraint(owner, cast(Constraint, definition.Constraints.Item(index)))
+    read_patterns(owner, definition)
 
 
 def _indices(owner: Owner, collection: Collection, words: str) -> range:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -217,6 +218,8 @@ def _symmetry(owner: Owner, c: Constraint, record: Record) -> None:
         "kind": "symmetry",
         "c": {"component": owner.holder(entity), **plane},
     }
+    with suppress(MemberFailed):  # before 2015; what it means for the equations is not documented
+        record["extras"] = {"normalsOpposed": bool(c.NormalsOpposed)}
 
 
 def _other(owner: Owner, c: Constraint, record: Record) -> None:

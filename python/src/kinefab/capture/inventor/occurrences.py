@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import cast
 
 from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
-from .api import Body, Collection, Definition, MassProperties, Matrix, Occurrence
+from ..looks import look
+from ..masses import mass_record
+from .api import Asset, Body, Collection, Definition, MassProperties, Matrix, Occurrence
 from .geometry import numbers
 
 ASSEMBLY = 12291
 TOLERANCE = 0.005
 """Chord of a facet, cm."""
 TINY = 1e-12
+FULL = 255.0
+COLORS = (
+    "generic_diffuse", "opaque_albedo", "metal_f0", "metal_color", "metallicpaint_base_color", "plasticvinyl_color",
+    "wallpaint_color", "ceramic_color", "layered_diffuse", "transparent_color", "surface_albedo",
+)  # fmt: skip
+"""Key names of the colour in the schemas of Autodesk's appearances; they are the same in all languages."""
 
 
 @dataclass(slots=True)
@@ -106,11 +113,29 @@ class Occurrences:
             if meshes:
                 self.draft.meshes[name] = meshes
                 found["bodies"] = [{"id": m.name, "meshKey": m.name} for m in meshes]
+                self._looks(name, definition, bodies, found["bodies"])
         with self.draft.safely(f"mass of {name}"):
-            if (mass := definition.MassProperties) is not None:
-                found["mass"] = mass_record(mass, self.draft, name)
+            properties = definition.MassProperties
+            if properties is not None and (mass := float(properties.Mass)) > 0.0:
+                found["mass"] = _mass(self.draft, name, mass, properties)
         self.definitions[name] = found
         return found
+
+    def _looks(self, name: str, definition: Definition, bodies: list[Body], records: list[Record]) -> None:
+        material = ""
+        with self.draft.safely(f"material of {name}"):
+            if (asset := definition.Document.ActiveMaterial) is not None:
+                material = asset.DisplayName
+        for body, record in zip(bodies, records):
+            with self.draft.safely(f"appearance of {name}/{record['id']}"):
+                shown = body.Appearance
+                color = None if shown is None else _color(shown)
+                if shown is not None and color is None:
+                    self.draft.report.approximated(
+                        f"appearance {shown.DisplayName} of {name}", "CAPTURE_NO_COLOR", program=self.draft.program
+                    )  # fmt: skip
+                if made := look(self.draft, material, color, name):
+                    record["material"] = made
 
     def _freedoms(self, occurrence: Occurrence, own: str) -> None:
         with self.draft.safely(f"freedoms of {own}"):
@@ -130,39 +155,19 @@ def _mesh(body: Body) -> BodyMesh:
     return BodyMesh(body.Name, [float(v) for v in points], [int(i) - 1 for i in corners])
 
 
-def mass_record(properties: MassProperties, draft: Draft, name: str) -> Record:
-    """Mass, centre and the tensor about it, part axes.
-
-    Whether ``XYZMomentsOfInertia`` counts from the centre or the origin, and with which sign it lists products, tells the
-    comparison with the principal moments: trace and determinant of a tensor are theirs.
-    """
-    mass, center = float(properties.Mass), numbers(properties.CenterOfMass)
-    xx, yy, zz, xy, yz, xz = (float(v) for v in properties.XYZMomentsOfInertia())
+def _mass(draft: Draft, name: str, mass: float, properties: MassProperties) -> Record:
+    center = numbers(properties.CenterOfMass)
+    moments = [float(v) for v in properties.XYZMomentsOfInertia()]
     principal = [float(v) for v in properties.PrincipalMomentsOfInertia()]
-    best: tuple[float, str, list[float]] | None = None
-    size = max(map(abs, principal)) or 1.0
-    for words, sign in (("entries of the tensor", 1.0), ("products with the other sign", -1.0)):
-        given = [xx, yy, zz, sign * xy, sign * yz, sign * xz]
-        for where, tensor in (
-            ("about the centre", given),
-            ("about the origin", _to_center(given, mass, center)),
-        ):
-            off = abs(sum(tensor[:3]) - sum(principal)) / size
-            off += abs(_determinant(tensor) - math.prod(principal)) / size**3
-            if best is None or off < best[0] - 1e-9:
-                best = off, f"{words}, {where}", tensor
-    assert best is not None
-    if best[0] > 1e-4:
-        draft.report.add("CAPTURE_INERTIA", name=name, program=draft.program, off=f"{best[0]:.2g}")
-    return {"in": "part", "mass": mass, "center": center, "inertia": best[2], "extras": {"reading": best[1]}}
+    return mass_record(draft, name, mass, center, moments, principal, "centre", draft.meshes.get(name, ()))
 
 
-def _to_center(tensor: list[float], m: float, c: list[float]) -> list[float]:
-    x, y, z = c
-    shift = [y * y + z * z, x * x + z * z, x * x + y * y, -x * y, -y * z, -x * z]
-    return [t - m * s for t, s in zip(tensor, shift)]
-
-
-def _determinant(tensor: list[float]) -> float:
-    xx, yy, zz, xy, yz, xz = tensor
-    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+def _color(asset: Asset) -> Numbers | None:
+    """Red green blue and opacity, 0 to 1, of the first key that an appearance has; None where it has none."""
+    for key in COLORS:
+        try:
+            color = asset.Item(key).Value
+            return [color.Red / FULL, color.Green / FULL, color.Blue / FULL, float(color.Opacity)]
+        except (MemberFailed, AttributeError):
+            continue
+    return None

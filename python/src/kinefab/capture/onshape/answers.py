@@ -1,6 +1,6 @@
 """Onshape's answers: over REST with keys from the environment, from a folder of saved JSON, or from a record.
 
-Every answer is kept by its question (``definition``, ``features``, ``matevalues``, ``name``, ``stl PARTID ...``), once.
+Every answer is kept by its question (``definition``, ``features``, ``matevalues``, ``name``, ``stl ...``, ``mass ...``, ``parts ...``), once.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from http.client import HTTPException
 from pathlib import Path
 from typing import Any, cast
-from urllib.parse import urlencode, urlsplit
+from urllib.parse import quote, urlencode, urlsplit
 
 from ...diagnostics import KinefabError, Report
 from ...geometry.references import read_regular
@@ -26,6 +27,10 @@ ADDRESS = re.compile(
 )
 KEYS = ("ONSHAPE_ACCESS_KEY", "ONSHAPE_SECRET_KEY")
 TRIES, LONGEST_WAIT = 3, 60.0
+AGAIN = frozenset({429, 502, 503, 504})
+"""Asked to wait, or nobody was there for the moment."""
+HOME = "onshape.com"
+OF_PARTS = frozenset({"stl", "mass", "parts"})
 SAVED = ("definition", "features", "matevalues", "name")
 
 
@@ -59,12 +64,14 @@ class Answers:
 
 @dataclass(frozen=True, slots=True)
 class Rest:
-    """An assembly behind an address of the browser.  base: scheme and host.  where: document, version and element."""
+    """An assembly behind an address of the browser.  base: scheme and host.  where: document, version and element.
+    patience: seconds that an answer is waited for."""
 
     base: str
     where: Mapping[str, str]
     keys: tuple[str, str]
     sleep: Callable[[float], None] = time.sleep
+    patience: float = 60.0
 
     def fetch(self, question: str) -> Any:
         w = self.where
@@ -79,45 +86,86 @@ class Rest:
         if question == "name":
             listed = self._json("/api/documents/d/{did}/{wvm}/{wid}/elements".format_map(w))
             return [e for e in cast("list[dict[str, Any]]", listed) if e.get("id") == w["eid"]]
-        if question.startswith("stl "):
-            _, did, microversion, eid, part, configuration = question.split(" ", 5)
-            asked = urlencode({"mode": "binary", "units": "meter", "configuration": configuration})
-            return self._get(f"/api/parts/d/{did}/m/{microversion}/e/{eid}/partid/{part}/stl?{asked}", "*/*")
+        kind, _, rest = question.partition(" ")
+        if kind in OF_PARTS:
+            return self._of_part(kind, *rest.split(" ", 4))
         return self._json(f"/api/assemblies/d/{element}/{question}")
+
+    def _of_part(
+        self, kind: str, did: str, microversion: str, eid: str, part: str, configuration: str
+    ) -> Any:
+        asked = {"configuration": configuration}
+        studio = f"/api/parts/d/{quote(did)}/m/{quote(microversion)}/e/{quote(eid)}"
+        if kind == "parts":
+            return self._json(f"{studio}?{urlencode(asked)}")
+        if kind == "mass":
+            asked |= {"useMassPropertyOverrides": "true"}
+            return self._json(f"{studio}/partid/{quote(part, safe='')}/massproperties?{urlencode(asked)}")
+        asked = {"mode": "binary", "units": "meter", **asked}
+        return self._get(f"{studio}/partid/{quote(part, safe='')}/stl?{urlencode(asked)}", "*/*")
 
     def _json(self, path: str) -> Any:
         try:
             return json.loads(self._get(path, "application/json"))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise MemberFailed(path.partition("?")[0], f"no JSON: {error}") from error
 
     def _get(self, path: str, accept: str) -> bytes:
-        login = base64.b64encode(":".join(self.keys).encode()).decode()
         request = urllib.request.Request(self.base + path, headers={"Accept": accept})
-        # Not carried on by a redirect: the meshes lie at another host, which has no business with the keys.
-        request.add_unredirected_header("Authorization", f"Basic {login}")
+        _signed(request, self.keys)
+        opener = urllib.request.build_opener(_Redirects(self.base, self.keys))
         member = path.partition("?")[0]
         for attempt in range(TRIES):
             try:
-                with urllib.request.urlopen(request, timeout=60) as answer:
+                with opener.open(request, timeout=self.patience) as answer:
                     content: bytes = answer.read()
                     return content
             except urllib.error.HTTPError as error:
-                if error.code != 429 or attempt == TRIES - 1:
+                if error.code not in AGAIN or attempt == TRIES - 1:
                     raise MemberFailed(member, _words(error.code)) from error
                 asked = error.headers.get("Retry-After", "1")
                 self.sleep(min(LONGEST_WAIT, float(asked) if asked.isdigit() else 1.0))
-            except (urllib.error.URLError, OSError) as error:
+            except (OSError, HTTPException, ValueError) as error:  # ValueError: an address that is none
                 raise MemberFailed(member, str(getattr(error, "reason", error))) from error
         raise AssertionError("the last try returns or raises")
+
+
+def _signed(request: urllib.request.Request, keys: tuple[str, str]) -> None:
+    login = base64.b64encode(":".join(keys).encode()).decode()
+    request.add_unredirected_header("Authorization", f"Basic {login}")
+
+
+class _Redirects(urllib.request.HTTPRedirectHandler):
+    """Meshes lie at other hosts of Onshape's, which ask for the keys again; others have no business with them."""
+
+    def __init__(self, base: str, keys: tuple[str, str]) -> None:
+        self.base, self.keys = base, keys
+
+    def redirect_request(
+        self, req: urllib.request.Request, fp: Any, code: int, msg: str, headers: Any, newurl: str
+    ) -> urllib.request.Request | None:
+        found = super().redirect_request(req, fp, code, msg, headers, newurl)
+        if found is not None and may_have_keys(self.base, newurl):
+            _signed(found, self.keys)
+        return found
+
+
+def may_have_keys(base: str, address: str) -> bool:
+    """Whether the keys for one address may be sent to another: its own host, or between hosts of Onshape, never less safely."""
+    own, other = urlsplit(base), urlsplit(address)
+    if (own.scheme, own.netloc) == (other.scheme, other.netloc):
+        return True
+    hosts = (own.hostname or "", other.hostname or "")
+    return other.scheme == "https" and all(host.endswith(f".{HOME}") for host in hosts)
 
 
 def _words(code: int) -> str:
     said = {
         401: "the keys are not accepted",
+        402: "the plan's yearly number of calls is used up",
         403: "the keys have no right to this document, or the computer's clock is off",
         404: "there is no such document, or the keys may not see it",
-        429: "too many calls for now, or the plan's yearly number is used up",
+        429: "too many calls for now",
     }
     return f"HTTP {code}: {said.get(code, 'the server failed')}"
 
@@ -188,8 +236,22 @@ def _listed(value: Any) -> list[Any]:
 
 def mesh_question(instance: Mapping[str, Any]) -> str:
     """What is asked for the mesh of an instance's part."""
-    wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId", "partId")]
-    return " ".join(["stl", *map(str, wanted), str(instance.get("configuration", "default"))])
+    return _question("stl", instance, str(instance.get("partId")))
+
+
+def mass_question(instance: Mapping[str, Any]) -> str:
+    """What is asked for the mass of an instance's part."""
+    return _question("mass", instance, str(instance.get("partId")))
+
+
+def look_question(instance: Mapping[str, Any]) -> str:
+    """What is asked for the looks of all parts of the Part Studio that an instance's part is of."""
+    return _question("parts", instance, "-")
+
+
+def _question(kind: str, instance: Mapping[str, Any], part: str) -> str:
+    wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId")]
+    return " ".join([kind, *map(str, wanted), part, str(instance.get("configuration", "default"))])
 
 
 def replayed(answers: object) -> Answers:

@@ -8,6 +8,8 @@ from ..draft import Draft, pose
 from .answers import Answers, replayed
 from .definition import Definition
 from .mates import Mates, limits_of
+from .parts import Parts
+from .patterns import read_patterns
 
 NAME = "Onshape"
 METHODS: frozenset[str] = frozenset()
@@ -27,7 +29,7 @@ def capture(root: Answers, draft: Draft) -> None:
     draft.components.append(
         {"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity}
     )
-    definition = Definition(root, draft, name, cast("dict[str, Any]", values))
+    definition = Definition(Parts(root, draft), draft, name, cast("dict[str, Any]", values))
     definition.read()
     features: dict[str, Any] = {}
     with draft.safely("limits of the mates"):
@@ -36,6 +38,7 @@ def capture(root: Answers, draft: Draft) -> None:
     with draft.safely("values of the mates"):
         shown = {entry["featureId"]: entry for entry in root.ask("matevalues").get("mateValues", [])}
     Mates(definition, features, shown).read()
+    read_patterns(definition)
 
 
 __all__ = ["METHODS", "NAME", "capture", "replayed"]

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
-from ..draft import BodyMesh, Draft, Record, pose_of_rows
-from .answers import Answers, mesh_question
+from ..draft import Draft, Record, pose_of_rows
+from .parts import Parts
 
 Json = dict[str, Any]
 IDENTITY = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
-STL_HEAD, STL_FACET = 84, 50
 
 
 @dataclass(slots=True)
 class Definition:
     """An assembly definition.  ids: component of each path of instance ids.  subs: sub-assemblies by what they are of."""
 
-    answers: Answers
+    parts: Parts
     draft: Draft
     root: str
     values: Json
     ids: dict[tuple[str, ...], str] = field(default_factory=dict[tuple[str, ...], str])
     owners: list[tuple[tuple[str, ...], Json]] = field(default_factory=list[tuple[tuple[str, ...], Json]])
-    meshed: dict[str, str] = field(default_factory=dict[str, str])
 
     def read(self) -> None:
         """Fill the draft's components; ``owners`` becomes the root and every occurrence of a sub-assembly."""
@@ -81,20 +78,7 @@ class Definition:
                 self.owners.append((own_path, sub))
                 self._level(sub, own_path, own, subs, found)
         else:
-            self._mesh(record, instance)
-
-    def _mesh(self, record: Record, instance: Json) -> None:
-        """The part's STL, once for all its occurrences; without a program only where it was saved."""
-        name = record["definition"]
-        question = mesh_question(instance)
-        if name not in self.meshed and (self.answers.fetch is not None or question in self.answers.answers):
-            self.meshed[name] = ""
-            with self.draft.safely(f"mesh of {record['id']}"):
-                mesh = stl(record["name"], self.answers.bytes_of(question))
-                self.draft.meshes[name] = [mesh]
-                self.meshed[name] = mesh.name
-        if key := self.meshed.get(name):
-            record["bodies"] = [{"id": key, "meshKey": key}]
+            record.update(self.parts.read(record["definition"], record["name"], instance))
 
     def component(self, owner: tuple[str, ...], path: list[str]) -> str:
         """Id of what a feature of ``owner`` names; an empty path is the assembly itself.  Raises KeyError."""
@@ -105,15 +89,3 @@ class Definition:
 
 def _key(entry: Json) -> tuple[Any, ...]:
     return tuple(entry.get(k) for k in ("documentId", "documentMicroversion", "elementId", "configuration"))
-
-
-def stl(name: str, content: bytes) -> BodyMesh:
-    """A binary STL.  Raises ValueError where it is none."""
-    count = struct.unpack_from("<I", content, STL_HEAD - 4)[0] if len(content) >= STL_HEAD else -1
-    if len(content) != STL_HEAD + STL_FACET * count:
-        raise ValueError("no binary STL")
-    points: list[float] = []
-    for facet in range(count):
-        numbers = struct.unpack_from("<12f", content, STL_HEAD + STL_FACET * facet)
-        points += cast("tuple[float, ...]", numbers)[3:]
-    return BodyMesh(" ".join(name.split()), points, list(range(3 * count)))

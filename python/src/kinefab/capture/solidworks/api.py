@@ -7,7 +7,7 @@ radians and kilograms whatever the document's units.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 # fmt: off
 
@@ -22,6 +22,7 @@ class Application(Protocol):
 class Model(Protocol):
     ConfigurationManager: ConfigurationManager  # - | - | IModelDoc2.ConfigurationManager Property
     MaterialPropertyValues: Sequence[float] | None  # R G B ambient diffuse specular shininess transparency emission | - | IModelDoc2.MaterialPropertyValues Property
+    MaterialUserName: str  # text | - | IPartDoc.MaterialUserName Property
     Extension: Extension  # - | - | IModelDoc2.Extension Property
     LengthUnit: int  # swLengthUnit_e | - | IModelDoc2.LengthUnit Property
 
@@ -34,6 +35,17 @@ class Model(Protocol):
 
 class Extension(Protocol):
     NeedsRebuild2: int  # 0 = built | - | IModelDocExtension.NeedsRebuild2 Property
+
+    def CreateMassProperty2(self) -> MassProperty | None: ...  # - | - | IModelDocExtension.CreateMassProperty2 Method
+
+
+class MassProperty(Protocol):
+    UseSystemUnits: bool  # flag, set: m and kg | - | IMassProperty2.UseSystemUnits Property
+    Mass: float  # kg | - | IMassProperty2.Mass Property
+    CenterOfMass: Sequence[float]  # m | part | IMassProperty2.CenterOfMass Property
+    PrincipalMomentsOfInertia: Sequence[float]  # kg m^2 | - | IMassProperty2.PrincipalMomentsOfInertia Property
+
+    def GetMomentOfInertia(self, WhereTaken: int) -> Sequence[float]: ...  # kg m^2, 0 = about the centre: xx xy xz yx yy yz zx zy zz | part | IMassProperty2.GetMomentOfInertia Method
 
 
 class ConfigurationManager(Protocol):
@@ -82,8 +94,8 @@ class Feature(Protocol):
     def GetNextFeature(self) -> Feature | None: ...  # - | - | IFeature.GetNextFeature Method
     def GetFirstSubFeature(self) -> Feature | None: ...  # - | - | IFeature.GetFirstSubFeature Method
     def GetNextSubFeature(self) -> Feature | None: ...  # - | - | IFeature.GetNextSubFeature Method
-    def GetSpecificFeature2(self) -> Mate | None: ...  # - | - | IFeature.GetSpecificFeature2 Method
-    def GetDefinition(self) -> MateData | None: ...  # - | - | IFeature.GetDefinition Method
+    def GetSpecificFeature2(self) -> Any: ...  # - | - | IFeature.GetSpecificFeature2 Method
+    def GetDefinition(self) -> Any: ...  # - | - | IFeature.GetDefinition Method
     def IsSuppressed2(self, Config_opt: int, Config_names: None) -> Sequence[bool]: ...  # flags | - | IFeature.IsSuppressed2 Method
     def GetErrorCode(self) -> int: ...  # swFeatureError_e | - | IFeature.GetErrorCode Method
 
@@ -100,6 +112,13 @@ class MateEntity(Protocol):
     EntityParams: Sequence[float]  # m: point, vector, two radii | owning assembly | IMateEntity2.EntityParams Property
     ReferenceType: int  # swMateEntity2ReferenceType_e | - | IMateEntity2.ReferenceType Property
     ReferenceComponent: Component | None  # - | - | IMateEntity2.ReferenceComponent Property
+
+
+class PatternData(Protocol):
+    SeedComponentArray: Sequence[Feature] | None  # features of components | - | ILocalLinearPatternFeatureData.SeedComponentArray Property
+
+    def AccessSelections(self, TopDoc: Model, Component: None) -> bool: ...  # flag | - | ILocalLinearPatternFeatureData.AccessSelections Method
+    def ReleaseSelectionAccess(self) -> None: ...  # - | - | ILocalLinearPatternFeatureData.ReleaseSelectionAccess Method
 
 
 class MateData(Protocol):

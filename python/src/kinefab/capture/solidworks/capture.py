@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
-from ..channel import methods_of
+from ..channel import MemberFailed, methods_of
 from ..draft import BodyMesh, Draft, Record, pose
+from ..looks import look
+from ..masses import mass_record
 from . import api
 from .api import Application, Component, Feature, Model
 from .mates import UNIT, Owner, read_mate
+from .patterns import read_patterns
 
 NAME, ASSEMBLY, LEAST = "SolidWorks", 2, 26
 """Revision 26 is 2018: from there on mates have feature data."""
 FLEXIBLE, SUPPRESSED, HIDDEN, SOLID = 1, 0, 0, 0
+ABOUT_CENTER = 0
 INTERFACES = tuple(
     value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
 )
@@ -41,12 +46,32 @@ def capture(application: Application, draft: Draft) -> None:
     draft.components.append(
         {"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": identity}
     )
+    with _in_bulk(application):
+        _assembly(model, draft, root)
+
+
+@contextmanager
+def _in_bulk(application: Application) -> Generator[None, None, None]:
+    """SolidWorks told that many calls come: they are faster then."""
+    with suppress(MemberFailed):
+        application.CommandInProgress = True
+    try:
+        yield
+    finally:
+        with suppress(MemberFailed):
+            application.CommandInProgress = False
+
+
+def _assembly(model: Model, draft: Draft, root: str) -> None:
     found = Components(draft, root)
     top = model.ConfigurationManager.ActiveConfiguration.GetRootComponent3(True)
     found.read(top, root)
-    _mates(Owner(draft, root, "world", UNIT.get(model.LengthUnit, 1.0)), model)
-    for own, inner in found.flexible:
-        _mates(Owner(draft, own, own, UNIT.get(inner.LengthUnit, 1.0)), inner)
+    for own, inner in [(root, model), *found.flexible]:
+        frame = "world" if own == root else own
+        owner = Owner(draft, own, frame, UNIT.get(inner.LengthUnit, 1.0))
+        _mates(owner, inner)
+        with draft.safely(f"patterns of {own}"):
+            read_patterns(owner, inner)
 
 
 @dataclass(slots=True)
@@ -113,16 +138,40 @@ class Components:
             if meshes:
                 self.draft.meshes[name] = meshes
                 found["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in meshes]
-        with self.draft.safely(f"colour of {name}"):
-            model = component.GetModelDoc2()
-            values = None if model is None else model.MaterialPropertyValues
-            if values and values[0] >= 0.0 and "bodies" in found:
-                color = [min(1.0, max(0.0, float(v))) for v in (*values[:3], 1.0 - values[7])]
-                self.draft.materials[name] = {"name": name, "color": color}
-                for body in found["bodies"]:
-                    body["material"] = name
+        with self.draft.safely(f"material and mass of {name}"):
+            if (model := component.GetModelDoc2()) is not None:
+                self._matter(name, model, found)
         self.definitions[name] = found
         return found
+
+    def _matter(self, name: str, model: Model, found: Record) -> None:
+        """Material, colour, mass: of a part's own document, in its own frame."""
+        material: str = ""
+        with self.draft.safely(f"material of {name}"):
+            material = model.MaterialUserName or ""
+        with self.draft.safely(f"colour of {name}"):
+            values = model.MaterialPropertyValues
+            color = [*values[:3], 1.0 - values[7]] if values and values[0] >= 0.0 else None
+            if made := look(self.draft, material, color, name):
+                for body in found.get("bodies", ()):
+                    body["material"] = made
+        with self.draft.safely(f"mass of {name}"):
+            if (mass := _mass(self.draft, name, model)) is not None:
+                found["mass"] = mass
+
+
+def _mass(draft: Draft, name: str, model: Model) -> Record | None:
+    properties = model.Extension.CreateMassProperty2()
+    if properties is None:
+        return None
+    properties.UseSystemUnits = True
+    mass = float(properties.Mass)
+    if mass <= 0.0:
+        return None
+    m = properties.GetMomentOfInertia(ABOUT_CENTER)
+    principal = [float(v) for v in properties.PrincipalMomentsOfInertia]
+    moments, center = [m[0], m[4], m[8], m[1], m[5], m[2]], list(properties.CenterOfMass)
+    return mass_record(draft, name, mass, center, moments, principal, "centre", draft.meshes.get(name, ()))
 
 
 def _mesh(body: api.Body) -> BodyMesh:

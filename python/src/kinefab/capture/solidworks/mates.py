@@ -50,7 +50,7 @@ class Owner:
 def read_mate(owner: Owner, feature: Feature) -> None:
     """Add the mate to the draft."""
     draft, name = owner.draft, feature.Name
-    mate = feature.GetSpecificFeature2()
+    mate: Mate | None = feature.GetSpecificFeature2()
     if mate is None:
         return
     kind = TYPES[mate.Type] if 0 <= mate.Type < len(TYPES) else f"type {mate.Type}"
@@ -94,7 +94,7 @@ class Given:
 
     @property
     def data(self) -> MateData:
-        found = self.feature.GetDefinition()
+        found: MateData | None = self.feature.GetDefinition()
         if found is None:
             raise MemberFailed("GetDefinition()", "there is none")
         return found

@@ -1,0 +1,100 @@
+"""Fusion's components without children: meshes, looks and mass, read once for all their occurrences.
+
+Standard library only: it runs in Fusion's own Python.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import cast
+
+from ..channel import MemberFailed
+from ..draft import BodyMesh, Draft, Numbers, Record
+from ..looks import look
+from ..masses import mass_record
+from .api import Appearance, Body, Component
+
+NORMAL_QUALITY = 11
+HIGH_ACCURACY = 2
+"""CalculationAccuracy; what a component is asked by default may be off by a hundredth."""
+FULL = 255.0
+COLORS = (
+    "opaque_albedo",
+    "generic_diffuse",
+    "metal_f0",
+    "layered_diffuse",
+    "transparent_color",
+    "surface_albedo",
+)
+"""Key names of the colour in the schemas of Autodesk's appearances; they are the same in all languages."""
+
+
+@dataclass(slots=True)
+class Parts:
+    """definitions: bodies and mass of each component that was read, by its name."""
+
+    draft: Draft
+    definitions: dict[str, Record] = field(default_factory=dict[str, Record])
+
+    def read(self, name: str, component: Component) -> Record:
+        """``bodies`` and ``mass`` of a component."""
+        if name not in self.definitions:
+            found: Record = {}
+            with self.draft.safely(f"meshes of {name}"):
+                self._bodies(name, component, found)
+            with self.draft.safely(f"mass of {name}"):
+                self._mass(name, component, found)
+            self.definitions[name] = found
+        return self.definitions[name]
+
+    def _bodies(self, name: str, component: Component, found: Record) -> None:
+        bodies = component.bRepBodies
+        listed = [cast(Body, bodies.item(i)) for i in range(bodies.count)]
+        meshes = [_mesh(body) for body in listed]
+        if not meshes:
+            return
+        self.draft.meshes[name] = meshes
+        found["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in meshes]
+        for body, record in zip(listed, found["bodies"]):
+            with self.draft.safely(f"appearance of {name}/{record['id']}"):
+                material, shown = body.material, body.appearance
+                color = None if shown is None else _color(shown)
+                if shown is not None and color is None:
+                    self.draft.report.approximated(
+                        f"appearance {shown.name} of {name}", "CAPTURE_NO_COLOR", program=self.draft.program
+                    )
+                if made := look(self.draft, "" if material is None else material.name, color, name):
+                    record["material"] = made
+
+    def _mass(self, name: str, component: Component, found: Record) -> None:
+        """The moments are documented about the origin."""
+        properties = component.getPhysicalProperties(HIGH_ACCURACY)
+        if properties is None or (mass := float(properties.mass)) <= 0.0:
+            return
+        _, *moments = properties.getXYZMomentsOfInertia()
+        _, *principal = properties.getPrincipalMomentsOfInertia()
+        center, meshes = list(properties.centerOfMass.asArray()), self.draft.meshes.get(name, ())
+        found["mass"] = mass_record(
+            self.draft, name, mass, center, moments, [float(v) for v in principal], "origin", meshes
+        )
+
+
+def _mesh(body: Body) -> BodyMesh:
+    calculator = body.meshManager.createMeshCalculator()
+    calculator.setQuality(NORMAL_QUALITY)
+    mesh = calculator.calculate()
+    points = [float(v) for v in mesh.nodeCoordinatesAsDouble]
+    return BodyMesh(" ".join(body.name.split()), points, [int(i) for i in mesh.nodeIndices])
+
+
+def _color(appearance: Appearance) -> Numbers | None:
+    """Red green blue and opacity, 0 to 1, of the first key that an appearance has; None where it has none."""
+    for key in COLORS:
+        try:
+            held = appearance.appearanceProperties.itemById(key)
+            color = None if held is None else held.value
+            if color is not None:
+                return [v / FULL for v in (color.red, color.green, color.blue, color.opacity)]
+        except (MemberFailed, AttributeError):
+            continue
+    return None

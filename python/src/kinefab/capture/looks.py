@@ -1,0 +1,35 @@
+"""Colours and materials as programs show them, as a bundle's materials.
+
+Standard library only: it also runs in a CAD program's own Python.
+"""
+
+from __future__ import annotations
+
+from .draft import Draft, Numbers, Record
+
+
+def look(draft: Draft, material: str, color: Numbers | None, part: str) -> str | None:
+    """Name of the bundle's material of a body, which is made if there is none yet; None where nothing is known.
+
+    part: what it is called where the program names no material, or where another part shows that one in another colour.
+    color: red green blue as screens have them (sRGB) and opacity, 0 to 1.
+    """
+    if not material and color is None:
+        return None
+    wanted: Record = {} if color is None else {"color": [*map(_linear, color[:3]), _share(color[3])]}
+    name, number = material or part, 1
+    while name in draft.materials and draft.materials[name] != {"name": name, **wanted}:
+        number += 1
+        name = f"{material or part}, {part}" if number == 2 and material else f"{material or part} ({number})"
+    draft.materials[name] = {"name": name, **wanted}
+    return name
+
+
+def _share(value: float) -> float:
+    return min(1.0, max(0.0, float(value)))
+
+
+def _linear(value: float) -> float:
+    """IEC 61966-2-1."""
+    v = _share(value)
+    return v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4

@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src" / "kinefab"
 
 FLOORS: dict[str, list[set[str]]] = {
     "": [
-        {"spatial", "diagnostics", "options", "replacing"},
+        {"spatial", "diagnostics", "options", "replacing", "collector"},
         {"model"},
         {"geometry", "rigid", "findings"},
         {"sources", "analysis", "unity", "builder"},

@@ -16,6 +16,7 @@ from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
 from .analysis.joints.dof_records import joints_of_dof_records
+from .collector import collector_paused
 from .diagnostics import KinefabError, Report
 from .geometry.collision import collision_meshes
 from .geometry.loading import MeshFiles, load_geometry
@@ -151,6 +152,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     return Analysed(found, exported, groups)
 
 
+@collector_paused()
 def export(
     source: str | Path | Scene | Stage,
     target: str | Path,
@@ -235,7 +237,7 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 
 def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnityScene:
     scene, groups = with_normals(found.scene, options.smooth), found.groups
-    made = collision_meshes(scene, groups, options.colliders, options.ground, report)
+    made = collision_meshes(found.scene, groups, options.colliders, options.ground, report)
     hulls, cylinders = list(made.hulls.items()), list(made.cylinders.items())
     pieces = [(number, piece) for number, found in made.pieces.items() for piece in found]
     after_hulls = len(scene.meshes) + len(hulls)

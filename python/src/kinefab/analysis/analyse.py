@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..collector import collector_paused
 from ..diagnostics import Report
 from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
@@ -37,20 +36,7 @@ class AnalysisOptions:
     limits: bool = False
 
 
-@contextmanager
-def _collector_paused() -> Generator[None, None, None]:
-    """Without Python's search for cycles: what an analysis makes stays, hundreds of thousands of small objects that each
-    search would walk again for nothing, a seventh of the time."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
-
-
-@_collector_paused()
+@collector_paused()
 def analyse(
     scene: Scene,
     options: AnalysisOptions = AnalysisOptions(),

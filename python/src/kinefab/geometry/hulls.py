@@ -119,8 +119,9 @@ def _farthest(points: Array, planes: Array, taken: IntArray) -> list[int]:
 
 def _standing_out(points: Array, planes: Array) -> Array:
     """How far each point is outside the hull of these planes, shape (n,), negative inside."""
-    blocks = (points[start : start + BLOCK] for start in range(0, len(points), BLOCK))
-    return np.concatenate([(planes[:, :3] @ block.T + planes[:, 3:]).max(axis=0) for block in blocks])
+    ones = np.column_stack([points, np.ones(len(points))])  # so that the product adds the offset
+    blocks = (ones[start : start + BLOCK] for start in range(0, len(points), BLOCK))
+    return np.concatenate([(planes @ block.T).max(axis=0) for block in blocks])
 
 
 def _extreme(points: Array, directions: Array) -> tuple[IntArray, Array]:

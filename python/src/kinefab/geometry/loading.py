@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -97,11 +98,19 @@ def load_geometry(
 
 @dataclass(frozen=True, slots=True)
 class _Known:
-    """A mesh that others may turn out to equal.  first: its first vertex.  tolerance: metres."""
+    """A mesh that others may turn out to equal.
 
+    spread: the mean of its coordinates' amounts, metres, by which most that differ are told apart at once: where no vertex
+    differs by more than a tolerance, it does not either.  tolerance: metres.
+    """
+
+    spread: float
     mesh: int
-    first: list[float]
     tolerance: float
+
+
+def _spread(known: _Known) -> float:
+    return known.spread
 
 
 class _Loading:
@@ -148,24 +157,26 @@ class _Loading:
         stated = (piece.uv is None, piece.normals is None, piece.colors is None)
         key = (len(piece.vertices), piece.face_counts, stated, zlib.crc32(faces.data))
         alike = self._by_shape.setdefault(key, [])
-        first = piece.vertices[0].tolist()
-        for known in alike:
-            if all(
-                abs(x - y) <= known.tolerance for x, y in zip(first, known.first)
-            ):  # tells most apart at once
-                mesh = self._meshes[known.mesh]
-                if (
-                    _deviation(mesh.vertices, piece.vertices) <= known.tolerance
-                    and (piece.uv is None or np.allclose(mesh.uvs[0], piece.uv, atol=SAME_SHAPE))
-                    and (piece.colors is None or np.array_equal(mesh.colors, piece.colors))  # type: ignore[arg-type]
-                ):
-                    return known.mesh
+        spread = float(np.abs(piece.vertices).mean())
+        tolerance = SAME_SHAPE * float(np.ptp(piece.vertices, axis=0).max())
+        reach = (
+            1.001 * tolerance + 1e-12 * spread
+        )  # the other's tolerance is its own, and the mean is rounded
+        low = bisect_left(alike, spread - reach, key=_spread)
+        high = bisect_right(alike, spread + reach, key=_spread)
+        for known in sorted(alike[low:high], key=lambda known: known.mesh):
+            mesh = self._meshes[known.mesh]
+            if (
+                _deviation(mesh.vertices, piece.vertices) <= known.tolerance
+                and (piece.uv is None or np.allclose(mesh.uvs[0], piece.uv, atol=SAME_SHAPE))
+                and (piece.colors is None or np.array_equal(mesh.colors, piece.colors))  # type: ignore[arg-type]
+            ):
+                return known.mesh
         uvs = () if piece.uv is None else (piece.uv,)
         self._meshes.append(
             Mesh(name, piece.vertices, faces, piece.normals, uvs, None, piece.colors, piece.face_counts)
         )
-        tolerance = SAME_SHAPE * float(np.ptp(piece.vertices, axis=0).max())
-        alike.append(_Known(len(self._meshes) - 1, first, tolerance))
+        insort(alike, _Known(spread, len(self._meshes) - 1, tolerance), key=_spread)
         return len(self._meshes) - 1
 
     def _compare_with_definition(self, place: _Place, wanted: Wanted, mesh: int) -> None:

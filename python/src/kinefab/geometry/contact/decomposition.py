@@ -83,7 +83,7 @@ def convex_pieces(
 def solid_share(mesh: Mesh, hull: Mesh) -> float:
     """Volume of a mesh as a share of its hull's; 1 where it is open, as it has none."""
     share = abs(solid_volume(mesh.vertices, mesh.faces)) / solid_volume(hull.vertices, hull.faces)
-    return share if is_skin(mesh.vertices, mesh.faces) else 1.0
+    return share if share >= SOLID or is_skin(mesh.vertices, mesh.faces) else 1.0
 
 
 def _libraries() -> list[str]:

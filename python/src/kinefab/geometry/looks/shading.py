@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...model import Mesh, Scene
-from ...spatial import Array, IntArray, cross
+from ...spatial import Array, IntArray
 from ..closure import joined_vertices
 
 UP = np.array([0.0, 1.0, 0.0])
@@ -108,25 +108,27 @@ def _split(
     """Normals, faces, and of which vertex each is a copy: the vertices first, then those repeated.
 
     places: of each vertex its place.  sizes: of each face its mesh's.  angle: radians.
+    Within, the three coordinates of many points stand in three rows, shape (3, ...): numpy is twice as fast on long rows.
     """
-    corners = vertices[faces]
-    across = _face_normals(corners, sizes)
-    weights = _corner_angles(corners)
+    by_corner = np.ascontiguousarray(faces.T)
+    corners = np.take(np.ascontiguousarray(vertices.T), by_corner, axis=1)  # by axis, corner and face
+    edges = [corners[:, c - 2] - corners[:, c] for c in range(3)]  # from each corner to the next
+    across = _face_normals(edges, sizes)
+    weights = _corner_angles(edges)
     count = int(places.max()) + 1
-    numbers = places[faces]
+    numbers = places[by_corner]
     mean = _summed(numbers, across, weights, count)
     creased = _creased(numbers, across, mean, angle)
-    normals = mean[places]
+    normals = mean.T[places]
     origin = np.arange(len(vertices))
     if not creased.any():
         return _unit(normals), faces, origin
     # Only corners at vertices where some faces differ by more are told apart by the edges between them.
-    face, corner = np.nonzero(creased[numbers])
+    face, corner = np.nonzero(creased[numbers].T)
     groups = _smooth_groups(numbers, across, face, corner, math.cos(angle))
     at = faces[face, corner]
-    own = np.zeros((int(groups.max()) + 1, 3))
-    for axis in range(3):
-        own[:, axis] = np.bincount(groups, weights[face, corner] * across[face, axis], minlength=len(own))
+    weight = weights[corner, face]
+    own = np.column_stack([np.bincount(groups, weight * row[face]) for row in across])
     # A vertex's first surface keeps its number, each further one is a new vertex at the end.
     pairs, number = np.unique(at.astype(np.int64) * len(own) + groups, return_inverse=True)
     vertex, group = pairs // len(own), pairs % len(own)
@@ -138,49 +140,52 @@ def _split(
     flat = (
         np.einsum("ij,ij->i", own, own)[group] <= 0.0
     )  # a face without area takes what its neighbours have together
-    normals[index] = np.where(flat[:, None], mean[places[vertex]], own[group])
+    normals[index] = np.where(flat[:, None], mean.T[places[vertex]], own[group])
     return _unit(normals), faces, np.r_[origin, vertex[fresh]]
 
 
-def _face_normals(corners: Array, sizes: Array) -> Array:
-    """Unit normals of the faces, shape (m, 3), zero where a face has no area.  corners: shape (m, 3, 3)."""
-    across = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.sqrt(np.einsum("ij,ij->i", across, across))
+def _dot(x: Array, y: Array) -> Array:
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+
+
+def _face_normals(edges: list[Array], sizes: Array) -> Array:
+    """Unit normals of the faces, shape (3, m), zero where a face has no area.  edges: see ``_split``."""
+    (a, b, c), (d, e, f) = edges[0], -edges[2]
+    across = np.stack([b * f - c * e, c * d - a * f, a * e - b * d])
+    length = np.sqrt(_dot(across, across))
     solid = length > FLAT * sizes * sizes
-    across /= np.where(solid, length, np.inf)[:, None]
-    return across
+    return across / np.where(solid, length, np.inf)
 
 
-def _corner_angles(corners: Array) -> Array:
-    """Of each face at each of its corners, radians, shape (m, 3)."""
-    found = np.empty(corners.shape[:2])
-    edges = [corners[:, c - 2] - corners[:, c] for c in range(3)]  # from each corner to the next
-    squares = [np.einsum("ij,ij->i", edge, edge) for edge in edges]
+def _corner_angles(edges: list[Array]) -> Array:
+    """At each corner of each face, radians, shape (3, m)."""
+    found = np.empty((3, edges[0].shape[1]))
+    squares = [_dot(edge, edge) for edge in edges]
     for c in range(3):
-        dot = -np.einsum("ij,ij->i", edges[c], edges[c - 1])
+        dot = -_dot(edges[c], edges[c - 1])
         size = np.sqrt(squares[c] * squares[c - 1])
-        found[:, c] = np.divide(dot, size, out=np.ones_like(dot), where=size > 0.0)
+        found[c] = np.divide(dot, size, out=np.ones_like(dot), where=size > 0.0)
     return np.arccos(np.clip(found, -1.0, 1.0, out=found), out=found)
 
 
 def _summed(numbers: IntArray, across: Array, weights: Array, count: int) -> Array:
-    total = np.zeros((count, 3))
-    for c in range(3):
+    """Of each place the normals of its faces together, each by its weight, shape (3, count)."""
+    total = np.zeros((3, count))
+    for at, weight in zip(numbers, weights):
         for axis in range(3):
-            total[:, axis] += np.bincount(numbers[:, c], weights[:, c] * across[:, axis], minlength=count)
+            total[axis] += np.bincount(at, weight * across[axis], minlength=count)
     return total
 
 
 def _creased(numbers: IntArray, across: Array, mean: Array, angle: float) -> Array:
     """Which places have a face further than half the angle from the mean: at all others every edge is smooth."""
-    length = np.sqrt(np.einsum("ij,ij->i", mean, mean))
-    direction = np.divide(mean, length[:, None], out=np.zeros_like(mean), where=length[:, None] > 0.0)
-    found = np.zeros(len(mean), dtype=bool)
+    length = np.sqrt(_dot(mean, mean))
+    direction = np.divide(mean, length, out=np.zeros_like(mean), where=length > 0.0)
+    found = np.zeros(mean.shape[1], dtype=bool)
     least = math.cos(0.5 * angle) - 1e-12
-    solid = across.any(axis=1)
-    for c in range(3):
-        at = numbers[:, c]
-        found[at[solid & (np.einsum("ij,ij->i", direction[at], across) < least)]] = True
+    solid = across.any(axis=0)
+    for at in numbers:
+        found[at[solid & (_dot(np.take(direction, at, axis=1), across) < least)]] = True
     return found
 
 
@@ -189,33 +194,38 @@ def _smooth_groups(
 ) -> IntArray:
     """A number for each corner: corners at one place are alike when smooth edges lead from face to face between them.
 
-    numbers: places of the faces' corners.  face, corner: the corners asked for, all of a place or none.  An edge of two faces
-    that run through it one way and the other is smooth when their normals differ by no more than the angle; any other edge is hard.
+    numbers: places of the faces' corners, shape (3, m).  face, corner: the corners asked for, all of a place or none.  An edge of
+    two faces that run through it one way and the other is smooth when their normals differ by no more than the angle; any other
+    edge is hard.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
     count = int(numbers.max()) + 1
-    number = np.arange(len(face))
-    here = numbers[face, corner]
-    ahead, behind = numbers[face, (corner + 1) % 3], numbers[face, (corner + 2) % 3]
+    here = numbers[corner, face]
+    ahead, behind = numbers[(corner + 1) % 3, face], numbers[(corner + 2) % 3, face]
     # Round a place each edge leaves one face as its next corner and enters another as its last.
-    leaving, entering = here * count + ahead, here * count + behind
-    left, left_at, left_count = np.unique(leaving, return_index=True, return_counts=True)
-    slot = np.minimum(np.searchsorted(left, entering), len(left) - 1)
-    _, back, entered_count = np.unique(entering, return_inverse=True, return_counts=True)
-    single = (left[slot] == entering) & (left_count[slot] == 1) & (entered_count[np.reshape(back, -1)] == 1)
-    other = left_at[slot]
-    alike = np.einsum("ij,ij->i", across[face], across[face[other]]) >= cosine - 1e-9
-    smooth = single & alike
-    links = coo_matrix(
-        (np.ones(int(smooth.sum()), dtype=np.int8), (number[smooth], other[smooth])), (len(face), len(face))
-    )
+    leaving, leaves = _single(here * count + ahead)
+    entering, enters = _single(here * count + behind)
+    _, left, entered = np.intersect1d(leaving, entering, assume_unique=True, return_indices=True)
+    one, other = leaves[left], enters[entered]
+    smooth = _dot(np.take(across, face[one], axis=1), np.take(across, face[other], axis=1)) >= cosine - 1e-9
+    one, other = one[smooth], other[smooth]
+    links = coo_matrix((np.ones(len(one), dtype=np.int8), (one, other)), (len(face), len(face)))
     return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
+def _single(keys: IntArray) -> tuple[IntArray, IntArray]:
+    """The keys that are there once, in order, and where."""
+    order = np.argsort(keys, kind="stable")
+    ordered = keys[order]
+    first = np.r_[True, ordered[1:] != ordered[:-1]]
+    alone = first & np.r_[first[1:], True]
+    return ordered[alone], order[alone]
 
 
 def _unit(normals: Array) -> Array:
     length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+    normals /= np.where(length > 0.0, length, 1.0)[:, None]
     normals[length <= 0.0] = UP
-    normals[length > 0.0] /= length[length > 0.0, None]
     return normals

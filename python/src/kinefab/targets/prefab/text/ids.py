@@ -59,15 +59,17 @@ class FileIds:
 
     def __init__(self) -> None:
         self._taken: set[int] = set()
+        self._counts: dict[tuple[str, str], int] = {}
 
     def new(self, kind: str, identity: str) -> int:
         """kind: Unity's class.  identity: what the object is in the source; one that comes again gets a number behind it."""
-        count = 1
+        count = self._counts.get((kind, identity), 0) + 1  # sixteen convex pieces are the same to the source
         while True:
             told = identity if count == 1 else f"{identity}#{count}"
             found = xxh64(f"Kinefab:{kind}->{told}".encode("utf-8", "surrogatepass")) & _POSITIVE
             if found and found not in self._taken:
                 self._taken.add(found)
+                self._counts[kind, identity] = count
                 return found
             count += 1
 

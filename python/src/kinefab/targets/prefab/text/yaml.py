@@ -20,6 +20,9 @@ NOTHING = "{fileID: 0}"
 SMALLEST_POSITIONAL, LARGEST_POSITIONAL = -9, 20
 """Powers of ten between which the editor writes a number without an exponent."""
 
+INFINITE = 2.0**128 - 2.0**103
+"""From here on a number is rounded to no float32: half a step above the largest."""
+
 Fields = Mapping[str, Any]
 
 
@@ -43,10 +46,9 @@ def number(value: float) -> str:
 def _digits(value: float) -> str:
     if math.isnan(value):
         return "NaN"
-    with np.errstate(over="ignore", under="ignore"):
-        single = np.float32(value)
-    if np.isinf(single):
-        return "-Infinity" if single < 0 else "Infinity"
+    if abs(value) >= INFINITE:
+        return "-Infinity" if value < 0 else "Infinity"
+    single = np.float32(value)
     if single == 0:
         return "0"
     mantissa, power = np.format_float_scientific(single, unique=True, trim="-").split("e")

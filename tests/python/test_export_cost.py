@@ -1,0 +1,111 @@
+"""What makes an export of many parts cheap: no pair of parts is compared twice over, nothing is walked or worked out again."""
+
+from __future__ import annotations
+
+import gc
+import json
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from kinefab import pipeline
+from kinefab.geometry import closure, hulls, loading
+from kinefab.geometry.looks import shading
+from kinefab.model import Mesh
+from kinefab.targets.prefab.text import ids
+from kinefab.targets.prefab.text.ids import xxh64
+
+
+def plates_in_one_file(tmp_path, lengths):
+    """A bundle of plates with one corner at the origin: all of one topology, told apart by their length alone."""
+    scene = trimesh.Scene()
+    for i, length in enumerate(lengths):
+        plate = trimesh.creation.box((length, 0.2, 0.05))
+        plate.apply_translation(plate.extents / 2)
+        scene.add_geometry(plate, node_name=f"P{i}", geom_name=f"P{i}")
+    scene.export(tmp_path / "a.glb")
+    parts = [
+        {"id": f"P{i}", "name": f"P{i}", "kind": "part", "bodies": [{"id": "b", "meshKey": f"P{i}"}]}
+        | {"pose": {"o": [10.0 * i, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}}
+        for i in range(len(lengths))
+    ]
+    mesh = {"files": ["a.glb"], "layout": "single", "coordinates": "part", "key": "object", "units": "m"}
+    meta = {"format": "kinefab.bundle", "version": "1.0", "handed": "right", "up": "Y", "mesh": mesh}
+    meta["units"] = {"length": "m", "angle": "deg", "mass": "kg"}
+    path = tmp_path / "a.bundle.json"
+    path.write_text(json.dumps({"meta": meta, "components": parts}))
+    return path
+
+
+def test_parts_of_one_topology_are_compared_with_those_alone_that_may_be_equal(tmp_path, monkeypatch):
+    """Sixty plates of thirty lengths, all with the same first corner: one comparison for each copy, none for others."""
+    compared = []
+    deviation = loading._deviation
+    monkeypatch.setattr(loading, "_deviation", lambda a, b: compared.append(1) or deviation(a, b))
+    lengths = [0.3 + 0.01 * (i % 30) for i in range(60)]
+    result = kinefab.export(plates_in_one_file(tmp_path, lengths), tmp_path / "a.kinefab")
+    assert len(result.analysed.scene.meshes) == 30
+    assert [n.bodies[0].mesh for n in result.analysed.scene.nodes if n.bodies] == [*range(30), *range(30)]
+    assert len(compared) == 30
+
+
+@pytest.mark.parametrize("noise", [0.9, -0.9])
+def test_a_mesh_is_found_again_within_its_tolerance(tmp_path, noise):
+    """What a vertex may differ by, all of them may: also when their mean does."""
+    size = 0.3
+    stretched = size * (1 + noise * loading.SAME_SHAPE)
+    result = kinefab.export(plates_in_one_file(tmp_path, [size, stretched]), tmp_path / "a.kinefab")
+    assert len(result.analysed.scene.meshes) == 1
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_the_collector_waits_for_an_export_and_runs_again(tmp_path, monkeypatch, fails):
+    seen = []
+    weigh = pipeline.weigh
+
+    def watched(*arguments):
+        seen.append(gc.isenabled())
+        if fails:
+            raise kinefab.KinefabError([])
+        return weigh(*arguments)
+
+    monkeypatch.setattr(pipeline, "weigh", watched)
+    source = plates_in_one_file(tmp_path, [0.3])
+    try:
+        kinefab.export(source, tmp_path / "a.kinefab")
+    except kinefab.KinefabError:
+        assert fails
+    assert seen == [False]
+    assert gc.isenabled()
+
+
+def test_colliders_are_made_of_the_source_s_vertices(tmp_path, monkeypatch):
+    """A box of 8 corners is drawn with 24 for its hard edges; its hull needs 8, and nothing is welded that was one."""
+    points, welded = [], []
+    small_hull, joined = hulls._small_hull, closure.joined_vertices
+    monkeypatch.setattr(hulls, "_small_hull", lambda p: points.append(len(p)) or small_hull(p))
+    monkeypatch.setattr(closure, "joined_vertices", lambda *a: welded.append(1) or joined(*a))
+    result = kinefab.export(plates_in_one_file(tmp_path, [0.3]), tmp_path / "a.kinefab")
+    source = result.analysed.scene.meshes[0]
+    assert points == [len(source.vertices)] and welded == []
+    assert len(result.unity.meshes[0].vertices) == 24
+
+
+def test_edges_between_three_faces_are_hard():
+    """An edge that two faces leave the same way, or three share, joins none of them."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0.1], [0, -1, -0.1]], dtype=float)
+    faces = np.array([[0, 1, 2], [1, 0, 3], [1, 0, 4], [0, 1, 2]])
+    found = shading.shaded(Mesh("fin", vertices, faces), 10.0)
+    assert len({tuple(corners) for corners in found.faces[:, :2].tolist()}) == 4
+
+
+def test_ids_of_like_components_are_hashed_once_each(monkeypatch):
+    """Sixteen pieces of one part's collider are sixteen hashes, not a hundred and thirty-six; the ids are as before."""
+    hashed = []
+    monkeypatch.setattr(ids, "xxh64", lambda data: hashed.append(data) or xxh64(data))
+    fresh = ids.FileIds()
+    found = [fresh.new("MeshCollider", "Ring") for _ in range(16)]
+    names = ["Ring", *(f"Ring#{k}" for k in range(2, 17))]
+    assert hashed == [f"Kinefab:MeshCollider->{name}".encode() for name in names]
+    assert found == [xxh64(data) & (2**63 - 1) for data in hashed]

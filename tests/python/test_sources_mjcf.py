@@ -11,6 +11,7 @@ from pathlib import Path
 
 import kinefab
 import pytest
+from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, Combine, JointKind, Motion
 from kinefab.sources import read
@@ -319,6 +320,21 @@ def test_mocap_bodies_are_moved_by_scripts(tmp_path):
     scene, _ = loaded(tmp_path, f"<body name='guide' mocap='true'>{BALL}</body>")
     node = next(n for n in scene.nodes if n.name == "guide")
     assert node.dynamics.kinematic and not node.grounded
+
+
+def test_what_a_mocap_body_leads_is_no_freedom(tmp_path):
+    """MuJoCo has no degrees of freedom for it, and for what is welded to it none that are left."""
+    inner = (
+        f"<body name='guide' mocap='true' pos='0 0 1'>{BALL}</body>"
+        f"<body name='arm' pos='.3 0 1'><joint name='h' axis='0 1 0' range='-10 80'/>{BALL}</body>"
+        f"<body name='led' pos='.3 1 1'><freejoint/>{BALL}</body>"
+    )
+    scene, _ = loaded(tmp_path, inner, tail="<equality><weld body1='guide' body2='led'/></equality>")
+    found = analyse(scene)
+    assert (found.mobility, found.first_order) == (1, 1)
+    left = {scene.nodes[f.node].name: f.dof for f in found.freedoms}
+    assert (left["guide"], left["led"], left["arm"]) == (0, 0, 1)
+    assert not {d.code for d in found.report.diagnostics}
 
 
 def test_gravity_and_bodies_that_carry_themselves(tmp_path):

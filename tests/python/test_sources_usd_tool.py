@@ -24,12 +24,45 @@ AXES = '"PhysicsLimitAPI:transX", "PhysicsLimitAPI:transY", "PhysicsLimitAPI:tra
 LOCKED = "; ".join(
     f"float limit:trans{axis}:physics:low = 1; float limit:trans{axis}:physics:high = -1" for axis in "XYZ"
 )
+LED = "bool physics:kinematicEnabled = 1"
+BARS = {"A": (0.1, 0, 0.5), "B": (1.3, 0, 1.4), "C": (2.8, 0, 0.9)}
+
+
+def at(first, second) -> str:
+    return f"point3f physics:localPos0 = {tuple(first)}; point3f physics:localPos1 = {tuple(second)}"
+
+
+def hinge(name: str, a: str, place_a, b: str, place_b, pin, axis: str) -> str:
+    """Bodies without rotation, their joint where ``pin`` is in the world; a: "" for the world."""
+    ends = ([round(p - o, 9) for p, o in zip(pin, place)] for place in (place_a, place_b))
+    words = at(*ends) + f'; uniform token physics:axis = "{axis}"'
+    limits = "; float physics:lowerLimit = -10; float physics:upperLimit = 80"
+    return joint("PhysicsRevoluteJoint", name, words + limits, f"/{a}" if a else "", f"/{b}")
+
+
 WRITTEN = {
     "fixed": (0, body("A") + joint("PhysicsFixedJoint", body1="/A")),
     "slide": (1, body("B") + joint("PhysicsPrismaticJoint", inside="float physics:lowerLimit = -1")),
     "cone": (3, body("B") + joint("PhysicsSphericalJoint", inside=CONE)),
     "generic": (9, body("A") + body("B") + joint("PhysicsJoint", body0="/A", inside=LOCKED, schemas=AXES)),
     "free": (6, body("B")),
+    "led, with a chain": (
+        4,
+        body("K", (0, 0, 2), LED)
+        + body("A", (1, 0, 2))
+        + body("B", (2, 0, 2))
+        + hinge("One", "K", (0, 0, 2), "A", (1, 0, 2), (0.4, 0, 2), "Y")
+        + joint("PhysicsSphericalJoint", "Two", at((0.5, 0, 0), (-0.5, 0, 0)), "/A", "/B"),
+    ),
+    "led, in a loop": (
+        1,
+        body("K", (3, 0, 0), LED)
+        + "".join(body(name, place) for name, place in BARS.items())
+        + hinge("One", "", (0, 0, 0), "A", BARS["A"], (0, 0, 0), "Y")
+        + hinge("Two", "A", BARS["A"], "B", BARS["B"], (0.2, 0, 1), "Y")
+        + hinge("Three", "B", BARS["B"], "C", BARS["C"], (2.5, 0, 1.7), "Y")
+        + hinge("Four", "C", BARS["C"], "K", (3, 0, 0), (3, 0, 0.1), "Y"),
+    ),
 }
 """Stages by their mobility, counted by hand."""
 

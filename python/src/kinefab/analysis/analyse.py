@@ -47,6 +47,30 @@ def analyse(
     What is wrong with the data is in the result's report, by name; nothing is raised for it.
     progress: called with the share of the joints whose limits are searched.
     """
+    found = _analysed(scene, options, progress)
+    if not _led(scene):
+        return found
+    nodes = [replace(n, grounded=n.grounded or n.dynamics.kinematic) for n in scene.nodes]
+    held = _analysed(replace(scene, nodes=nodes), AnalysisOptions(options.closures), lambda done: None)
+    return replace(
+        found,
+        mobility=held.mobility,
+        first_order=held.first_order,
+        rows=held.rows,
+        rank=held.rank,
+        islands=held.islands,
+        idle=held.idle,
+        held=held,
+    )
+
+
+def _led(scene: Scene) -> bool:
+    """Whether scripts lead a body of it: where such a body is is given, and no freedom of the mechanism."""
+    return any(node.dynamics.kinematic for node in scene.nodes)
+
+
+def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float], None]) -> Analysis:
+    """With bodies that scripts lead counted as free ones."""
     report = Report()
     assembly = assemble(scene, report)
     found = links_of(assembly, report)
@@ -92,7 +116,8 @@ def analyse(
         singular=singular_joints(assembly, found.relations),
     )
     _report_singular(assembly, report)
-    if analysis.joints and not any(groups.grounded) and all(island.floating for island in analysis.islands):
+    loose = not any(groups.grounded) and not _led(scene)
+    if analysis.joints and loose and all(island.floating for island in analysis.islands):
         report.add("NOTHING_GROUNDED", count=len(analysis.joints))
     if scene.dof_records:
         check_records(assembly, analysis.freedoms, report)

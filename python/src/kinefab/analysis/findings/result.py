@@ -47,6 +47,8 @@ class Analysis:
     each other (None: ground).  joints, couplings: what to export.  findings: of each joint, by its id.  nodes: middle bodies, to be appended to
     the scene's.  poses: of the scene's own nodes with every constraint closed.
     ranges: of hinges and slides that close no loop, when asked for.  singular: see ``singular_joints``.
+    held: of the same mechanism with the bodies that scripts lead standing still, where there are any: what mobility,
+    first_order, rows, rank, islands, idle and freedoms are those of.
     """
 
     source: Scene
@@ -70,6 +72,7 @@ class Analysis:
     report: Report
     assembly: Assembly = field(repr=False)
     singular: Mapping[int, Candidate] = field(repr=False)
+    held: Analysis | None = field(default=None, repr=False)
 
     @property
     def redundant(self) -> int:
@@ -83,6 +86,8 @@ class Analysis:
     @cached_property
     def freedoms(self) -> list[NodeFreedom]:
         """Of every part, in scene order."""
+        if self.held is not None:
+            return self.held.freedoms
         return node_freedoms(self.assembly, self.singular)
 
     def between(self, a: int, b: int) -> Effective:

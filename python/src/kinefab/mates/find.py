@@ -24,7 +24,7 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
     ground: id, or the last part of the id, of the node that stands still; "" takes what the scene states, else the hub
     of the contacts.  Joints and constraints that the scene states are not looked at.
     """
-    nodes, shapes, forms, named, wheels = _parts(scene)
+    nodes, shapes, forms, named, wheels, kinds = _parts(scene)
     if not nodes:
         return Mates((), None)
     pairs = near_parts(shapes)
@@ -32,10 +32,11 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
     teeth = {(mesh.first, mesh.second) for mesh in meshing}
     bodies = Bodies(shapes, contacts_of(shapes, [pair for pair in pairs if pair not in teeth]))
     _join_stated(scene, nodes, bodies)
-    decided = decide(bodies, Parts(forms, named))
+    decided = decide(bodies, Parts(forms, named, kinds))
+    names = [scene.nodes[node].id for node in nodes]
     middles = [0.5 * (shape.low + shape.high) for shape in shapes]
     found = [
-        mate_of_fixing(fixing, nodes, middles)
+        mate_of_fixing(fixing, nodes, middles, names)
         for fixing in decided.bodies.fixings
         if fixing.reason != "stated"
     ]
@@ -51,10 +52,12 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
 
 def _parts(
     scene: Scene,
-) -> tuple[list[int], list[Shape], list[Turned | None], list[bool], list[Wheel | None]]:
-    """Nodes with exact faces; their features in the world; the turned ones; whether a name says fastener; the wheels."""
+) -> tuple[list[int], list[Shape], list[Turned | None], list[bool], list[Wheel | None], list[int]]:
+    """Nodes with exact faces; their features in the world; the turned ones; whether a name says fastener; the wheels; a number
+    for each definition."""
     active = active_nodes(scene)
-    known: dict[int, tuple[Shape, Turned | None, Wheel | None]] = {}
+    known: dict[int, tuple[Shape, Turned | None, Wheel | None, int]] = {}
+    kinds: list[int] = []
     wheels: list[Wheel | None] = []
     nodes: list[int] = []
     shapes: list[Shape] = []
@@ -71,14 +74,15 @@ def _parts(
         if key not in known:
             shape = shape_of(node)
             assert shape is not None
-            known[key] = shape, turned(shape), wheel_of(shape)
-        own, form, wheel = known[key]
+            known[key] = shape, turned(shape), wheel_of(shape), len(known)
+        own, form, wheel, kind = known[key]
         nodes.append(i)
         shapes.append(placed(own, node.pose))
         forms.append(form)
+        kinds.append(kind)
         wheels.append(None if wheel is None else wheel.placed(node.pose))
         named.append(is_named_fastener(node.name) or is_named_fastener(node.definition or ""))
-    return nodes, shapes, forms, named, wheels
+    return nodes, shapes, forms, named, wheels, kinds
 
 
 def _join_stated(scene: Scene, nodes: list[int], bodies: Bodies) -> None:

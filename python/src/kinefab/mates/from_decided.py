@@ -25,12 +25,19 @@ SNAP = 1e-4
 """Share of the pair's length, and sine, by which a joint's axis may miss a fit's and still is that fit's."""
 
 
-def mate_of_fixing(fixing: Fixing, nodes: Sequence[int], shapes_middle: Sequence[Array]) -> Mate:
+def mate_of_fixing(
+    fixing: Fixing, nodes: Sequence[int], middles: Sequence[Array], names: Sequence[str]
+) -> Mate:
+    """names: of the parts."""
     sides = tuple(
-        MateSide(nodes[part], FeatureKind.BODY, shapes_middle[part], faces=_faces(fixing.contacts, part))
+        MateSide(nodes[part], FeatureKind.BODY, middles[part], faces=_faces(fixing.contacts, part))
         for part in (fixing.first, fixing.second)
     )
-    return Mate(0, ConstraintKind.LOCK, sides, "fixed", fixing.reason, fixing.confidence)
+    reason = fixing.reason
+    if (twin := fixing.twin) is not None:
+        of = (f"{names[p]} {', '.join(_faces(twin.contacts, p))}" for p in (twin.first, twin.second))
+        reason += f", as its twin: {' with '.join(of)}"
+    return Mate(0, ConstraintKind.LOCK, sides, "fixed", reason, fixing.confidence)
 
 
 def mates_of_edge(edge: Edge, nodes: Sequence[int], middles: Sequence[Array]) -> list[Mate]:

@@ -15,13 +15,15 @@ from .freedom import Freedom, Scale, freedom_of
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fixing:
-    """Why two parts are one body.  confidence: 0..1.  contacts: those that say so."""
+    """Why two parts are one body.  confidence: 0..1.  contacts: those that say so.  twin: the fixing of a copy that it
+    was decided like."""
 
     first: int
     second: int
     reason: str
     confidence: float
     contacts: tuple[Contact, ...] = ()
+    twin: Fixing | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -50,15 +52,16 @@ class Bodies:
         return self._count[self.of(part)]
 
     def fix(
-        self, first: int, second: int, reason: str, confidence: float, contacts: tuple[Contact, ...] = ()
-    ) -> bool:
+        self, first: int, second: int, reason: str, confidence: float, contacts: tuple[Contact, ...] = (),
+        twin: Fixing | None = None,
+    ) -> bool:  # fmt: skip
         """Make two parts one body; whether they were two."""
         a, b = self.of(first), self.of(second)
         if a == b:
             return False
         self._leader[max(a, b)] = min(a, b)
         self._count[min(a, b)] += self._count[max(a, b)]
-        self.fixings.append(Fixing(first, second, reason, confidence, contacts))
+        self.fixings.append(Fixing(first, second, reason, confidence, contacts, twin))
         return True
 
     def members(self) -> dict[int, list[int]]:

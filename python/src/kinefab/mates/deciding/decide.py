@@ -16,10 +16,11 @@ from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
 from .edge import Edge
-from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fix_pins
+from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fasteners, fix_pins
 from .freedom import RANK, Scale, freedom_of, null_space
 from .motions import held_rows, motions_of
 from .rolling import join_races
+from .twins import fix_loose
 
 DENSE = 400
 """Bodies of a connected piece up to which its mobility is counted; beyond, seats stay seats."""
@@ -39,6 +40,7 @@ def decide(bodies: Bodies, parts: Parts) -> Decided:
     bolted = fasten(bodies, parts)
     single = _bolt_groups(bodies, bolted)
     _clamp(bodies)
+    fix_loose(bodies, parts.kinds, fasteners(parts))
     fix_pins(bodies, parts)
     _fix_held(bodies)
     edges = _edges(bodies, single)

@@ -16,6 +16,7 @@ from ...spatial import cross
 from ..shapes.turned import Turned
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
+from .twins import Twins
 
 THIN = 0.6
 """Thickness of a washer, as a share of its bore's diameter, at most."""
@@ -35,10 +36,12 @@ class Bolted:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Parts:
-    """What is known of single parts.  turned: or None.  named: whether the name says fastener."""
+    """What is known of single parts.  turned: or None.  named: whether the name says fastener.  kinds: a number for each
+    definition, that of all its copies."""
 
     turned: Sequence[Turned | None]
     named: Sequence[bool]
+    kinds: Sequence[int]
 
     def is_fastener(self, part: int) -> bool:
         form = self.turned[part]
@@ -69,6 +72,15 @@ def fasten(bodies: Bodies, parts: Parts) -> list[Bolted]:
     _pressed(bodies, fits)
     _liners(bodies, parts, fits)
     return bolted
+
+
+def fasteners(parts: Parts) -> set[int]:
+    """Bolts, nuts and washers, these known by their thickness alone."""
+    return {
+        part
+        for part, form in enumerate(parts.turned)
+        if form is not None and (parts.is_fastener(part) or (_is_thin(form) and not form.sides))
+    }
 
 
 def _by_gap(contacts: list[Contact]) -> list[Contact]:
@@ -159,27 +171,43 @@ def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> Non
 
 
 def fix_pins(bodies: Bodies, parts: Parts) -> None:
-    """Fix each turned part that sits in two or more bodies to the one that holds it tightest."""
+    """Fix each turned part that sits in two or more bodies to the one that holds it tightest; where all hold it alike, to
+    the one that its twin is fixed to, else by its ends."""
     fits = fits_of(bodies)
+    equal: list[int] = []
     for part, form in enumerate(parts.turned):
         if form is None or form.bore:
             continue
         inside = [c for c in fits.get(part, ()) if c.inner == part]
         if any(c.gap < -PRESSED * c.a.radius for c in inside):
             continue  # a thread: whether it is driven, the assembly tells
-        by_body: defaultdict[int, list[Contact]] = defaultdict(list)
-        for contact in inside:
-            body = bodies.of(contact.other(part))
-            if body != bodies.of(part):
-                by_body[body].append(contact)
+        by_body = _holders(bodies, part, inside)
         if len(by_body) < 2 or bodies.count(part) > 1:
             continue
-
+        if len({round(min(c.gap for c in own), 9) for own in by_body.values()}) == 1:
+            equal.append(part)
+            continue
         host = min(by_body, key=lambda body: _looseness(by_body[body], body))  # noqa: B023 (called at once)
-        gaps = {round(min(c.gap for c in own), 9) for own in by_body.values()}
-        bodies.fix(
-            part, by_body[host][0].other(part), "pin", 0.8 if len(gaps) > 1 else 0.7, tuple(by_body[host])
-        )
+        bodies.fix(part, by_body[host][0].other(part), "pin", 0.8, tuple(by_body[host]))
+    twins = Twins(bodies, parts.kinds, ("pin", "pressed"))
+    for part in equal:
+        by_body = _holders(bodies, part, [c for c in fits.get(part, ()) if c.inner == part])
+        if len(by_body) < 2 or bodies.count(part) > 1:
+            continue
+        host, twin = twins.host(part, by_body)
+        if host is None:
+            host = min(by_body, key=lambda body: _looseness(by_body[body], body))  # noqa: B023 (called at once)
+        bodies.fix(part, by_body[host][0].other(part), "pin", 0.7, tuple(by_body[host]), twin)
+
+
+def _holders(bodies: Bodies, part: int, inside: Sequence[Contact]) -> dict[int, list[Contact]]:
+    """The fits of a shaft by the other bodies that it sits in."""
+    found: defaultdict[int, list[Contact]] = defaultdict(list)
+    for contact in inside:
+        body = bodies.of(contact.other(part))
+        if body != bodies.of(part):
+            found[body].append(contact)
+    return dict(found)
 
 
 def _looseness(contacts: Sequence[Contact], body: int) -> tuple[float, int, int, float, int]:

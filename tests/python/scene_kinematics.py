@@ -277,9 +277,16 @@ class SceneKinematics:
         ):
             if len(chosen) == 1:
                 return chosen[0]
-        last = name.rpartition("/")[2]
-        endings = (f"/{name}", f"/site:{last}")
-        found = [i for i, entry in enumerate(self.objects) if entry.get("id", "").endswith(endings)]
+        words = name.split("/")
+        sites = [
+            f"/site:{'/'.join(words[k:])}" for k in range(len(words))
+        ]  # seen from the part that bears it
+        for endings in ((f"/{name}", *sites[:-1]), (sites[-1],)):
+            found = [i for i, entry in enumerate(self.objects) if entry.get("id", "").endswith(endings)]
+            if len(found) > 1:  # of several models: the one whose name stands first
+                found = [i for i in found if self.objects[i]["id"].startswith(f"{words[0]}/")]
+            if found:
+                break
         if len(found) != 1:
             raise KeyError(f"{len(found)} GameObjects are called {name}")
         return found[0]

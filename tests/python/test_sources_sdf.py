@@ -247,6 +247,54 @@ def test_in_which_frame_an_axis_stands_depends_on_the_version(tmp_path, version,
     assert world == pytest.approx([axis[1], axis[2], axis[0]], abs=1e-12)
 
 
+@pytest.mark.parametrize("word", ["frame", "relative_to"])
+def test_poses_of_old_versions_are_seen_from_the_frame_they_name(tmp_path, word):
+    """The newer word in a file of 1.6 too, as libsdformat and Drake have it."""
+    inner = (
+        link("a", "<pose>0 0 .25 0 0 1.5707963267948966</pose>")
+        + link("b", f"<pose {word}='a'>.1 .02 .3 0 0 0</pose>")
+        + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz></axis>")
+    )
+    scene = scene_of(tmp_path, model(inner, "1.6"))
+    at = next(node.pose for node in scene.nodes if node.id == "m/b").translation
+    assert at == pytest.approx([0.1, 0.55, -0.02], abs=1e-12)  # y z x of (-.02, .1, .55)
+
+
+def test_parts_of_one_name_in_nested_models_keep_their_names_apart(tmp_path):
+    nested = "".join(
+        f"<model name='{name}'><pose>{x} .2 0 0 0 .3</pose>{link('tip')}</model>" + joint(f"to_{name}", "fixed", "rod", f"{name}::tip")
+        for name, x in (("left", 0.1), ("right", -0.4))
+    )  # fmt: skip
+    inner = (
+        link("base")
+        + link("rod")
+        + nested
+        + joint("j", "revolute", "base", "rod", "<axis><xyz>0 0 1</xyz></axis>")
+    )
+    rod = next(node for node in scene_of(tmp_path, model(inner)).nodes if node.id == "m/rod")
+    assert {site.name: round(float(site.pose.translation[2]), 9) for site in rod.sites} == {
+        "left/tip": 0.1,
+        "right/tip": -0.4,
+    }
+
+
+def test_a_link_that_weighs_what_its_shape_does_adds_to_the_one_that_carries_it(tmp_path):
+    """``<inertial auto='true'/>`` of a box, 1000 kg/m^3, fixed to a link of stated mass: both weigh, as in Drake."""
+    box = "<inertial auto='true'/><collision name='c'><geometry><box><size>.1 .2 .05</size></box></geometry></collision>"
+    inner = (
+        link("base") + link("a") + link("b", "<pose>.4 -.1 .2 0 0 .3</pose>", box) + joint("f", "fixed", "a", "b")
+        + joint("j", "revolute", "base", "a", "<axis><xyz>0 0 1</xyz></axis>")
+    )  # fmt: skip
+    report = Report()
+    scene = read(written(tmp_path, model(inner)), report)
+    mass = next(node.mass for node in scene.nodes if node.id == "m/a")
+    assert mass.mass == pytest.approx(2.0 + 1.0)
+    assert mass.center == pytest.approx(
+        np.array([2 * 0.02 - 0.1, -2 * 0.03 + 0.2, 2 * 0.1 + 0.4]) / 3.0
+    )  # y z x
+    assert [o.feature for o in report.outcomes if o.code == "MASS_FROM_GEOMETRY"] == ["mass b"]
+
+
 def test_models_are_included_by_name_and_placed(tmp_path):
     written(
         tmp_path,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -89,6 +90,8 @@ class DrakePlant:
         is_angle = bool(np.linalg.norm(column[:3]) > 1e-9)
         axis = column[:3] if is_angle else column[3:]
         low, high = joint.position_lower_limits()[0], joint.position_upper_limits()[0]
+        # SDF's own default, which is written out too, is 1e16 for none.
+        low, high = (math.copysign(math.inf, end) if abs(end) >= 1e16 else end for end in (low, high))
         return EngineJoint(
             joint.name(), self._key(joint), self.name_of(joint.child_body()), is_angle,
             axis / np.linalg.norm(axis), float(low), float(high),

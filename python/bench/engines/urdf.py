@@ -131,8 +131,12 @@ def _mimics(text: str) -> dict[str, tuple[str, float, float]]:
     """Joint to the one that it follows, multiplier and offset."""
     found = {}
     bare = re.sub(r"^\s*<\?xml.*?\?>", "", without_prefixes(text), flags=re.S)  # Pinocchio takes any
-    for joint in ElementTree.fromstring(bare.encode("utf-8", "replace")).iter("joint"):
+    joints = list(ElementTree.fromstring(bare.encode("utf-8", "replace")).iter("joint"))
+    names = {joint.get("name") for joint in joints}
+    for joint in joints:
         mimic = joint.find("mimic")
+        if mimic is not None and mimic.get("joint") not in names:
+            continue  # follows nothing: free, which the report tells
         if mimic is not None and joint.get("type") in ("revolute", "continuous", "prismatic"):
             numbers = (float(mimic.get("multiplier", 1.0)), float(mimic.get("offset", 0.0)))
             found[joint.get("name", "")] = (mimic.get("joint", ""), *numbers)

@@ -37,7 +37,8 @@ class Part:
 @dataclass(slots=True, eq=False)
 class Link:
     """pose: in the world at the exported pose, source axes.  id: unique path.  parent: index of its assembly's node.
-    frames: further named frames, in the link's own.  extras: kept with the node."""
+    frames: further named frames, in the link's own.  solid: without ``inertial`` it weighs what its touched shapes do.
+    extras: kept with the node."""
 
     id: str
     name: str
@@ -51,6 +52,7 @@ class Link:
     frames: dict[str, Pose] = field(default_factory=dict[str, Pose])
     gravity: bool = True
     kinematic: bool = False
+    solid: bool = False
     extras: dict[str, object] = field(default_factory=dict[str, object])
 
 
@@ -120,6 +122,13 @@ def _groups(count: int, fixed: Iterable[tuple[int, int]]) -> list[int]:
     return [find(i) for i in range(count)]
 
 
+def _seen_from(own: Link, link: Link) -> str:
+    """The name of a link that another one carries; of one in a model of its own with that, so that two of one name stay
+    apart."""
+    beside, inner = own.id.removesuffix(own.name), link.id.removesuffix(f"/{link.name}")
+    return f"{inner.removeprefix(beside)}/{link.name}" if inner.startswith(beside) else link.name
+
+
 def _node(
     own: Link, together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes, report: Report
 ) -> Node:
@@ -132,13 +141,15 @@ def _node(
         weighed = mass is None and any(link.drawn for link in together)
         if mass is not None or weighed:
             report.approximated(f"mass {own.name}", "MASS_FROM_GEOMETRY", own.where, link=own.name)
+    elif mass is not None:
+        mass = combined([mass, *_of_solids(together, inside, shapes, report)])
     bodies: list[Body] = []
     colliders: list[Collider] = []
     sites: list[Site] = []
     for link, pose in zip(together, inside):
         prefix = "" if link is own else f"{link.name}/"
         if link is not own:
-            sites.append(Site(link.name, placed(pose), link.where))
+            sites.append(Site(_seen_from(own, link), placed(pose), link.where))
         sites += [Site(name, placed(pose @ frame), link.where) for name, frame in link.frames.items()]
         for part in link.drawn:
             bodies.append(
@@ -180,6 +191,23 @@ def _of_touched(together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes
         mesh = shapes.meshes[body.mesh]
         found.append(moved(solid_properties(mesh.vertices, mesh.faces, STAND_IN_DENSITY), body.pose))
     return combined(found)
+
+
+def _of_solids(
+    together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes, report: Report
+) -> list[MassProperties]:
+    """Of the links that leave their mass to their shapes, beside others that state theirs."""
+    found: list[MassProperties] = []
+    for link, pose in zip(together, inside):
+        if not link.solid or link.inertial is not None:
+            continue
+        mass = _of_touched([link], [pose], shapes)
+        if mass is None:
+            report.dropped(f"mass of the meshes of {link.name}", "ELEMENT_DROPPED", link.where)
+            continue
+        report.approximated(f"mass {link.name}", "MASS_FROM_GEOMETRY", link.where, link=link.name)
+        found.append(mass)
+    return found
 
 
 def _stand_in(scene: Scene, index: int, beside: Sequence[float], report: Report) -> None:

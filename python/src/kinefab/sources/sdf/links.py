@@ -40,6 +40,7 @@ class Links:
         link = Link(f"{scope.path}/{entry.name}", entry.name, entry_world_pose(entry), element.where)
         link.parent, link.grounded = parent, scope.static
         link.inertial = None if scope.static else _inertial(element, entry.name)
+        link.solid = not scope.static and link.inertial is None
         label = f"link {link.id}"
         link.drawn = self._parts(element, "visual", scope, label)
         link.touched = self._parts(element, "collision", scope, label)

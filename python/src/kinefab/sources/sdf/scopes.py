@@ -114,12 +114,15 @@ def pose_of(element: Element) -> Pose:
 
 
 def relative_to(element: Element, scope: Scope) -> str:
-    """What an element's pose says that it is relative to; "" where it does not."""
+    """What an element's pose says that it is relative to; "" where it does not.
+
+    Before 1.7 the word was ``frame``; files of those versions that have the newer word are read by it, as libsdformat does.
+    """
     child = element.child("pose")
     if child is None:
         return ""
-    key = "relative_to" if scope.version >= (1, 7) else "frame"
-    return child.attributes.get(key, "").strip()
+    found = child.attributes.get("relative_to", "").strip()
+    return found or (child.attributes.get("frame", "").strip() if scope.version < (1, 7) else "")
 
 
 def frame_pose(name: str, scope: Scope, asking: Element, feature: str) -> Pose:

@@ -295,6 +295,20 @@ def test_a_link_that_weighs_what_its_shape_does_adds_to_the_one_that_carries_it(
     assert [o.feature for o in report.outcomes if o.code == "MASS_FROM_GEOMETRY"] == ["mass b"]
 
 
+def test_a_base_without_mass_is_weighed_by_its_shape(tmp_path):
+    """Drake reads a mass of zero; Unity has no such body, so the report tells what was taken."""
+    box = "<inertial><mass>0</mass></inertial><collision name='c'><geometry><box><size>.1 .2 .05</size></box></geometry></collision>"
+    inner = (
+        link("base", "", box)
+        + link("a")
+        + joint("j", "revolute", "base", "a", "<axis><xyz>0 0 1</xyz></axis>")
+    )
+    report = Report()
+    scene = read(written(tmp_path, model(inner)), report)
+    assert next(node.mass for node in scene.nodes if node.id == "m/base").mass == pytest.approx(1.0)
+    assert [o.feature for o in report.outcomes if o.code == "MASS_FROM_GEOMETRY"] == ["mass base"]
+
+
 def test_models_are_included_by_name_and_placed(tmp_path):
     written(
         tmp_path,

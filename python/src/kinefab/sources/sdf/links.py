@@ -40,7 +40,7 @@ class Links:
         link = Link(f"{scope.path}/{entry.name}", entry.name, entry_world_pose(entry), element.where)
         link.parent, link.grounded = parent, scope.static
         link.inertial = None if scope.static else _inertial(element, entry.name)
-        link.solid = not scope.static and link.inertial is None
+        link.solid = _is_solid(element)
         label = f"link {link.id}"
         link.drawn = self._parts(element, "visual", scope, label)
         link.touched = self._parts(element, "collision", scope, label)
@@ -150,15 +150,23 @@ def _plane(element: Element, tag: str) -> tuple[Shape, Pose] | None:
     return Shape("plane", tuple(size), where=element.where), Pose(turn)
 
 
+def _is_solid(link: Element) -> bool:
+    """Whether a link's mass is that of its collisions."""
+    element = link.child("inertial")
+    return element is not None and element.attributes.get("auto", "").strip() in ("true", "1")
+
+
 def _inertial(link: Element, name: str) -> Inertial | None:
-    """As stated; SDF's own default is 1 kg and 1 kg m^2.  None where it is to be had from the geometry."""
+    """As stated; SDF's own default is 1 kg and 1 kg m^2.  None where it is to be had from the geometry, or none."""
     element = link.child("inertial")
     if element is None:
         return Inertial(1.0, Pose(), np.eye(3))
-    if element.attributes.get("auto", "").strip() in ("true", "1"):
+    if _is_solid(link):
         return None
     mass_element, inertia = element.child("mass"), element.child("inertia")
     mass = 1.0 if mass_element is None else mass_element.value(1.0)
+    if mass == 0.0:  # what models that were made for a fixed base say of it
+        return None
     if not mass > 0.0:
         element.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
         return None

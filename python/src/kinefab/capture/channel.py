@@ -192,7 +192,7 @@ def record(program: str, answers: object, blank: bool = False) -> dict[str, Any]
 
 NAMED = frozenset(
     "Name Name2 name fullPathName FullFileName DisplayName GetPathName GetTitle ReferencedConfiguration "
-    "mateName Description MaterialUserName".split()
+    "mateName Description MaterialUserName displayName".split()
 )
 """Members and fields that hold what a user or a file system named."""
 

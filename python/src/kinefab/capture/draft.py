@@ -6,10 +6,11 @@ Standard library only: it also runs in a CAD program's own Python.
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 from ..diagnostics import Report
 from .channel import MemberFailed
@@ -20,18 +21,29 @@ Numbers = Sequence[float]
 
 FLAT = 1e-6
 """Volume that three unit axes span at least."""
-WRONG_ANSWER = (MemberFailed, AttributeError, TypeError, ValueError, KeyError, IndexError)
+WRONG_ANSWER = (
+    MemberFailed, AttributeError, TypeError, ValueError, KeyError, IndexError, ArithmeticError, struct.error,
+)  # fmt: skip
 """What is raised where a program answers something else than its documentation says."""
 
 
 @dataclass(slots=True)
 class BodyMesh:
     """name: of the body.  points: x y z of each corner, in the part's frame, ``length`` of the draft.
-    triangles: corners, from 0."""
+    triangles: corners, from 0.  Raises TypeError or ValueError for what is no mesh."""
 
     name: str
     points: list[float]
     triangles: list[int]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
+            raise TypeError("a body's name is no text")
+        whole = len(self.points) % 3 == 0 and len(self.triangles) % 3 == 0
+        if not whole or not all(map(math.isfinite, self.points)):
+            raise ValueError("a mesh whose numbers are no points")
+        if self.triangles and not 0 <= min(self.triangles) <= max(self.triangles) < len(self.points) // 3:
+            raise ValueError("a triangle of a mesh names a corner that is not there")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +80,7 @@ class Draft:
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     ids: set[str] = field(default_factory=set[str])
+    parts: set[str] = field(default_factory=set[str])
     notes: Record = field(default_factory=dict[str, Any])
 
     @contextmanager
@@ -85,8 +98,28 @@ class Draft:
             feature, "CAPTURE_MEMBER_FAILED", program=self.program, member=member, detail=detail
         )
 
+    def component(self, record: Record) -> None:
+        """Add a component.  Raises TypeError or ValueError for one that no other record could name."""
+        for key in ("id", "name", "definition"):
+            if not isinstance(record.get(key, ""), str):
+                raise TypeError(f"its {key} is no text")
+        if not record["id"] or record["id"] in self.parts:
+            raise ValueError(f"there are two components {record['id']!r:.60}")
+        self.parts.add(record["id"])
+        self.components.append(record)
+
     def settle(self) -> None:
-        """Leave out, and tell, what stands on a component or joint that was lost."""
+        """Leave out, and tell, what holds no finite numbers or stands on a component or joint that was lost."""
+        self.version, self.source = _text(self.version), _text(self.source)
+        self.materials = {name: found for name, found in self.materials.items() if _finite(found)}
+        self.notes = {key: found for key, found in self.notes.items() if _finite(found)}
+        lists = (self.components, self.joints, self.couplings, self.constraints, self.dof)
+        for records in lists:
+            for record in [record for record in records if not _finite(record)]:
+                records.remove(record)
+                self.failed(
+                    str(record.get("id", record.get("component"))), ValueError("a number is infinite")
+                )
         there = {"ground", *(component["id"] for component in self.components)}
         for records, word in ((self.joints, "joint"), (self.constraints, "constraint")):
             for record in list(records):
@@ -96,7 +129,8 @@ class Draft:
                     self._lost(records, record, word, lost[0])
         joints = {joint["id"] for joint in self.joints}
         for record in list(self.couplings):
-            if lost := [record[key]["joint"] for key in "ab" if record[key]["joint"] not in joints]:
+            named = [str(record[key]["joint"]) for key in "ab"]
+            if lost := [name for name in named if name not in joints]:
                 self._lost(self.couplings, record, "coupling", lost[0])
         self.dof = [record for record in self.dof if record["component"] in there]
 
@@ -107,6 +141,8 @@ class Draft:
 
     def unique(self, name: str) -> str:
         """An id that no joint or constraint has yet."""
+        if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
+            raise TypeError("its name is no text")
         found, number = name, 2
         while found in self.ids:
             found, number = f"{name} ({number})", number + 1
@@ -136,6 +172,29 @@ class Draft:
         if self.notes:
             meta["extras"] = self.notes
         return {"meta": meta, **{key: list(records) for key, records in lists if records}}
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else ""
+
+
+NUMBERS = frozenset({"value", "min", "max", "r", "ratio", "mass"})
+"""Fields that hold a number wherever they hold no record."""
+
+
+def _finite(value: Any) -> bool:
+    """Whether a record can be written: all its numbers finite, and what has to be a number one."""
+    if isinstance(value, dict):
+        held = cast("dict[str, Any]", value)
+        plain = [held[key] for key in NUMBERS & held.keys() if not isinstance(held[key], dict)]
+        if any(isinstance(entry, bool) or not isinstance(entry, (int, float)) for entry in plain):
+            return False
+        return all(_finite(entry) for entry in held.values())
+    if isinstance(value, list):
+        return all(_finite(entry) for entry in cast("list[Any]", value))
+    return (
+        value is None or isinstance(value, (str, int)) or (isinstance(value, float) and math.isfinite(value))
+    )
 
 
 def reach(enabled: bool, value: float | None) -> float | None:

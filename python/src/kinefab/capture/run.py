@@ -14,7 +14,7 @@ from ..replacing import write_whole
 from .channel import Asked, Channel, Live, MemberFailed, RecordBroken, Replay, opened, record
 from .checking import check
 from .comparing import compare
-from .draft import Draft
+from .draft import WRONG_ANSWER, Draft
 from .writing import mesh_files, write_files
 
 
@@ -122,7 +122,7 @@ def drafted(
     except MemberFailed as error:
         detail = error.detail
         report.add("CAPTURE_STOPPED", program=entry.name, member=error.member, detail=detail)
-    except (AttributeError, TypeError, ValueError, KeyError, IndexError) as error:
+    except WRONG_ANSWER as error:
         detail = f"{type(error).__name__}: {error}"
         report.add("CAPTURE_STOPPED", program=entry.name, member="an answer", detail=detail)
     if record_to is not None:  # of a capture that failed too: it is what shows why

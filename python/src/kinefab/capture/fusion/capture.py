@@ -36,9 +36,7 @@ def capture(application: Application, draft: Draft) -> None:
     root = design.rootComponent
     name = root.name.replace("/", "_")
     identity = pose_of_rows([1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0])
-    draft.components.append(
-        {"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity}
-    )
+    draft.component({"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity})
     _occurrences(draft, root.occurrences, name, name, Parts(draft))
 
     def component(occurrence: Occurrence | None) -> str:
@@ -91,7 +89,7 @@ def _occurrence(draft: Draft, occurrence: Occurrence, parent: str, root: str, pa
         "grounded": bool(occurrence.isGrounded),
         "visible": bool(occurrence.isLightBulbOn),
     }
-    draft.components.append(record)
+    draft.component(record)
     if is_assembly:
         record["flexible"] = True
         _occurrences(draft, children, own, root, parts)

@@ -46,7 +46,7 @@ def capture(application: Application, draft: Draft) -> None:
         draft.report.add("CAPTURE_UNSAVED", program=NAME, name=document.DisplayName)
     draft.dirty = bool(document.RequiresUpdate)
     root = document.DisplayName.rpartition(".")[0] or document.DisplayName
-    draft.components.append(
+    draft.component(
         {
             "id": root,
             "name": root,

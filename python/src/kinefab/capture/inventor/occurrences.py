@@ -49,7 +49,7 @@ class Occurrences:
         record: Record = {"id": own, "name": name, "kind": "part", "parent": parent}
         if suppressed:
             identity = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
-            self.draft.components.append({**record, "pose": pose_of_rows(identity), "suppressed": True})
+            self.draft.component({**record, "pose": pose_of_rows(identity), "suppressed": True})
             return
         is_assembly = occurrence.DefinitionDocumentType == ASSEMBLY
         record["kind"] = "assembly" if is_assembly else "part"
@@ -67,7 +67,7 @@ class Occurrences:
             record["extras"] = extras
         definition = occurrence.Definition
         record["definition"] = definition.Document.DisplayName
-        self.draft.components.append(record)
+        self.draft.component(record)
         if is_assembly:
             record["flexible"] = bool(occurrence.Flexible)
             if record["flexible"]:

@@ -167,7 +167,8 @@ def _words(code: int) -> str:
         404: "there is no such document, or the keys may not see it",
         429: "too many calls for now",
     }
-    return f"HTTP {code}: {said.get(code, 'the server failed')}"
+    other = "a redirect that leads nowhere" if code < 400 else "the server failed"
+    return f"HTTP {code}: {said.get(code, other)}"
 
 
 def opened(source: str, environment: Mapping[str, str], report: Report) -> Answers:

@@ -26,9 +26,7 @@ def capture(root: Answers, draft: Draft) -> None:
         with draft.safely("name of the assembly"):
             name = str(root.ask("name")[0]["name"]).replace("/", "_")
     identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-    draft.components.append(
-        {"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity}
-    )
+    draft.component({"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity})
     definition = Definition(Parts(root, draft), draft, name, cast("dict[str, Any]", values))
     definition.read()
     features: dict[str, Any] = {}

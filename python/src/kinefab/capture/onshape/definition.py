@@ -63,14 +63,14 @@ class Definition:
         occurrence = found.get(own_path)
         if instance.get("suppressed") or occurrence is None:
             self.ids[own_path] = own
-            self.draft.components.append({**record, "pose": pose_of_rows(IDENTITY), "suppressed": True})
+            self.draft.component({**record, "pose": pose_of_rows(IDENTITY), "suppressed": True})
             return
         record["pose"] = pose_of_rows([float(v) for v in occurrence["transform"]])
         self.ids[own_path] = own
         record["grounded"] = bool(occurrence.get("fixed", False))
         record["visible"] = not occurrence.get("hidden", False)
         record["definition"] = " ".join(str(v) for v in (*_key(instance), instance.get("partId", "")))
-        self.draft.components.append(record)
+        self.draft.component(record)
         if is_assembly:
             record["flexible"] = True  # nothing in the answers says that one is rigid
             sub = subs.get(_key(instance))

@@ -43,9 +43,7 @@ def capture(application: Application, draft: Draft) -> None:
         draft.dirty = model.Extension.NeedsRebuild2 != 0
     root = title.rpartition(".")[0] if title.lower().endswith(".sldasm") else title
     identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-    draft.components.append(
-        {"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": identity}
-    )
+    draft.component({"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": identity})
     with _in_bulk(application):
         _assembly(model, draft, root)
 
@@ -94,7 +92,7 @@ class Components:
         record: Record = {"id": own, "name": path.rpartition("/")[2], "kind": "part", "parent": parent}
         if component.GetSuppression2() == SUPPRESSED:
             identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-            self.draft.components.append({**record, "pose": identity, "suppressed": True})
+            self.draft.component({**record, "pose": identity, "suppressed": True})
             return
         transform = component.Transform2
         if transform is None:
@@ -119,7 +117,7 @@ class Components:
         ]
         if copied:
             record["extras"] = dict.fromkeys(copied, True)
-        self.draft.components.append(record)
+        self.draft.component(record)
         if is_assembly:
             record["flexible"] = component.Solving == FLEXIBLE
             if record["flexible"] and (inner := component.GetModelDoc2()) is not None:

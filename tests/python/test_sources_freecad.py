@@ -273,7 +273,8 @@ def test_the_levers_asmt_has_its_motion(levers):
 
 
 def test_a_material_of_the_library_and_a_mesh_are_told(tmp_path):
-    """Neither the library's density nor a mesh's points are in a form that is read; a material is told once."""
+    """The library's densities are not in the file: those of common materials are taken, and told; a mesh's points are in no
+    form that is read.  A material is told once."""
     pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
     with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
         brep = file.read("Base.Shape.brp")
@@ -282,13 +283,19 @@ def test_a_material_of_the_library_and_a_mesh_are_told(tmp_path):
         material = ("Materials::PropertyMaterial", f'<PropertyMaterial uuid="{uuid}"/>')
         return "Part::Feature", {"Shape": shape("Base.Shape.brp"), "ShapeMaterial": material}
 
-    steel, default = "92589471-a6cb-4bbc-b748-d425a17dea7d", "7f9fd73b-50c9-41d8-b7b2-575a030c1eeb"
+    special, default = "92589471-a6cb-4bbc-b748-d425a17dea7d", "7f9fd73b-50c9-41d8-b7b2-575a030c1eeb"
+    steel, copper = "90bbd8ef-8623-4d78-b3bf-e0bdb9b74dd3", "6c03899d-496e-4c60-a41b-3d66f2337fb9"
     objects = {
-        "Base": made_of(steel),
-        "Lid": made_of(steel),
+        "Base": made_of(special),
+        "Lid": made_of(special),
         "Box": made_of(default),
+        "Bolt": made_of(steel),
+        "Nut": made_of(steel),
+        "Bus": made_of(copper),
         "Scan": ("Mesh::Feature", {}),
     }
     scene, codes = written(tmp_path, objects, **{"Base.Shape.brp": brep})
-    assert sorted(codes) == ["FREECAD_MATERIAL", "SHAPE_NOT_READ"]
-    assert [node.name for node in scene.nodes] == ["Base", "Lid", "Box", "Scan"]
+    assert sorted(codes) == ["FREECAD_DENSITY", "FREECAD_DENSITY", "FREECAD_MATERIAL", "SHAPE_NOT_READ"]
+    densities = [body.density for node in scene.nodes for body in node.bodies]
+    assert densities == [None, None, None, 7900.0, 7900.0, 8960.0]
+    assert [node.name for node in scene.nodes] == ["Base", "Lid", "Box", "Bolt", "Nut", "Bus", "Scan"]

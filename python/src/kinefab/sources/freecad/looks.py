@@ -25,6 +25,29 @@ Look = tuple[int, int, int, float, float]
 DENSITY = re.compile(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([a-z]*)\s*/\s*(mm|cm|dm|m)\^?3\s*$")
 DEFAULT_MATERIAL = "7f9fd73b-50c9-41d8-b7b2-575a030c1eeb"
 """What FreeCAD writes where nobody chose a material."""
+LIBRARY = {
+    "90bbd8ef-8623-4d78-b3bf-e0bdb9b74dd3": ("Steel-Generic", 7900.0),
+    "4a96627d-6518-458c-8ccf-846f69fd8a50": ("Steel-S235JR", 7800.0),
+    "1826c364-d26a-43fb-8f61-288281236836": ("Iron-Generic", 7874.0),
+    "27745e16-2a10-4c8e-bd22-59971806909c": ("Invar-Generic", 8150.0),
+    "6c03899d-496e-4c60-a41b-3d66f2337fb9": ("Copper-Generic", 8960.0),
+    "9bf060e9-1663-44a2-88e2-2ff6ee858efe": ("Aluminum-Generic", 2700.0),
+    "68b152b2-fd5e-4f10-8db0-1a2df3fe0fda": ("Aluminum-6061-T6", 2700.0),
+    "f8013463-8008-4063-818c-ab6884cfa015": ("Ti-6Al-4V", 4430.0),
+    "73371529-2983-47dd-b988-6739a2e20029": ("ABS-Generic", 1060.0),
+    "f255cd82-91d5-4e97-9032-1843128a2eaa": ("Acrylic-Glass-Generic", 1160.0),
+    "9d59dc3b-ce66-4bec-82c9-b962082e7c9e": ("PA6-Generic", 1150.0),
+    "f73004e3-6fb4-4591-8be7-89d1370be312": ("PET-Generic", 1380.0),
+    "93861244-fbbe-41a9-a7e0-aeed53abd782": ("PLA-Generic", 1240.0),
+    "0e669f57-de27-4915-9a02-124f36047972": ("PP-Generic", 916.0),
+    "8ce226db-43ef-4471-93f1-07e7276aa276": ("PTFE-Generic", 2070.0),
+    "758cfc44-f4ad-4605-8645-75e9e6b053ab": ("PVC-Generic", 1380.0),
+    "3e3a3e13-04a4-410e-8e36-bbd83ca66847": ("Glass-Generic", 2520.0),
+    "26042aa5-56e6-4d99-8b63-dd8b9ea5a37a": ("Concrete-Generic", 2400.0),
+    "b588224e-e8d6-47ad-ba1f-a058333fd1c6": ("Wood-Generic", 700.0),
+}
+"""Common materials by the number that a document has of them: name, and kg/m^3 as FreeCAD 1.0 weighs them.  A user may have
+changed a card of that number, so each is told as taken."""
 KILOGRAMS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 CUBIC_METRES = {"mm": 1e-9, "cm": 1e-6, "dm": 1e-3, "m": 1.0}
 
@@ -55,7 +78,8 @@ class Looks:
         return [self._surface(look) for look in found]
 
     def density(self, shape: ShownShape) -> float | None:
-        """kg/m^3 of the material object that the shape's owner, or a container above, links to."""
+        """kg/m^3 of the material object that the shape's owner, or a container above, links to, else of its material of
+        FreeCAD's library where that is a common one."""
         holders = [shape.owner]
         above = shape.by
         while above is not None:
@@ -72,13 +96,16 @@ class Looks:
                             return density
         given = shape.owner.values.get("ShapeMaterial")
         material = "" if given is None else given.get("uuid", "")
+        name, density = LIBRARY.get(material, (shown(material), None))
         if material not in ("", DEFAULT_MATERIAL) and material not in self._told:
             self._told.add(material)
-            where = shape.owner.where
-            self._report.add(
-                "FREECAD_MATERIAL", where, object=shown(shape.owner.label), material=shown(material)
-            )
-        return None
+            where, values = shape.owner.where, {"object": shown(shape.owner.label), "material": name}
+            if density is None:
+                self._report.add("FREECAD_MATERIAL", where, **values)
+            else:
+                feature = f"density of {name}"
+                self._report.approximated(feature, "FREECAD_DENSITY", where, **values, density=f"{density:g}")
+        return density
 
     def _view(self, thing: Thing) -> dict[str, Element]:
         """The view properties of an object, by name."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import random
 import struct
 import sys
+import zipfile
 
 import kinefab
 import numpy as np
@@ -95,11 +97,36 @@ Connections:  {{
 """.encode()
 
 
-WRITERS = {".wrl": vrml, ".x3d": x3d, ".3ds": tds, ".fbx": fbx}
+def three_mf(unit: str = "millimeter") -> bytes:
+    """The box as an object, placed by a component of the one that is built."""
+    points = "".join('<vertex x="%g" y="%g" z="%g"/>' % tuple(v) for v in BOX.vertices)
+    faces = "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % tuple(f) for f in BOX.faces)
+    mesh = f"<mesh><vertices>{points}</vertices><triangles>{faces}</triangles></mesh>"
+    moved = '<components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components>'
+    schemas = "http://schemas.microsoft.com/3dmanufacturing"
+    package = "http://schemas.openxmlformats.org/package/2006"
+    members = {
+        "[Content_Types].xml": f'<Types xmlns="{package}/content-types">'
+        f'<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        f'<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>',
+        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Target="/3D/3dmodel.model" Id="r0"'
+        f' Type="{schemas}/2013/01/3dmodel"/></Relationships>',
+        "3D/3dmodel.model": f'<?xml version="1.0"?><model unit="{unit}" xmlns="{schemas}/core/2015/02"><resources>'
+        f'<object id="1" type="model" name="Box">{mesh}</object><object id="2" type="model" name="Whole">{moved}</object>'
+        f'</resources><build><item objectid="2"/></build></model>',
+    }
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, text in members.items():
+            archive.writestr(name, text)
+    return file.getvalue()
+
+
+WRITERS = {".3mf": three_mf, ".wrl": vrml, ".x3d": x3d, ".3ds": tds, ".fbx": fbx}
 
 
 def needs(suffix: str) -> None:
-    if suffix not in READERS:
+    if suffix not in READERS:  # as .3mf is where trimesh has what it needs for it
         pytest.skip(f"nothing that reads {suffix} is installed: pip install 'kinefab[cad,meshes]'")
 
 
@@ -138,6 +165,17 @@ def test_an_fbx_has_the_unit_that_it_states(tmp_path, unit):
     np.testing.assert_allclose(
         np.ptp(mesh.vertices, axis=0), np.array([1.0, 2.0, 3.0]) * unit / 100, rtol=1e-6
     )
+
+
+@pytest.mark.parametrize("unit, metres", [("millimeter", 1e-3), ("inch", 0.0254), ("meter", 1.0)])
+def test_a_3mf_has_the_unit_that_it_states(tmp_path, unit, metres):
+    """Whichever of trimesh and assimp reads it, and whatever the bundle says of its meshes."""
+    if ".3mf" not in READERS:
+        pytest.importorskip("lxml")
+        pytest.importorskip("networkx")
+    (tmp_path / "a.3mf").write_bytes(three_mf(unit))
+    (mesh,) = exported(tmp_path / "a.3mf", tmp_path, "cm").meshes
+    np.testing.assert_allclose(np.ptp(mesh.vertices, axis=0), np.array([1.0, 2.0, 3.0]) * metres, rtol=1e-6)
 
 
 @pytest.mark.parametrize("suffix", [".step", ".iges"])

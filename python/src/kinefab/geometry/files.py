@@ -16,7 +16,7 @@ from ..spatial import Array
 from .looks.visuals import look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
-from .references import FolderResolver, UnsafeReference, demand_honest_archive
+from .references import FolderResolver, UnsafeReference, demand_honest_archive, metres_of_3mf
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 ARCHIVES = (".3mf",)
@@ -134,7 +134,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
             path=path.name,
             detail=detail,
         )
-    return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces)
+    metres = metres_of_3mf(path) if path.suffix.lower() in ARCHIVES else None
+    return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces, metres)
 
 
 def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 import zipfile
-from collections.abc import Iterator
+import zlib
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
@@ -45,13 +48,48 @@ def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:
         return stream.read()
 
 
+@contextmanager
+def _opened(path: Path) -> Generator[zipfile.ZipFile, None, None]:
+    """The archive; what is wrong with it is an UnsafeReference."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            yield archive
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        EOFError,
+        RuntimeError,
+    ) as error:  # RuntimeError: encrypted, or a method unknown
+        raise UnsafeReference(f"it is no whole archive: {error}") from error
+
+
+MILLIMETRE = 1e-3
+UNITS_OF_3MF = {
+    b"micron": 1e-6, b"millimeter": MILLIMETRE, b"centimeter": 1e-2, b"inch": 0.0254, b"foot": 0.3048, b"meter": 1.0,
+}  # fmt: skip
+HEAD_BYTES = 65536
+_UNIT = re.compile(rb"""<(?:\w+:)?model\b[^>]*?\bunit\s*=\s*["'](\w+)["']""")
+
+
 def demand_honest_archive(path: Path) -> None:
     """Raises UnsafeReference for a zip archive that unpacks to more than it may."""
-    with zipfile.ZipFile(path) as archive:
+    with _opened(path) as archive:
         unpacked = sum(entry.file_size for entry in archive.infolist())
     allowed = min(MOST_BYTES, max(2**20, MOST_GROWTH * path.stat().st_size))
     if unpacked > allowed:
         raise UnsafeReference(f"it unpacks to {unpacked} bytes; at most {allowed} are read")
+
+
+def metres_of_3mf(path: Path) -> float:
+    """Metres in the unit that a 3MF archive states; millimetres where it states none (3MF Core Specification, 3.4)."""
+    with _opened(path) as archive:
+        for entry in archive.infolist():
+            if entry.filename.lower().endswith(".model"):
+                with archive.open(entry) as model:
+                    head = model.read(HEAD_BYTES)
+                if (stated := _UNIT.search(head)) is not None:
+                    return UNITS_OF_3MF.get(stated[1], MILLIMETRE)
+    return MILLIMETRE
 
 
 class FolderResolver:

@@ -11,7 +11,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...geometry.files import noted
 from ...geometry.pieces import MeshFile, Piece, placed
-from ...geometry.references import UnsafeReference, demand_honest_archive, read_regular
+from ...geometry.references import UnsafeReference, demand_honest_archive, metres_of_3mf, read_regular
 from ...model import MeshKey, Surface
 from ...spatial import Array, IntArray
 from ..occ.guard import GuardedCrash, GuardedError, guarded
@@ -46,6 +46,7 @@ def read_guarded(path: Path, report: Report, where: str) -> MeshFile | None:
     module = "step.vrml" if suffix in (".wrl", ".vrml") else "parts.with_assimp"
     try:
         _check(path, suffix)
+        metres = metres_of_3mf(path) if suffix == ".3mf" else METRES.get(suffix)
         seconds = SECONDS + SECONDS_PER_MEGABYTE * path.stat().st_size / 2**20
         found: list[Found] = [
             Found(*entry) for entry in guarded(f"{PACKAGE}.{module}", "meshes", str(path), seconds=seconds)
@@ -58,7 +59,7 @@ def read_guarded(path: Path, report: Report, where: str) -> MeshFile | None:
     if not file.pieces:
         report.add("GEOMETRY_EMPTY", where, path=path.name)
         return None
-    file.metres = METRES.get(suffix)
+    file.metres = metres
     return file
 
 

@@ -9,18 +9,19 @@ from pathlib import Path
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = (
-    "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update "
-    "--disable-sync --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader"
+    "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync"
 ).split()
+SOFTWARE = "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader".split()
 
 
 @contextmanager
-def browser() -> Iterator:
-    """A running browser with a profile of its own."""
+def browser(gpu: bool = False) -> Iterator:
+    """A running browser with a profile of its own.  gpu: whether it may use a graphics card."""
     from playwright.sync_api import sync_playwright
 
+    flags = FLAGS if gpu else FLAGS + SOFTWARE
     with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=CHROMIUM, headless=True, args=FLAGS)
+        running = playwright.chromium.launch(executable_path=CHROMIUM, headless=True, args=flags)
         yield running
         running.close()
 

@@ -88,6 +88,15 @@ class App {
     this.sliders = {};
     const box = $("freedoms");
     box.replaceChildren();
+    // Of thousands of sliders only those in sight follow at once.
+    this.inSight = new Set();
+    const watcher = new IntersectionObserver((seen) => {
+      for (const { target, isIntersecting } of seen) {
+        const name = target.dataset.name;
+        isIntersecting ? this.inSight.add(name) : this.inSight.delete(name);
+        this.follow(name);
+      }
+    });
     if (!this.mechanism.freedoms.length) box.append(element("p", { class: "follow" }, "No joint of this scene can move."));
     for (const name of this.mechanism.freedoms) {
       const c = this.data.coordinates[name], [low, high, endless] = this.mechanism.range[name];
@@ -103,26 +112,32 @@ class App {
       const text = element("label", { title: c.label, onclick: () => this.choose({ joint: c.joint }) }, c.label);
       const ends = [low, high].map((x) => element("span", {}, `${(x * unit).toFixed(digits - 1)}`));
       const note = endless ? "all the way round" : c.lower !== null || c.upper !== null ? "limits" : "its reach";
-      box.append(element("div", { class: "freedom" },
+      const row = element("div", { class: "freedom" },
         element("div", { class: "top" }, check, text, number, element("span", {}, c.unit === "deg" ? "°" : "m")),
-        range, element("div", { class: "ends" }, ends[0], element("span", {}, note), ends[1])));
+        range, element("div", { class: "ends" }, ends[0], element("span", {}, note), ends[1]));
+      row.dataset.name = name;
+      box.append(row);
+      watcher.observe(row);
       this.sliders[name] = { range, number, unit, digits, low, high, endless };
+      this.follow(name);
     }
     this.followers = element("div");
     box.append(this.followers);
   }
+  // A freedom's slider and number show where it stands.
+  follow(name) {
+    const slider = this.sliders[name], value = this.mechanism.q[name];
+    if (slider.last === value) return;
+    slider.last = value;
+    const span = slider.high - slider.low;
+    const shown = slider.endless ? slider.low + ((((value - slider.low) % span) + span) % span) : value;
+    slider.range.value = shown * slider.unit;
+    if (document.activeElement !== slider.number) slider.number.value = (value * slider.unit).toFixed(slider.digits);
+  }
   moved() {
     this.stage.place(this.mechanism.displaced);
     this.glyphs.follow();
-    for (const [name, slider] of Object.entries(this.sliders)) {
-      const value = this.mechanism.q[name];
-      if (slider.last === value) continue;
-      slider.last = value;
-      const span = slider.high - slider.low;
-      const shown = slider.endless ? slider.low + ((((value - slider.low) % span) + span) % span) : value;
-      slider.range.value = shown * slider.unit;
-      if (document.activeElement !== slider.number) slider.number.value = (value * slider.unit).toFixed(slider.digits);
-    }
+    for (const name of this.inSight) this.follow(name);
     const chosen = this.chosen && this.chosen.joint !== undefined ? this.data.joints[this.chosen.joint] : null;
     this.followers.replaceChildren();
     if (chosen) for (const f of chosen.freedoms) if (f.name && !this.sliders[f.name]) {

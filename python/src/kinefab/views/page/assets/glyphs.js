@@ -28,7 +28,7 @@ class Glyphs {
     this.data = data;
     this.scale = 0.045 * stage.size;
     this.colliders = null;
-    this.items = data.joints.map((joint, i) => this.build(joint, i));
+    this.items = new Map(); // by the joint's number, each built when it is first shown
     this.ties = data.couplings.map((coupling) => this.tie(coupling));
     this.traces = [];
     this.bars();
@@ -58,7 +58,8 @@ class Glyphs {
       }
     }
   }
-  build(joint, index) {
+  build(index) {
+    const joint = this.data.joints[index];
     const s = this.scale, colour = COLOURS[joint.type], base = new THREE.Group(), rider = new THREE.Group();
     const axis = (i, r) => new THREE.Vector3().setComponent(i, r);
     const dashed = joint.closure;
@@ -97,13 +98,11 @@ class Glyphs {
     knob.userData.joint = index;
     rider.add(knob);
     if (joint.closure) for (const group of [base, rider]) group.traverse((o) => { if (o.material) o.material.opacity *= 0.55; });
-    const [onA, onB] = [base, rider].map((group, side) => {
+    [base, rider].forEach((group, side) => {
       group.matrixAutoUpdate = false;
-      group.matrix.copy(asMatrix(side ? joint.atB : joint.at));
-      this.stage.bodies[side ? joint.b : joint.a].add(group);
-      return group;
+      asMatrix(side ? joint.atB : joint.at, group.matrix);
     });
-    return { joint, base: onA, rider: onB, knob };
+    return { joint, base, rider, knob };
   }
   tie(coupling) {
     const made = line([new THREE.Vector3(), new THREE.Vector3()], 0x9c36b5);
@@ -114,10 +113,17 @@ class Glyphs {
   // Which are shown: {joints, closures, couplings, colliders}.
   show(wanted) {
     this.wanted = wanted;
-    for (const { joint, base, rider } of this.items) {
+    this.data.joints.forEach((joint, i) => {
       const shown = wanted.joints && (!joint.closure || wanted.closures) || this.selected === joint;
-      base.visible = rider.visible = shown;
-    }
+      if (shown && !this.items.has(i)) this.items.set(i, this.build(i));
+      const item = this.items.get(i);
+      if (!item) return;
+      const chosen = this.selected === joint;
+      item.knob.scale.setScalar(chosen ? 2 : 1);
+      item.knob.material.color.set(chosen ? 0x1f6feb : COLOURS[joint.type]);
+      for (const [group, body] of [[item.base, joint.a], [item.rider, joint.b]])
+        shown ? this.stage.bodies[body].add(group) : group.removeFromParent();
+    });
     for (const { made } of this.ties) made.visible = wanted.couplings;
     if (wanted.colliders && !this.colliders) this.buildColliders();
     if (this.colliders) this.colliders.forEach((c) => (c.visible = wanted.colliders));
@@ -125,11 +131,6 @@ class Glyphs {
   }
   select(joint) {
     this.selected = joint;
-    for (const item of this.items) {
-      const chosen = item.joint === joint;
-      item.knob.scale.setScalar(chosen ? 2 : 1);
-      item.knob.material.color.set(chosen ? 0x1f6feb : COLOURS[item.joint.type]);
-    }
     if (this.wanted) this.show(this.wanted);
   }
   // Lines between coupled joints go where the joints are.
@@ -163,7 +164,7 @@ class Glyphs {
     }
   }
   pick(x, y) {
-    const knobs = this.items.filter((item) => item.rider.visible).map((item) => item.knob);
+    const knobs = [...this.items.values()].filter((item) => item.rider.parent).map((item) => item.knob);
     const hit = this.stage.ray(x, y).intersectObjects(knobs, false)[0];
     return hit ? hit.object.userData.joint : null;
   }

@@ -4,6 +4,9 @@
 const CREASE = Math.cos((30 * Math.PI) / 180);
 const MOST_EDGED = 400000; // triangles of one mesh beyond which it has no edges
 const SHADOWED = 300000; // triangles of the whole beyond which nothing casts a shadow
+const MOST_LINED = 500; // parts beyond which edges are left out while anything moves
+const EDGES = 1; // their layer
+const STILL = 200; // milliseconds without a movement after which they come back
 
 // Positions, smooth normals within creases, and feature edges of an indexed mesh.
 function shaded(mesh, array) {
@@ -31,7 +34,8 @@ function shaded(mesh, array) {
   for (let i = 0; i < count; i++) start[i + 1] += start[i];
   const next = start.slice();
   for (let k = 0; k < index.length; k++) around[next[same[index[k]]]++] = (k / 3) | 0;
-  const positions = new Float32Array(3 * index.length), normals = new Float32Array(3 * index.length);
+  // One vertex for all corners of a place that have the same normal.
+  const corners = new Uint32Array(index.length), positions = [], normals = [], other = [], latest = new Int32Array(count).fill(-1);
   for (let k = 0; k < index.length; k++) {
     const f = (k / 3) | 0, v = same[index[k]], nx = normal[3 * f], ny = normal[3 * f + 1], nz = normal[3 * f + 2];
     let x = 0, y = 0, z = 0;
@@ -40,12 +44,23 @@ function shaded(mesh, array) {
       if (a * nx + b * ny + c * nz > CREASE) { x += area[g] * a; y += area[g] * b; z += area[g] * c; }
     }
     const size = Math.hypot(x, y, z) || 1;
-    for (let j = 0; j < 3; j++) positions[3 * k + j] = place[3 * index[k] + j];
-    normals[3 * k] = x / size; normals[3 * k + 1] = y / size; normals[3 * k + 2] = z / size;
+    x /= size; y /= size; z /= size;
+    let made = latest[v];
+    while (made >= 0 && Math.abs(normals[3 * made] - x) + Math.abs(normals[3 * made + 1] - y) + Math.abs(normals[3 * made + 2] - z) > 1e-5)
+      made = other[made];
+    if (made < 0) {
+      made = other.length;
+      other.push(latest[v]);
+      latest[v] = made;
+      positions.push(place[3 * v], place[3 * v + 1], place[3 * v + 2]);
+      normals.push(x, y, z);
+    }
+    corners[k] = made;
   }
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.setIndex(new THREE.BufferAttribute(other.length > 65535 ? corners : Uint16Array.from(corners), 1));
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
   mesh.groups.forEach(([first, length], i) => geometry.addGroup(first, length, i));
   geometry.computeBoundingSphere();
   geometry.computeBoundingBox();
@@ -70,8 +85,9 @@ function creases(place, index, same, normal) {
   return edges;
 }
 
-function asMatrix(frame) {
-  return new THREE.Matrix4().set(...frame, 0, 0, 0, 1);
+function asMatrix(frame, matrix = new THREE.Matrix4()) {
+  const [a, b, c, x, d, e, f, y, g, h, i, z] = frame;
+  return matrix.set(a, b, c, x, d, e, f, y, g, h, i, z, 0, 0, 0, 1);
 }
 
 class Stage {
@@ -95,7 +111,9 @@ class Stage {
     this.overlay = new THREE.Group();
     this.scene.add(this.overlay);
     const made = new Map();
-    this.triangles = 0;
+    this.materials = new Map();
+    this.triangles = this.lined = 0;
+    this.camera.layers.enable(EDGES);
     this.edgeMaterial = new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.75 });
     data.parts.forEach((part, i) => {
       if (part.mesh === null) return;
@@ -105,14 +123,20 @@ class Stage {
       const group = new THREE.Group();
       group.matrixAutoUpdate = false;
       group.matrix.copy(asMatrix(part.pose));
-      const materials = data.meshes[part.mesh].groups.map((_, k) => this.material(part.materials[k]));
-      const mesh = new THREE.Mesh(geometry, materials);
+      const surfaces = data.meshes[part.mesh].groups.map((_, k) => part.materials[k]);
+      const mesh = new THREE.Mesh(geometry, surfaces.map((surface) => this.material(surface)));
       mesh.userData.part = i;
       mesh.castShadow = mesh.receiveShadow = true;
       group.add(mesh);
-      if (edges) group.add(new THREE.LineSegments(edges, this.edgeMaterial));
+      if (edges) {
+        const lines = new THREE.LineSegments(edges, this.edgeMaterial);
+        lines.layers.set(EDGES);
+        group.add(lines);
+        this.lined++;
+      }
+      for (const child of group.children) child.matrixAutoUpdate = false;
       this.bodies[part.body].add(group);
-      this.parts[i] = { group, mesh, materials, shown: part.shown, ghost: false };
+      this.parts[i] = { group, mesh, surfaces, shown: part.shown, ghost: false };
       group.visible = part.shown;
     });
     this.bounds();
@@ -120,17 +144,24 @@ class Stage {
     this.resize();
     this.fit();
   }
-  material(index) {
+  // One for all parts that look the same: the renderer sets up each of them once a frame.
+  material(index, { ghost = false, glow = false, tint = null } = {}) {
+    const key = [index, ghost, glow, tint].join();
+    if (this.materials.has(key)) return this.materials.get(key);
     const given = index === undefined ? null : this.data.materials[index];
     const [r, g, b, a] = given ? given.color : [0.55, 0.57, 0.6, 1];
     const material = new THREE.MeshStandardMaterial({
       roughness: given ? Math.max(0.35, 0.95 - 0.6 * given.smoothness) : 0.6, metalness: 0,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, side: THREE.DoubleSide,
     });
-    material.color.setRGB(r, g, b);
-    material.userData = { color: material.color.clone(), alpha: a };
-    material.opacity = a;
-    material.transparent = a < 1;
+    if (tint) material.color.set(tint);
+    else material.color.setRGB(r, g, b);
+    material.opacity = ghost ? 0.14 : a;
+    material.transparent = material.opacity < 1;
+    material.depthWrite = !ghost;
+    material.emissive.set(glow ? 0x1f6feb : 0x000000);
+    material.emissiveIntensity = glow ? 0.55 : 0;
+    this.materials.set(key, material);
     return material;
   }
   bounds() {
@@ -184,7 +215,7 @@ class Stage {
   }
   // Make room for everything at these poses too.
   include(displaced) {
-    displaced.forEach((frame, body) => this.bodies[body].matrix.copy(asMatrix(frame)));
+    displaced.forEach((frame, body) => asMatrix(frame, this.bodies[body].matrix));
     this.reached.push(...this.corners());
   }
   theme(dark) {
@@ -229,6 +260,14 @@ class Stage {
     this.draw();
   }
   draw() {
+    if (this.lined > MOST_LINED) {
+      this.camera.layers.disable(EDGES);
+      clearTimeout(this.still);
+      this.still = setTimeout(() => { this.camera.layers.enable(EDGES); this.ask(); }, STILL);
+    }
+    this.ask();
+  }
+  ask() {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
@@ -241,7 +280,7 @@ class Stage {
   // Bodies at their displacements.
   place(displaced) {
     displaced.forEach((frame, body) => {
-      this.bodies[body].matrix.copy(asMatrix(frame));
+      asMatrix(frame, this.bodies[body].matrix);
       this.bodies[body].matrixWorldNeedsUpdate = true;
     });
     this.draw();
@@ -249,21 +288,11 @@ class Stage {
   look(i, { shown, ghost, glow, tint }) {
     const part = this.parts[i];
     if (!part) return;
-    part.shown = shown;
+    Object.assign(part, { shown, ghost });
     part.group.visible = shown;
     part.group.children.forEach((child) => { if (child.isLineSegments) child.visible = !ghost; });
     part.mesh.castShadow = !ghost;
-    for (const material of part.materials) {
-      const alpha = ghost ? 0.14 : material.userData.alpha;
-      material.transparent = alpha < 1;
-      material.opacity = alpha;
-      material.depthWrite = !ghost;
-      material.color.copy(material.userData.color);
-      if (tint) material.color.set(tint);
-      material.emissive.set(glow ? 0x1f6feb : 0x000000);
-      material.emissiveIntensity = glow ? 0.55 : 0;
-      material.needsUpdate = true;
-    }
+    part.mesh.material = part.surfaces.map((surface) => this.material(surface, { ghost, glow, tint }));
   }
   ray(x, y) {
     const box = this.canvas.getBoundingClientRect(), caster = new THREE.Raycaster();
@@ -272,7 +301,7 @@ class Stage {
   }
   // What is under a point of the screen: {part, point} or null; ghosts and hidden parts are seen through.
   pick(x, y) {
-    const solid = this.parts.filter((part) => part && part.shown && part.materials[0].depthWrite).map((part) => part.mesh);
+    const solid = this.parts.filter((part) => part && part.shown && !part.ghost).map((part) => part.mesh);
     const hit = this.ray(x, y).intersectObjects([...solid, ...this.bars], false)[0];
     return hit ? { part: hit.object.userData.part, point: hit.point, distance: hit.distance } : null;
   }

@@ -10,10 +10,13 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab import pipeline
+from kinefab.collector import collector_paused
+from kinefab.diagnostics import Report
 from kinefab.geometry import closure, hulls, loading
+from kinefab.geometry.contact import cuts
 from kinefab.geometry.looks import shading
 from kinefab.model import Mesh
-from kinefab.targets.prefab.text import ids
+from kinefab.targets.prefab.text import ids, yaml
 from kinefab.targets.prefab.text.ids import xxh64
 
 
@@ -109,3 +112,36 @@ def test_ids_of_like_components_are_hashed_once_each(monkeypatch):
     names = ["Ring", *(f"Ring#{k}" for k in range(2, 17))]
     assert hashed == [f"Kinefab:MeshCollider->{name}".encode() for name in names]
     assert found == [xxh64(data) & (2**63 - 1) for data in hashed]
+
+
+def test_a_plane_is_tried_once():
+    """A plate along the frame's axes spreads along them too: three middles, not six; turned, it has six."""
+    plate = np.array(trimesh.creation.box((0.3, 0.2, 0.05)).vertices)
+    assert len(cuts._middles(plate)) == 3
+    turned = plate @ trimesh.transformations.euler_matrix(0.3, 0.5, 0.7)[:3, :3].T
+    assert len(cuts._middles(turned)) == 6
+
+
+def test_floats_beyond_those_of_unity_are_infinite():
+    """The largest float32 is written as itself, and what is rounded to none as Unity says it, both without a warning."""
+    largest = float(np.finfo(np.float32).max)
+    half = largest + 2.0**102
+    assert yaml.number(largest) == yaml.number(half) == "3.4028235e+38"
+    assert yaml.number(largest + 2.0**103) == "Infinity" and yaml.number(-1e300) == "-Infinity"
+
+
+def test_what_a_mesh_file_leaves_behind_is_freed_while_the_collector_waits(tmp_path):
+    """A trimesh scene refers to itself in circles; of a thousand files none stays beside the pieces that were read."""
+
+    def scenes() -> int:
+        return sum(isinstance(thing, trimesh.Trimesh) for thing in gc.get_objects())
+
+    paths = [tmp_path / f"{i}.stl" for i in range(5)]
+    for path in paths:
+        trimesh.creation.box((0.3, 0.2, 0.05)).export(path)
+    gc.collect()
+    before = scenes()
+    with collector_paused():
+        files = loading.MeshFiles(Report())
+        assert all(files.get(path, "here") is not None for path in paths)
+        assert scenes() <= before

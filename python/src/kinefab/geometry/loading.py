@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import zlib
 from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Mapping, Sequence
@@ -43,6 +44,8 @@ class MeshFiles:
         if path not in self._files:
             read = self._readers.get(path.suffix.lower(), read_mesh_file)
             self._files[path] = read(path, self._report if report is None else report, where)
+            # What trimesh leaves holds on to itself and to the file's bytes, and while an export runs nobody else looks for it.
+            gc.collect(0)
         return self._files[path]
 
     def vertices(self, reference: MeshReference) -> Array:

@@ -7,6 +7,7 @@ the most by one cut more.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
@@ -76,7 +77,9 @@ def nearly_convex_parts(vertices: Array, faces: IntArray, most: int) -> list[Arr
 
 def _cut(part: _Part, reflex: list[_Plane], library: Any) -> list[_Part]:
     """The halves of a part, by the best plane found."""
-    planes = [*_across(part.points, np.eye(3), ALONG), *_middles(part.points), *_within(part.points, reflex)]
+    planes = _distinct(
+        [*_across(part.points, np.eye(3), ALONG), *_middles(part.points), *_within(part.points, reflex)]
+    )
     filled, best = _best(part, planes, library)
     halves = _apart(part.solid.split_by_plane(*best), library)
     if part.filled - filled > HELPS * part.air:
@@ -120,7 +123,20 @@ def _middles(points: Array) -> list[_Plane]:
     """Planes through the middle, across the frame's axes and those along which the points spread, the widest first."""
     centred = points - points.mean(axis=0)
     principal = np.linalg.eigh(centred.T @ centred)[1].T[::-1]
-    return [*_across(points, np.eye(3), (0.5,)), *_across(points, principal, (0.5,))]
+    return _distinct([*_across(points, np.eye(3), (0.5,)), *_across(points, principal, (0.5,))])
+
+
+def _distinct(planes: list[_Plane]) -> list[_Plane]:
+    """The planes, each once: a part that lies along the frame's axes spreads along them too."""
+    found: list[_Plane] = []
+    for normal, offset in planes:
+        for other, distance in found:
+            along = float(normal @ other)
+            if abs(along) > 1.0 - SAME * SAME and abs(offset - distance * math.copysign(1.0, along)) < SAME:
+                break
+        else:
+            found.append((normal, offset))
+    return found
 
 
 def _across(points: Array, axes: Array, shares: tuple[float, ...]) -> list[_Plane]:

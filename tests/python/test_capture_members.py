@@ -19,6 +19,8 @@ from cad.solidworks import SolidWorks
 from cad.tetrahedron import fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.channel import Live
 from test_capture_fusion import every_motion
+from test_capture_fusion_tree import nested as inside
+from test_capture_fusion_tree import only_own
 from test_capture_kinds import BOTH, SOLIDWORKS, machine, pair, side
 from test_capture_matter import machine as block
 from test_capture_patterns import BOLTS, as_mates, rigid
@@ -97,7 +99,8 @@ def cases(program: str) -> list:
         if 'itemById("opaque_albedo")' in entry:
             entry['itemById("odd_color")'] = entry.pop('itemById("opaque_albedo")')
     grouped = Fusion(described(rows)).record(groups=(("Group", ["M/Arm", "M/Bolt-1"]),))
-    return [grouped, *every_motion(), bodies, odd]
+    nested = Fusion(described(inside("mm", "Z")), bodies=only_own).record()
+    return [grouped, *every_motion(), bodies, odd, nested]
 
 
 @pytest.mark.parametrize("program", PROGRAMS)

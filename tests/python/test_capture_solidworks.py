@@ -9,6 +9,7 @@ from cad.described import described, mechanism
 from cad.gears import gear_pair
 from cad.inventor import Inventor
 from cad.solidworks import SolidWorks
+from kinefab.diagnostics import Report
 
 SLIDERS = ("M07", "M08", "M09")
 
@@ -71,3 +72,16 @@ def test_slider_cranks_give_the_scenes_of_their_constraints(program, name, tmp_p
     double = Inventor if program == "inventor" else SolidWorks
     found = capture(program, double(described(values)).record(), tmp_path, values["meta"]["up"])
     assert scene_differences(values, found.path, tmp_path) == []
+
+
+@pytest.mark.parametrize("answer", [[], [0.1, 0.2], [0.1, 0.2, 0.3]])
+def test_a_mate_without_its_numbers_is_told_and_left_out(answer, tmp_path):
+    values = mechanism("lever/lever.bundle.json")
+    values.pop("joints", None)
+    answers, report = SolidWorks(described(values)).record(), Report()
+    whole = capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints
+    entity = [e for e in answers if e.get("#kind") == "solidworks.MateEntity" and e["ReferenceType"] > 0][-1]
+    entity["EntityParams"] = answer
+    found = capture("solidworks", answers, tmp_path, values["meta"]["up"], report)
+    assert len(found.draft.constraints) == len(whole) - 1
+    assert "CAPTURE_MEMBER_FAILED" in [d.code for d in report.diagnostics]

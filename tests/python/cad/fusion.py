@@ -9,17 +9,21 @@ from cad.described import Described, Part
 from cad.documented import Answers, Metres
 
 TYPES = {"rigid": 0, "revolute": 1, "slider": 2, "cylindrical": 3, "pin_slot": 4, "planar": 5, "ball": 6}
+OWN = "own bodies"
 MOTIONS = {("revolute", "rz"): 10, ("slider", "tz"): 11, ("cylindrical", "rz"): 3, ("cylindrical", "tz"): 4}
 
 
 class Fusion:
-    """as_built: names of joints that are as-built.  bodies: (double, part) to the bodies of a component."""
+    """as_built: names of joints that are as-built.  bodies: (double, part) to the bodies of a component.
+
+    A part that is called ``own bodies`` is no occurrence but the bodies of the component that it is in.
+    """
 
     def __init__(self, assembly: Described, as_built: tuple[str, ...] = (), bodies: Any = None) -> None:
         self.assembly, self.bodies = assembly, bodies
         self.answers = Answers("fusion")
         self.occurrences: dict[str, dict[str, int]] = {}
-        self.top = [self._occurrence(part) for part in assembly.children(assembly.root)]
+        self.top = [self._occurrence(part) for part in self._children(assembly.root)]
         self.joints = {j["id"]: self._joint(j, j["id"] in as_built) for j in assembly.joints}
         links: dict[str, list[dict[str, int]]] = {name: [] for name in self.joints}
         kinds = {j["id"]: j["type"] for j in assembly.joints}
@@ -60,10 +64,11 @@ class Fusion:
         ]  # fmt: skip
         root = a.made(
             "RootComponent", name=self.assembly.root, occurrences=self.listed(self.top),
+            bRepBodies=self.listed(self._bodies(self.assembly.parts[self.assembly.root])),
             allJoints=self.listed([j for n, j in self.joints.items() if n not in self.as_built]),
             allAsBuiltJoints=self.listed([j for n, j in self.joints.items() if n in self.as_built]),
             allRigidGroups=self.listed(made), allAssemblyConstraints=self.listed(constraints),
-            features=self._features(),
+            features=self._features(self.assembly.root),
         )  # fmt: skip
         design = a.made(
             "Design",
@@ -77,13 +82,14 @@ class Fusion:
         a.application("Application", version="2.0.20000", activeDocument=document, activeProduct=design)
         return a.objects
 
-    def _features(self) -> dict[str, int]:
-        """The root's patterns, all of them rectangular; of a pattern of faces the elements hold no occurrences."""
+    def _features(self, owner: str) -> dict[str, int]:
+        """A component's patterns, all of them rectangular; of a pattern of faces the elements hold no occurrences.  Occurrences
+        are the component's own: their paths begin in it."""
         a = self.answers
         made: list[Any] = []
-        for name, elements, *_ in self.assembly.values.get("patterns", {}).get(self.assembly.root, []):
+        for name, elements, *_ in self.assembly.values.get("patterns", {}).get(owner, []):
             listed = [
-                a.made("PatternElement", occurrences=[self.occurrences[c] for c in element])
+                a.made("PatternElement", occurrences=[self._native(c, owner) for c in element])
                 for element in elements
             ]
             listed.append(a.made("PatternElement", occurrences=None))
@@ -94,17 +100,29 @@ class Fusion:
         }
         return a.made("Features", rectangularPatternFeatures=self.listed(made), **others)
 
+    def _native(self, component: str, owner: str) -> dict[str, int]:
+        path = component.removeprefix(owner + "/").replace("/", "+")
+        return self.answers.made("Occurrence", fullPathName=path)
+
     def _component(self, part: Part) -> dict[str, int]:
-        a = self.answers
-        bodies = self.bodies(self, part) if self.bodies else []
-        return a.made(
+        """The mass of one with children is theirs too."""
+        patterns = {"features": self._features(part.id)} if part.assembly else {}
+        return self.answers.made(
             "Component",
             name=part.definition,
-            bRepBodies=self.listed(bodies),
-            getPhysicalProperties={"2": self._mass(part)},
+            bRepBodies=self.listed(self._bodies(part)),
+            getPhysicalProperties={"2": self.mass(part)},
+            **patterns,
         )
 
-    def _mass(self, part: Part) -> dict[str, int] | None:
+    def _children(self, parent: str) -> list[Part]:
+        return [part for part in self.assembly.children(parent) if not part.id.endswith(f"/{OWN}")]
+
+    def _bodies(self, part: Part) -> list[Any]:
+        own = self.assembly.parts.get(f"{part.id}/{OWN}") if part.assembly else part
+        return self.bodies(self, own) if self.bodies and own is not None else []
+
+    def mass(self, part: Part) -> dict[str, int] | None:
         """kg, cm, about the component's origin."""
         if part.mass is None:
             return None
@@ -137,14 +155,15 @@ class Fusion:
 
     def _occurrence(self, part: Part) -> dict[str, int]:
         a = self.answers
-        children = [self._occurrence(child) for child in self.assembly.children(part.id)]
+        children = [self._occurrence(child) for child in self._children(part.id)]
         made = a.made(
             "Occurrence", name=part.name, fullPathName=part.id.removeprefix(self.assembly.root + "/").replace("/", "+"),
             component=self._component(part),
             transform2=self.matrix(part.rotation, part.origin), childOccurrences=self.listed(children),
             isGrounded=part.flags["grounded"], isLightBulbOn=part.flags["visible"],
+            isGroundToParent=part.id in self.assembly.values.get("groundToParent", []),
         )  # fmt: skip
-        self.occurrences[part.id] = made
+        self.occurrences[part.id] = self.occurrences[f"{part.id}/{OWN}"] = made
         return made
 
     def vector(self, v: np.ndarray) -> dict[str, int]:

@@ -36,4 +36,9 @@ def fusion_bodies(double: Fusion, part: Any) -> list[Any]:
     mesh = a.made("Mesh", nodeCoordinatesAsDouble=points, nodeIndices=[i for face in FACES for i in face])
     calculator = a.made("MeshCalculator", setQuality={"11": True}, calculate=mesh)
     manager = a.made("MeshManager", createMeshCalculator=calculator)
-    return [a.made("Body", name="Solid1", meshManager=manager, **double.looks(part))]
+    weighed = {"2": double.mass(part)}
+    return [
+        a.made(
+            "Body", name="Solid1", meshManager=manager, getPhysicalProperties=weighed, **double.looks(part)
+        )
+    ]

@@ -109,7 +109,7 @@ class Draft:
         self.components.append(record)
 
     def settle(self) -> None:
-        """Leave out, and tell, what holds no finite numbers or stands on a component or joint that was lost."""
+        """Leave out, and tell, what holds no finite numbers, stands on a component or joint that was lost, or ties one to itself."""
         self.version, self.source = _text(self.version), _text(self.source)
         self.materials = {name: found for name, found in self.materials.items() if _finite(found)}
         self.notes = {key: found for key, found in self.notes.items() if _finite(found)}
@@ -127,6 +127,9 @@ class Draft:
                 ends = [end if isinstance(end, str) else end["component"] for end in named]
                 if lost := [end for end in ends if end not in there]:
                     self._lost(records, record, word, lost[0])
+        for record in [record for record in self.joints if record["a"] == record["b"]]:
+            self.joints.remove(record)
+            self.failed(f"joint {record['id']}", ValueError(f"both its sides are '{record['a']}'"))
         joints = {joint["id"] for joint in self.joints}
         for record in list(self.couplings):
             named = [str(record[key]["joint"]) for key in "ab"]

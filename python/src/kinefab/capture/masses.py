@@ -57,6 +57,18 @@ def mass_record(
     }
 
 
+def together(masses: Sequence[Record]) -> Record:
+    """Mass of several bodies of one part that were weighed each, in the part's frame."""
+    mass = sum(m["mass"] for m in masses)
+    center = [sum(m["mass"] * m["center"][n] for m in masses) / mass for n in range(3)]
+    tensor = [0.0] * 6
+    for m in masses:
+        apart = [p - q for p, q in zip(center, m["center"])]
+        tensor = [t + v for t, v in zip(tensor, _to_center(m["inertia"], -m["mass"], apart))]
+    extras = {"reading": "; ".join(sorted({m["extras"]["reading"] for m in masses}))}
+    return {"in": "part", "mass": mass, "center": center, "inertia": tensor, "extras": extras}
+
+
 def _readings(
     moments: list[float], mass: float, center: list[float], about: str
 ) -> list[tuple[str, list[float]]]:

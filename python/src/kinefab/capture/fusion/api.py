@@ -38,6 +38,7 @@ class Collection(Protocol):
 
 class RootComponent(Protocol):
     name: str  # text | - | Component.name Property
+    bRepBodies: Collection  # - | root | Component.bRepBodies Property
     occurrences: Collection  # - | root | Component.occurrences Property
     allJoints: Collection  # - | root | Component.allJoints Property
     allAsBuiltJoints: Collection  # - | root | Component.allAsBuiltJoints Property
@@ -65,6 +66,7 @@ class PatternElement(Protocol):
 class Component(Protocol):
     name: str  # text | - | Component.name Property
     bRepBodies: Collection  # - | component | Component.bRepBodies Property
+    features: Features  # of a component with children | - | Component.features Property
 
     def getPhysicalProperties(self, accuracy: int) -> PhysicalProperties | None: ...  # CalculationAccuracy | - | Component.getPhysicalProperties Method
 
@@ -84,6 +86,7 @@ class Occurrence(Protocol):
     transform2: Matrix  # - | root | Occurrence.transform2 Property
     childOccurrences: Collection  # - | root | Occurrence.childOccurrences Property
     isGrounded: bool  # flag | - | Occurrence.isGrounded Property
+    isGroundToParent: bool  # flag | - | Occurrence.isGroundToParent Property
     isLightBulbOn: bool  # flag | - | Occurrence.isLightBulbOn Property
 
 
@@ -104,6 +107,8 @@ class Body(Protocol):
     meshManager: MeshManager  # - | component | BRepBody.meshManager Property
     material: Material | None  # - | - | BRepBody.material Property
     appearance: Appearance | None  # - | - | BRepBody.appearance Property
+
+    def getPhysicalProperties(self, accuracy: int) -> PhysicalProperties | None: ...  # CalculationAccuracy | - | BRepBody.getPhysicalProperties Method
 
 
 class Material(Protocol):

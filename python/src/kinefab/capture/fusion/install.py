@@ -24,6 +24,7 @@ MODULES = (
     "capture/fusion/capture.py",
     "capture/fusion/inside.py",
     "capture/fusion/joints.py",
+    "capture/fusion/occurrences.py",
     "capture/fusion/parts.py",
     "capture/fusion/patterns.py",
 )

@@ -152,8 +152,9 @@ def read_link(draft: Draft, link: MotionLink) -> None:
 
 
 def read_group(draft: Draft, group: RigidGroup, component: Component) -> None:
-    """Add a rigid group: every member is held by the first."""
-    members = [component(cast(Occurrence, group.occurrences.item(i))) for i in range(group.occurrences.count)]
+    """Add a rigid group: every member is held by the first.  One body may stand for several members."""
+    listed = [component(cast(Occurrence, group.occurrences.item(i))) for i in range(group.occurrences.count)]
+    members = list(dict.fromkeys(listed))
     for member in members[1:]:
         own = draft.unique(f"{group.name}: {member.rpartition('/')[2]}")
         record: Record = {"id": own, "type": "rigid", "a": members[0], "b": member}

@@ -1,18 +1,19 @@
-"""Fusion's components without children: meshes, looks and mass, read once for all their occurrences.
+"""Fusion's components: meshes, looks and mass of their bodies, read once for all their occurrences.
 
 Standard library only: it runs in Fusion's own Python.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import cast
 
 from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record
 from ..looks import look
-from ..masses import mass_record
-from .api import Appearance, Body, Component
+from ..masses import mass_record, together
+from .api import Appearance, Body, Component, PhysicalProperties, RootComponent
 
 NORMAL_QUALITY = 11
 HIGH_ACCURACY = 2
@@ -43,13 +44,34 @@ class Parts:
             with self.draft.safely(f"meshes of {name}"):
                 self._bodies(name, component, found)
             with self.draft.safely(f"mass of {name}"):
-                self._mass(name, component, found)
+                properties = component.getPhysicalProperties(HIGH_ACCURACY)
+                if mass := self._mass(name, properties, self.draft.meshes.get(name, ())):
+                    found["mass"] = mass
             self.definitions[name] = found
         return self.definitions[name]
 
-    def _bodies(self, name: str, component: Component, found: Record) -> None:
-        bodies = component.bRepBodies
-        listed = [cast(Body, bodies.item(i)) for i in range(bodies.count)]
+    def read_bodies(self, name: str, component: Component | RootComponent) -> Record:
+        """The same of a component's own bodies alone, without its children's: its mass would have theirs in it."""
+        if name not in self.definitions:
+            found: Record = {}
+            with self.draft.safely(f"meshes of {name}"):
+                self._bodies(name, component, found)
+            with self.draft.safely(f"mass of {name}"):
+                meshes = self.draft.meshes.get(name, [])
+                masses = [
+                    mass
+                    for i, body in enumerate(_listed(component))
+                    if (
+                        mass := self._mass(name, body.getPhysicalProperties(HIGH_ACCURACY), meshes[i : i + 1])
+                    )
+                ]
+                if masses:
+                    found["mass"] = together(masses)
+            self.definitions[name] = found
+        return self.definitions[name]
+
+    def _bodies(self, name: str, component: Component | RootComponent, found: Record) -> None:
+        listed = _listed(component)
         meshes = [_mesh(body) for body in listed]
         if not meshes:
             return
@@ -66,17 +88,23 @@ class Parts:
                 if made := look(self.draft, "" if material is None else material.name, color, name):
                     record["material"] = made
 
-    def _mass(self, name: str, component: Component, found: Record) -> None:
+    def _mass(
+        self, name: str, properties: PhysicalProperties | None, meshes: Sequence[BodyMesh]
+    ) -> Record | None:
         """The moments are documented about the origin."""
-        properties = component.getPhysicalProperties(HIGH_ACCURACY)
         if properties is None or (mass := float(properties.mass)) <= 0.0:
-            return
+            return None
         _, *moments = properties.getXYZMomentsOfInertia()
         _, *principal = properties.getPrincipalMomentsOfInertia()
-        center, meshes = list(properties.centerOfMass.asArray()), self.draft.meshes.get(name, ())
-        found["mass"] = mass_record(
+        center = list(properties.centerOfMass.asArray())
+        return mass_record(
             self.draft, name, mass, center, moments, [float(v) for v in principal], "origin", meshes
         )
+
+
+def _listed(component: Component | RootComponent) -> list[Body]:
+    bodies = component.bRepBodies
+    return [cast(Body, bodies.item(i)) for i in range(bodies.count)]
 
 
 def _mesh(body: Body) -> BodyMesh:

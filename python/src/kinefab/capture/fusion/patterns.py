@@ -6,33 +6,40 @@ Standard library only: it runs in Fusion's own Python.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import cast
 
-from ..draft import Draft
 from ..patterns import free
-from .api import Collection, Features, Occurrence, PatternElement, PatternFeature
+from .api import Collection, PatternElement, PatternFeature, RootComponent
+from .occurrences import Occurrences, path_of
 
 KINDS = ("rectangularPatternFeatures", "circularPatternFeatures", "pathPatternFeatures", "mirrorFeatures")
 
 
-def read_patterns(draft: Draft, features: Features, component: Callable[[Occurrence | None], str]) -> None:
+def read_patterns(tree: Occurrences, root: RootComponent) -> None:
     """Tell of the copies that no joint or rigid group holds.  After the joints."""
+    draft = tree.draft
     held = {end for joint in draft.joints for end in (joint["a"], joint["b"])}
     held |= {c["id"] for c in draft.components if c.get("grounded")}
-    for kind in KINDS:
-        with draft.safely(kind):
-            listed = cast(Collection, getattr(features, kind))
-            for index in range(listed.count):
-                with draft.safely(f"{kind} {index + 1}"):
-                    pattern = cast(PatternFeature, listed.item(index))
-                    free(draft, pattern.name, [c for c in _copies(pattern, component) if c not in held])
+    for component, homes in ((root, [tree.root]), *tree.homes.values()):
+        with draft.safely(f"patterns of {homes[0]}"):
+            features = component.features
+            for kind in KINDS:
+                with draft.safely(f"{kind} of {homes[0]}"):
+                    listed = cast(Collection, getattr(features, kind))
+                    for index in range(listed.count):
+                        with draft.safely(f"{kind} {index + 1} of {homes[0]}"):
+                            pattern = cast(PatternFeature, listed.item(index))
+                            copies = [
+                                tree.body(f"{home}/{path}") for path in _copies(pattern) for home in homes
+                            ]
+                            free(draft, pattern.name, [copy for copy in copies if copy not in held])
 
 
-def _copies(pattern: PatternFeature, component: Callable[[Occurrence | None], str]) -> list[str]:
+def _copies(pattern: PatternFeature) -> list[str]:
+    """Paths of a pattern's occurrences from the component that states it."""
     elements = pattern.patternElements
     found: list[str] = []
     for index in range(elements.count):
         occurrences = cast(PatternElement, elements.item(index)).occurrences
-        found += [component(occurrence) for occurrence in occurrences or ()]
+        found += [path_of(occurrence) for occurrence in occurrences or ()]
     return found

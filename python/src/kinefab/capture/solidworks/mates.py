@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..channel import MemberFailed
-from ..draft import Draft, Record, frame, freedom
+from ..draft import Draft, Record, frame, freedom, three
 from .api import Component, Feature, Mate, MateData, MateEntity
 
 TYPES = (
@@ -110,11 +110,11 @@ def _side(owner: Owner, entity: MateEntity) -> Record:
     numbers = [float(v) for v in entity.EntityParams]
     word = SHAPES.get(entity.ReferenceType, "body")
     side: Record = {"component": owner.component(entity.ReferenceComponent, owner.id), "geometry": word}
-    side |= {"in": owner.frame, "p": numbers[:3]}
+    side |= {"in": owner.frame, "p": three(numbers[:3])}
     if word == "cone":  # its angle is not stated: its axis is what all mates but a tangency use
         side["geometry"] = "line"
     if word not in ("point", "sphere", "body"):
-        side["d"] = numbers[3:6]
+        side["d"] = three(numbers[3:6])
     if word in ("circle", "cylinder", "sphere"):
         side["r"] = numbers[6]
     return side

@@ -59,9 +59,9 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "targets/prefab": [
-        {"text", "files", "names"},
-        {"options", "assets", "objects", "folder"},
-        {"losses", "articulation", "project"},
+        {"text", "files", "names", "manifest"},
+        {"options", "assets", "objects", "moment"},
+        {"losses", "articulation", "project", "folder"},
         {"exporting"},
         {"__init__"},
     ],

@@ -12,7 +12,7 @@ from pathlib import Path
 import kinefab
 import pytest
 import trimesh
-from kinefab.targets.prefab.folder import MANIFEST
+from kinefab.targets.prefab.manifest import MANIFEST
 
 
 def box_scene(*names: str, size: float = 0.1) -> kinefab.Scene:

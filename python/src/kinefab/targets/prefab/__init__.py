@@ -30,6 +30,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
         detail = "its name is not UTF-8"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     name = target.name[: -len(ENDING)]
+    target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
     scripts = None if options.scripts and has_script(target) else f"{name}/Scripts"
     files = prefab_files(content, name, options, scripts)
     content.refuse_losses()

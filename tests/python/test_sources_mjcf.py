@@ -337,6 +337,27 @@ def test_what_a_mocap_body_leads_is_no_freedom(tmp_path):
     assert not {d.code for d in found.report.diagnostics}
 
 
+@pytest.mark.parametrize("other", ["", "body2='other'"])
+@pytest.mark.parametrize("kind", ["connect anchor='.1 -.2 .03'", "weld"])
+def test_what_holds_a_mocap_body_where_it_is_led_is_left_out_and_told(tmp_path, kind, other):
+    """Held to the world or to another one it has no freedom in MuJoCo that the equality could take."""
+    inner = (
+        f"<body name='guide' mocap='true' pos='0 0 1'>{BALL}</body>"
+        f"<body name='other' mocap='true' pos='.3 -.1 1'>{BALL}</body>"
+        f"<body name='arm' pos='.3 1 1'><joint name='h' axis='0 1 0' range='-10 80'/>{BALL}</body>"
+    )
+    path = model(tmp_path, inner, tail=f"<equality><{kind} body1='guide' {other}/></equality>")
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    told = [(o.feature, o.where) for o in result.report.outcomes if o.code == "JOINT_BETWEEN_LED"]
+    if kind == "weld" and not other:  # what is welded to the world stands on it
+        assert told == []
+    else:
+        assert told == [(f"joint {kind.split()[0]}" + (" 0" if kind == "weld" else ""), "m.xml")]
+    if TOOL is not None:
+        done = subprocess.run([TOOL, "validate", str(result.path), "--strict", "--json"], capture_output=True)
+        assert json.loads(done.stdout)["diagnostics"] == []
+
+
 def test_gravity_and_bodies_that_carry_themselves(tmp_path):
     inner = f"<body name='a' gravcomp='1'><freejoint/>{BALL}</body><body name='b' pos='1 0 0' gravcomp='.3'><freejoint/>{BALL}</body>"
     scene, report = loaded(tmp_path, inner, "<option gravity='1 2 -3' timestep='.005'/>")

@@ -428,10 +428,6 @@ REFUSED = {
     "nan": ("XML_VALUE", 3, model(link("a", "<pose>0 0 nan 0 0 0</pose>"))),
     "five numbers": ("XML_VALUE", 3, model(link("a", "<pose>0 0 0 0 0</pose>"))),
     "negative mass": ("MASS_IMPOSSIBLE", 3, model(A.replace("<mass>2", "<mass>-2"))),
-    "limits": (
-        "LIMITS_REVERSED", 5,
-        model(PAIR + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz><limit><lower>1</lower><upper>0</upper></limit></axis>")),
-    ),
     "mimic": (
         "MIMIC_UNKNOWN", 5,
         model(PAIR + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz><mimic joint='k'/></axis>")),
@@ -447,6 +443,10 @@ TOLD = {
     "universal": (
         "UNIVERSAL_NOT_SQUARE", 5,
         model(PAIR + joint("j", "universal", "a", "b", TURN + "<axis2><xyz>0 1 1</xyz></axis2>")),
+    ),
+    "limits": (
+        "LIMITS_REVERSED_DROPPED", 5,
+        model(PAIR + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz><limit><lower>80</lower><upper>-10</upper></limit></axis>")),
     ),
     "gearbox": (
         "GEARBOX_WITHOUT_JOINT", 5,

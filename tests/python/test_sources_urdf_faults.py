@@ -9,6 +9,7 @@ from pathlib import Path
 import kinefab
 import pytest
 from kinefab.diagnostics import KinefabError, Report
+from kinefab.model import RX, Motion
 from kinefab.sources import read
 
 HEAVY = "<inertial><mass value='2'/><inertia ixx='0.1' iyy='0.2' izz='0.25'/></inertial>"
@@ -56,7 +57,6 @@ REFUSED = {
     "no axis": ("AXIS_ZERO", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
     "negative mass": ("MASS_IMPOSSIBLE", 2, robot(A.replace("'2'", "'-2'"))),
     "negative damping": ("XML_VALUE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
-    "limits reversed": ("LIMITS_REVERSED", 4, robot(PAIR + joint("<limit lower='1' upper='-1'/>", "revolute"))),
     "follows itself": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='j'/>"))),
     "follow each other": (
         "MIMIC_UNKNOWN",
@@ -73,6 +73,7 @@ REFUSED = {
 SHAPE = "<link name='a'>{}</link>"
 TOLD = {
     "limits missing": ("LIMITS_MISSING", 4, robot(PAIR + joint(kind="revolute"))),
+    "limits reversed": ("LIMITS_REVERSED_DROPPED", 4, robot(PAIR + joint("<limit lower='80' upper='-10'/>", "prismatic"))),
     "limits at zero": ("LIMITS_AT_ZERO", 4, robot(PAIR + joint("<limit effort='1' velocity='1'/>", "revolute"))),
     "inertia": ("INERTIA_MENDED", 3, robot(PAIR.replace("'0.25'", "'0.9'") + joint())),
     "no inertia": ("INERTIA_MENDED", 3, robot(A + "\n<link name='b'><inertial><mass value='1'/></inertial></link>" + joint())),
@@ -153,6 +154,21 @@ def test_a_loss_is_told_at_its_line_and_the_rest_converts(tmp_path, case):
     found = {(d.code, d.where) for d in result.report.diagnostics}
     assert (code, f"r.urdf:{line}") in found
     assert result.path.exists()
+
+
+def test_a_range_from_its_upper_end_to_its_lower_one_leaves_the_joint_free(tmp_path):
+    """Bullet takes it for no limits, Gazebo exchanges the two, others refuse it: the joint moves, and the loss is its own."""
+    limit = "<limit lower='1.3962634' upper='-0.17453293' effort='7' velocity='2'/>"
+    report = Report()
+    scene = read(written(tmp_path, robot(PAIR + joint(limit, "revolute"))), report)
+    freedom = scene.joints[0].freedoms[RX]
+    assert freedom.motion is Motion.FREE and freedom.passive is not None
+    assert (freedom.passive.effort, freedom.passive.speed) == (7.0, 2.0)
+    (lost,) = [o for o in report.outcomes if o.code]
+    assert (lost.feature, lost.outcome.value) == ("joint j", "approximated")
+    assert "1.39626" in lost.message and "-0.174533" in lost.message
+    with pytest.raises(KinefabError):
+        kinefab.export(tmp_path / "r.urdf", tmp_path / "r.kinefab", kinefab.ExportOptions(strict=True))
 
 
 def test_a_mesh_that_cannot_be_read_is_left_out_and_told(tmp_path):

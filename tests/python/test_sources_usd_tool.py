@@ -67,6 +67,14 @@ WRITTEN = {
 """Stages by their mobility, counted by hand."""
 
 
+BETWEEN_LED = {
+    "and the world": hinge("J", "", (0, 0, 0), "K", (0, 0, 2), (0.3, 0, 2), "Y"),
+    "and another, by a hinge": hinge("J", "K", (0, 0, 2), "L", (1, 0, 2), (0.4, 0, 2), "Y"),
+    "and another, held": joint("PhysicsFixedJoint", "J", "point3f physics:localPos0 = (1, 0, 0)", "/K", "/L"),
+}
+"""Joints of which no solver moves a side: K and L are led by scripts."""
+
+
 def run(*arguments: object) -> dict:
     done = subprocess.run([TOOL, *map(str, arguments), "--json"], capture_output=True, text=True, timeout=120)
     return json.loads(done.stdout)
@@ -101,3 +109,38 @@ def test_each_kind_of_joint_is_valid_and_as_mobile_as_stated(tmp_path, name):
     path = tmp_path / "stage.usda"
     path.write_text(stage(content) if content else two_hinges(), encoding="utf-8")
     checked(kinefab.export(path, tmp_path / "scene.kinefab").path, mobility)
+
+
+@needs_tool
+@pytest.mark.parametrize("up, metres", [("Z", 1.0), ("Y", 0.01)])
+@pytest.mark.parametrize("case", BETWEEN_LED)
+def test_a_joint_between_what_scripts_lead_is_left_out_and_told(tmp_path, case, up, metres):
+    path = tmp_path / "stage.usda"
+    led = body("K", (0, 0, 2), LED) + body("L", (1, 0, 2), LED) + body("A", (1.3, 0, 2))
+    arm = hinge("Arm", "K", (0, 0, 2), "A", (1.3, 0, 2), (0.4, 0, 2), "Y")
+    path.write_text(stage(led + arm + BETWEEN_LED[case], up, metres), encoding="utf-8")
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    checked(result.path, 1)
+    (told,) = [o for o in result.report.outcomes if o.code]
+    assert (told.feature, told.outcome.value, told.code) == ("joint J", "dropped", "JOINT_BETWEEN_LED")
+    assert told.where == "stage.usda</J>"
+    joints = [c for o in json.loads(result.path.read_text("utf-8"))["gameObjects"] for c in o["components"]]
+    assert [c["type"] for c in joints if "Joint" in c["type"]] == ["HingeJoint"]
+
+
+@needs_tool
+def test_a_joint_between_what_scripts_lead_stays_where_a_coupling_counts_from_it(tmp_path):
+    """What follows it follows the script; the tool's remark on the joint is the export's own."""
+    path = tmp_path / "stage.usda"
+    lead = hinge("J", "", (0, 0, 0), "K", (0, 0, 2), (0, 0, 2), "Y")
+    follow = hinge("F", "", (0, 0, 0), "A", (1, 0, 2), (1, 0, 2), "Y")
+    follow = follow.replace('"F" ', '"F" (prepend apiSchemas = ["NewtonMimicAPI"])')
+    follow = follow.replace("{\n", "{\nrel newton:mimicJoint = </J>\nfloat newton:mimicCoef1 = -2\n", 1)
+    path.write_text(stage(body("K", (0, 0, 2), LED) + body("A", (1, 0, 2)) + lead + follow), encoding="utf-8")
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    (told,) = result.report.diagnostics
+    assert (told.code, told.where) == ("JOINT_BETWEEN_LED_COUNTED", "stage.usda</J>")
+    assert "mimic:F" in told.message and len(result.analysed.scene.couplings) == 1
+    said = run("validate", result.path, "--strict")
+    assert [d["code"] for d in said["diagnostics"]] == ["JOINT_BETWEEN_KINEMATIC"]
+    assert run("mobility", result.path)["mobility"]["mobility"] == 0

@@ -223,6 +223,8 @@ class _Builder:
                 map_rigidbody(self.scene, carrier, members, self.report)
             )
         for own, connected in self.rigidbodies.fixed:
+            if self._led(own) and self._led(connected):
+                continue
             because = tuple(self.holding.get(own, ()))
             joint = FixedJoint(connectedBody=self.object_of[connected], because=because)
             self.components[self.object_of[own]].append(joint)
@@ -244,7 +246,9 @@ class _Builder:
         for joint in self.scene.joints:
             driven = with_passive_drives(joint, self.report)
             finding = self.findings.get(joint.id)
-            mapped = map_joint(driven, self.scene, self.groups, self._carrier, self.report, finding)
+            mapped = map_joint(
+                driven, self.scene, self.groups, self._carrier, self.report, finding, self._led
+            )
             if mapped is None:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
@@ -258,6 +262,11 @@ class _Builder:
         carrier = self.rigidbodies.carrier_of[node]
         assert carrier is not None, "map_joint asks for bodies only"
         return carrier
+
+    def _led(self, carrier: int) -> bool:
+        """Whether scripts alone move the Rigidbody of a node that has one."""
+        assert self.rigidbodies is not None
+        return is_kinematic(self.scene, self.rigidbodies.carriers[carrier])
 
     def couplings(self) -> list[Coupling]:
         stated = self.scene.couplings

@@ -109,9 +109,8 @@ class Equalities:
         far = int(np.argmax(np.linalg.norm(along_a, axis=1)))
         if not np.linalg.norm(along_a[far]) > APART or not np.linalg.norm(along_b[far]) > APART:
             for name, at, p, q in points:
-                self._close(
-                    (name,), at, JointKind.SPHERICAL, a, b, Pose(translation=p), Pose(translation=q), active
-                )
+                names, ends = (name or "connect",), (Pose(translation=p), Pose(translation=q))
+                self._close(names, at, JointKind.SPHERICAL, a, b, *ends, active)
             return
         off = [_off(along_a[far], v) for v in along_a]
         third = int(np.argmax([np.linalg.norm(v) for v in off]))

@@ -169,7 +169,8 @@ def _freedom(axis: Element, kind: str, feature: str, report: Report) -> Freedom:
     limit, dynamics = axis.child("limit"), axis.child("dynamics")
     lower, upper = number(limit, "lower", -math.inf), number(limit, "upper", math.inf)
     if lower > upper:
-        axis.fault("LIMITS_REVERSED", lower=f"{lower:g}", upper=f"{upper:g}")
+        values = {"lower": f"{lower:g}", "upper": f"{upper:g}"}
+        report.approximated(feature, "LIMITS_REVERSED_DROPPED", axis.where, **values)
         lower, upper = -math.inf, math.inf
     effort, speed = number(limit, "effort", math.inf), number(limit, "velocity", math.inf)
     values = [

@@ -125,7 +125,9 @@ def _limits(element: Element, joint: UrdfJoint, feature: str, report: Report) ->
     joint.lower = child.number("lower", 0.0, infinite=True)
     joint.upper = child.number("upper", 0.0, infinite=True)
     if joint.lower > joint.upper:
-        child.fault("LIMITS_REVERSED", lower=f"{joint.lower:g}", upper=f"{joint.upper:g}")
+        values = {"lower": f"{joint.lower:g}", "upper": f"{joint.upper:g}"}
+        report.approximated(feature, "LIMITS_REVERSED_DROPPED", child.where, **values)
+        joint.lower, joint.upper = -math.inf, math.inf
     elif joint.lower == joint.upper:
         child.fault("LIMITS_AT_ZERO", feature=feature)
 

@@ -73,10 +73,12 @@ def map_joint(
     carrier: Callable[[int], int],
     report: Report,
     finding: JointFinding | None = None,
+    led: Callable[[int], bool] = lambda carrier: False,
 ) -> UnityJoint | None:
     """The component for ``joint``, or None where none is needed or possible; ``report`` says which and why.
 
     carrier: the node whose GameObject has the Rigidbody that a node moves with.  finding: what is known of the joint.
+    led: whether scripts alone move the Rigidbody of a carrier.
     """
     found = finding or JointFinding(joint.id)
     feature = f"joint {joint.id}"
@@ -92,16 +94,22 @@ def map_joint(
     relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
     coordinates = read_coordinates(shape, relative)
     lossless = _report_gap(joint, coordinates, report)
+    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
+    idle = a != b and all(side is None or led(side) for side in (a, b))
     if groups.together(joint.a, joint.b):
-        if not (shape.rotations or shape.translations):
+        if idle:
+            report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
+        elif not (shape.rotations or shape.translations):
             report.kept(feature, joint.where)  # one Rigidbody, or a FixedJoint of the group
         else:
             report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
         return None
+    counted = next((c for c in scene.couplings if joint.id in c.joints), None)
     free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
-    counted = any(joint.id in c.joints for c in scene.couplings)
     apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
-    if free and not (counted or apart):  # between two bodies it still keeps Unity from letting them collide
+    # between two bodies it still keeps Unity from letting them collide
+    if free and counted is None and not apart:
         if found.freed:
             remark = {"joint": joint.id, "loop": found.loop_names(scene)}
             report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)
@@ -109,7 +117,11 @@ def map_joint(
         report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
         return None
 
-    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    if idle:
+        if counted is None:
+            report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
+            return None
+        report.add("JOINT_BETWEEN_LED_COUNTED", joint.where, joint=joint.id, coupling=counted.id)
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
     placement = place(shape, a is None, b is None)

@@ -399,3 +399,44 @@ def test_xacro_is_expanded_with_arguments_and_packages(tmp_path):
     motion = exported(path, tmp_path, xacro_arg=["who:=elbow"])
     (coordinate,) = motion.joint("to_elbow").coordinates
     assert motion.range_of(coordinate) == pytest.approx((-10.0, 80.0))
+
+
+def test_the_engine_is_given_what_xacro_makes(tmp_path):
+    """A package whose folder has another name than its package.xml; without such a package the engine refuses."""
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    pytest.importorskip("pinocchio", reason="pinocchio (pip install pin) is not installed")
+    from engines import Refused
+    from engines.urdf import PinocchioModel
+
+    heavy = (
+        "<inertial><mass value='2'/><inertia ixx='.1' iyy='.2' izz='.25' ixy='0' ixz='0' iyz='0'/></inertial>"
+    )
+    package = tmp_path / "ws" / "arm_folder"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name> arm_of_two </name></package>", encoding="utf-8")
+    (package / "more.xacro").write_text(
+        "<robot xmlns:xacro='http://ros.org/wiki/xacro'><xacro:macro name='arm' params='n limits'>"
+        f"<link name='${{n}}'>{heavy}</link><joint name='to_${{n}}' type='revolute'><parent link='a'/><child link='${{n}}'/>"
+        "<origin xyz='.1 -.2 .3'/><axis xyz='0 3 4'/><limit ${limits} effort='1' velocity='1'/></joint></xacro:macro></robot>"
+        .replace("${limits}", "lower='${limits[0]}' upper='${limits[1]}'"),
+        encoding="utf-8",
+    )  # fmt: skip
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:include filename='$(find arm_of_two)/more.xacro'/>"
+        f"<link name='a'>{heavy}</link><xacro:arm n='b' limits='${{[-pi/18, radians(80)]}}'/>"
+        "<xacro:arm n='c' limits='${[1, -1]}'/></robot>",
+        encoding="utf-8",
+    )
+    engine = PinocchioModel(path, (tmp_path / "ws",))
+    limits = {j.name: (j.lower, j.upper) for j in engine.joints}
+    assert limits["to_b"] == pytest.approx((-math.pi / 18, math.radians(80)))
+    assert limits["to_c"] == (-math.inf, math.inf) and engine.mobility == 2  # a reversed range holds nothing
+    motion = exported(path, tmp_path, package_path=[str(tmp_path / "ws")])
+    values, asked = chosen(motion, engine, np.random.default_rng(14))
+    poses = motion.poses(values)
+    for link, pose in engine.poses(asked).items():
+        assert max(difference(unity_pose(*pose), motion.pose_of(link, poses))) < 1e-9, link
+    path.write_text(path.read_text("utf-8").replace("arm_of_two", "nobodys"), encoding="utf-8")
+    with pytest.raises(Refused, match="nobodys"):
+        PinocchioModel(path, (tmp_path / "ws",))

@@ -1,11 +1,17 @@
-"""Pinocchio on URDF: the base is fixed to the world, floating and planar joints move as they are."""
+"""Pinocchio on URDF: the base is fixed to the world, floating and planar joints move as they are.
+
+A xacro is expanded by the xacro package, with the arguments that it states itself; its packages are found by the name in
+their ``package.xml``, below the folders given or the nearest folder above that has any.
+"""
 
 from __future__ import annotations
 
 import math
 import re
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, redirect_stderr
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -23,13 +29,13 @@ class PinocchioModel:
     turn, length = ROS, 1.0
     slack = (0.0, 0.0)
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, packages: tuple[Path, ...] = ()) -> None:
         import pinocchio
 
         self.pin = pinocchio
         text = path.read_text(encoding="utf-8", errors="replace")
         if path.suffix == ".xacro" or "xmlns:xacro" in text and "<xacro:" in text:
-            raise Refused("a xacro, not expanded")
+            text = expanded(path, packages)
         try:
             self.model = pinocchio.buildModelFromXML(
                 re.sub(r"<mimic\b[^>]*?(/>|>.*?</mimic>)", "", text, flags=re.S)
@@ -78,9 +84,10 @@ class PinocchioModel:
     def _limits(self, joint) -> tuple[float, float]:
         if joint.nq != 1:
             return -math.inf, math.inf
-        return float(self.model.lowerPositionLimit[joint.idx_q]), float(
-            self.model.upperPositionLimit[joint.idx_q]
-        )
+        low = float(self.model.lowerPositionLimit[joint.idx_q])
+        high = float(self.model.upperPositionLimit[joint.idx_q])
+        # Pinocchio keeps a reversed range as it stands, in which no coordinate is: Bullet's word for none.
+        return (low, high) if low <= high else (-math.inf, math.inf)
 
     def _resting(self, name: str) -> float:
         """Zero, or the end of the range next to it."""
@@ -149,5 +156,36 @@ def _followed(name: str, mimics: Mapping[str, tuple[str, float, float]], known: 
     return multiplier * value + offset
 
 
+def expanded(path: Path, packages: tuple[Path, ...]) -> str:
+    """The URDF that a xacro makes.  Raises Refused where it makes none, ImportError without the xacro package."""
+    import xacro
+    import xacro.substitution_args as substitution
+
+    try:
+        with _finding(substitution, path, packages), redirect_stderr(StringIO()):
+            return str(xacro.process_file(str(path)).toprettyxml())
+    except Exception as error:  # xacro evaluates Python in the file, which may raise anything
+        raise Refused(f"xacro: {error}") from None
+
+
+@contextmanager
+def _finding(substitution, path: Path, packages: tuple[Path, ...]) -> Iterator[None]:
+    """``$(find NAME)`` without a ROS that could be asked."""
+
+    def find(name: str) -> str:
+        for root in (*packages, *path.parents[:4]):
+            for stated in root.rglob("package.xml"):
+                if re.search(rf"<name>\s*{re.escape(name)}\s*</name>", stated.read_text(errors="replace")):
+                    return str(stated.parent)
+        raise LookupError(f"no package {name}")
+
+    before = substitution._eval_find
+    substitution._eval_find = find
+    try:
+        yield
+    finally:
+        substitution._eval_find = before
+
+
 def load(path: Path, packages: tuple[Path, ...]) -> PinocchioModel:
-    return PinocchioModel(path)
+    return PinocchioModel(path, packages)

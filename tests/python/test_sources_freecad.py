@@ -202,8 +202,42 @@ def test_other_workbenches_are_told(tmp_path):
     )
     objects = {"Assembly": ("App::Part", {"Group": links("Arm")}), "Arm": arm, "Body": part()}
     scene, codes = written(tmp_path, objects)
-    assert codes == ["FREECAD_JOINT_DROPPED"]
+    assert codes == ["FREECAD_ATTACHED"]
+    older = {("AssemblyType" if name == "SolverId" else name): value for name, value in arm[1].items()}
+    assert written(tmp_path, objects | {"Arm": ("App::Link", older)})[1] == ["FREECAD_ATTACHED"]
     assert [(n.id, n.flexible) for n in scene.nodes if n.kind is NodeKind.ASSEMBLY] == [("Assembly", False)]
+
+
+def test_what_only_made_another_shape_or_is_shown_by_links_is_no_part(tmp_path):
+    """A cut's hidden base and tool at the root, and a hidden original that links show; what is visible stays."""
+    hidden = {"Visibility": flag(False), "Shape": shape(""), "Placement": placement()}
+    objects = {
+        "Block": ("Part::Box", hidden),
+        "Drill": ("Part::Cylinder", hidden),
+        "Plate": ("Part::Cut", {"Base": link("Block"), "Tool": link("Drill"), "Shape": shape("")}),
+        "Bolt": ("Part::Feature", hidden),
+        "Bolt001": ("App::Link", {"LinkedObject": link("Bolt"), "Placement": placement(x=20.0)}),
+        "Spare": ("Part::Feature", hidden),
+        "Nut": ("Part::Feature", {"Shape": shape(""), "Placement": placement()}),
+        "Nut001": ("App::Link", {"LinkedObject": link("Nut"), "Placement": placement(x=30.0)}),
+    }
+    scene, codes = written(tmp_path, objects)
+    assert not codes
+    assert [node.id for node in scene.nodes] == ["Plate", "Bolt001", "Spare", "Nut", "Nut001"]
+    folder = objects | {"Parts": ("App::DocumentObjectGroup", {"Group": links("Bolt", "Spare")})}
+    scene, codes = written(tmp_path, folder)
+    assert {node.id for node in scene.nodes} == {"Plate", "Bolt001", "Spare", "Nut", "Nut001"}
+
+
+def test_a_linked_file_may_be_spelled_with_other_capitals(tmp_path):
+    """As Windows takes it; not where two files differ in nothing else."""
+    inner = ("Part::Feature", {"Shape": shape(""), "Placement": placement()})
+    (tmp_path / "ARM.fcstd").write_bytes(document({"Arm": inner}))
+    away = link("Arm", "Arm.FCStd")
+    objects = {"Link": ("App::Link", {"LinkedObject": away, "Placement": placement(x=5.0)})}
+    assert written(tmp_path, objects)[1] == []
+    (tmp_path / "arm.FCSTD").write_bytes(document({"Arm": inner}))
+    assert written(tmp_path, objects)[1] == ["FREECAD_LINK_BROKEN"]
 
 
 def test_a_density_is_taken_where_the_document_holds_one(tmp_path):

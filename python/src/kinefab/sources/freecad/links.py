@@ -60,6 +60,7 @@ class Documents:
             self.broken(thing, target, "which is no file's name")
             return None
         path = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(thing.document.path)), name))
+        path = os.path.realpath(as_spelled(path))
         if path in self._read:
             found = self._read[path]
             if found is None:
@@ -93,3 +94,12 @@ class Documents:
         if why:
             self.broken(thing, target, why)
         return self._read[path]
+
+
+def as_spelled(path: str) -> str:
+    """The file meant by a path whose name is spelled with other capitals, as Windows takes it: the only one there is."""
+    folder, name = os.path.split(path)
+    if os.path.lexists(path) or not os.path.isdir(folder):
+        return path
+    alike = [entry for entry in os.listdir(folder) if entry.lower() == name.lower()]
+    return os.path.join(folder, alike[0]) if len(alike) == 1 else path

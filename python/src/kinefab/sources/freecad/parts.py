@@ -60,6 +60,8 @@ class Parts:
 
         moves: whether parts below ``parent`` move apart.  ground: they stand still, outside of any assembly.
         """
+        if self.is_source_only(here):
+            return
         if here.is_group:
             for child in here.children:
                 self.add(child, parent, moves, ground)
@@ -72,7 +74,7 @@ class Parts:
             self._node(here, parent, NodeKind.PART, grounded=ground)
 
     def _container(self, here: Occurrence, parent: int | None, moves: bool, ground: bool) -> None:
-        inside = [child for child in flat(here) if not self.is_hidden_input(child)]
+        inside = [child for child in flat(here) if not self.is_source_only(child)]
         assembly = here.type == ASSEMBLY and here.thing.type not in LINKS
         loose = assembly and (parent is None or ground)
         if here.type == SUB_ASSEMBLY and here.thing.type == SUB_ASSEMBLY:
@@ -98,14 +100,15 @@ class Parts:
         for child in inside:
             self.add(child, node, loose and not outside, ground=outside and child.type != ASSEMBLY)
 
-    def is_hidden_input(self, here: Occurrence) -> bool:
-        """Whether an object only made another one: hidden, and named by a shape of its document."""
+    def is_source_only(self, here: Occurrence) -> bool:
+        """Whether an object is no part itself: hidden, and a shape of its document was made of it, or, where no Assembly
+        stands in the document, links show it elsewhere."""
         thing = here.thing
         if thing.flag("Visibility", True) or thing.type in LINKS:
             return False
         document = thing.document
         if id(document) not in self._hidden:
-            self._hidden[id(document)] = inputs(document)
+            self._hidden[id(document)] = inputs(document) | originals(document)
         return thing.name in self._hidden[id(document)]
 
     def _node(
@@ -183,6 +186,15 @@ def inputs(document: Document) -> set[str]:
                 target = thing.target(name)
                 made |= {entry.name for entry in thing.targets(name)} | ({target.name} if target else set())
     return made - needed
+
+
+def originals(document: Document) -> set[str]:
+    """Names of the objects that links of the document show; none where an Assembly may hold them as its own parts."""
+    things = document.things.values()
+    if any(thing.type == ASSEMBLY for thing in things):
+        return set()
+    targets = (thing.target("LinkedObject") for thing in things)
+    return {target.name for target in targets if target is not None and not target.file}
 
 
 def scene_pose(pose: Pose) -> Pose:

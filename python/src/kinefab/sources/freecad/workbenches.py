@@ -14,7 +14,6 @@ A2PLUS = (
     "it is a constraint of the A2plus workbench, whose geometry is not stored; make it a joint of Assembly"
 )
 MESH = "it is a mesh, whose points FreeCAD keeps in a form of its own; make a shape of it, or export the mesh as OBJ"
-ASSEMBLY4 = "Assembly4 places the part by an expression, which leaves it no freedom; it is taken as fixed"
 
 
 def is_a2plus_constraint(thing: Thing) -> bool:
@@ -35,8 +34,8 @@ def report_foreign(document: Document, report: Report) -> None:
             report.dropped(
                 f"constraint {label} ({kind})", "FREECAD_JOINT_DROPPED", thing.where, reason=A2PLUS
             )
-        elif thing.text("SolverId") == "Asm4EE" and thing.text("AttachedTo"):
-            report.dropped(f"attachment of {label}", "FREECAD_JOINT_DROPPED", thing.where, reason=ASSEMBLY4)
+        elif "Asm4EE" in (thing.text("SolverId"), thing.text("AssemblyType")) and thing.text("AttachedTo"):
+            report.approximated(f"attachment of {label}", "FREECAD_ATTACHED", thing.where)
         elif thing.type.startswith("Mesh::"):
             report.dropped(f"mesh {label}", "SHAPE_NOT_READ", thing.where, object=label, detail=MESH)
         elif thing.has("MotionType") and thing.has("Formula"):

@@ -6,6 +6,7 @@ import json
 import struct
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from cad.captures import capture, scene_differences
@@ -203,3 +204,33 @@ def test_a_formula_is_told_not_guessed(expression):
 def test_a_mesh_that_is_none():
     with pytest.raises(ValueError):
         stl("x", b"solid ascii")
+
+
+def test_a_part_of_a_linked_document_is_asked_by_its_version_through_the_document(tmp_path):
+    """``linkDocumentId`` is documented with a version in the path alone; a version of the own document needs none."""
+    values = only_joints("gears")
+    known = answers(described(values))
+    other, own, plain = known["definition"]["rootAssembly"]["instances"][:3]
+    other |= {"documentId": "x" * 24, "documentVersion": "v" * 24, "isStandardContent": True}
+    own["documentVersion"] = "u" * 24
+    with Server(known) as server:
+        capture_onshape(server.address, KEYS, tmp_path / "x.bundle.json", Report(), up=values["meta"]["up"])
+    asked = [urlsplit(path) for path, _ in server.asked]
+
+    def of(instance: dict) -> dict[str, dict[str, list[str]]]:
+        """The queries of an instance's questions, by the rest of the path."""
+        return {
+            url.path: parse_qs(url.query)
+            for url in asked
+            if f"/e/{instance['elementId']}" in url.path and url.path.startswith("/api/parts/")
+        }
+
+    studio = f"/api/parts/d/{'x' * 24}/v/{'v' * 24}/e/{other['elementId']}"
+    queries = of(other)
+    assert set(queries) == {studio, f"{studio}/partid/JHD/stl", f"{studio}/partid/JHD/massproperties"}
+    assert all(query["linkDocumentId"] == ["d" * 24] for query in queries.values())
+    assert queries[f"{studio}/partid/JHD/massproperties"]["inferMetadataOwner"] == ["true"]
+    for instance, state in ((own, f"v/{'u' * 24}"), (plain, f"m/{'m' * 24}")):
+        queries = of(instance)
+        assert len(queries) == 3 and all(f"/d/{'d' * 24}/{state}/e/" in path for path in queries)
+        assert not any(query.keys() & {"linkDocumentId", "inferMetadataOwner"} for query in queries.values())

@@ -31,6 +31,7 @@ AGAIN = frozenset({429, 502, 503, 504})
 """Asked to wait, or nobody was there for the moment."""
 HOME = "onshape.com"
 OF_PARTS = frozenset({"stl", "mass", "parts"})
+VERSION = "v/"
 SAVED = ("definition", "features", "matevalues", "name")
 
 
@@ -91,15 +92,20 @@ class Rest:
             return self._of_part(kind, *rest.split(" ", 4))
         return self._json(f"/api/assemblies/d/{element}/{question}")
 
-    def _of_part(
-        self, kind: str, did: str, microversion: str, eid: str, part: str, configuration: str
-    ) -> Any:
+    def _of_part(self, kind: str, did: str, state: str, eid: str, part: str, configuration: str) -> Any:
+        """state: a microversion, or ``v/`` and a version.  What the keys may not see themselves, the document that links to it
+        shows; that is allowed of versions only.  Of standard content it has the properties too."""
         asked = {"configuration": configuration}
-        studio = f"/api/parts/d/{quote(did)}/m/{quote(microversion)}/e/{quote(eid)}"
+        versioned = state.startswith(VERSION)
+        linked = versioned and did != self.where["did"]
+        if linked:
+            asked["linkDocumentId"] = self.where["did"]
+        state = quote(state) if versioned else f"m/{quote(state)}"
+        studio = f"/api/parts/d/{quote(did)}/{state}/e/{quote(eid)}"
         if kind == "parts":
             return self._json(f"{studio}?{urlencode(asked)}")
         if kind == "mass":
-            asked |= {"useMassPropertyOverrides": "true"}
+            asked |= {"useMassPropertyOverrides": "true"} | ({"inferMetadataOwner": "true"} if linked else {})
             return self._json(f"{studio}/partid/{quote(part, safe='')}/massproperties?{urlencode(asked)}")
         asked = {"mode": "binary", "units": "meter", **asked}
         return self._get(f"{studio}/partid/{quote(part, safe='')}/stl?{urlencode(asked)}", "*/*")
@@ -251,8 +257,10 @@ def look_question(instance: Mapping[str, Any]) -> str:
 
 
 def _question(kind: str, instance: Mapping[str, Any], part: str) -> str:
-    wanted = [instance.get(k) for k in ("documentId", "documentMicroversion", "elementId")]
-    return " ".join([kind, *map(str, wanted), part, str(instance.get("configuration", "default"))])
+    version = instance.get("documentVersion")
+    state = f"{VERSION}{version}" if version else str(instance.get("documentMicroversion"))
+    where = str(instance.get("documentId")), state, str(instance.get("elementId"))
+    return " ".join([kind, *where, part, str(instance.get("configuration", "default"))])
 
 
 def replayed(answers: object) -> Answers:

@@ -15,14 +15,16 @@ from cad.described import described, mechanism
 from cad.documented import KIND, TOUCHED, Answers, Refused, members
 from cad.fusion import Fusion
 from cad.inventor import Inventor
+from cad.onshape import answers, masses, stl
 from cad.solidworks import SolidWorks
-from cad.tetrahedron import fusion_bodies, inventor_bodies, solidworks_bodies
+from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.channel import Live
 from test_capture_fusion import every_motion
 from test_capture_fusion_tree import nested as inside
 from test_capture_fusion_tree import only_own
 from test_capture_kinds import BOTH, SOLIDWORKS, machine, pair, side
 from test_capture_matter import machine as block
+from test_capture_onshape import only_joints
 from test_capture_patterns import BOLTS, as_mates, rigid
 from test_capture_patterns import machine as patterned
 from test_capture_rigid_bodies import GROUPS, JOINTS
@@ -64,7 +66,9 @@ def test_a_name_is_a_method_in_all_classes_or_in_none(program):
     assert [name for name, found in kinds.items() if len(found) > 1] == []
 
 
-NOT_ASKED: dict[tuple[str, str, str], str] = {}
+NOT_ASKED: dict[tuple[str, str, str], str] = {
+    ("onshape", "Element", "id"): "asked of the answer as it comes in, before it is kept",
+}
 """Members of the table that no case asks for, each with why not."""
 
 
@@ -83,6 +87,8 @@ def cases(program: str) -> list:
             Inventor(described(kinds)).record(), Inventor(described(rows)).record(),
             Inventor(described(block("mm", "Z")), facets=inventor_bodies).record(),
         ]  # fmt: skip
+    if program == "onshape":
+        return onshape_cases()
     if program == "solidworks":
         ranges = [{**BOTH["angle"], "min": -0.1, "max": 0.9}, BOTH["distance in a range"]]
         hinge = {**BOTH["insert, aligned"], "min": -0.2, "max": 1.4}
@@ -103,7 +109,30 @@ def cases(program: str) -> list:
     return [grouped, *every_motion(), bodies, odd, nested]
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
+def onshape_cases() -> list:
+    """Mates of every type with limits, relations of both sizes, a group, a pattern, a part with all that is said of it."""
+    row = ["Row", [["M/Bolt-2"], ["M/Bolt-3"]]]
+    rows = patterned(*BOLTS, patterns=[row], joints=[rigid("Base", "Bolt-1")])
+    rows["groups"] = [["Group", ["M/Arm", "M/Bolt-2"]]]
+    described_block = described(block("mm", "Z"))
+    matter = answers(described_block) | masses(described_block) | stl(described_block, POINTS, FACES)
+    mates = only_joints("gears")
+    hinge = mates["joints"][0]
+    for word, names in (
+        ("cylindrical", ("tz", "rz")),
+        ("pin_slot", ("tx", "rz")),
+        ("planar", ("tx", "ty", "rz")),
+    ):
+        dofs = [{"name": name, "value": 0.1, "min": -0.2, "minEnabled": True} for name in names]
+        frames = {key: dict(hinge[key]) for key in ("frameA", "frameB")}
+        mates["joints"].append({**hinge, **frames, "id": word, "name": word, "type": word, "dof": dofs})
+    screw = {"id": "Screw", "kind": "screw", "a": {"joint": "cylindrical", "dof": "rz"}, "ratio": 0.003}
+    mates["couplings"].append({**screw, "b": {"joint": "cylindrical", "dof": "tz"}})
+    lever = only_joints("lever/lever.bundle.json")
+    return [matter, *(answers(described(values)) for values in (rows, mates, lever))]
+
+
+@pytest.mark.parametrize("program", (*PROGRAMS, "onshape"))
 def test_every_documented_member_is_asked_for(program, tmp_path):
     TOUCHED.clear()
     for record in cases(program):
@@ -126,3 +155,11 @@ def test_a_double_refuses_what_its_table_does_not_list(tmp_path):
     next(entry for entry in record if entry.get("Name") == "BarC:1")[KIND] = "inventor.Parameter"
     with pytest.raises(Refused, match=r"Parameter\.\w+"):
         capture("inventor", record, tmp_path, "Z")
+
+
+def test_a_field_of_onshape_that_the_table_does_not_list_is_refused(tmp_path):
+    found = answers(described(only_joints("gears")))
+    first = found["definition"]["rootAssembly"]["occurrences"][0]
+    first[KIND] = "onshape.Color"
+    with pytest.raises(Refused, match=r"Color\.path"):
+        capture("onshape", found, tmp_path, "Z")

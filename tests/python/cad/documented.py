@@ -1,4 +1,4 @@
-"""Records of a program, built member by member as ``members.csv`` documents them.
+"""Records of a program, built member by member, and of Onshape field by field, as ``members.csv`` documents them.
 
 Every object of such a record carries its class: what is asked of it that the table does not list is refused, whoever asks, and what
 is asked is kept in ``TOUCHED``.
@@ -14,6 +14,7 @@ from typing import Any
 
 from kinefab.capture import run
 from kinefab.capture.channel import SET, Replay, question
+from kinefab.capture.onshape import answers as onshape
 
 TABLE = Path(__file__).with_name("members.csv")
 
@@ -41,8 +42,8 @@ class Refused(BaseException):
 
 def watch(answers: dict[str, Any], name: str) -> None:
     """Note that a member is asked of an object.  Raises Refused where its class has none of the name."""
-    if KIND in answers:
-        program, kind = answers[KIND].split(".")
+    if tag := dict.get(answers, KIND):
+        program, kind = tag.split(".")
         name = name.removesuffix(SET)
         if (kind, name) in members(program):
             TOUCHED.add((program, kind, name))
@@ -59,6 +60,49 @@ class Watched(Replay):
 
 
 run.Replay = Watched
+
+
+class Fields(dict[str, Any]):
+    """An object of an answer in JSON: whoever asks for a field that its class does not list is refused."""
+
+    def __getitem__(self, name: str) -> Any:
+        watch(self, name)
+        return super().__getitem__(name)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        watch(self, name)
+        return super().get(name, default)
+
+    def __contains__(self, name: object) -> bool:
+        if name != KIND:
+            watch(self, str(name))
+        return super().__contains__(name)
+
+
+def fields(value: Any) -> Any:
+    """An answer whose tagged objects are watched."""
+    if isinstance(value, dict):
+        kept = {key: fields(entry) for key, entry in value.items()}
+        return Fields(kept) if KIND in kept else kept
+    return [fields(entry) for entry in value] if isinstance(value, list) else value
+
+
+def untagged(value: Any) -> Any:
+    """The same without its classes: what is exchanged at random is of none."""
+    if isinstance(value, dict):
+        return {key: untagged(entry) for key, entry in value.items() if key != KIND}
+    return [untagged(entry) for entry in value] if isinstance(value, list) else value
+
+
+_ask = onshape.Answers.ask
+onshape.Answers.ask = lambda self, question: fields(_ask(self, question))
+
+
+def of_onshape(kind: str, **values: Any) -> dict[str, Any]:
+    """An object of Onshape's answers.  It may hold more than the capture asks for, as the documented ones do."""
+    if not any(name == kind for name, _ in members("onshape")):
+        raise KeyError(kind)
+    return {KIND: f"onshape.{kind}", **values}
 
 
 @dataclass(frozen=True)

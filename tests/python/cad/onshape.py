@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from cad.described import Described
+from cad.documented import of_onshape
 
 MATES = {
     "rigid": "FASTENED", "revolute": "REVOLUTE", "slider": "SLIDER", "cylindrical": "CYLINDRICAL",
@@ -39,10 +40,10 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
 
     def instances(parent: str) -> list[dict[str, Any]]:
         return [
-            {
-                "id": keys[part.id], "name": part.name, "type": "Assembly" if part.assembly else "Part",
-                "suppressed": part.flags["suppressed"], "elementId": f"E{part.definition}", "partId": "JHD", **OF,
-            }
+            of_onshape(
+                "Instance", id=keys[part.id], name=part.name, type="Assembly" if part.assembly else "Part",
+                suppressed=part.flags["suppressed"], elementId=f"E{part.definition}", partId="JHD", **OF,
+            )
             for part in assembly.children(parent)
         ]  # fmt: skip
 
@@ -52,13 +53,9 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
             continue
         m = np.eye(4)
         m[:3, :3], m[:3, 3] = part.rotation, part.origin
+        flags = {"fixed": part.flags["grounded"], "hidden": not part.flags["visible"]}
         occurrences.append(
-            {
-                "path": path(part.id),
-                "transform": m.ravel().tolist(),
-                "fixed": part.flags["grounded"],
-                "hidden": not part.flags["visible"],
-            }
+            of_onshape("Occurrence", path=path(part.id), transform=m.ravel().tolist(), **flags)
         )
     features, parameters, values = [], [], []
     for number, joint in enumerate(assembly.joints):
@@ -67,17 +64,15 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
         for end, key in (("b", "frameB"), ("a", "frameA")):  # the first selected moves against the second
             at, base = joint.get(key, joint["frameA"]), assembly.parts[joint[end]]
             x, z = base.turned(at["x"]), base.turned(at["z"])
-            cs = {
-                "origin": base.local(at["o"]).tolist(),
-                "xAxis": x.tolist(),
-                "yAxis": np.cross(z, x).tolist(),
-                "zAxis": z.tolist(),
-            }
-            entities.append({"matedOccurrence": path(joint[end]), "matedCS": cs})
-        data = {"name": joint["id"], "mateType": MATES[joint["type"]], "matedEntities": entities}
-        features.append({"id": own, "suppressed": False, "featureType": "mate", "featureData": data})
+            cs = of_onshape(
+                "MatedCS", origin=base.local(at["o"]).tolist(), xAxis=x.tolist(), yAxis=np.cross(z, x).tolist(),
+                zAxis=z.tolist(),
+            )  # fmt: skip
+            entities.append(of_onshape("MatedEntity", matedOccurrence=path(joint[end]), matedCS=cs))
+        data = of_onshape("Mate", name=joint["id"], mateType=MATES[joint["type"]], matedEntities=entities)
+        features.append(_feature(own, "mate", data))
         stated: list[tuple[str, Any]] = []
-        shown: dict[str, Any] = {"featureId": own, "mateName": joint["id"]}
+        shown = of_onshape("MateValue", featureId=own, mateName=joint["id"])
         for dof in joint.get("dof", []):
             if "value" in dof:
                 shown[VALUES[dof["name"]]] = dof["value"]
@@ -93,60 +88,70 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
                 if "min" in dof or "max" in dof:
                     stated.append(("limitsEnabled", bool(dof.get("minEnabled") or dof.get("maxEnabled"))))
         values.append(shown)
-        parameters.append({"typeName": "BTMMate", "message": {"featureId": own, "parameters": [
-            {"message": {"parameterId": key, **({"value": value} if isinstance(value, bool) else {"expression": value})}} for key, value in stated
-        ]}})  # fmt: skip
+        listed = [
+            {"parameterId": key, **({"value": value} if isinstance(value, bool) else {"expression": value})}
+            for key, value in stated
+        ]
+        if listed:  # a field that is empty
+            listed.append({"parameterId": "limitYMax", "isNull": True, "expression": ""})
+        entries = [
+            of_onshape("ListedParameter", message=of_onshape("Parameter", **entry)) for entry in listed
+        ]
+        message = of_onshape("FeatureMessage", featureId=own, parameters=entries)
+        parameters.append(of_onshape("ListedFeature", typeName="BTMMate", message=message))
     numbers = {joint["id"]: f"F{number:03d}" for number, joint in enumerate(assembly.joints)}
     for number, coupling in enumerate(assembly.couplings):
         kind, ratio = RELATIONS[coupling["kind"]], coupling["ratio"]
-        data = {
-            "name": coupling["id"],
-            "relationType": kind,
-            "reverseDirection": (ratio > 0.0) == (kind == "GEAR"),
-        }
+        reverse = (ratio > 0.0) == (kind == "GEAR")
+        data = of_onshape("Relation", name=coupling["id"], relationType=kind, reverseDirection=reverse)
         key, size = (
             ("relationRatio", abs(ratio))
             if kind in ("GEAR", "LINEAR")
             else ("relationLength", abs(ratio) * 2.0 * np.pi)
         )
         data[key] = size
-        data["mates"] = [{"featureId": numbers[coupling[end]["joint"]], "occurrence": []} for end in "ab"]
-        features.append(
-            {"id": f"R{number}", "suppressed": False, "featureType": "mateRelation", "featureData": data}
-        )
+        data["mates"] = [
+            of_onshape("RelatedMate", featureId=numbers[coupling[end]["joint"]], occurrence=[])
+            for end in "ab"
+        ]
+        features.append(_feature(f"R{number}", "mateRelation", data))
+    for number, (name, members) in enumerate(assembly.values.get("groups", [])):
+        held = [of_onshape("GroupMember", occurrence=path(member)) for member in members]
+        features.append(_feature(f"G{number}", "mateGroup", of_onshape("Group", name=name, occurrences=held)))
 
     def patterns(owner: str) -> list[dict[str, Any]]:
         return [
-            {
-                "id": f"P{number}", "name": name, "type": "LINEAR", "suppressed": False,
-                "seedToPatternInstances": {
+            of_onshape(
+                "Pattern", id=f"P{number}", name=name, type="LINEAR", suppressed=False,
+                seedToPatternInstances={
                     keys[seed]: [keys[element[i]] for element in copies] for i, seed in enumerate(seeds)
                 },
-            }
+            )
             for number, (name, (seeds, *copies), *_) in enumerate(assembly.values.get("patterns", {}).get(owner, []))
         ]  # fmt: skip
 
     subs = [
-        {
-            "patterns": patterns(part.id),
-            "instances": instances(part.id),
-            "features": [],
-            "elementId": f"E{part.definition}",
-            **OF,
-        }
+        of_onshape(
+            "Assembly", patterns=patterns(part.id), instances=instances(part.id), features=[],
+            elementId=f"E{part.definition}", **OF,
+        )
         for part in assembly.parts.values()
         if part.assembly and part.id != assembly.root
-    ]
+    ]  # fmt: skip
+    root = of_onshape(
+        "Assembly", instances=instances(assembly.root), occurrences=occurrences, features=features,
+        patterns=patterns(assembly.root),
+    )  # fmt: skip
     return {
-        "definition": {
-            "rootAssembly": {"instances": instances(assembly.root), "occurrences": occurrences, "features": features,
-                             "patterns": patterns(assembly.root)},
-            "subAssemblies": subs, "parts": [],
-        },
-        "features": {"features": parameters},
-        "matevalues": {"mateValues": values},
-        "name": [{"id": "e", "name": assembly.root}],
-    }  # fmt: skip
+        "definition": of_onshape("Definition", rootAssembly=root, subAssemblies=subs, parts=[]),
+        "features": of_onshape("Features", features=parameters),
+        "matevalues": of_onshape("MateValues", mateValues=values),
+        "name": [of_onshape("Element", id="e", name=assembly.root)],
+    }
+
+
+def _feature(own: str, kind: str, data: dict[str, Any]) -> dict[str, Any]:
+    return of_onshape("Feature", id=own, suppressed=False, featureType=kind, featureData=data)
 
 
 def masses(assembly: Described) -> dict[str, Any]:
@@ -156,16 +161,19 @@ def masses(assembly: Described) -> dict[str, Any]:
         where = f"{OF['documentId']} {OF['documentMicroversion']} E{part.definition}"
         if part.mass is not None:
             tensor = part.mass["inertia"]
-            body = {
-                "hasMass": True, "mass": [part.mass["mass"]] * 3, "centroid": part.mass["center"].tolist() * 3,
-                "inertia": tensor.ravel().tolist() * 3, "principalInertia": np.linalg.eigvalsh(tensor).tolist(),
-            }  # fmt: skip
-            found[f"mass {where} JHD default"] = {"bodies": {"JHD": body}}
+            body = of_onshape(
+                "MassBody", hasMass=True, mass=[part.mass["mass"]] * 3, centroid=part.mass["center"].tolist() * 3,
+                inertia=tensor.ravel().tolist() * 3, principalInertia=np.linalg.eigvalsh(tensor).tolist(),
+            )  # fmt: skip
+            found[f"mass {where} JHD default"] = of_onshape("MassProperties", bodies={"JHD": body})
         if part.look is not None:
             red, green, blue, opacity = part.look["srgb"]
-            shown = {"color": {"red": red, "green": green, "blue": blue}, "opacity": opacity}
-            entry = {"partId": "JHD", "appearance": shown, "material": {"displayName": part.look["material"]}}
-            found[f"parts {where} - default"] = [entry]
+            color = of_onshape("Color", red=red, green=green, blue=blue)
+            shown = of_onshape("Appearance", color=color, opacity=opacity)
+            material = of_onshape("Material", displayName=part.look["material"])
+            found[f"parts {where} - default"] = [
+                of_onshape("Part", partId="JHD", appearance=shown, material=material)
+            ]
     return found
 
 

@@ -115,6 +115,19 @@ def test_material_and_colour(program, tmp_path):
     assert shown[0]["color"] == pytest.approx(LINEAR, abs=1e-5)
 
 
+@pytest.mark.parametrize("program", ["inventor", "solidworks", "fusion"])
+@pytest.mark.parametrize("count", [0, 3])
+def test_colours_of_single_faces_are_told(program, count, tmp_path):
+    """The body has one; a body with a colour of its own is none of them.  Onshape's parts answer with one."""
+    values, report = machine("mm", "Z"), Report()
+    values["components"][1]["look"] = {**LOOK, "painted": count}
+    found = capture(program, record(program, values, True), tmp_path, "Z", report)
+    told = [d.message for d in report.diagnostics if d.code == "CAPTURE_FACE_COLORS"]
+    assert [message.startswith("3 of the faces") for message in told] == ([True] if count else [])
+    lost = [o.outcome.value for o in found.draft.report.outcomes if o.feature.startswith("colours of")]
+    assert lost == (["approximated"] if count else [])
+
+
 def tetrahedron() -> tuple[BodyMesh, np.ndarray]:
     """A mesh, and its tensor for a mass of 2 from points that are spread evenly in it, by the closed form of a tetrahedron."""
     mesh = BodyMesh("T", (POINTS + [0.1, -0.2, 0.3]).ravel().tolist(), [i for face in FACES for i in face])

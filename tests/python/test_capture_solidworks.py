@@ -85,3 +85,20 @@ def test_a_mate_without_its_numbers_is_told_and_left_out(answer, tmp_path):
     found = capture("solidworks", answers, tmp_path, values["meta"]["up"], report)
     assert len(found.draft.constraints) == len(whole) - 1
     assert "CAPTURE_MEMBER_FAILED" in [d.code for d in report.diagnostics]
+
+
+def test_what_an_assembly_cuts_from_its_parts_is_told(tmp_path):
+    values = mechanism("lever/lever.bundle.json")
+    values.pop("joints", None)
+    values["assemblyFeatures"] = [
+        ["Cut-Extrude1", "ICE", False],
+        ["Hole1", "HoleSeries", True],
+        ["Plane1", "RefPlane", False],
+    ]
+    report = Report()
+    found = capture(
+        "solidworks", SolidWorks(described(values)).record(), tmp_path, values["meta"]["up"], report
+    )
+    told = [d.message for d in report.diagnostics if d.code == "CAPTURE_ASSEMBLY_FEATURE"]
+    assert len(told) == 1 and "feature Cut-Extrude1 of Lever (ICE)" in told[0]
+    assert found.draft.constraints

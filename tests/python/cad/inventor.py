@@ -23,6 +23,7 @@ CONSTRAINTS = {
     "custom": 100673536,
 }  # fmt: skip
 UP_TO_DATE = 11778
+BODY, FACE = 67118896, 67119408
 
 
 class Inventor:
@@ -131,10 +132,12 @@ class Inventor:
             material = None if part.look is None else a.made("Asset", DisplayName=part.look["material"])
             document = a.made("Document", DisplayName=part.definition, ActiveMaterial=material)
             bodies = self.facets(self, part) if self.facets else []
+            kinds = [BODY, *[FACE] * part.look.get("painted", 0)] if part.look else []
+            overridden = a.listed([a.made("Overridden", Type=kind) for kind in kinds])
             self.definitions[part.definition] = a.made(
                 "Definition", Document=document, SurfaceBodies=a.listed(bodies), MassProperties=self._mass(part),
                 Constraints=a.listed(self._constraints(part) if part.flags["flexible"] else []), Joints=a.listed([]),
-                OccurrencePatterns=a.listed([]),
+                OccurrencePatterns=a.listed([]), AppearanceOverridesObjects=overridden,
             )  # fmt: skip
         made = a.made("Occurrence")
         self.occurrences[part.id] = made

@@ -93,6 +93,10 @@ class SolidWorks:
         following = None
         for pattern in reversed(self.patterns.get(owner, [])):
             following = self._pattern(pattern, base, following)
+        for name, kind, suppressed in self.assembly.values.get("assemblyFeatures", []) if top else ():
+            following = a.made(
+                "Feature", Name=name, GetTypeName2=kind, GetNextFeature=following, IsSuppressed2={"1, null": [suppressed]}
+            )  # fmt: skip
         group = a.made(
             "Feature",
             GetTypeName2="MateGroup",

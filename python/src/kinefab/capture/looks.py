@@ -25,6 +25,14 @@ def look(draft: Draft, material: str, color: Numbers | None, part: str) -> str |
     return name
 
 
+def painted(draft: Draft, name: str, count: int) -> None:
+    """Tell of faces and features of a part that have colours of their own: a bundle's body has one material."""
+    if count:
+        draft.report.approximated(
+            f"colours of {name}", "CAPTURE_FACE_COLORS", count=count, name=name, program=draft.program
+        )
+
+
 def _share(value: float) -> float:
     return min(1.0, max(0.0, float(value)))
 

@@ -107,8 +107,13 @@ class Body(Protocol):
     meshManager: MeshManager  # - | component | BRepBody.meshManager Property
     material: Material | None  # - | - | BRepBody.material Property
     appearance: Appearance | None  # - | - | BRepBody.appearance Property
+    faces: Collection  # - | - | BRepBody.faces Property
 
     def getPhysicalProperties(self, accuracy: int) -> PhysicalProperties | None: ...  # CalculationAccuracy | - | BRepBody.getPhysicalProperties Method
+
+
+class Face(Protocol):
+    appearanceSourceType: int  # AppearanceSourceTypes | - | BRepFace.appearanceSourceType Property
 
 
 class Material(Protocol):

@@ -11,13 +11,15 @@ from typing import cast
 
 from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record
-from ..looks import look
+from ..looks import look, painted
 from ..masses import mass_record, together
-from .api import Appearance, Body, Component, PhysicalProperties, RootComponent
+from .api import Appearance, Body, Component, Face, PhysicalProperties, RootComponent
 
 NORMAL_QUALITY = 11
 HIGH_ACCURACY = 2
 """CalculationAccuracy; what a component is asked by default may be off by a hundredth."""
+OF_THE_FACE = frozenset({3, 4})
+"""AppearanceSourceTypes: assigned to the face, an override."""
 FULL = 255.0
 COLORS = (
     "opaque_albedo",
@@ -77,6 +79,8 @@ class Parts:
             return
         self.draft.meshes[name] = meshes
         found["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in meshes]
+        with self.draft.safely(f"colours of faces of {name}"):
+            painted(self.draft, name, sum(map(_painted, listed)))
         for body, record in zip(listed, found["bodies"]):
             with self.draft.safely(f"appearance of {name}/{record['id']}"):
                 material, shown = body.material, body.appearance
@@ -105,6 +109,13 @@ class Parts:
 def _listed(component: Component | RootComponent) -> list[Body]:
     bodies = component.bRepBodies
     return [cast(Body, bodies.item(i)) for i in range(bodies.count)]
+
+
+def _painted(body: Body) -> int:
+    """How many of its faces have an appearance of their own."""
+    faces = body.faces
+    listed = [cast(Face, faces.item(i)) for i in range(faces.count)]
+    return sum(face.appearanceSourceType in OF_THE_FACE for face in listed)
 
 
 def _mesh(body: Body) -> BodyMesh:

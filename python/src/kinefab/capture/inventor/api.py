@@ -45,6 +45,7 @@ class Definition(Protocol):
     Joints: Collection  # - | the definition's own | AssemblyComponentDefinition.Joints Property
     OccurrencePatterns: Collection  # - | - | AssemblyComponentDefinition.OccurrencePatterns Property
     SurfaceBodies: Collection  # - | part | PartComponentDefinition.SurfaceBodies Property
+    AppearanceOverridesObjects: Collection  # faces, features, work surfaces, bodies | - | PartComponentDefinition.AppearanceOverridesObjects Property
     MassProperties: MassProperties | None  # - | part | PartComponentDefinition.MassProperties Property
 
     def RigidBodyAnalysis(self, Options: None) -> RigidBodyResults: ...  # - | - | AssemblyComponentDefinition.RigidBodyAnalysis Method
@@ -223,6 +224,10 @@ class Body(Protocol):
     Appearance: Asset | None  # - | - | SurfaceBody.Appearance Property
 
     def CalculateFacets(self, Tolerance: float) -> Sequence[Any]: ...  # counts, cm, normals, corners from 1 | part | SurfaceBody.CalculateFacets Method
+
+
+class Overridden(Protocol):
+    Type: int  # ObjectTypeEnum | - | Face.Type Property
 
 
 class Asset(Protocol):

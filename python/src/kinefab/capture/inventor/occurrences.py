@@ -7,15 +7,17 @@ from typing import cast
 
 from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
-from ..looks import look
+from ..looks import look, painted
 from ..masses import mass_record
-from .api import Asset, Body, Collection, Definition, MassProperties, Matrix, Occurrence
+from .api import Asset, Body, Collection, Definition, MassProperties, Matrix, Occurrence, Overridden
 from .geometry import numbers
 
 ASSEMBLY = 12291
 TOLERANCE = 0.005
 """Chord of a facet, cm."""
 TINY = 1e-12
+WHOLE = frozenset({67118896, 83945216})
+"""ObjectTypeEnum of a body and of a work surface; all others with an appearance of their own are faces and features."""
 FULL = 255.0
 COLORS = (
     "generic_diffuse", "opaque_albedo", "metal_f0", "metal_color", "metallicpaint_base_color", "plasticvinyl_color",
@@ -114,12 +116,19 @@ class Occurrences:
                 self.draft.meshes[name] = meshes
                 found["bodies"] = [{"id": m.name, "meshKey": m.name} for m in meshes]
                 self._looks(name, definition, bodies, found["bodies"])
+                self._painted(name, definition)
         with self.draft.safely(f"mass of {name}"):
             properties = definition.MassProperties
             if properties is not None and (mass := float(properties.Mass)) > 0.0:
                 found["mass"] = _mass(self.draft, name, mass, properties)
         self.definitions[name] = found
         return found
+
+    def _painted(self, name: str, definition: Definition) -> None:
+        with self.draft.safely(f"colours of faces of {name}"):
+            listed = definition.AppearanceOverridesObjects
+            overridden = [cast(Overridden, listed.Item(i)) for i in range(1, listed.Count + 1)]
+            painted(self.draft, name, sum(entry.Type not in WHOLE for entry in overridden))
 
     def _looks(self, name: str, definition: Definition, bodies: list[Body], records: list[Record]) -> None:
         material = ""

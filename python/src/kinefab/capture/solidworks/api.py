@@ -84,6 +84,7 @@ class Body(Protocol):
 
 
 class Face(Protocol):
+    def HasMaterialPropertyValues(self) -> bool: ...  # flag | - | IFace2.HasMaterialPropertyValues Method
     def GetTessTriangles(self, NoConversion: bool) -> Sequence[float] | None: ...  # m: nine numbers a triangle | part | IFace2.GetTessTriangles Method
 
 

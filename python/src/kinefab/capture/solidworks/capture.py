@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from ..channel import MemberFailed, methods_of
 from ..draft import BodyMesh, Draft, Record, pose
-from ..looks import look
+from ..looks import look, painted
 from ..masses import mass_record
 from . import api
 from .api import Application, Component, Feature, Model
@@ -19,6 +19,11 @@ NAME, ASSEMBLY, LEAST = "SolidWorks", 2, 26
 """Revision 26 is 2018: from there on mates have feature data."""
 FLEXIBLE, SUPPRESSED, HIDDEN, SOLID = 1, 0, 0, 0
 ABOUT_CENTER = 0
+SHAPING = frozenset({
+    "Cut", "CutThin", "ICE", "RevCut", "RevCutThin", "SweepCut", "HoleWzd", "AdvHoleWzd", "HoleSeries", "Fillet", "Chamfer",
+    "WeldBeadFeat",
+})  # fmt: skip
+"""``GetTypeName2`` of what an assembly may do to the shapes of its parts."""
 INTERFACES = tuple(
     value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
 )
@@ -132,10 +137,13 @@ class Components:
             return self.definitions[name]
         found: Record = {}
         with self.draft.safely(f"meshes of {name}"):
-            meshes = [mesh for body in component.GetBodies2(SOLID) or () if (mesh := _mesh(body)).triangles]
+            bodies = component.GetBodies2(SOLID) or ()
+            meshes = [mesh for body in bodies if (mesh := _mesh(body)).triangles]
             if meshes:
                 self.draft.meshes[name] = meshes
                 found["bodies"] = [{"id": mesh.name, "meshKey": mesh.name} for mesh in meshes]
+            with self.draft.safely(f"colours of faces of {name}"):
+                painted(self.draft, name, sum(map(_painted, bodies)))
         with self.draft.safely(f"material and mass of {name}"):
             if (model := component.GetModelDoc2()) is not None:
                 self._matter(name, model, found)
@@ -177,14 +185,30 @@ def _mesh(body: api.Body) -> BodyMesh:
     return BodyMesh(body.Name, points, list(range(len(points) // 3)))
 
 
+def _painted(body: api.Body) -> int:
+    """How many of its faces have a colour of their own."""
+    return sum(bool(face.HasMaterialPropertyValues()) for face in body.GetFaces() or ())
+
+
 def _mates(owner: Owner, model: Model) -> None:
     feature = model.FirstFeature()
     while feature is not None:
-        if feature.GetTypeName2() == "MateGroup":
+        kind = feature.GetTypeName2()
+        if kind == "MateGroup":
             for mate in _below(feature):
                 with owner.draft.safely(f"a mate of {owner.id}"):
                     read_mate(owner, mate)
+        elif kind in SHAPING:
+            with owner.draft.safely(f"a feature of {owner.id}"):
+                _shaping(owner, feature, kind)
         feature = feature.GetNextFeature()
+
+
+def _shaping(owner: Owner, feature: Feature, kind: str) -> None:
+    """Tell of a feature of an assembly that changes its parts' shapes."""
+    if not any(feature.IsSuppressed2(1, None)):
+        name = f"feature {feature.Name} of {owner.id}"
+        owner.draft.report.approximated(name, "CAPTURE_ASSEMBLY_FEATURE", kind=kind, program=NAME)
 
 
 def _below(group: Feature) -> Iterator[Feature]:

@@ -60,7 +60,7 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "targets/prefab": [
         {"text", "files", "names", "manifest"},
-        {"options", "assets", "objects", "moment"},
+        {"options", "assets", "objects", "moment", "links"},
         {"losses", "articulation", "project", "folder"},
         {"exporting"},
         {"__init__"},

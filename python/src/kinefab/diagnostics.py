@@ -244,6 +244,19 @@ class Report:
             self.dropped(feature, code, error.where, detail=error.message)
         return bool(errors)
 
+    def withdraw(self, feature: str, code: str) -> None:
+        """Take back what was told of a feature under a code: whoever came later could keep it after all.
+
+        >>> report = kinefab.Report()
+        >>> report.dropped("spring Return", "JOINT_REST_DROPPED")
+        >>> report.withdraw("spring Return", "JOINT_REST_DROPPED")
+        >>> report.outcomes, report.diagnostics
+        ([], [])
+        """
+        told = {o.message for o in self.outcomes if (o.feature, o.code) == (feature, code)}
+        self.outcomes = [o for o in self.outcomes if (o.feature, o.code) != (feature, code)]
+        self.diagnostics = [d for d in self.diagnostics if d.code != code or d.message not in told]
+
     def extend(self, other: Report) -> None:
         """Append what another run found.
 

@@ -6,9 +6,8 @@ a loop stays a joint, on a helper body that is fixed to one of the two links.
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict, deque
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -17,15 +16,13 @@ from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
 from ...unity.scene import (
+    AnimationClip,
     ArticulationBody,
-    ArticulationDrive,
     Component,
     ConfigurableJoint,
     FixedJoint,
     GameObject,
-    HingeJoint,
     Joint,
-    JointDrive,
     Rigidbody,
     Transform,
     UnityScene,
@@ -33,19 +30,14 @@ from ...unity.scene import (
 )
 from ...unity.scene.joints.joint import AnchoredJoint
 from ...unity.scene.vectors import quaternion4, vector3
+from .links import ARTICULATION, NotArticulated, link_motion, tell_link_losses
 
 GROUND_ID = "kinefab:articulation ground"
-MOTOR_DAMPING = 1e7
-"""N m s/rad of the drive that stands for a motor: its force is then the motor's largest."""
 HELPER_MASS = 0.05
 """Of the link that a helper body is fixed to."""
 
 Edge = tuple[int, int]
 """A joint: its object, and its place among the object's components."""
-
-
-class NotArticulated(Exception):
-    """Why a joint cannot be one of an articulation."""
 
 
 def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
@@ -78,7 +70,22 @@ class _Articulation:
             self._move_below(index, parents[index][0])
         for edge in closing:
             self._close(edge, links)
-        return replace(self.scene, gameObjects=tuple(self.objects), couplings=())
+        animations = self._clips(links.keys())
+        return replace(self.scene, gameObjects=tuple(self.objects), couplings=(), animations=animations)
+
+    def _clips(self, links: Collection[int]) -> tuple[AnimationClip, ...]:
+        """Without what moves links: no Transform moves them, and they stand below other objects now."""
+        found: list[AnimationClip] = []
+        for clip in self.scene.animations:
+            tracks = tuple(track for track in clip.tracks if track.gameObject not in links)
+            for track in clip.tracks:
+                if track.gameObject in links:
+                    owner = self.objects[track.gameObject].id
+                    told = {"field": "an animation of a link", "target": ARTICULATION}
+                    self.report.dropped(f"clip {clip.name} of {owner}", "TARGET_FIELD_DROPPED", **told)
+            if tracks:
+                found.append(replace(clip, tracks=tracks))
+        return tuple(found)
 
     def _read(self) -> None:
         self.objects = list(self.scene.gameObjects)
@@ -168,11 +175,14 @@ class _Articulation:
         try:
             if body.isKinematic:
                 raise NotArticulated("its body is kinematic and not the root")
-            moving = self._moving(joint)
+            moving = link_motion(joint, self._start(edge) if isinstance(joint, AnchoredJoint) else 0.0)
         except NotArticulated as reason:
             told = {"joint": joint.id or self.objects[edge[0]].id, "detail": str(reason)}
             self.report.dropped(f"joint {told['joint']}", "ARTICULATION_IMPOSSIBLE", **told)
             return link
+        if moving["jointType"] != "Fixed":
+            moving["jointFriction"] = self._tell_friction(joint)
+        tell_link_losses(joint, body, self.objects[child].id, self.report)
         return replace(link, **moving, **self._anchors(joint, edge, child, parent))
 
     def _anchors(self, joint: Joint, edge: Edge, child: int, parent: int) -> dict[str, object]:
@@ -202,49 +212,25 @@ class _Articulation:
             "parentAnchorRotation": quaternion4(quaternion_from_matrix(outer.rotation)),
         }
 
-    def _moving(self, joint: Joint) -> dict[str, object]:
-        """What the link may do.  Raises NotArticulated."""
-        if math.isfinite(joint.breakForce) or math.isfinite(joint.breakTorque):
-            raise NotArticulated("it can break")
-        friction = {"jointFriction": self._friction(joint)}
-        if isinstance(joint, FixedJoint):
-            return {"jointType": "Fixed"}
-        if isinstance(joint, HingeJoint):
-            lock = "Limited" if joint.useLimits else "Free"
-            return {"jointType": "Revolute", "twistLock": lock, "xDrive": _hinge_drive(joint), **friction}
-        assert isinstance(joint, ConfigurableJoint)
-        linear = (joint.xMotion, joint.yMotion, joint.zMotion)
-        angular = (joint.angularXMotion, joint.angularYMotion, joint.angularZMotion)
-        if linear == angular == ("Locked",) * 3:
-            return {"jointType": "Fixed"}
-        if angular == ("Locked",) * 3 and linear[1:] == ("Locked",) * 2:
-            drive = self._slide_drive(joint)
-            return {"jointType": "Prismatic", "linearLock": linear[0], "xDrive": drive, **friction}
-        if linear == ("Locked",) * 3:
-            return {**_turning(joint, angular), **friction}
-        raise NotArticulated("an articulation has revolute, prismatic, spherical and fixed joints only")
-
-    def _friction(self, joint: Joint) -> float:
+    def _tell_friction(self, joint: Joint) -> float:
+        """The link's coefficient.  What was told as lost, as Unity's joints have no friction, is not."""
         stated = self.joints.get(joint.id)
         passive = [f.passive.friction for f in stated.freedoms if f.passive is not None] if stated else []
-        return max(passive, default=0.0)
+        most = max(passive, default=0.0)
+        if stated is not None and most > 0.0:
+            feature = f"joint {joint.id}"
+            self.report.withdraw(feature, "JOINT_FRICTION_DROPPED")
+            told = {"joint": joint.id, "value": f"{most:g}"}
+            self.report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)
+        return most
 
-    def _slide_drive(self, joint: ConfigurableJoint) -> ArticulationDrive:
-        """Counted from the exported pose: the component counts from where its anchors meet."""
-        own = next(i for i, o in enumerate(self.objects) if any(c is joint for c in o.components))
-        other = self.poses[self._other((own, self._place(own, joint)))]
+    def _start(self, edge: Edge) -> float:
+        """How far a slide stands out at the exported pose, where its anchors meet being zero."""
+        own, joint = edge[0], self._joint(edge)
+        assert isinstance(joint, AnchoredJoint)
+        other = self.poses[self._other(edge)]
         apart = self.poses[own].point(np.array(joint.anchor)) - other.point(np.array(joint.connectedAnchor))
-        start = float(apart @ (self.poses[own].rotation @ np.array(joint.axis)))
-        sense = 1.0 if joint.swapBodies else -1.0
-        reach = joint.linearLimit.limit if joint.xMotion == "Limited" else 0.0
-        limits = (-reach - start, reach - start) if joint.xMotion == "Limited" else (0.0, 0.0)
-        driven = _driven(
-            joint.xDrive, sense * joint.targetPosition[0] - start, sense * joint.targetVelocity[0]
-        )
-        return replace(driven, lowerLimit=limits[0], upperLimit=limits[1])
-
-    def _place(self, own: int, joint: Joint) -> int:
-        return next(k for k, c in enumerate(self.objects[own].components) if c is joint)
+        return float(apart @ (self.poses[own].rotation @ np.array(joint.axis)))
 
     def _replace(self, index: int, components: list[Component], link: ArticulationBody) -> None:
         kept = [link if isinstance(c, Rigidbody) else c for c in components]
@@ -303,49 +289,3 @@ def _across(axis: Vector3) -> Vector3:
     smallest = min(range(3), key=lambda i: abs(axis[i]))
     x, y, z = (float(v) for v in np.cross(axis, np.eye(3)[smallest]))
     return (x, y, z)
-
-
-def _hinge_drive(joint: HingeJoint) -> ArticulationDrive:
-    limits = (joint.limits.min, joint.limits.max) if joint.useLimits else (0.0, 0.0)
-    if joint.useMotor:
-        motor = joint.motor
-        return ArticulationDrive(*limits, 0.0, MOTOR_DAMPING, motor.force, 0.0, motor.targetVelocity)
-    if joint.useSpring:
-        spring = joint.spring
-        return ArticulationDrive(*limits, spring.spring, spring.damper, target=spring.targetPosition)
-    return ArticulationDrive(*limits)
-
-
-def _driven(drive: JointDrive, target: float, velocity: float) -> ArticulationDrive:
-    gains = (drive.positionSpring, drive.positionDamper, drive.maximumForce)
-    return ArticulationDrive(0.0, 0.0, *gains, target if drive.positionSpring else 0.0, velocity)
-
-
-def _turning(joint: ConfigurableJoint, angular: tuple[str, str, str]) -> dict[str, object]:
-    """A ConfigurableJoint limits and drives the connected body's twist, unless the bodies are swapped; a link turns itself."""
-    sense = 1.0 if joint.swapBodies else -1.0
-    low, high = sorted((sense * joint.lowAngularXLimit.limit, sense * joint.highAngularXLimit.limit))
-    slerp = joint.rotationDriveMode == "Slerp"
-    x, y, z, w = joint.targetRotation
-    about_x = not (slerp or y or z or joint.targetAngularVelocity[1] or joint.targetAngularVelocity[2])
-    if not about_x and (joint.targetRotation != (0.0, 0.0, 0.0, 1.0) or any(joint.targetAngularVelocity)):
-        raise NotArticulated("its drive turns about several axes to a target")
-    target = sense * math.degrees(2.0 * math.atan2(x, w))
-    velocity = -sense * math.degrees(joint.targetAngularVelocity[0])
-    twist = _driven(joint.slerpDrive if slerp else joint.angularXDrive, target, velocity)
-    found: dict[str, object] = {
-        "twistLock": angular[0],
-        "xDrive": replace(twist, lowerLimit=low, upperLimit=high),
-    }
-    if angular[1:] == ("Locked", "Locked"):
-        return {"jointType": "Revolute", **found}
-    swing = _driven(joint.slerpDrive if slerp else joint.angularYZDrive, 0.0, 0.0)
-    reach_y, reach_z = joint.angularYLimit.limit, joint.angularZLimit.limit
-    return {
-        "jointType": "Spherical",
-        **found,
-        "swingYLock": angular[1],
-        "swingZLock": angular[2],
-        "yDrive": replace(swing, lowerLimit=-reach_y, upperLimit=reach_y),
-        "zDrive": replace(swing, lowerLimit=-reach_z, upperLimit=reach_z),
-    }

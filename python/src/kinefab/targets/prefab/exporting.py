@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 
-from ...unity.scene import AnimationClip, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
+from ...unity.scene import (
+    AnimationClip,
+    ArticulationBody,
+    Component,
+    Mesh,
+    MeshFilter,
+    MeshRenderer,
+    Rigidbody,
+    UnityScene,
+)
 from ..content import Content
 from .articulation import articulated
 from .assets.clips import CLIP_ID, clip_asset
@@ -223,9 +232,15 @@ def _moved_by_forces(scene: UnityScene) -> bool:
             at: int | None = track.gameObject
             while at is not None:
                 entry = scene.gameObjects[at]
-                if any(isinstance(c, Rigidbody) and not c.isKinematic for c in entry.components):
+                if any(_is_moved(component) for component in entry.components):
                     return True
                 at = entry.parent
         return False
 
     return any(physical(clip) for clip in scene.animations)
+
+
+def _is_moved(component: Component) -> bool:
+    if isinstance(component, ArticulationBody):
+        return not component.immovable
+    return isinstance(component, Rigidbody) and not component.isKinematic

@@ -6,23 +6,26 @@ from collections.abc import Iterable
 
 from ...diagnostics import Report
 from ...unity.scene import (
+    ArticulationBody,
     BoxCollider,
     CapsuleCollider,
     Collider,
+    ConfigurableJoint,
     Coupling,
+    HingeJoint,
+    Joint,
     Physics,
     Rigidbody,
     SphereCollider,
     UnityScene,
 )
+from .links import RUNTIME
 from .options import PrefabOptions
 from .text.dialects import Pipeline
 
 TARGET = "a prefab"
 SETTINGS = {"gravity", "fixedTimestep", "solverIterations", "solverVelocityIterations"}
 """Of the project: a prefab cannot change them."""
-RUNTIME = ("maxAngularVelocity", "solverIterations", "solverVelocityIterations")
-"""Of a Rigidbody, which Unity takes from a script only."""
 
 
 def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
@@ -38,6 +41,10 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
                 report.dropped(feature, "TARGET_FIELD_DROPPED", field="group", target=TARGET)
             if isinstance(component, Rigidbody) and not component.isKinematic:
                 _tell_rigidbody(component, entry.id, options, report)
+            if isinstance(component, ArticulationBody):
+                _tell_link(component, entry.id, options, report)
+            if isinstance(component, Joint) and not options.dialect.mass_properties:
+                _tell_joint_of_2021(component, entry.id, report)
     for name in sorted(SETTINGS):
         if getattr(scene.physics, name) != getattr(Physics(), name):
             report.dropped(f"project setting {name}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
@@ -54,6 +61,37 @@ def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report:
             report.dropped(f"Rigidbody of {owner}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
     if not options.dialect.mass_properties:
         report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
+
+
+def _tell_link(link: ArticulationBody, owner: str, options: PrefabOptions, report: Report) -> None:
+    if options.dialect.mass_properties:
+        return
+    if not link.immovable:
+        report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
+    if any(drive.acceleration for drive in (link.xDrive, link.yDrive, link.zDrive)):
+        told = {"field": "useAcceleration", "target": f"{TARGET} of Unity 2021"}
+        report.dropped(f"link {owner}", "TARGET_FIELD_DROPPED", **told)
+
+
+def _tell_joint_of_2021(joint: Joint, owner: str, report: Report) -> None:
+    """What came with 2022.2."""
+    accelerated = False
+    if isinstance(joint, ConfigurableJoint):
+        drives = (
+            joint.xDrive,
+            joint.yDrive,
+            joint.zDrive,
+            joint.angularXDrive,
+            joint.angularYZDrive,
+            joint.slerpDrive,
+        )
+        accelerated = any(drive.useAcceleration for drive in drives)
+    stated = {"useAcceleration": accelerated}
+    if isinstance(joint, HingeJoint):
+        stated = {"extendedLimits": joint.extendedLimits, "useAcceleration": joint.useAcceleration}
+    for name in (name for name, value in stated.items() if value):
+        told = {"field": name, "target": f"{TARGET} of Unity 2021"}
+        report.dropped(f"joint {joint.id or owner}", "TARGET_FIELD_DROPPED", **told)
 
 
 def tell_couplings(couplings: Iterable[Coupling], report: Report) -> None:

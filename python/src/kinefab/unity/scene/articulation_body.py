@@ -8,7 +8,10 @@ from .vectors import IDENTITY, ONE, ZERO, Quaternion, Vector3
 
 @dataclass(frozen=True, slots=True)
 class ArticulationDrive:
-    """Metres or degrees, newtons or newton metres; gains for each metre or radian."""
+    """Metres or degrees, newtons or newton metres; gains for each metre or radian.
+
+    acceleration: they are per unit of inertia instead.
+    """
 
     lowerLimit: float = 0.0
     upperLimit: float = 0.0
@@ -17,6 +20,7 @@ class ArticulationDrive:
     forceLimit: float = math.inf
     target: float = 0.0
     targetVelocity: float = 0.0
+    acceleration: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,7 +60,7 @@ def articulation_fields(body: ArticulationBody, owner: int, dialect: Dialect) ->
 
 def _drive(drive: ArticulationDrive, dialect: Dialect) -> Fields:
     force = MAX_FORCE if math.isinf(drive.forceLimit) else drive.forceLimit
-    kind: Fields = {"driveType": 0} if dialect.mass_properties else {}
+    kind: Fields = {"driveType": int(drive.acceleration)} if dialect.mass_properties else {}
     return {
         "lowerLimit": round(float(drive.lowerLimit), 12),
         "upperLimit": round(float(drive.upperLimit), 12),

@@ -1,0 +1,151 @@
+"""What a joint's component lets a link do, as an ArticulationBody says it, and what that has no field for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+from ...diagnostics import Report
+from ...unity.scene import (
+    ArticulationDrive,
+    ConfigurableJoint,
+    FixedJoint,
+    HingeJoint,
+    Joint,
+    JointDrive,
+    Rigidbody,
+)
+
+ARTICULATION = "an articulation"
+MOTOR_DAMPING = 1e7
+"""N m s/rad of the drive that stands for a motor: its force is then the motor's largest."""
+RUNTIME = ("maxAngularVelocity", "solverIterations", "solverVelocityIterations")
+"""Of a body, which Unity takes from a script only."""
+
+
+class NotArticulated(Exception):
+    """Why a joint cannot be one of an articulation."""
+
+
+def link_motion(joint: Joint, start: float) -> dict[str, Any]:
+    """Fields of the link.  start: metres by which a slide stands out at the exported pose.  Raises NotArticulated."""
+    if math.isfinite(joint.breakForce) or math.isfinite(joint.breakTorque):
+        raise NotArticulated("it can break")
+    if isinstance(joint, FixedJoint):
+        return {"jointType": "Fixed"}
+    if isinstance(joint, HingeJoint):
+        lock = "Limited" if joint.useLimits else "Free"
+        return {"jointType": "Revolute", "twistLock": lock, "xDrive": _hinge_drive(joint)}
+    assert isinstance(joint, ConfigurableJoint)
+    linear = (joint.xMotion, joint.yMotion, joint.zMotion)
+    angular = (joint.angularXMotion, joint.angularYMotion, joint.angularZMotion)
+    if linear == angular == ("Locked",) * 3:
+        return {"jointType": "Fixed"}
+    if angular == ("Locked",) * 3 and linear[1:] == ("Locked",) * 2:
+        drive = _slide_drive(joint, start)
+        return {"jointType": "Prismatic", "linearLock": linear[0], "xDrive": drive}
+    if linear == ("Locked",) * 3:
+        return _turning(joint, angular)
+    raise NotArticulated("an articulation has revolute, prismatic, spherical and fixed joints only")
+
+
+def _slide_drive(joint: ConfigurableJoint, start: float) -> ArticulationDrive:
+    """Counted from the exported pose: the component counts from where its anchors meet."""
+    sense = 1.0 if joint.swapBodies else -1.0
+    reach = joint.linearLimit.limit if joint.xMotion == "Limited" else 0.0
+    limits = (-reach - start, reach - start) if joint.xMotion == "Limited" else (0.0, 0.0)
+    driven = _driven(joint.xDrive, sense * joint.targetPosition[0] - start, sense * joint.targetVelocity[0])
+    return replace(driven, lowerLimit=limits[0], upperLimit=limits[1])
+
+
+def _hinge_drive(joint: HingeJoint) -> ArticulationDrive:
+    limits = (joint.limits.min, joint.limits.max) if joint.useLimits else (0.0, 0.0)
+    if joint.useMotor:
+        motor = joint.motor
+        return ArticulationDrive(*limits, 0.0, MOTOR_DAMPING, motor.force, 0.0, motor.targetVelocity)
+    if joint.useSpring:
+        spring = joint.spring
+        return ArticulationDrive(
+            *limits,
+            spring.spring,
+            spring.damper,
+            target=spring.targetPosition,
+            acceleration=joint.useAcceleration,
+        )
+    return ArticulationDrive(*limits)
+
+
+def _driven(drive: JointDrive, target: float, velocity: float) -> ArticulationDrive:
+    gains = (drive.positionSpring, drive.positionDamper, drive.maximumForce)
+    return ArticulationDrive(
+        0.0, 0.0, *gains, target if drive.positionSpring else 0.0, velocity, drive.useAcceleration
+    )
+
+
+def _turning(joint: ConfigurableJoint, angular: tuple[str, str, str]) -> dict[str, Any]:
+    """A ConfigurableJoint limits and drives the connected body's twist, unless the bodies are swapped; a link turns itself."""
+    sense = 1.0 if joint.swapBodies else -1.0
+    low, high = sorted((sense * joint.lowAngularXLimit.limit, sense * joint.highAngularXLimit.limit))
+    slerp = joint.rotationDriveMode == "Slerp"
+    x, y, z, w = joint.targetRotation
+    about_x = not (slerp or y or z or joint.targetAngularVelocity[1] or joint.targetAngularVelocity[2])
+    if not about_x and (joint.targetRotation != (0.0, 0.0, 0.0, 1.0) or any(joint.targetAngularVelocity)):
+        raise NotArticulated("its drive turns about several axes to a target")
+    target = sense * math.degrees(2.0 * math.atan2(x, w))
+    velocity = -sense * math.degrees(joint.targetAngularVelocity[0])
+    twist = _driven(joint.slerpDrive if slerp else joint.angularXDrive, target, velocity)
+    found: dict[str, Any] = {
+        "twistLock": angular[0],
+        "xDrive": replace(twist, lowerLimit=low, upperLimit=high),
+    }
+    if angular[1:] == ("Locked", "Locked"):
+        return {"jointType": "Revolute", **found}
+    swing = _driven(joint.slerpDrive if slerp else joint.angularYZDrive, 0.0, 0.0)
+    reach_y, reach_z = joint.angularYLimit.limit, joint.angularZLimit.limit
+    return {
+        "jointType": "Spherical",
+        **found,
+        "swingYLock": angular[1],
+        "swingZLock": angular[2],
+        "yDrive": replace(swing, lowerLimit=-reach_y, upperLimit=reach_y),
+        "zDrive": replace(swing, lowerLimit=-reach_z, upperLimit=reach_z),
+    }
+
+
+def tell_link_losses(joint: Joint, body: Rigidbody, owner: str, report: Report) -> None:
+    """joint: above the link that stands for ``body``.  owner: id of its object."""
+    feature = f"joint {joint.id or owner}"
+    for field in _without_a_field(joint):
+        report.dropped(feature, "TARGET_FIELD_DROPPED", field=field, target=ARTICULATION)
+    for name in RUNTIME:
+        if getattr(body, name) is not None:
+            report.dropped(f"Rigidbody of {owner}", "TARGET_FIELD_DROPPED", field=name, target=ARTICULATION)
+    if not isinstance(joint, ConfigurableJoint) or joint.rotationDriveMode != "Slerp":
+        return
+    if joint.slerpDrive != JointDrive():
+        detail = "its drive about all three rotations became one about each"
+        report.approximated(feature, "TARGET_FEATURE_APPROXIMATED", target=ARTICULATION, detail=detail)
+
+
+def _without_a_field(joint: Joint) -> list[str]:
+    found = ["enableCollision"] if joint.enableCollision else []
+    if isinstance(joint, HingeJoint):
+        if joint.useLimits and joint.limits.bounciness:
+            found.append("the limit's bounciness")
+        if joint.useMotor and joint.motor.freeSpin:
+            found.append("the motor's freeSpin")
+    if not isinstance(joint, ConfigurableJoint):
+        return found
+    twist, swing = joint.angularXLimitSpring, joint.angularYZLimitSpring
+    low, high = joint.lowAngularXLimit, joint.highAngularXLimit
+    for motions, spring, limits in (
+        ((joint.xMotion, joint.yMotion, joint.zMotion), joint.linearLimitSpring, (joint.linearLimit,)),
+        ((joint.angularXMotion,), twist, (low, high)),
+        ((joint.angularYMotion, joint.angularZMotion), swing, (joint.angularYLimit, joint.angularZLimit)),
+    ):
+        if "Limited" in motions and (spring.spring or spring.damper):
+            found.append("the limit's spring")
+        if "Limited" in motions and any(limit.bounciness for limit in limits):
+            found.append("the limit's bounciness")
+    return found

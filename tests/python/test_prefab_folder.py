@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tarfile
 import time
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import kinefab
 import pytest
 import trimesh
 from kinefab.targets.prefab.manifest import MANIFEST
+from prefab_reader import read_prefab
 
 
 def box_scene(*names: str, size: float = 0.1) -> kinefab.Scene:
@@ -126,6 +128,7 @@ def test_a_failure_on_the_way_leaves_the_old_set(tmp_path, monkeypatch):
 
 WRITER = """
 import sys
+import tarfile
 sys.path.insert(0, {tests!r})
 import kinefab, test_prefab_folder
 print("ready", flush=True)
@@ -156,3 +159,53 @@ def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suff
         assert there in (old, new)
     kinefab.export(box_scene("Base"), target)
     assert files(tmp_path) == old and hidden(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    "name", ["", ".hidden", "Robot~", "cvs", "CVS", "old.tmp", "Editor", "StreamingAssets"]
+)
+def test_a_folder_that_unity_does_not_import_is_refused(tmp_path, name):
+    """The prefab's meshes would be missing without a word; a package names its prefab itself."""
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(box_scene("Base"), tmp_path / f"{name}.prefab")
+    assert [d.code for d in caught.value.diagnostics] == ["TARGET_UNWRITABLE"]
+    assert list(tmp_path.iterdir()) == []
+    kinefab.export(box_scene("Base"), tmp_path / f"{name}.unitypackage")
+    with tarfile.open(tmp_path / f"{name}.unitypackage") as packed:
+        paths = [packed.extractfile(m).read().decode() for m in packed if m.name.endswith("/pathname")]
+    parts = {part.casefold() for path in paths for part in path.split("/")}
+    assert not parts & {"cvs", "editor", "streamingassets", ""}
+    assert not any(part.startswith(".") or part.endswith(("~", ".tmp")) for part in parts)
+
+
+@pytest.mark.parametrize("name", ["Mein Röbot v1.2", "日本語", "Q#[x]", " lead", "x" * 200])
+def test_a_name_with_blanks_dots_or_letters_of_any_script(tmp_path, name):
+    target = tmp_path / f"{name}.prefab"
+    first = files(kinefab.export(box_scene("Base", "Arm"), target).path.parent)
+    read_prefab(target)
+    kinefab.export(box_scene("Base"), target)
+    assert set(files(tmp_path)) < set(first) and hidden(tmp_path) == []
+
+
+@pytest.mark.posix
+def test_two_prefabs_in_one_folder_leave_each_other_alone(tmp_path):
+    kinefab.export(box_scene("Base", "Arm"), tmp_path / "A.prefab")
+    before = files(tmp_path)
+    kinefab.export(box_scene("Base", "Hand", "Tool"), tmp_path / "B.prefab")
+    assert {n: d for n, d in files(tmp_path).items() if n in before} == before
+    kinefab.export(box_scene("Wheel"), tmp_path / "A.prefab")
+    read_prefab(tmp_path / "B.prefab"), read_prefab(tmp_path / "A.prefab")
+
+
+def test_what_a_yaml_parser_takes_for_a_word_of_its_own_is_quoted(tmp_path):
+    yaml = pytest.importorskip("yaml", reason="PyYAML is not installed")
+    names = ["=", "<<", "- [a]: {b} #c", "@x", "it's", "\ufeffbom", "a\u2028b", "%", "!tag", "&a", "? x"]
+    kinefab.export(box_scene(*names), tmp_path / "Robot.prefab")
+    text = (tmp_path / "Robot.prefab").read_text("utf-8").replace("%TAG !u! tag:unity3d.com,2011:\n", "")
+    lines = ["---" if line.startswith("--- ") else line for line in text.splitlines()]
+    found = {
+        entry["GameObject"]["m_Name"]
+        for entry in yaml.safe_load_all("\n".join(lines) + "\n")
+        if "GameObject" in entry
+    }
+    assert {n.replace("\u2028", "_") for n in names} <= found

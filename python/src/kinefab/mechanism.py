@@ -36,7 +36,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
     report = Report()
     if isinstance(source, Scene):
         scene = source
-    elif Path(source).suffix == ".kinefab":
+    elif Path(source).suffix.lower() == ".kinefab":
         scene = restored(read_scene_file(Path(source))).scene
     else:
         from .sources import read

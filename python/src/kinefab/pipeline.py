@@ -57,7 +57,7 @@ class Analysed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ExportResult:
-    """path: the file that was named.  files: everything that was written, that one first.
+    """path: the file that was named, its ending as the target writes it.  files: everything that was written, that one first.
     report: every finding, and what became of each feature.
 
     >>> import kinefab, trimesh
@@ -208,7 +208,7 @@ def export(
     except KinefabError as error:
         error.report = report
         raise
-    return ExportResult(path, files, found, content, report)
+    return ExportResult(files[0], files, found, content, report)
 
 
 def _read(

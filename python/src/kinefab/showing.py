@@ -101,7 +101,7 @@ def _with_mates(
 
 def is_written(source: str | Path) -> bool:
     """Whether it is a scene file, and no source."""
-    return Path(source).suffix == ".kinefab"
+    return Path(source).suffix.lower() == ".kinefab"
 
 
 def read_document(

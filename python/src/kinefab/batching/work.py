@@ -120,7 +120,7 @@ def _refused(job: Job, report: Report, start: float) -> Record:
 def _thumbnail(job: Job, result: ExportResult, folder: Path) -> str:
     """A picture of the scene beside the records; "" where it cannot be drawn."""
     drawn = result.path
-    if not result.path.name.endswith(".kinefab"):
+    if not result.path.name.lower().endswith(".kinefab"):
         drawn = folder / "thumbnail.kinefab"
         kind = target_of(drawn)
         assert kind is not None

@@ -20,7 +20,7 @@ verbosity = 0
 
 def demand_ending(output: Path, *endings: str) -> None:
     """A file of another name would not be found by the program that reads it (Unity imports by ending)."""
-    if not output.name.endswith(endings):
+    if not output.name.lower().endswith(endings):
         raise typer.BadParameter(f"{output} does not end in {' or '.join(endings)}", param_hint="--output")
 
 

@@ -33,14 +33,14 @@ def draw(
     """Draw a scene: its bodies, its joints and how far they move."""
     demand_ending(output, ".svg", ".png", ".gif", ".webp")
     try:
-        if output.suffix == ".svg" and not motion and file.suffix == ".kinefab":
+        if output.suffix.lower() == ".svg" and not motion and file.suffix.lower() == ".kinefab":
             from ..views.overview import picture
 
             content = picture(file).encode("utf-8")
         else:
             from ..filming import film
 
-            content = film(file, output.suffix, joint, _options(file, reading))
+            content = film(file, output.suffix.lower(), joint, _options(file, reading))
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:
@@ -103,7 +103,7 @@ def report(
 
 def _options(source: Path, reading: dict[str, Any], *of_scenes: str) -> ExportOptions:
     """What a source is exported with to be looked at.  of_scenes: reading options that mean something for a written scene too."""
-    if source.suffix == ".kinefab":
+    if source.suffix.lower() == ".kinefab":
         for name in reading.keys() - set(of_scenes):
             hint = f"--{name.replace('_', '-')}"
             raise typer.BadParameter(f"{source} is exported already; it is for its source", param_hint=hint)

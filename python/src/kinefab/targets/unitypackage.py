@@ -16,7 +16,7 @@ from ..replacing import one_at_a_time, remove_leftovers, replacing
 from .content import Content
 from .prefab.exporting import prefab_files
 from .prefab.files import AssetFile
-from .prefab.names import file_name
+from .prefab.names import UNSEEN, file_name
 from .prefab.options import PrefabOptions
 from .prefab.text.ids import guid
 from .prefab.text.metas import folder_meta
@@ -36,7 +36,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if any("\ud800" <= character <= "\udfff" for character in target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([content.report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    files = prefab_files(content, file_name(target.name[: -len(ENDING)]), options, "Scripts")
+    files = prefab_files(content, _plain(target.name[: -len(ENDING)]), options, "Scripts")
     content.refuse_losses()
     home = guid("project folder", HOME)
     entries = [AssetFile("", home, folder_meta(home)), *files]
@@ -49,6 +49,12 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
                     _add(tar, file)
                     content.progress((i + 1) / len(entries))
     return (target,)
+
+
+def _plain(name: str) -> str:
+    """The prefab's name in the project: one that every system holds and Unity imports."""
+    plain = file_name(name)
+    return f"_{plain}_" if UNSEEN.fullmatch(plain) else plain
 
 
 def _add(tar: tarfile.TarFile, file: AssetFile) -> None:

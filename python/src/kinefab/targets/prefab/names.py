@@ -12,6 +12,8 @@ MOST_BYTES = 120
 """Of a file's name, so that ending, ``.meta`` and a temporary name's ornaments stay below the 255 of file systems."""
 RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that Windows keeps for devices, whatever follows the dot."""
+UNSEEN = re.compile(r"(\..*|.*~|cvs|.*\.tmp|editor|streamingassets)?", re.IGNORECASE)
+"""Folders whose assets Unity leaves alone, or out of what it builds; and no name at all."""
 _DIGITS = 6
 
 

@@ -21,11 +21,12 @@ from ....model import (
     Joint,
     JointKind,
     Motion,
+    SphericalDrive,
     freedoms_of,
     kind_of,
     unlocked_of,
 )
-from ....spatial import Array, Pose, rotation_about
+from ....spatial import Array, Pose, rotation_about, rotation_exp
 from ..api import Sdf, UsdPhysics
 from ..stage import OpenStage
 from ..transforms import Stand, local_of, placed, rotation_of
@@ -40,6 +41,8 @@ HALF_TURN = np.diag([-1.0, 1.0, -1.0])
 GROUND = -1
 ROUNDED = 1e-6
 """Share of a length, and radians, that the 32-bit numbers of frames and poses may be apart by."""
+TURNED = 1e-5
+"""Radians, and radians a second, that 32 bits of a drive's target may differ from the same in 64."""
 COUPLINGS = ("PhysxPhysicsGearJoint", "PhysxPhysicsRackAndPinionJoint")
 
 
@@ -118,6 +121,7 @@ class Joints:
         first = replace(first, axes=first.axes[:, order])
         second = replace(second, axes=second.axes[:, order])
         freedoms, first = _held(freedoms, first, self._opened.frame.length)
+        freedoms, slerp = self._slerp(prim, freedoms) if second.node != GROUND else (freedoms, None)
         if second.node == GROUND:
             freedoms, first, second = self._swapped(prim, freedoms, first, second)
         kind = kind_of(unlocked_of(freedoms))
@@ -140,8 +144,27 @@ class Joints:
             break_force=breaks[0], break_torque=breaks[1],
             enabled=self._values.flag(prim, "physics:jointEnabled", True),
             collide=self._values.flag(prim, "physics:collisionEnabled", False),
-            where=where, extras=extras,
+            slerp=slerp, where=where, extras=extras,
         )  # fmt: skip
+
+    def _slerp(
+        self, prim: Any, freedoms: tuple[Freedom, ...]
+    ) -> tuple[tuple[Freedom, ...], SphericalDrive | None]:
+        """The one drive about all three rotations that Kinefab wrote as three, where those are still what it wrote."""
+        turn = self._values.array(prim, "kinefab:slerp:target")
+        spin = self._values.array(prim, "kinefab:slerp:targetVelocity")
+        drives = [f.drive for f in freedoms[RX:] if f.drive is not None]
+        if turn is None or spin is None or len(turn) != 3 or len(spin) != 3 or len(drives) != 3:
+            return freedoms, None
+        targets = np.array([[d.target, d.target_velocity] for d in drives])
+        gains = {(d.stiffness, d.damping, d.max_force, d.acceleration, d.motor) for d in drives}
+        if len(gains) > 1 or not np.abs(targets - np.column_stack([turn, spin])).max() <= TURNED:
+            return freedoms, None
+        first = drives[0]
+        slerp = SphericalDrive(
+            rotation_exp(turn), spin, first.stiffness, first.damping, first.max_force, first.acceleration
+        )
+        return (*freedoms[:RX], *(replace(f, drive=None) for f in freedoms[RX:])), slerp
 
     def _side(self, prim: Any, number: int) -> Side | None:
         """None, and the joint is lost, where what it names is not there."""

@@ -31,7 +31,13 @@ def passive_of(
 
     axis = f"physxJointAxis:{instance}:"
     armature = first("newton:armature", axis + "armature", "physxJoint:armature", "mjc:armature")
-    friction = first("newton:friction", "physxJoint:jointFriction", "mjc:frictionloss")
+    friction = first(
+        "newton:friction",
+        axis + "dynamicFrictionEffort",
+        axis + "staticFrictionEffort",
+        "physxJoint:jointFriction",
+        "mjc:frictionloss",
+    )
     damping = first("newton:damping", "mjc:damping")
     speed = first(
         "newton:velocityLimit",

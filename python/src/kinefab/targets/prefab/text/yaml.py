@@ -93,7 +93,7 @@ def text(value: str) -> str:
         return '"' + "".join(map(_escaped, value)) + '"'
     starts = value[0] in "#,[]{}&*!|>'\"%@`" or (value[0] in "-?:" and (len(value) == 1 or value[1] == " "))
     inside = ": " in value or " #" in value or value.endswith(":") or value.startswith(("---", "..."))
-    if starts or inside or value != value.strip():
+    if starts or inside or value in ("=", "<<") or value != value.strip():
         return "'" + value.replace("'", "''") + "'"
     return value
 

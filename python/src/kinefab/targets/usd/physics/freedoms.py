@@ -6,7 +6,7 @@ USD counts angles in degrees and angular gains per degree; everything else is SI
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ....model import RX, Drive, Freedom, Motion, Passive
 from ..prims import Prim
@@ -72,8 +72,12 @@ def write_drive(prim: Prim, instance: str, drive: Drive, turns: bool) -> None:
         prim.numbers({f"{prefix}maxForce": drive.max_force})
 
 
-def write_passive(prim: Prim, passive: Passive, turns: bool, instance: str) -> None:
-    """Friction, inertia and bounds of whatever drives a joint of one freedom, as Newton's and PhysX's schemas have them."""
+def write_passive(prim: Prim, passive: Passive, turns: bool, instance: str, typed: bool) -> None:
+    """Friction, inertia and bounds of whatever drives a freedom, as Newton's and PhysX's schemas have them.
+
+    typed: it is the joint's only freedom, of which Newton speaks.  PhysX speaks of each axis, and takes what it says in
+    articulations only.
+    """
     newton = {
         "armature": passive.armature,
         "friction": passive.friction,
@@ -82,15 +86,25 @@ def write_passive(prim: Prim, passive: Passive, turns: bool, instance: str) -> N
         "velocityLimit": coordinate(passive.speed, turns),
     }
     told = {name: value for name, value in newton.items() if value and math.isfinite(value)}
-    if told:
+    if told and typed:
         prim.apply("NewtonJointAPI")
         prim.numbers({f"newton:{name}": value for name, value in told.items()})
-    physx = {"armature": newton["armature"], "maxJointVelocity": newton["velocityLimit"]}
-    physx = {name: value for name, value in physx.items() if name in told or name == "maxJointVelocity"}
-    physx = {name: value for name, value in physx.items() if value and math.isfinite(value)}
-    if physx:
-        prim.apply("PhysxJointAPI")
-        prim.numbers({f"physxJoint:{name}": value for name, value in physx.items()})
+    physx = {"armature": passive.armature, "maxJointVelocity": newton["velocityLimit"]}
+    effort = {f"{kind}FrictionEffort": passive.friction for kind in ("static", "dynamic")}
+    if typed:  # older releases know the joint's own alone
+        _write_stated(prim, "PhysxJointAPI", "physxJoint", physx)
+        _write_stated(prim, f"PhysxJointAxisAPI:{instance}", f"physxJointAxis:{instance}", effort)
+    else:
+        _write_stated(
+            prim, f"PhysxJointAxisAPI:{instance}", f"physxJointAxis:{instance}", {**physx, **effort}
+        )
+
+
+def _write_stated(prim: Prim, schema: str, prefix: str, values: Mapping[str, float]) -> None:
+    stated = {f"{prefix}:{name}": value for name, value in values.items() if value and math.isfinite(value)}
+    if stated:
+        prim.apply(schema)
+        prim.numbers(stated)
 
 
 def write_state(prim: Prim, instance: str, value: float, turns: bool) -> None:

@@ -139,12 +139,10 @@ class Joints:
             write_state(prim, DOFS[i], values[i], i >= RX)
             if freedom.drive is not None and joint.slerp is None:
                 write_drive(prim, DOFS[i], freedom.drive, i >= RX)
-            if passives.get(shape.name_of[i]):
-                self.report.dropped(
-                    f"joint {joint.id}", "TARGET_FIELD_DROPPED", joint.where,
-                    field=f"friction, armature and bounds of {joint.freedom_name(shape.name_of[i])}",
-                    target=self.ending,
-                )  # fmt: skip
+            passive = passives.get(shape.name_of[i])
+            if passive is not None:
+                write_passive(prim, passive, i >= RX, DOFS[i], typed=False)
+                self._tell_passive(joint, shape, i, passive)
         if joint.slerp is not None:
             order = [i - RX for i in shape.name_of[RX:]]
             turn, spin = rotation_log(joint.slerp.target)[order], joint.slerp.target_velocity[order]
@@ -155,9 +153,29 @@ class Joints:
                         float(turn[k]), float(spin[k]), given.stiffness, given.damping, given.max_force, given.acceleration
                     )  # fmt: skip
                     write_drive(prim, DOFS[i], one, True)
+            # No schema has such a drive: what it was stands beside, for as long as the three are its.
+            prim.attribute("kinefab:slerp:target", "Double3", vector3d(turn), custom=True)
+            prim.attribute("kinefab:slerp:targetVelocity", "Double3", vector3d(spin), custom=True)
             self.report.approximated(
                 f"joint {joint.id}", "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
                 detail="its drive about all three rotations became one about each",
+            )  # fmt: skip
+
+    def _tell_passive(self, joint: Joint, shape: CanonicalJoint, freedom: int, passive: Passive) -> None:
+        """What engines take of it: turns within articulations, which have no joint that slides too."""
+        name = joint.freedom_name(shape.name_of[freedom])
+        if math.isfinite(passive.effort):
+            self.report.dropped(
+                f"joint {joint.id}", "TARGET_FIELD_DROPPED", joint.where,
+                field=f"the largest effort of {name}", target=self.ending,
+            )  # fmt: skip
+        if (
+            any(i < RX for i in unlocked_of(shape.freedoms))
+            and replace(passive, effort=math.inf) != Passive()
+        ):
+            self.report.approximated(
+                f"joint {joint.id}", "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
+                detail=f"friction, armature and greatest speed of {name} stand there, which no engine takes of a joint that slides and turns",
             )  # fmt: skip
 
     def _standing(self, joint: Joint, shape: CanonicalJoint) -> list[float]:
@@ -205,7 +223,7 @@ def _write_typed(prim: Prim, freedom: Freedom, passive: Passive | None, main: in
     if freedom.drive is not None:
         write_drive(prim, instance, freedom.drive, turns)
     if passive is not None:
-        write_passive(prim, passive, turns, instance)
+        write_passive(prim, passive, turns, instance, typed=True)
 
 
 def _write_cone(prim: Prim, shape: CanonicalJoint) -> None:

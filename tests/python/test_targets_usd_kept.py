@@ -1,0 +1,120 @@
+"""What UsdPhysics itself has no word for stands beside it: read back it is what it was, and an engine's own words tell the rest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+import trimesh
+from kinefab.diagnostics import Report
+from kinefab.model import RX, RY, RZ, TX, Freedom, Joint, Motion, Passive, Scene, SphericalDrive
+from kinefab.sources import read
+from kinefab.spatial import rotation_exp
+
+pytest.importorskip("pxr", reason="usd-core is not installed")
+from pxr import Usd
+
+BOX = trimesh.creation.box((0.1, 0.2, 0.3))
+TURN = np.array([0.3, -0.2, 0.5])
+
+
+def pair(kind: str, **freedoms: Freedom) -> Scene:
+    """Two parts off every axis, and a joint between them."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", BOX, grounded=True)
+    arm = scene.add_part("Arm", BOX, translation=(0.3, 0.1, 0.2))
+    scene.add_joint(kind, base, arm, point=(0.15, 0.1, 0.1), axis=(1, 2, 3), name="Joint")
+    joint = scene.joints[0]
+    given = list(joint.freedoms)
+    for name, freedom in freedoms.items():
+        given[("tx", "ty", "tz", "rx", "ry", "rz").index(name)] = freedom
+    scene.joints[0] = replace(joint, freedoms=tuple(given))
+    return scene
+
+
+def written(scene: Scene, folder: Path) -> tuple[Path, list[tuple[str, str]]]:
+    result = kinefab.export(scene, folder / "Pair.usda")
+    return result.path, [(o.feature, o.code) for o in result.report.outcomes if o.outcome.value != "kept"]
+
+
+def back(path: Path) -> Joint:
+    report = Report()
+    (joint,) = [j for j in read(path, report).joints if j.name == "Joint"]
+    report.raise_for_errors()
+    return joint
+
+
+def turning(**passive: float) -> Freedom:
+    return Freedom(Motion.LIMITED, math.radians(-10), math.radians(80), passive=Passive(**passive))
+
+
+def test_friction_armature_and_speed_of_a_joint_of_two_turns(tmp_path):
+    x, z = turning(friction=0.75, armature=0.02), turning(friction=0.5, speed=3.0)
+    path, lost = written(pair("universal", rx=x, rz=z), tmp_path)
+    assert lost == []
+    found = sorted((f.passive for f in back(path).freedoms if f.passive), key=lambda p: p.friction)
+    assert [p.friction for p in found] == pytest.approx([0.5, 0.75])
+    assert [p.armature for p in found] == pytest.approx([0.0, 0.02])
+    assert [p.speed for p in found] == pytest.approx([3.0, math.inf])
+
+
+def test_of_a_joint_that_slides_too_they_stand_there_and_engines_take_none(tmp_path):
+    slide = Freedom(Motion.LIMITED, -0.02, 0.1, passive=Passive(friction=12.0))
+    path, lost = written(pair("cylindrical", tx=slide, rx=turning(friction=0.5, effort=9.0)), tmp_path)
+    assert sorted(lost) == [
+        ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
+        ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
+        ("joint Joint", "TARGET_FIELD_DROPPED"),  # the largest effort
+    ]
+    freedoms = back(path).freedoms
+    assert freedoms[TX].passive.friction == 12.0 and freedoms[RX].passive.friction == 0.5
+
+
+def test_a_hinge_says_its_friction_to_physx_too(tmp_path):
+    path, _ = written(pair("revolute", rx=turning(friction=0.75)), tmp_path)
+    stage = Usd.Stage.Open(str(path))
+    (prim,) = [p for p in stage.Traverse() if p.GetName() == "Joint"]
+    names = [f"physxJointAxis:angular:{kind}FrictionEffort" for kind in ("static", "dynamic")]
+    assert [prim.GetAttribute(name).Get() for name in (*names, "newton:friction")] == [0.75] * 3
+    assert "PhysxJointAxisAPI:angular" in prim.GetMetadata("apiSchemas").GetAddedOrExplicitItems()
+
+
+def test_one_drive_about_all_three_rotations_is_one_again(tmp_path):
+    scene = pair("spherical")
+    given = SphericalDrive(rotation_exp(TURN), np.array([0.1, 0.7, -0.4]), 9.0, 0.5, 4.0)
+    scene.joints[0] = replace(scene.joints[0], slerp=given)
+    path, lost = written(scene, tmp_path)
+    assert lost == [("joint Joint", "TARGET_FEATURE_APPROXIMATED")]
+    found = back(path)
+    assert found.slerp is not None and all(f.drive is None for f in found.freedoms)
+    original = scene.joints[0].frame_a.rotation
+    same = lambda turn, frame: frame @ turn @ frame.T  # noqa: E731
+    assert np.allclose(
+        same(found.slerp.target, found.frame_a.rotation), same(given.target, original), atol=1e-6
+    )
+    assert np.allclose(
+        found.frame_a.rotation @ found.slerp.target_velocity, original @ given.target_velocity, atol=1e-6
+    )
+    numbers = (found.slerp.stiffness, found.slerp.damping, found.slerp.max_force)
+    assert numbers == pytest.approx((9.0, 0.5, 4.0), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "name, value", [("drive:rotY:physics:stiffness", 3.0), ("drive:rotZ:physics:targetPosition", 90.0),
+                    ("kinefab:slerp:target", (math.nan, 0.0, 0.0))]
+)  # fmt: skip
+def test_drives_that_somebody_changed_are_three(tmp_path, name, value):
+    scene = pair("spherical")
+    given = SphericalDrive(rotation_exp(TURN), np.zeros(3), 9.0, 0.5)
+    scene.joints[0] = replace(scene.joints[0], slerp=given)
+    path, _ = written(scene, tmp_path)
+    stage = Usd.Stage.Open(str(path))
+    (prim,) = [p for p in stage.Traverse() if p.GetName() == "Joint"]
+    prim.GetAttribute(name).Set(value)
+    stage.Save()
+    found = back(path)
+    assert found.slerp is None and all(found.freedoms[i].drive is not None for i in (RX, RY, RZ))

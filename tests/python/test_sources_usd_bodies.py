@@ -340,3 +340,15 @@ def test_a_mesh_at_home_in_a_turned_body_is_the_bodys_own(tmp_path):
     (tmp_path / "stage.usda").write_text(stage(turned, metres=0.001))
     result = kinefab.export(tmp_path / "stage.usda", tmp_path / "stage.kinefab")
     assert [entry.id for entry in result.unity.gameObjects] == ["B"]
+
+
+@pytest.mark.parametrize("word, told", [("float", []), ("double", ["stage.usda</Lead>"])])
+def test_a_density_of_another_type_than_the_schema_has_is_taken_and_told(tmp_path, word, told):
+    """pxr's ComputeMassProperties takes 1000 kg/m^3 where a file says ``double``; the author stated 7 kg a cubic unit."""
+    lead = f'def Material "Lead" (prepend apiSchemas = ["PhysicsMaterialAPI"]) {{ {word} physics:density = 7\n}}\n'
+    ball = 'def Sphere "S" (prepend apiSchemas = ["PhysicsCollisionAPI", "MaterialBindingAPI"]) { double radius = 3; rel material:binding:physics = </Lead>\n}'
+    scene, report = scene_of(tmp_path, stage(lead + body("B", mass="", inside=ball), metres=0.01))
+    assert scene is not None
+    (mass,) = [n.mass.mass for n in scene.nodes if n.mass is not None]
+    assert mass == pytest.approx(7.0 * 4.0 / 3.0 * math.pi * 27.0)
+    assert [d.where for d in report.diagnostics if "density" in d.message] == told

@@ -177,6 +177,12 @@ class Parts:
         for name, value in found.items():
             if value < 0.0:
                 self._values.wrong(prim, f"physics:{name}", f"{value:g}")
+        stack = prim.GetAttribute("physics:density").GetPropertyStack()
+        if found["density"] > 0.0 and stack and (word := str(stack[0].typeName)) != "float":
+            self._report.approximated(
+                f"physics material {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim),
+                detail=f"its density is a {word}, which OpenUSD passes over; {found['density']:g} was taken",
+            )  # fmt: skip
         combine = [
             COMBINE.get(
                 self._values.word(prim, f"physxMaterial:{what}CombineMode", "average"), Combine.AVERAGE

@@ -69,6 +69,7 @@ WRITTEN = {
 
 BETWEEN_LED = {
     "and the world": hinge("J", "", (0, 0, 0), "K", (0, 0, 2), (0.3, 0, 2), "Y"),
+    "and the world, held": joint("PhysicsFixedJoint", "J", "point3f physics:localPos0 = (0, 0, 2)", "", "/K"),
     "and another, by a hinge": hinge("J", "K", (0, 0, 2), "L", (1, 0, 2), (0.4, 0, 2), "Y"),
     "and another, held": joint("PhysicsFixedJoint", "J", "point3f physics:localPos0 = (1, 0, 0)", "/K", "/L"),
 }
@@ -126,6 +127,26 @@ def test_a_joint_between_what_scripts_lead_is_left_out_and_told(tmp_path, case, 
     assert told.where == "stage.usda</J>"
     joints = [c for o in json.loads(result.path.read_text("utf-8"))["gameObjects"] for c in o["components"]]
     assert [c["type"] for c in joints if "Joint" in c["type"]] == ["HingeJoint"]
+
+
+@needs_tool
+def test_what_is_fixed_to_one_of_two_led_bodies_follows_that_one(tmp_path):
+    """A fixed joint between K and L holds nothing, as scripts lead each for itself; A goes where L goes."""
+    path = tmp_path / "stage.usda"
+    led = body("K", (0, 0, 2), LED) + body("L", (1, 0, 2), LED) + body("A", (1.3, 0, 2))
+    fixed = BETWEEN_LED["and another, held"]
+    held = joint("PhysicsFixedJoint", "H", "point3f physics:localPos0 = (0.3, 0, 0)", "/L", "/A")
+    path.write_text(stage(led + fixed + held), encoding="utf-8")
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    checked(result.path, 0)
+    objects = json.loads(result.path.read_text("utf-8"))["gameObjects"]
+    (bond,) = [
+        (o["name"], objects[c["connectedBody"]]["name"])
+        for o in objects
+        for c in o["components"]
+        if c["type"] == "FixedJoint"
+    ]
+    assert sorted(bond) == ["A", "L"]
 
 
 @needs_tool

@@ -68,7 +68,7 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
             unite(node.parent, i)
         if active[i] and node.grounded:
             unite(i, ground)
-    fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j)]
+    fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j) and not is_between_led(j, scene)]
     for a, b in [*fixed, *also_fixed]:
         if (a is None or active[a]) and (b is None or active[b]):
             unite(ground if a is None else a, ground if b is None else b)
@@ -89,6 +89,13 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     if (group := numbers.get(find(ground))) is not None:
         grounded[group] = True
     return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
+
+
+def is_between_led(joint: Joint, scene: Scene) -> bool:
+    """Whether scripts alone move one side, and the other too, or it stands: such a joint holds nothing, however rigid it is."""
+    sides = [scene.nodes[n] for n in (joint.a, joint.b) if n is not None]
+    led = any(node.dynamics.kinematic for node in sides)
+    return led and all(node.dynamics.kinematic or node.grounded for node in sides)
 
 
 def is_rigid(joint: Joint) -> bool:

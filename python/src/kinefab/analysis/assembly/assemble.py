@@ -9,7 +9,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Constraint, ConstraintKind, Joint, Scene
-from ...rigid import RigidGroups
+from ...rigid import RigidGroups, is_between_led
 from ...spatial import Array, BoolArray, IntArray, Pose, cross
 from ..equations.scene_equations import Equations, equations_of
 from ..equations.solve import Solver
@@ -109,7 +109,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     folded = closing.system.folded(mirrored[closing.system.owner])
     system, duplicates = without_duplicates(folded, equations, report)
     counted = system.rows
-    breakable = np.array([_can_break(s) for s in equations.statements], dtype=bool)
+    breakable = np.array([_stays_apart(s, scene) for s in equations.statements], dtype=bool)
     while True:
         body, system = _merge_rigid_pairs(body, system, breakable, mirrored, equations.length)
         edges = edges_of(system)
@@ -157,9 +157,11 @@ def _is_symmetry(statement: object) -> bool:
     return isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY
 
 
-def _can_break(statement: object) -> bool:
-    """A joint that may break keeps its two bodies apart, however rigid it is."""
-    return isinstance(statement, Joint) and min(statement.break_force, statement.break_torque) < np.inf
+def _stays_apart(statement: object, scene: Scene) -> bool:
+    """A joint that may break, or of which scripts lead both sides, keeps its two bodies apart, however rigid it is."""
+    if not isinstance(statement, Joint):
+        return False
+    return min(statement.break_force, statement.break_torque) < np.inf or is_between_led(statement, scene)
 
 
 def _merge_rigid_pairs(

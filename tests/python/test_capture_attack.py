@@ -271,3 +271,25 @@ def test_what_is_in_the_way_of_the_others(program, fault, tmp_path):
     }
     assert [d.code for d in report.diagnostics] == [expected[fault]] and report.diagnostics[0].remedy
     assert not (tmp_path / "x.bundle.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("program", "kind", "member"),
+    [
+        ("inventor", "RigidBodyGroup", "GroupID"),
+        ("inventor", "RigidBodyJoint", "JointType"),
+        ("inventor", "Document", "DisplayName"),
+        ("fusion", "Component", "name"),
+    ],
+)
+@pytest.mark.parametrize("answer", [[], [0.1], 7.5, None])
+def test_an_answer_of_another_type_is_told(program, kind, member, answer, tmp_path):
+    held = records(program)
+    first = next(entry for entry in held if entry.get("#kind") == f"{program}.{kind}")
+    if answer == 7.5 and member in ("GroupID", "JointType"):
+        return  # a number is one
+    first[member] = answer
+    source, report = tmp_path / "x.record.json", Report()
+    source.write_text(json.dumps(record(program, held)), "utf-8")
+    replay(source, tmp_path / "x.bundle.json", report, "Z")
+    assert "CAPTURE_MEMBER_FAILED" in [d.code for d in report.diagnostics]

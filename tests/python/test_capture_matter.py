@@ -206,3 +206,25 @@ def test_one_material_in_two_colours_is_two():
     assert names == ["Steel", "Steel, B", "Steel", "Steel, B"]
     assert [look(draft, "", color, "A") for color in (red, blue, red)] == ["A", "A (2)", "A"]
     assert look(draft, "", None, "A") is None
+
+
+@pytest.mark.parametrize("program", ["inventor", "fusion"])
+def test_parts_that_are_called_alike_are_two(program, tmp_path):
+    """Files of one name in two folders; components of linked designs."""
+    values = machine("mm", "Z")
+    root, first = values["components"]
+    second = {
+        **first,
+        "id": "M/Other",
+        "name": "Other",
+        "definition": "Other",
+        "mass": {**first["mass"], "mass": 4.0},
+    }
+    third = {**first, "id": "M/Third", "name": "Third"}
+    values["components"] = [root, first, second, third]
+    values["componentNames"] = {"Block": "Part1", "Other": "Part1"}
+    found = capture(program, record(program, values, True), tmp_path, "Z")
+    made = [c for c in json.loads(found.path.read_text("utf-8"))["components"] if c["kind"] == "part"]
+    assert [c["definition"] for c in made] == ["Part1", "Part1 (2)", "Part1"]
+    assert [c["mass"]["mass"] for c in made] == [2.5, 4.0, 2.5]
+    assert made[0]["file"] == made[2]["file"] != made[1]["file"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import uuid
 from typing import Any
 
 import numpy as np
@@ -109,7 +110,8 @@ class Fusion:
         patterns = {"features": self._features(part.id)} if part.assembly else {}
         return self.answers.made(
             "Component",
-            name=part.definition,
+            name=self.assembly.values.get("componentNames", {}).get(part.definition, part.definition),
+            id=str(uuid.uuid5(uuid.NAMESPACE_OID, part.definition)),
             bRepBodies=self.listed(self._bodies(part)),
             getPhysicalProperties={"2": self.mass(part)},
             **patterns,

@@ -130,7 +130,9 @@ class Inventor:
         a = self.answers
         if part.definition not in self.definitions:
             material = None if part.look is None else a.made("Asset", DisplayName=part.look["material"])
-            document = a.made("Document", DisplayName=part.definition, ActiveMaterial=material)
+            name = self.assembly.values.get("componentNames", {}).get(part.definition, part.definition)
+            path = f"C:\\Work\\{part.definition}\\{name}"
+            document = a.made("Document", DisplayName=name, FullFileName=path, ActiveMaterial=material)
             bodies = self.facets(self, part) if self.facets else []
             kinds = [BODY, *[FACE] * part.look.get("painted", 0)] if part.look else []
             overridden = a.listed([a.made("Overridden", Type=kind) for kind in kinds])

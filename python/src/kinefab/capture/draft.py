@@ -59,6 +59,7 @@ class Pattern:
 class Draft:
     """A bundle that is being captured; lengths in ``length``, angles in radians, masses in kilograms.
 
+    definitions: of each name and identity that the program has for a part, what the bundle calls it.
     owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
     may try.  meshes: of a definition, by its name.
     """
@@ -76,6 +77,7 @@ class Draft:
     couplings: list[Record] = field(default_factory=list[Record])
     constraints: list[Record] = field(default_factory=list[Record])
     dof: list[Record] = field(default_factory=list[Record])
+    definitions: dict[tuple[str, str], str] = field(default_factory=dict[tuple[str, str], str])
     owners: dict[str, str] = field(default_factory=dict[str, str])
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
     patterns: list[Pattern] = field(default_factory=list[Pattern])
@@ -107,6 +109,17 @@ class Draft:
             raise ValueError(f"there are two components {record['id']!r:.60}")
         self.parts.add(record["id"])
         self.components.append(record)
+
+    def definition(self, name: str, identity: str) -> str:
+        """What a part is called by: its name; of several that the program calls alike, each has a number.  Raises TypeError."""
+        if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
+            raise TypeError("the name of its definition is no text")
+        if (name, identity) not in self.definitions:
+            alike, number = name, 2
+            while alike in self.definitions.values():
+                alike, number = f"{name} ({number})", number + 1
+            self.definitions[name, identity] = alike
+        return self.definitions[name, identity]
 
     def settle(self) -> None:
         """Leave out, and tell, what holds no finite numbers, stands on a component or joint that was lost, or ties one to itself."""

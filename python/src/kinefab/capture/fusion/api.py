@@ -65,6 +65,7 @@ class PatternElement(Protocol):
 
 class Component(Protocol):
     name: str  # text | - | Component.name Property
+    id: str  # text | - | Component.id Property
     bRepBodies: Collection  # - | component | Component.bRepBodies Property
     features: Features  # of a component with children | - | Component.features Property
 

@@ -24,7 +24,7 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
 @dataclass(slots=True)
 class Occurrences:
     """root: id of the root component.  bodies: of an assembly, by id, the part that moves as its occurrence does.
-    homes: of each component that has children, by its name, the component and the ids of its occurrences.
+    homes: of each component that has children, by its definition, the component and the ids of its occurrences.
     """
 
     draft: Draft
@@ -66,7 +66,7 @@ class Occurrences:
 
     def _occurrence(self, occurrence: Occurrence, parent: str) -> None:
         own, children, definition = self.named(occurrence), occurrence.childOccurrences, occurrence.component
-        name = definition.name
+        name = self._definition(definition)
         held = _held(occurrence)
         where: Record = {
             "pose": pose_of_rows([float(v) for v in occurrence.transform2.asArray()]),
@@ -87,6 +87,12 @@ class Occurrences:
             self._add({**plain, "definition": name, **where, **self.parts.read(name, definition)})
         if held and parent != self.root:
             self._hold(own, parent)
+
+    def _definition(self, component: Component) -> str:
+        own = ""
+        with suppress(MemberFailed, AttributeError):
+            own = component.id
+        return self.draft.definition(component.name, own)
 
     def _own_bodies(self, own: str, name: str, component: Component | RootComponent, where: Record) -> None:
         if component.bRepBodies.count:

@@ -92,9 +92,15 @@ def _rigid_bodies(root: str, definition: Definition) -> Record:
         members = [
             owner.component(cast(Occurrence, occurrences.Item(i))) for i in range(1, occurrences.Count + 1)
         ]
-        groups.append({"id": group.GroupID, "grounded": bool(group.Grounded), "components": members})
+        groups.append({"id": int(group.GroupID), "grounded": bool(group.Grounded), "components": members})
     joints: list[Record] = []
     for index in range(1, results.RigidBodyJoints.Count + 1):
         joint = cast(RigidBodyJoint, results.RigidBodyJoints.Item(index))
-        joints.append({"type": joint.JointType, "one": joint.GroupOne.GroupID, "two": joint.GroupTwo.GroupID})
+        joints.append(
+            {
+                "type": int(joint.JointType),
+                "one": int(joint.GroupOne.GroupID),
+                "two": int(joint.GroupTwo.GroupID),
+            }
+        )
     return {"groups": groups, "joints": joints}

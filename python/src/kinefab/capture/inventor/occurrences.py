@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import cast
 
@@ -9,7 +10,7 @@ from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
 from ..looks import look, painted
 from ..masses import mass_record
-from .api import Asset, Body, Collection, Definition, MassProperties, Matrix, Occurrence, Overridden
+from .api import Asset, Body, Collection, Definition, Document, MassProperties, Matrix, Occurrence, Overridden
 from .geometry import numbers
 
 ASSEMBLY = 12291
@@ -68,7 +69,8 @@ class Occurrences:
         if extras:
             record["extras"] = extras
         definition = occurrence.Definition
-        record["definition"] = definition.Document.DisplayName
+        document = definition.Document
+        record["definition"] = self.draft.definition(document.DisplayName, _file(document))
         self.draft.component(record)
         if is_assembly:
             record["flexible"] = bool(occurrence.Flexible)
@@ -157,6 +159,13 @@ class Occurrences:
                 if center is not None:
                     record["center"] = numbers(center)
             self.draft.dof.append(record)
+
+
+def _file(document: Document) -> str:
+    """Files of one name may lie in two folders."""
+    with suppress(MemberFailed, AttributeError):
+        return document.FullFileName
+    return ""
 
 
 def _mesh(body: Body) -> BodyMesh:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -104,8 +104,9 @@ def restored(document: Entry) -> Restored:
     """The mechanism of a parsed ``.kinefab``.
 
     The first node stands for the world.  A joint is named by its object's id, with ``[component]`` behind it where the
-    object carries several, as the C# tool names them, and keeps the name that the source gave it; its coordinate is counted as Unity counts it in the scene file, by
-    the right-hand rule about the mirrored axis.
+    object carries several, as the C# tool names them, and keeps the name that the source gave it.  Its coordinate is that of
+    the own body against the connected one, as in the source, and zero at the pose in the file; where slides and turns mix
+    axes, Unity counts in the own body, and so is it here: the connected one against the own, from the anchors.
     """
     reading = _Reading(document)
     joints: list[Joint] = []
@@ -135,6 +136,8 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     if connected is not None and (not reading.active[connected] or reading.node_of[connected] == 0):
         connected = connected if reading.active[connected] else None
     hinge = component["type"] == "HingeJoint"
+    freedoms = _hinge_freedoms(component) if hinge else _freedoms(component)
+    unlocked = unlocked_of(freedoms)
     axis = _vector(component, "axis", (1, 0, 0))
     basis = frame_from_axes(axis, None if hinge else _vector(component, "secondaryAxis", (0, 1, 0)))
     if hinge:  # its angle keeps its sign about the axial axis
@@ -152,15 +155,35 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     ]
     if hinge or component.get("swapBodies", False):
         sides.reverse()
+    elif _alike_from_both_sides(unlocked):
+        along = world @ np.where([i in unlocked for i in range(RX)], world.T @ (at_own - at_other), 0.0)
+        freedoms = _turned_round(freedoms, world.T @ along)
+        sides = [(sides[1][0], at_other + along), sides[0]]
     (a, at_a), (b, at_b) = sides
-    freedoms = _hinge_freedoms(component) if hinge else _freedoms(component)
-    kind = JointKind.REVOLUTE if hinge else kind_of(unlocked_of(freedoms))
+    kind = JointKind.REVOLUTE if hinge else kind_of(unlocked)
     frame_a, frame_b = (
         reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
     )
     because = tuple(str(source) for source in component.get("because", ()))
     own = str(component.get("extras", {}).get("name", ""))
     return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
+
+
+def _alike_from_both_sides(unlocked: Sequence[int]) -> bool:
+    """Whether either body counts the other's motion along the same axes: slides alone, or a turn about the one that slides."""
+    slides = {i for i in unlocked if i < RX}
+    turns = {i - RX for i in unlocked if i >= RX}
+    return bool(slides) and (not turns or slides == turns and len(turns) == 1)
+
+
+def _turned_round(freedoms: tuple[Freedom, ...], gap: Array) -> tuple[Freedom, ...]:
+    """Of a against b what is given of b against a.  gap: where b's side now has its zero, metres, shape (3,)."""
+    return tuple(
+        replace(own, lower=-own.upper - zero, upper=-own.lower - zero)
+        if own.motion is Motion.LIMITED
+        else own
+        for own, zero in zip(freedoms, (*gap.tolist(), 0.0, 0.0, 0.0))
+    )
 
 
 def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
@@ -217,7 +240,7 @@ def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tu
     if component["type"] == "HingeJoint":
         return 1.0, 0.0, RX
     freedom = _COORDINATES.index(end["coordinate"])
-    senses = frames.Senses.of(b_in_a=bool(component.get("swapBodies", False)))
+    senses = frames.Senses.of(b_in_a=joint.b == reading.node_of[owner])
     if freedom >= RX:
         return senses.angular[freedom - RX], 0.0, freedom
     a, b = (scene.pose(node) @ frame for node, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)))

@@ -1,11 +1,13 @@
 """Plots how the lever's slider follows its crank: python python/examples/slider_stroke.py [PICTURE.png]"""
 
 import sys
+from pathlib import Path
 
 import kinefab
 import matplotlib.pyplot as plt
 
-mechanism = kinefab.motion("fixtures/lever/lever.bundle.json")
+lever = Path(__file__).parents[2] / "fixtures" / "lever" / "lever.bundle.json"
+mechanism = kinefab.motion(lever)
 motion = mechanism.sweep("Shaft", 0, 360)
 plt.plot(motion["Shaft"], 1000 * motion["Slide"])
 plt.xlabel("crank, degrees")

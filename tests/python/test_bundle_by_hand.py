@@ -49,7 +49,9 @@ def test_init_writes_a_bundle_that_exports(tmp_path):
     values = json.loads(target.read_text(encoding="utf-8"))
     assert by_schema(values) == []
     assert [c["id"] for c in values["components"]] == ["Base", "Ärm"]
-    assert check(target).diagnostics == []
+    assert check(target)[0].diagnostics == []
+    told = run("bundle", "check", target).stdout
+    assert "2 parts, none of them grounded; 0 joints; mobility 12." in told
     meshes = prepared(target, ExportOptions(), Report()).meshes
     sizes = sorted(tuple(np.ptp(mesh.vertices, axis=0).round(9)) for mesh in meshes)
     assert sizes == [(0.001, 0.003, 0.002), (0.01, 0.03, 0.02)]
@@ -107,7 +109,7 @@ def test_check_tells_every_layer_at_once(tmp_path):
     values["meta"] = {"format": "kinefab.bundle", "units": {"length": "furlong"}}
     path = tmp_path / "bad.bundle.json"
     path.write_text(json.dumps(values))
-    places = {(d.code, d.where.partition("#")[2]) for d in check(path).diagnostics}
+    places = {(d.code, d.where.partition("#")[2]) for d in check(path)[0].diagnostics}
     assert {
         ("UNIT_UNKNOWN", "/meta/units/length"),
         ("BUNDLE_FIELD_MISSING", "/meta"),
@@ -152,7 +154,7 @@ def test_the_example_of_the_bundle_page(tmp_path):
     path.write_text(block, encoding="utf-8")
     box(tmp_path / "base.stl", 60, 40, 20)
     box(tmp_path / "arm.stl", 10, 10, 30)
-    assert check(path).diagnostics == []
+    assert check(path)[0].diagnostics == []
     result = kinefab.export(path, tmp_path / "two.kinefab")
     assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [("joint Hinge:1", "kept")]
 
@@ -206,5 +208,5 @@ def test_a_missing_mesh_does_not_hide_what_the_analysis_finds(tmp_path):
     values["meta"]["mesh"] = {"units": "m", "layout": "per_part", "coordinates": "part"}
     path = tmp_path / "case.bundle.json"
     path.write_text(json.dumps(values), encoding="utf-8")
-    found = codes(check(path))
+    found = codes(check(path)[0])
     assert "GEOMETRY_UNREADABLE" in found and "CONSTRAINT_GAP" in found

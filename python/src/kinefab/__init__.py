@@ -3,6 +3,9 @@
 import kinefab
 
 kinefab.export("lever.bundle.json", "lever.kinefab")
+
+A script's own mechanism: ``Scene`` (``add_part``, ``add_hinge`` ...).  ``motion`` drives one, ``view`` and ``report`` write its page,
+``batch`` exports many files; ``help(kinefab.Scene)`` and so on tell more, ``kinefab.__all__`` names everything.
 """
 
 from __future__ import annotations

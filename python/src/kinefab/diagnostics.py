@@ -176,6 +176,12 @@ class Report:
     diagnostics: list[Diagnostic] = field(default_factory=list[Diagnostic])
     outcomes: list[FeatureOutcome] = field(default_factory=list[FeatureOutcome])
 
+    def __repr__(self) -> str:
+        """In one line: both lists may hold thousands."""
+        found = (f"{len(self.of(severity))} {severity.value}" for severity in Severity)
+        became = [outcome.outcome for outcome in self.outcomes]
+        return f"<Report: {', '.join([*found, *(f'{became.count(word)} {word.value}' for word in Outcome)])}>"
+
     def add(self, code: str, where: str = "", **values: object) -> Diagnostic:
         """Note a finding and return it; the arguments as ``diagnostic`` has them.
 

@@ -27,6 +27,7 @@ from .mates import Mates, find_mates
 from .mates.asked import mated
 from .model import Scene
 from .options import ExportOptions
+from .replacing import why_unwritable
 from .rigid import RigidGroups, rigid_groups
 from .sources import Stage, read, read_stage
 from .sources.parts.readers import part_readers
@@ -73,6 +74,10 @@ class ExportResult:
     analysed: Analysed
     content: Content
     report: Report
+
+    def __repr__(self) -> str:
+        """In one line: the whole scene is in it."""
+        return f"<ExportResult: {self.path}; {self.report!r}>"
 
     @property
     def numbers(self) -> tuple[int, int, int]:
@@ -126,7 +131,8 @@ def mates_of(
 ) -> tuple[Scene, Mates]:
     """A source as it is read, and the mates found in its geometry.  Raises KinefabError with every error found."""
     files = MeshFiles(report, part_readers())
-    scene = _read(Path(source), {**reading, "mates": ""}, files, report, progress)
+    own = {name: value for name, value in reading.items() if name != "mates"}
+    scene = _read(Path(source), own, files, report, progress)
     progress("mates", 0.0)
     ground = str(reading.get("ground", ""))
     found = find_mates(scene, ground)
@@ -203,7 +209,7 @@ def export(
         try:
             files = write(kind, content, path)
         except OSError as error:
-            detail = error.strerror or str(error)
+            detail = why_unwritable(path, error)
             raise KinefabError([report.add("TARGET_UNWRITABLE", path=path, detail=detail)]) from error
     except KinefabError as error:
         error.report = report

@@ -67,6 +67,13 @@ def write_whole(path: Path, content: bytes, lasting: bool = True) -> None:
         file.write(content)
 
 
+def why_unwritable(path: Path, error: OSError) -> str:
+    """In words why a file could not be written: the system names no folder that is missing."""
+    if isinstance(error, FileNotFoundError) and not path.parent.exists():
+        return f"there is no folder {path.parent}"
+    return error.strerror or str(error)
+
+
 def demand_writable(path: Path) -> None:
     """Raises OSError where ``write_whole`` would, as far as can be told without writing; leaves everything as it is."""
     if not _takes_no_other(path):

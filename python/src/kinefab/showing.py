@@ -20,7 +20,7 @@ from .mechanism import Mechanism, mechanism_of
 from .model import Joint, Scene
 from .options import ExportOptions
 from .pipeline import export, mates_of
-from .replacing import write_whole
+from .replacing import why_unwritable, write_whole
 from .spatial import Array, Pose
 from .unity.back.restored import Restored, restored
 from .unity.mapping import GROUND_ID
@@ -78,7 +78,7 @@ def _written(source: str | Path | Scene, target: Path, options: ExportOptions, t
     try:
         write_whole(target, text.encode("utf-8"))
     except OSError as error:
-        detail = error.strerror or str(error)
+        detail = why_unwritable(target, error)
         raise KinefabError([diagnostic("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
     return target
 

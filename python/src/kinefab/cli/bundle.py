@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import Optional
+from typing import TYPE_CHECKING, Optional
 
 import typer
 
@@ -13,8 +13,21 @@ from ..diagnostics import KinefabError, Report, Severity
 from .console import count, fail, tell, write
 from .declared import AS_JSON
 
+if TYPE_CHECKING:
+    from ..pipeline import Analysed
+
 ENDING = ".bundle.json"
 UNITS = "mm cm dm m um in ft yd millimeter centimeter micron inch foot".split()
+
+
+def _moving(found: Analysed) -> str:
+    """What a bundle without errors still may want: a part that stands still, joints."""
+    from ..model import NodeKind
+
+    parts = [node for node in found.scene.nodes if node.kind is NodeKind.PART]
+    grounded = sum(node.grounded for node in parts) or "none"
+    joints = count(len(found.scene.joints), "joint", "joints")
+    return f"{count(len(parts), 'part', 'parts')}, {grounded} of them grounded; {joints}; mobility {found.analysis.mobility}."
 
 
 def bundle_commands() -> typer.Typer:
@@ -75,12 +88,14 @@ def bundle_commands() -> typer.Typer:
             raise typer.BadParameter(f"{file} does not end in {ENDING}", param_hint="FILE")
         from ..bundling.checking import check as run
 
-        found = run(file)
+        found, analysed = run(file)
         tell(found, file, as_json)
         errors, warnings = (len(found.of(grade)) for grade in (Severity.ERROR, Severity.WARNING))
         if not as_json:
             told = (count(errors, "error", "errors"), count(warnings, "warning", "warnings"))
             typer.echo(f"{file}: {', '.join(told)}.")
+            if analysed is not None:
+                typer.echo(_moving(analysed))
         if errors:
             raise typer.Exit(1)
 

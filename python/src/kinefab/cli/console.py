@@ -12,7 +12,7 @@ from typing import NoReturn
 import typer
 
 from ..diagnostics import KinefabError, Report, Severity, diagnostic, findings_document, listed, printable
-from ..replacing import write_whole
+from ..replacing import why_unwritable, write_whole
 
 verbosity = 0
 """1: remarks are shown too; 0: warnings and errors; -1: errors only.  Set by the program's own options."""
@@ -77,7 +77,7 @@ def unwritable_as_finding(path: Path, as_json: bool = False) -> Generator[None, 
     try:
         yield
     except OSError as error:
-        detail = error.strerror or str(error)
+        detail = why_unwritable(path, error)
         fail(Report([diagnostic("TARGET_UNWRITABLE", path=path, detail=detail)]), path, as_json, False)
 
 

@@ -28,7 +28,9 @@ def export_options(
     reading: dict[str, Any],
     writing: dict[str, Any],
     strict: bool = typer.Option(
-        False, "--strict", help="Fail where anything would be approximated or dropped."
+        False,
+        "--strict",
+        help="Fail on every warning of what would be approximated or dropped; remarks (-v) stay remarks.",
     ),
     colliders: ColliderShape = typer.Option(
         ColliderShape.AUTO, "--colliders", show_default="auto", help="Collider of each body."

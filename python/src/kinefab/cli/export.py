@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Optional
 
 import typer
 
-from ..diagnostics import KinefabError, Report, report_document
+from ..diagnostics import KinefabError, Report, Severity, report_document
 from ..options import ExportOptions
 from ..replacing import demand_writable
 from ..targets import known_endings
@@ -74,4 +74,6 @@ def _summary(result: ExportResult) -> str:
         count(numbers[1], "joint", "joints"),
         count(numbers[2], "mesh", "meshes"),
     )
-    return f"{result.path}: {', '.join(parts)}; features: {counts}."
+    lost = any(outcome.severity is Severity.INFO and outcome.code for outcome in result.report.outcomes)
+    more = " 'kinefab -v export' names each." if lost and console.verbosity == 0 else ""
+    return f"{result.path}: {', '.join(parts)}; features: {counts}.{more}"

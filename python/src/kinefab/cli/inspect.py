@@ -16,6 +16,9 @@ def inspect(
     as_json: bool = AS_JSON,
 ) -> None:
     """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
+    if not file.name.endswith(".kinefab"):
+        told = f"{file} is no NAME.kinefab; export to one, or read the source by 'kinefab analyse'"
+        raise typer.BadParameter(told, param_hint="FILE")
     from ..views.overview import overview
 
     try:

@@ -9,11 +9,12 @@ import typer
 
 from ..diagnostics import KinefabError, Report
 from ..sources import source_options
+from . import console
 from .asking import asking
 from .console import demand_ending, fail, log, progress_bar, write
 
 
-@asking(("reading", source_options()))
+@asking(("reading", source_options(beside="mates")))
 def mates(
     reading: dict[str, Any],
     source: Path = typer.Argument(
@@ -42,5 +43,10 @@ def mates(
     if not as_json:
         typer.echo(listing(scene, mates))
     write(output, content.encode("utf-8"), as_json)
+    if console.verbosity >= 0:
+        typer.echo(
+            f"{output}: look it over, then: kinefab export {source} --mates {output} -o NAME.kinefab",
+            err=True,
+        )
     if as_json:
         typer.echo(content, nl=False)

@@ -157,9 +157,15 @@ def known_suffixes() -> set[str]:
     return {suffix for entry in FORMATS for suffix in entry.suffixes}
 
 
-def source_options() -> Iterator[FormatOption]:
-    """The options of all formats, each once, in the order of the formats."""
-    yield from dict.fromkeys(option for entry in FORMATS for option in entry.options)
+def source_options(beside: str = "") -> Iterator[FormatOption]:
+    """The options of all formats, each once, in the order of the formats.
+
+    beside: the name of an option; then the others of the formats that have it.
+    """
+    for option in dict.fromkeys(option for entry in FORMATS for option in entry.options):
+        having = (entry.options for entry in FORMATS if any(own.name == beside for own in entry.options))
+        if not beside or option.name != beside and any(option in options for options in having):
+            yield option
 
 
 def format_of(path: Path) -> Format | None:

@@ -54,6 +54,9 @@ class Mechanism:
                 for other in {joint.id, joint.name} - {name}:
                     self._other.setdefault(other, []).append(name)
 
+    def __repr__(self) -> str:
+        return f"<Mechanism: mobility {self.mobility}; {', '.join(self._coordinates)}>"
+
     @property
     def mobility(self) -> int:
         """How many freedoms it has, those of floating islands left out.

@@ -92,6 +92,11 @@ class Trajectory:
     def __len__(self) -> int:
         return len(self.poses)
 
+    def __repr__(self) -> str:
+        """In one line: its arrays have thousands."""
+        ended = f"; {self.stop}" if self.stop else ""
+        return f"<Trajectory: {len(self)} frames; {', '.join(self.coordinates)}{ended}>"
+
     def __getitem__(self, name: str) -> Array:
         """The values of a coordinate, shape (frames,), or else the poses of a part.  Raises KeyError."""
         return self.coordinates[name] if name in self.coordinates else self.part(name)

@@ -166,14 +166,17 @@ def _facts(document: Entry, joints: Sequence[Entry], motion: Motion) -> list[tup
     islands: Sequence[Entry] = analysis.get("islands", ())
     facts = [
         ("objects", str(len(document["gameObjects"]))),
-        ("joints", f"{len(joints)}, {sum(j['closure'] for j in joints)} of them close loops"),
+        ("joints", f"{len(joints)}, loops closed by {sum(j['closure'] for j in joints)} of them"),
         ("mobility", str(analysis.get("mobility", motion.mobility))),
     ]
     if analysis:
         facts.append(("redundant rows", str(analysis.get("redundant", 0))))
         if analysis.get("idle"):
             facts.append(("idle spins", str(analysis["idle"])))
-        counts = (f"{i.get('mobility')} free, {i.get('loops')} loops" for i in islands)
+        counts = (
+            f"{i.get('mobility')} free, {i.get('loops')} loop{'' if i.get('loops') == 1 else 's'}"
+            for i in islands
+        )
         facts.append(("islands", "; ".join(counts) if len(islands) <= 8 else str(len(islands))))
     if document.get("couplings"):
         facts.append(("couplings", str(len(document["couplings"]))))

@@ -84,7 +84,9 @@ def _stroke(stroke: Stroke) -> str:
         parts.append(_figure(plot(stroke.values, curves, across, up), "Where the others stand."))
         rates = [Curve(c.name, np.gradient(c.values, stroke.values)) for c in curves]
         caption = "Transmission: how far each goes for each unit of the driven one."
-        parts.append(_figure(plot(stroke.values, rates, across, f"{up} / {unit}"), caption))
+        parts.append(
+            _figure(plot(stroke.values, rates, across, f"{up} per {unit.removesuffix('s')}"), caption)
+        )
     return "".join(parts)
 
 

@@ -1,0 +1,88 @@
+"""What a newcomer is told: where the hidden remarks are, which folder is missing, what a command is for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import kinefab
+import pytest
+from command_line import runner
+from kinefab.cli import app
+
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+ARM = FIXTURES / "twins" / "arm.urdf"
+
+
+def run(*arguments: object):
+    return runner().invoke(app, [str(a) for a in arguments])
+
+
+def test_the_summary_says_how_to_see_what_is_hidden(tmp_path: Path):
+    """Eight efforts are dropped with a remark each, and remarks are not shown."""
+    told = run("export", ARM, "-o", tmp_path / "a.kinefab").stderr
+    assert "8 dropped. 'kinefab -v export' names each." in told
+    told = run("-v", "export", ARM, "-o", tmp_path / "a.kinefab").stderr
+    assert "JOINT_EFFORT_DROPPED" in told and "names each" not in told
+    told = run("export", FIXTURES / "lever" / "lever.bundle.json", "-o", tmp_path / "b.kinefab").stderr
+    assert "names each" not in told
+
+
+def test_a_missing_folder_is_named(tmp_path: Path):
+    """The system says "No such file or directory" of the file that is to be made."""
+    done = run("export", ARM, "-o", tmp_path / "Assets" / "a.kinefab")
+    assert done.exit_code == 1 and f"there is no folder {tmp_path / 'Assets'}" in done.stderr
+    done = run("view", ARM, "-o", tmp_path / "pages" / "a.html")
+    assert done.exit_code == 1 and f"there is no folder {tmp_path / 'pages'}" in done.stderr
+
+
+def test_a_coupling_without_a_component_is_named_as_one(tmp_path: Path):
+    told = run("export", ARM, "-o", tmp_path / "a.prefab").stderr
+    assert "Unity has no component for a linear coupling." in told
+
+
+def test_inspect_reads_scenes_and_says_so(tmp_path: Path):
+    """A package is bytes to it: not "byte 0x8b in position 1"."""
+    target = tmp_path / "a.unitypackage"
+    assert run("export", ARM, "-o", target).exit_code == 0
+    done = run("inspect", target)
+    assert done.exit_code == 2 and "is no NAME.kinefab" in done.stderr
+
+
+def test_mates_asks_for_what_it_uses():
+    """Of the options of all formats those of STEP and IGES, and not --mates, which it makes."""
+    told = run("mates", "--help").stdout
+    assert all(option in told for option in ("--up", "--tolerance", "--ground"))
+    assert not any(
+        option in told for option in ("--mates auto|FILE", "--xacro-arg", "--keyframe", "--variant")
+    )
+
+
+def test_mates_of_a_file_with_joints_of_its_own(tmp_path: Path):
+    """One finding, and no word of an option that nobody gave."""
+    done = run("mates", FIXTURES / "freecad" / "four_bar.FCStd", "-o", tmp_path / "a.mates.json")
+    assert done.exit_code == 1 and "SOURCE_OPTION_UNUSED" not in done.stderr
+    assert "states its own joints or mates needs none found" in done.stderr
+
+
+def test_mates_say_what_comes_next(tmp_path: Path):
+    pytest.importorskip("OCP", reason="OCP is not installed (kinefab[cad] has it)")
+    target = tmp_path / "lever.mates.json"
+    done = run("mates", FIXTURES / "lever" / "lever.step", "-o", target)
+    assert done.stdout.split("\n")[0].split() == ["no", "conf", "joint", "parts", "seen"]
+    assert f"--mates {target} -o NAME.kinefab" in done.stderr
+
+
+def test_what_a_script_prints_is_a_line(tmp_path: Path):
+    """Trajectories and results hold arrays of thousands of numbers."""
+    scene = kinefab.Scene()
+    scene.add_hinge(
+        None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(-10, 80), name="Hinge"
+    )
+    mechanism = kinefab.motion(scene)
+    result = kinefab.export(scene, tmp_path / "a.kinefab")
+    assert repr(mechanism) == "<Mechanism: mobility 1; Hinge>"
+    assert repr(mechanism.sweep("Hinge", 0, 90, frames=10)) == (
+        "<Trajectory: 9 frames; Hinge; Hinge is at its limit at 80 deg>"
+    )
+    counts = "0 error, 1 warning, 0 info, 1 kept, 1 approximated, 0 dropped"
+    assert repr(result) == f"<ExportResult: {tmp_path / 'a.kinefab'}; <Report: {counts}>>"

@@ -156,14 +156,8 @@ class Reading:
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
         if self._on and event == "open" and isinstance(args[0], (str, bytes, os.PathLike)):
             mode, flags = args[1], args[2]
-            writes = (
-                ("w" in mode or "a" in mode or "x" in mode)
-                if isinstance(mode, str)
-                else bool(flags & os.O_ACCMODE)
-                if hasattr(os, "O_ACCMODE")
-                else bool(flags & 3)
-            )
-            if not writes:
+            access = getattr(os, "O_ACCMODE", 3)  # which Windows does not name
+            if not (any(word in mode for word in "wax") if isinstance(mode, str) else flags & access):
                 self._on = False  # what is asked here is not heard
                 self.add(os.fsdecode(cast("str | bytes | os.PathLike[str]", args[0])))
                 self._on = True

@@ -11,12 +11,25 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab.diagnostics import Report
-from kinefab.model import RX, RY, RZ, TX, Freedom, Joint, Motion, Passive, Scene, SphericalDrive
+from kinefab.model import (
+    RX,
+    RY,
+    RZ,
+    TX,
+    Collider,
+    ColliderKind,
+    Freedom,
+    Joint,
+    Motion,
+    Passive,
+    Scene,
+    SphericalDrive,
+)
 from kinefab.sources import read
 from kinefab.spatial import rotation_exp
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
-from pxr import Usd
+from pxr import Usd, UsdPhysics
 
 BOX = trimesh.creation.box((0.1, 0.2, 0.3))
 TURN = np.array([0.3, -0.2, 0.5])
@@ -118,3 +131,53 @@ def test_drives_that_somebody_changed_are_three(tmp_path, name, value):
     stage.Save()
     found = back(path)
     assert found.slerp is None and all(found.freedoms[i].drive is not None for i in (RX, RY, RZ))
+
+
+def boxes() -> Scene:
+    """Three parts that collide as boxes: two in a group that ignores the third's, one of them twice over by a pair."""
+    scene = kinefab.Scene()
+    for k, group in enumerate(("arms", "arms", "tools")):
+        part = scene.add_part(f"Part {k}", BOX, translation=(k, 0.1, 0.2))
+        shape = Collider(ColliderKind.BOX, size=(0.1, 0.2, 0.3 + k), group=group)
+        scene.nodes[part] = replace(scene.nodes[part], colliders=(shape,))
+    return scene
+
+
+@pytest.mark.parametrize(
+    "extras",
+    [
+        {"collisionGroups": {"arms": ["tools", "gone"], "tools": []}},
+        {"collisionMasks": {"arms": [2, 1], "tools": [4, 1]}},
+    ],
+)
+def test_collision_groups_and_pairs_are_those_of_the_source(tmp_path, extras):
+    scene = boxes()
+    scene.extras = {**extras, "ignoreCollision": [["Part 0", "Part 1"], ["Part 0", "nobody"]]}
+    path, lost = written(scene, tmp_path)
+    assert lost == [("filtered pair Part 0 and nobody", "TARGET_FIELD_DROPPED")]
+    stage = Usd.Stage.Open(str(path))
+    found = {
+        p.GetName(): UsdPhysics.CollisionGroup(p)
+        for p in stage.Traverse()
+        if p.IsA(UsdPhysics.CollisionGroup)
+    }
+    assert {n: len(g.GetCollidersCollectionAPI().GetIncludesRel().GetTargets()) for n, g in found.items()} == {
+        "arms": 2, "tools": 1,
+    }  # fmt: skip
+    table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(stage)
+    paths = {name: group.GetPath() for name, group in found.items()}
+    assert not table.IsCollisionEnabled(paths["arms"], paths["tools"])
+    own = "collisionMasks" not in extras  # masks of 2 and 1 keep arms from each other too
+    assert table.IsCollisionEnabled(paths["arms"], paths["arms"]) is own
+    read_back = read(path, Report())
+    groups = {
+        node.name: node.colliders[0].group.rpartition("/")[2] for node in read_back.nodes if node.colliders
+    }
+    assert groups == {"Part 0": "arms", "Part 1": "arms", "Part 2": "tools"}
+    ignored = {
+        k.rpartition("/")[2]: [o.rpartition("/")[2] for o in v]
+        for k, v in read_back.extras["collisionGroups"].items()
+    }
+    assert "tools" in ignored["arms"] and ("arms" in ignored["arms"]) is not own
+    ((first, second),) = read_back.extras["ignoreCollision"]
+    assert {first.rpartition("/")[2], second.rpartition("/")[2]} == {"Part_0", "Part_1"}

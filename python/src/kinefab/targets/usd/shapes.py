@@ -42,7 +42,8 @@ class Shape:
 
 @dataclass(slots=True, eq=False)
 class Shapes:
-    """scope: of physics materials.  shape: asked for where the source states no colliders.  target: ending, for the report."""
+    """scope: of physics materials.  shape: asked for where the source states no colliders.  target: ending, for the report.
+    groups: paths of colliders by their collision group, as they are written."""
 
     scene: Scene
     bodies: Bodies
@@ -50,6 +51,7 @@ class Shapes:
     shape: ColliderShape
     report: Report
     target: str
+    groups: dict[str, list[str]] = field(default_factory=dict[str, "list[str]"])
     _chosen: Chosen = field(default_factory=Chosen)
     _materials: dict[PhysicsMaterial, str] = field(default_factory=dict[PhysicsMaterial, str])
 
@@ -62,7 +64,9 @@ class Shapes:
         meshes = Meshes(self.scene, prototypes, materials, uses)
         for prim, shapes in zip(prims, found):
             for shape in shapes:
-                _write(prim, shape, meshes)
+                path = _write(prim, shape, meshes)
+                if shape.collider is not None and shape.collider.group:
+                    self.groups.setdefault(shape.collider.group, []).append(path)
             yield
 
     def _of(self, number: int, node: Node, active: bool) -> list[Shape]:
@@ -92,10 +96,6 @@ class Shapes:
         if _empty(collider):
             self.report.dropped(feature, "COLLIDER_EMPTY", collider.where, object=node.id)
             return None
-        if collider.group:
-            self.report.dropped(
-                feature, "TARGET_FIELD_DROPPED", collider.where, field="collision group", target=self.target
-            )
         material = "" if collider.material is None else self._material(collider.material)
         kind = collider.kind
         if kind in SHAPES:
@@ -136,7 +136,8 @@ def _empty(collider: Collider) -> bool:
     return not all(size > 0.0 for size in sizes.get(collider.kind, ())) or not all(collider.scale)
 
 
-def _write(parent: Prim, shape: Shape, meshes: Meshes) -> None:
+def _write(parent: Prim, shape: Shape, meshes: Meshes) -> str:
+    """Returns the prim's path."""
     if shape.use is not None:
         prim = parent.child(shape.name, meshes.kind(shape.use))
         meshes.write(prim, shape.use)
@@ -149,3 +150,4 @@ def _write(parent: Prim, shape: Shape, meshes: Meshes) -> None:
     prim.place(shape.pose, shape.scale)
     if not shape.visible:
         prim.attribute("visibility", "Token", "invisible")
+    return str(prim.path)

@@ -20,12 +20,15 @@ from .looks.textures import Textures
 from .names import sibling_names
 from .physics.articulations import Edge, mark_articulations
 from .physics.couplings import write_couplings
+from .physics.filters import write_groups, write_pairs
 from .physics.joints import Joints, Places
 from .physics.rigid import write_grounded, write_moving
 from .prims import Prim, vector3f
 from .shapes import Shapes
 
-JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES = "Joints", "Materials", "PhysicsMaterials", "Prototypes"
+JOINTS, MATERIALS, PHYSICS_MATERIALS = "Joints", "Materials", "PhysicsMaterials"
+PROTOTYPES, GROUPS = "Prototypes", "CollisionGroups"
+SCOPES = (JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES, GROUPS)
 """Scopes below the default prim, beside the nodes."""
 TIMESTEP = 0.02
 """Seconds: what is not said."""
@@ -52,16 +55,15 @@ class Stage:
         with Sdf.ChangeBlock():
             clips = Clips(scene, bodies, report, self.target)
             root = self._hierarchy(bodies, clips)
-            scopes = {
-                name: root.child(name, "Scope", name=name)
-                for name in (JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES)
-            }
+            scopes = {name: root.child(name, "Scope", name=name) for name in SCOPES}
             self._metadata(root)
             shapes = Shapes(scene, bodies, scopes[PHYSICS_MATERIALS], content.colliders, report, self.target)
             materials = Materials(scopes[MATERIALS], self.textures)
             active = active_nodes(scene)
             for i, _ in enumerate(shapes.write(self.prims, scopes[PROTOTYPES], materials, active)):
                 content.progress(0.8 * (i + 1) / len(self.prims))
+            write_groups(scopes[GROUPS], shapes.groups, scene)
+            write_pairs(scene, self.prims, report, self.target)
             self._physics(root, scopes[JOINTS], bodies, joints)
             clips.write(self.layer, self.prims)
             for scope in scopes.values():
@@ -119,7 +121,7 @@ class Stage:
         whole = whole and active[tops[0]] and bodies.inside[tops[0]] is None
         names: dict[int, str] = {}
         for above, members in below.items():
-            reserved = (JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES) if above in (None, *tops) else ()
+            reserved = SCOPES if above in (None, *tops) else ()
             named = [(scene.nodes[i].name, scene.nodes[i].id) for i in members]
             names |= zip(members, sibling_names(named, reserved))
         head = Prim(self.layer.pseudoRoot)
@@ -140,7 +142,7 @@ class Stage:
                 prim.child(site.name, "Xform").place(site.pose)
             self._tell_words(i, bodies)
         assert root is not None
-        root.reserve((JOINTS, MATERIALS, PHYSICS_MATERIALS, PROTOTYPES))
+        root.reserve(SCOPES)
         root.info("kind", "component")
         return root
 

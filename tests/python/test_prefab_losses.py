@@ -226,6 +226,30 @@ def test_a_collider_without_size_is_left_out(tmp_path):
     read_prefab(tmp_path / "out" / "Rich.prefab")
 
 
+@pytest.mark.parametrize("moves", [True, False])
+def test_a_cylinder_or_mesh_without_volume_is_left_out(tmp_path, moves):
+    """PhysX cooks no hull of them, and Unity says so in the console of whoever opens the prefab."""
+    scene = rich_scene(tmp_path)
+    mesh = scene.nodes[1].bodies[0].mesh
+    shapes = (
+        model.Collider(ColliderKind.CYLINDER, radius=0.0, length=0.3, name="needle"),
+        model.Collider(ColliderKind.CYLINDER, radius=0.2, length=0.0, name="coin"),
+        model.Collider(ColliderKind.HULL, mesh=mesh, scale=(1.0, 0.0, 2.0), name="sheet"),
+        model.Collider(ColliderKind.MESH, mesh=mesh, scale=(1.0, 0.0, 2.0), name="floor"),
+        model.Collider(ColliderKind.MESH, mesh=mesh, scale=(1.0, 0.0, 0.0), name="wire"),
+    )
+    index = 2 if moves else 1
+    scene.nodes[index] = replace(scene.nodes[index], colliders=shapes)
+    result = exported(scene, tmp_path)
+    lost = [o.feature.rpartition("/")[2] for o in result.report.outcomes if o.code == "COLLIDER_FLAT_DROPPED"]
+    sheets = ["floor"] if moves else []  # one that stands still may be a sheet
+    assert lost == ["needle", "coin", "sheet", *sheets, "wire"]
+    for path in (p for p in result.files if p.name.startswith("cylinder")):  # of another part
+        points = read_mesh(documents(path.read_text("utf-8"))[0])["channels"][0]
+        assert np.ptp(points, axis=0).min() > 0.0
+    read_prefab(tmp_path / "out" / "Rich.prefab")
+
+
 def test_hulls_keep_to_unitys_255_triangles(tmp_path):
     result = exported(rich_scene(tmp_path), tmp_path)
     assert [d for d in result.report.diagnostics if d.code == "HULL_SIMPLIFIED"]

@@ -61,7 +61,8 @@ def collision_meshes(
             name = f"{node.id}/{collider.name or collider.kind.value}"
             if collider.kind is ColliderKind.CYLINDER:
                 size = (collider.radius, collider.length)
-                cylinders.setdefault(size, prism(*size))
+                if min(size) > 0.0:
+                    cylinders.setdefault(size, prism(*size))
             elif collider.mesh is not None and (collider.kind is not ColliderKind.MESH or moves):
                 hulled.append((collider.mesh, name))
                 split += [(collider.mesh, name)] if collider.kind is ColliderKind.PIECES else []

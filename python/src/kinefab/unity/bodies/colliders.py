@@ -69,6 +69,14 @@ class PlacedCollider:
     scale: Vector3 = ONE
 
 
+def _is_flat(collider: Collider, dynamic: bool) -> bool:
+    """Whether a cylinder or a scaled mesh has no volume, of which no hull can be made; a mesh that stands still may be a sheet."""
+    if collider.kind is ColliderKind.CYLINDER:
+        return min(collider.radius, collider.length) <= 0.0
+    nothing = sum(stretch == 0.0 for stretch in collider.scale)
+    return nothing > (1 if collider.kind is ColliderKind.MESH and not dynamic else 0)
+
+
 def stated_collider(
     collider: Collider, colliders: Colliders, dynamic: bool, material: int | None, node: str, report: Report
 ) -> list[PlacedCollider]:
@@ -107,6 +115,9 @@ def stated_collider(
             return [PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)]
         shape |= {"center": vector3(frames.point(center)), "direction": "XYZ"[int(size.argmax())]}
         return [PlacedCollider(CapsuleCollider(**shape))]
+    if _is_flat(collider, dynamic):
+        report.dropped(feature, "COLLIDER_FLAT_DROPPED", collider.where, collider=feature)
+        return []
     if collider.kind is ColliderKind.CYLINDER:
         mesh = colliders.cylinder_of[collider.radius, collider.length]
         report.approximated(feature, "COLLIDER_CYLINDER_AS_MESH", collider.where, collider=feature)

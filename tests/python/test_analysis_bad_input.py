@@ -70,6 +70,20 @@ def test_a_single_unsatisfied_constraint_is_a_gap():
     assert gap.constraint == "square" and gap.degrees == pytest.approx(90.0)
 
 
+@pytest.mark.parametrize("degrees", [10.0, 80.0, 170.0])
+def test_an_angle_asked_of_axes_that_stand_parallel_is_a_gap(degrees):
+    """There its rate vanishes, so that no step of the solver leads off; the pose beside it closes."""
+    axes = (on(0, F.LINE, (0, 0, 0), Z), on(1, F.LINE, (0.1, 0.2, 0.3), Z))
+    tilt = Constraint("tilt", C.ANGLE, axes, value=np.radians(degrees))
+    found = analyse(two_parts(tilt))
+    assert found.report.of(Severity.ERROR) == [] and found.contradictory == []
+    (gap,) = found.gaps
+    assert gap.constraint == "tilt" and gap.degrees == pytest.approx(degrees)
+    assert sum(island.mobility for island in found.islands) == 5
+    turned = found.scene(solved=True).nodes[1].pose.rotation
+    assert np.degrees(np.arccos(turned[2, 2])) == pytest.approx(degrees, abs=1e-6)
+
+
 def test_axis_of_no_length_is_an_error():
     """A line without a direction is refused by name; the rest is still analysed."""
     bad = Constraint("bad", C.PARALLEL, (on(0, F.LINE, (0, 0, 0), Z), on(1, F.LINE, (0, 0, 0), 0.0 * Z)))

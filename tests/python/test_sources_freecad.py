@@ -24,7 +24,7 @@ from freecad_files import (
 )
 from kinefab import sources
 from kinefab.analysis import analyse
-from kinefab.diagnostics import Report
+from kinefab.diagnostics import Report, Severity
 from kinefab.model import ConstraintKind, JointKind, Motion, NodeKind
 from source_bundles import FIXTURES
 
@@ -333,3 +333,15 @@ def test_a_material_of_the_library_and_a_mesh_are_told(tmp_path):
     densities = [body.density for node in scene.nodes for body in node.bodies]
     assert densities == [None, None, None, 7900.0, 7900.0, 8960.0]
     assert [node.name for node in scene.nodes] == ["Base", "Lid", "Box", "Bolt", "Nut", "Bus", "Scan"]
+
+
+def test_a_plane_of_an_older_asmt_has_no_offset(tmp_path):
+    """OndselSolver's first files leave the word out where it is zero."""
+    lines = (FIXTURES / "freecad" / "distance_planes.asmt").read_text("utf-8").splitlines(keepends=True)
+    at = next(i for i, line in enumerate(lines) if line.strip() == "offset")
+    (tmp_path / "older.asmt").write_text("".join(lines[:at] + lines[at + 2 :]), "utf-8")
+    scene, report = read(tmp_path / "older.asmt")
+    assert not report.of(Severity.ERROR)
+    assert [
+        constraint.value for constraint in scene.constraints if constraint.kind is ConstraintKind.DISTANCE
+    ] == [0.0]

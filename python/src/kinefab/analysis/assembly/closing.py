@@ -12,7 +12,7 @@ from ...spatial import Array, IntArray
 from ..equations.atoms import Atom
 from ..equations.scene_equations import Equations
 from ..equations.solve import Solver
-from ..equations.system import System
+from ..equations.system import State, System
 from .blocks import blocks_of, edges_of, relative_system
 
 TIGHT = 1e-12
@@ -20,6 +20,8 @@ TIGHT = 1e-12
 ABSORBED = 1e-4
 """Scaled residual (fraction of the length, radians) that counts as rounding of the export."""
 MOST_NAMES = 12
+NUDGES, NUDGE = 3, 0.01
+"""How often a part that does not close is tried again, and from how far beside its pose: radians, fractions of the length."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +84,7 @@ def closed(equations: Equations, body: IntArray, report: Report) -> Closing:
         )
     moved = bool(np.abs(residual).max(initial=0.0) > TIGHT)
     if moved:
-        state, left = solver.project(start)
+        state, left = _nudged(solver, start, *solver.project(start))
         for part in np.flatnonzero(left > ABSORBED).tolist():
             contradictory += _contradiction(
                 relative, solver, part, relative.residual(state), equations, report
@@ -91,6 +93,26 @@ def closed(equations: Equations, body: IntArray, report: Report) -> Closing:
         blocks.carry(rotation, translation, blocks.order)
         system = _displaced(system, rotation, translation)
     return Closing(system, gaps, worst, body, rotation, translation, contradictory, moved)
+
+
+def _nudged(solver: Solver, start: State, state: State, left: Array) -> tuple[State, Array]:
+    """The same with the parts that did not close tried again from beside the exported pose.
+
+    There a row's rate may vanish (an angle of 10 degrees between axes that stand parallel), and no step leads off.
+    left: residual of each part, shape (parts,).
+    """
+    for seed in range(NUDGES):
+        stuck = left > ABSORBED
+        if not stuck.any():
+            break
+        bodies = np.flatnonzero((solver.part >= 0) & stuck[solver.part])
+        twists = NUDGE * np.random.default_rng(seed).standard_normal((len(bodies), 6))
+        tried, now = solver.project(solver.system.moved(start, bodies, twists), stuck)
+        better = stuck & (now <= ABSORBED)
+        own = np.flatnonzero((solver.part >= 0) & better[solver.part])
+        state.rotation[own], state.shift[own] = tried.rotation[own], tried.shift[own]
+        left = np.where(better, now, left)
+    return state, left
 
 
 def _displaced(system: System, rotation: Array, translation: Array) -> System:

@@ -170,7 +170,10 @@ class _Reader:
                 feature, where, f"its type '{shown(item.text)}' is not known, or not told apart from another"
             )
             return None
-        value = item.number(NUMBERS[kind]) if kind in NUMBERS else 0.0
+        word = NUMBERS.get(kind, "")
+        value = (
+            item.number(word, 0.0 if word == "offset" else None) if word else 0.0
+        )  # older files leave it out
         second = item.number("radiusJ") * self.unit if kind == "GearJoint" else 0.0
         own = [(item.value("MarkerI"), item.value("MarkerJ")), (name, "")]
         ranged: dict[str, tuple[float, float]] = {}

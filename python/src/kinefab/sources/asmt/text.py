@@ -41,9 +41,11 @@ class Item:
         found = self.find(word)
         return found.below[0].text.strip() if found is not None and found.below else default
 
-    def number(self, word: str) -> float:
-        """As ``value``, a number.  Raises AsmtError."""
+    def number(self, word: str, default: float | None = None) -> float:
+        """As ``value``, a number; ``default``, where there is one, stands for a word that is not there.  Raises AsmtError."""
         found = self.find(word)
+        if found is None and default is not None:
+            return default
         numbers = [] if found is None or not found.below else row(found.below[0])
         if len(numbers) != 1:
             raise AsmtError(self.line, f"'{shown(self.text)}' has no number for '{word}'")

@@ -84,6 +84,8 @@ class _Curve:
     def _follow(self, sign: float, low: Array, high: Array, endless: BoolArray) -> bool | None:
         """Extend the ranges along one way of the curve; whether it came back to where it began, None if lost."""
         basis = block_freedoms(self.block.solver, self.block.start)[0].basis
+        if basis.shape[1] > 1:  # branches cross here: which of them is followed would be a matter of rounding
+            return None
         state, tangent = self.block.start, sign * basis[:, 0] / np.abs(basis[:, 0]).max()
         self.turns = self.block.turns
         q, rate = self._coordinates(state, tangent)

@@ -53,6 +53,9 @@ class Documents:
                 object=shown(thing.label), target=shown(aim), why=why,
             )  # fmt: skip
 
+    def _is_inside(self, path: str) -> bool:
+        return os.path.commonpath([path, self.folder]) == self.folder
+
     def _open(self, thing: Thing, file: str) -> Document | None:
         target = Target("", file)
         name = unquote(file).replace("\\", "/")
@@ -60,13 +63,14 @@ class Documents:
             self.broken(thing, target, "which is no file's name")
             return None
         path = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(thing.document.path)), name))
-        path = os.path.realpath(as_spelled(path))
+        if self._is_inside(path):  # no other folder is looked into
+            path = os.path.realpath(as_spelled(path))
         if path in self._read:
             found = self._read[path]
             if found is None:
                 self.broken(thing, target, "which could not be read")
             return found
-        if os.path.commonpath([path, self.folder]) != self.folder:
+        if not self._is_inside(path):
             self.broken(thing, target, "which lies outside the folder of the assembly; it was not opened")
             return None
         if len(self._read) >= MAX_DOCUMENTS:

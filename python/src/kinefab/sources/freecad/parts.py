@@ -108,7 +108,8 @@ class Parts:
             return False
         document = thing.document
         if id(document) not in self._hidden:
-            self._hidden[id(document)] = inputs(document) | originals(document)
+            originals = set[str]() if has_assembly(document) else linked(document)
+            self._hidden[id(document)] = inputs(document) | originals
         return thing.name in self._hidden[id(document)]
 
     def _node(
@@ -188,12 +189,14 @@ def inputs(document: Document) -> set[str]:
     return made - needed
 
 
-def originals(document: Document) -> set[str]:
-    """Names of the objects that links of the document show; none where an Assembly may hold them as its own parts."""
-    things = document.things.values()
-    if any(thing.type == ASSEMBLY for thing in things):
-        return set()
-    targets = (thing.target("LinkedObject") for thing in things)
+def has_assembly(document: Document) -> bool:
+    """Whether an assembly of the Assembly workbench stands in a document."""
+    return any(thing.type == ASSEMBLY for thing in document.things.values())
+
+
+def linked(document: Document) -> set[str]:
+    """Names of the objects that links of the document itself show."""
+    targets = (thing.target("LinkedObject") for thing in document.things.values())
     return {target.name for target in targets if target is not None and not target.file}
 
 

@@ -19,7 +19,7 @@ from .joints import JointReader
 from .links import Documents
 from .looks import Looks
 from .occurrences import ASSEMBLY, NO_PART, SUB_ASSEMBLY, TooManyError, Tree
-from .parts import Parts, has_shape
+from .parts import Parts, has_assembly, has_shape, linked
 from .shapes import Shapes
 from .workbenches import is_held, report_foreign
 
@@ -82,17 +82,14 @@ def top(documents: Documents) -> list[Thing]:
     """What stands at the root of the first document: what nothing holds, and no link of an assembly shows elsewhere."""
     document = documents.root
     held: set[str] = set()
-    linked: set[str] = set()
-    assemblies = any(thing.type == ASSEMBLY for thing in document.things.values())
+    assemblies = has_assembly(document)
+    elsewhere = linked(document)
     for thing in document.things.values():
         for name in ("Group", "ElementList", "OriginFeatures"):
             held |= {entry.name for entry in thing.targets(name) if not entry.file}
         for name in ("Origin",):
             target = thing.target(name)
             held |= {target.name} if target is not None else set()
-        target = thing.target("LinkedObject")
-        if target is not None and not target.file:
-            linked.add(target.name)
     found: list[Thing] = []
     for thing in document.things.values():
         if thing.name in held or thing.type.startswith(NO_PART):
@@ -106,7 +103,7 @@ def top(documents: Documents) -> list[Thing]:
         if (
             thing.type != ASSEMBLY
             and assemblies
-            and (hidden or thing.name in linked)
+            and (hidden or thing.name in elsewhere)
             and not holds_assembly(thing, set())
         ):
             continue

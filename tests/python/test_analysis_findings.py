@@ -36,6 +36,11 @@ def mate(id="mate", kind=C.COINCIDENT, normal=Z, **more) -> Constraint:
     return joining(id, kind, (F.PLANE, O, normal), (F.PLANE, O, normal), **more)
 
 
+def ball() -> Joint:
+    """None of whose turns is about an axis that stays."""
+    return replace(tube(), id="ball", kind=JointKind.SPHERICAL, freedoms=freedoms_of(JointKind.SPHERICAL))
+
+
 def tube() -> Joint:
     axes = np.column_stack([Z, X, Y])
     at = np.array([0.1, -0.2, 0.3])
@@ -107,7 +112,7 @@ CASES = {
     "CONSTRAINT_GAP": lambda: parts(mate(kind=C.DISTANCE, value=0.02)),
     "CONSTRAINTS_MANY": lambda: parts(*(mate(f"mate:{i}") for i in range(200))),
     "JOINT_CONSTRAINTS_DISAGREE": lambda: replace(scene("P03"), joints=[tube()]),
-    "JOINT_SUPERSEDED": lambda: replace(scene("P03"), joints=[tube()]),
+    "JOINT_SUPERSEDED": lambda: replace(scene("P03"), joints=[ball()]),
     "JOINT_REHUNG": lambda: scene("M27"),
     "JOINT_FOR_COUPLING": lambda: scene("M43"),
     "PAIR_RANK_UNCERTAIN": uncertain,

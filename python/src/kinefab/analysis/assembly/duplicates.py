@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import Joint
+from ...model import Coupling, Joint
 from ..equations.scene_equations import Equations
 from ..equations.system import System
 from ..pairs.relations import batched_null_spaces, pairs_of, relative_rows
@@ -15,7 +15,7 @@ def without_duplicates(system: System, equations: Equations, report: Report) -> 
     """Leave out the rows of constraints that an explicit joint of the same pair already says.
 
     A joint speaks for the constraints of its pair when together they remove no more than it does alone.
-    Where they remove more the two disagree; then both count, and the report says so.
+    Where they remove more the two disagree; then both count, and the report says so, unless it is the joint's own coupling.
     Returns the system and, for each statement left out, the number of the joint that says it.
     """
     joint = np.array([isinstance(s, Joint) for s in equations.statements], dtype=bool)
@@ -40,7 +40,9 @@ def without_duplicates(system: System, equations: Equations, report: Report) -> 
         if both[pair] == alone[pair]:
             kept &= ~(mine & others)
             left_out.update((int(i), speaker) for i in doubles)
-        else:
+        elif not all(
+            isinstance(equations.statements[i], Coupling) for i in doubles
+        ):  # those are to remove more
             names = ", ".join(equations.names(doubles))
             report.add(
                 "JOINT_CONSTRAINTS_DISAGREE",

@@ -16,6 +16,7 @@ from ..assembly.assemble import Assembly
 from ..freedom.finite import Candidate
 from ..pairs.relations import Relation, find_joints, relations_of
 from .links import Link, Links
+from .narrowing import narrowed
 from .resolving import find_by_finite_motions, joints_of_each, missed
 from .writing import Draft, written
 
@@ -96,21 +97,30 @@ class _Jointing:
         return alone if isinstance(alone, Joint) else None
 
     def _kept_explicit(self, relation: Relation, found: Candidate, names: list[str]) -> bool:
-        """Of several statements about a pair, an explicit joint of the found kind stands for all of them,
-        so that its limits and drives are kept; one of another kind is given up, and reported."""
+        """Of several statements about a pair, an explicit joint of the found kind, or else one that has the found
+        freedoms among its own, stands for all of them, so that its name, limits and drives are kept; another is given
+        up, and reported."""
         statements = self.assembly.equations.statements
         explicit = [s for s in (statements[o] for o in relation.owners) if isinstance(s, Joint)]
-        same = next((j for j in explicit if j.kind is found.kind), None)
+        standing = next(
+            ((j, j) for j in explicit if j.kind is found.kind),
+            next(((j, own) for j in explicit if (own := self._narrowed(j, found)) is not None), None),
+        )
+        same, kept = (None, None) if standing is None else standing
         for joint in explicit:
             if joint is not same:
                 by = found.kind.value if same is None else same.id
                 self.report.dropped(
                     f"joint {joint.id}", "JOINT_SUPERSEDED", joint.where, joint=joint.id, by=by
                 )
-        if same is not None:
-            others = [n for n in names if n != same.id]
-            self._link_explicit(replace(same, because=tuple(dict.fromkeys([*same.because, *others]))))
-        return same is not None
+        if kept is not None:
+            others = [n for n in names if n != kept.id]
+            self._link_explicit(replace(kept, because=tuple(dict.fromkeys([*kept.because, *others]))))
+        return kept is not None
+
+    def _narrowed(self, joint: Joint, found: Candidate) -> Joint | None:
+        a, b = (Pose() if n is None else self.assembly.poses[n] for n in (joint.a, joint.b))
+        return narrowed(joint, found, a, b)
 
     def _link_explicit(self, joint: Joint) -> None:
         a, b = (self.assembly.body_of(n) for n in (joint.a, joint.b))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import kinefab
@@ -86,3 +87,18 @@ def test_what_a_script_prints_is_a_line(tmp_path: Path):
     )
     counts = "0 error, 1 warning, 0 info, 1 kept, 1 approximated, 0 dropped"
     assert repr(result) == f"<ExportResult: {tmp_path / 'a.kinefab'}; <Report: {counts}>>"
+
+
+@pytest.mark.parametrize("command", ["view", "report", "draw"])
+def test_what_is_looked_at_tells_what_was_found_and_where_it_is(command: str, tmp_path: Path):
+    """A page of a robot whose mesh is missing shows no mesh: as with export, a warning says why."""
+    robot = tmp_path / "robot.urdf"
+    mesh = '<visual><geometry><mesh filename="nope.stl"/></geometry></visual>'
+    robot.write_text(f'<robot name="r"><link name="base">{mesh}</link></robot>', encoding="utf-8")
+    target = tmp_path / ("shown.svg" if command == "draw" else "shown.html")
+    done = run(command, robot, "-o", target)
+    assert done.exit_code == 0, done.stderr
+    assert done.stdout.strip() == str(target)
+    assert "MESH_NOT_FOUND" in done.stderr
+    told = json.loads(run(command, robot, "-o", target, "--json").stdout)
+    assert [d["code"] for d in told["diagnostics"] if d["severity"] == "warning"] == ["MESH_NOT_FOUND"]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .analysis import analyse
-from .diagnostics import KinefabError, diagnostic
+from .diagnostics import KinefabError, Report, diagnostic
 from .mechanism import Mechanism, Trajectory, mechanism_of
 from .model import Scene
 from .options import ExportOptions
@@ -29,15 +29,16 @@ def film(
     ending: str,
     joint: str | None = None,
     options: ExportOptions = ExportOptions(),
+    found: Report | None = None,
 ) -> bytes:
     """The picture's file.  ending: one of ``ENDINGS``; a ``.png`` is still.  joint: what is driven; the first freedom.
-    options: what the source is exported with.
+    options: what the source is exported with.  found: takes what that found.
 
     Raises KinefabError when the data is wrong or a library is missing, ValueError for a joint that is none.
     """
     writer = _writer(ending)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
-        document, buffers = read_document(source, options)
+        document, buffers = read_document(source, options, found)
         back = restored(document)
         mechanism = mechanism_of(analyse(back.scene))
     still = ending == ".png" or not mechanism.freedoms

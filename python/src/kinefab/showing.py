@@ -38,12 +38,18 @@ MOST_STROKES = 12
 """Freedoms that a report plots."""
 
 
-def view(source: str | Path | Scene, target: str | Path, options: ExportOptions = ExportOptions()) -> Path:
+def view(
+    source: str | Path | Scene,
+    target: str | Path,
+    options: ExportOptions = ExportOptions(),
+    found: Report | None = None,
+) -> Path:
     """Write the page of a source, a written ``NAME.kinefab`` or a Scene made in code to ``target`` (``NAME.html``).
 
     What is shown is the scene as it is exported, and how its joints let it move.
     options: what the source is exported with.  Its reading option ``mates``, "auto" or a ``NAME.mates.json``, has those
     mates listed by number, to be switched and copied back; of a written scene they are listed only.
+    found: takes what reading and exporting the source found.
     Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.
 
     >>> import kinefab, trimesh
@@ -53,7 +59,7 @@ def view(source: str | Path | Scene, target: str | Path, options: ExportOptions 
     >>> kinefab.view(scene, "door.html").name
     'door.html'
     """
-    return _written(source, Path(target), options, told=False)
+    return _written(source, Path(target), options, found, told=False)
 
 
 def _mates(path: Path) -> Entry:
@@ -70,10 +76,13 @@ def _mates(path: Path) -> Entry:
         raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
 
 
-def _written(source: str | Path | Scene, target: Path, options: ExportOptions, told: bool) -> Path:
-    mates, shown = _with_mates(source, options)
+def _written(
+    source: str | Path | Scene, target: Path, options: ExportOptions, found: Report | None, told: bool
+) -> Path:
+    found = Report() if found is None else found
+    mates, shown = _with_mates(source, options, found)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
-        document, buffers = read_document(shown, options)
+        document, buffers = read_document(shown, options, found)
         text = page_of(document, buffers, title_of(document, source), told, mates)
     try:
         write_whole(target, text.encode("utf-8"))
@@ -84,7 +93,7 @@ def _written(source: str | Path | Scene, target: Path, options: ExportOptions, t
 
 
 def _with_mates(
-    source: str | Path | Scene, options: ExportOptions
+    source: str | Path | Scene, options: ExportOptions, report: Report
 ) -> tuple[Entry | None, str | Path | Scene]:
     """The mates that are asked for as their file has them, None for none; and the source, with those that were found in it."""
     asked = str(options.reading.get("mates", ""))
@@ -94,7 +103,6 @@ def _with_mates(
         return _mates(Path(asked)), source
     if isinstance(source, Scene) or is_written(source):
         raise ValueError("mates are found in an assembly file; pass a NAME.mates.json to list")
-    report = Report()
     scene, found = mates_of(source, options.reading, report)
     return mates_document(scene, found), with_found(scene, found, report)
 
@@ -105,15 +113,20 @@ def is_written(source: str | Path) -> bool:
 
 
 def read_document(
-    source: str | Path | Scene, options: ExportOptions = ExportOptions()
+    source: str | Path | Scene, options: ExportOptions = ExportOptions(), found: Report | None = None
 ) -> tuple[Entry, list[bytes]]:
-    """The scene file's content and its buffers; a source is exported first, beside nothing of the user's."""
+    """The scene file's content and its buffers; a source is exported first, beside nothing of the user's.
+
+    found: takes what that found.
+    """
     if not isinstance(source, Scene) and is_written(source):
         document = read_scene_file(Path(source))
         return document, read_buffers(Path(source), document)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.kinefab"
-        export(source, path, options)
+        result = export(source, path, options)
+        if found is not None:
+            found.extend(result.report)
         document = read_scene_file(path)
         return document, read_buffers(path, document)
 
@@ -191,7 +204,12 @@ def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, 
     return ends[0], ends[1], (words[0], words[1])
 
 
-def report(source: str | Path | Scene, target: str | Path, options: ExportOptions = ExportOptions()) -> Path:
+def report(
+    source: str | Path | Scene,
+    target: str | Path,
+    options: ExportOptions = ExportOptions(),
+    found: Report | None = None,
+) -> Path:
     """As ``view``, with the analysis in words, plots of the driven freedoms and the loss report under it.
 
     >>> import kinefab, trimesh
@@ -201,7 +219,7 @@ def report(source: str | Path | Scene, target: str | Path, options: ExportOption
     >>> kinefab.report(scene, "door.html").name
     'door.html'
     """
-    return _written(source, Path(target), options, told=True)
+    return _written(source, Path(target), options, found, told=True)
 
 
 def motion_of(back: Restored, mechanism: Mechanism) -> Motion:

@@ -32,6 +32,7 @@ def draw(
 ) -> None:
     """Draw a scene: its bodies, its joints and how far they move."""
     demand_ending(output, ".svg", ".png", ".gif", ".webp")
+    found = Report()
     try:
         if output.suffix.lower() == ".svg" and not motion and file.suffix.lower() == ".kinefab":
             from ..views.overview import picture
@@ -40,13 +41,13 @@ def draw(
         else:
             from ..filming import film
 
-            content = film(file, output.suffix.lower(), joint, _options(file, reading))
+            content = film(file, output.suffix.lower(), joint, _options(file, reading), found)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:
         fail(error, output, as_json, False)
     write(output, content, as_json)
-    tell(Report(), output, as_json, True)
+    _tell(found, output, as_json)
 
 
 @asking(("reading", source_options()))
@@ -70,13 +71,12 @@ def view(
     demand_ending(page, ".html")
     from ..showing import view as run
 
+    found = Report()
     try:
-        run(source, page, _options(source, reading, "mates"))
+        run(source, page, _options(source, reading, "mates"), found)
     except KinefabError as error:
         fail(error, page, as_json, False)
-    if not as_json:
-        typer.echo(page)
-    tell(Report(), page, as_json, True)
+    _tell(found, page, as_json)
     if open_:
         typer.launch(str(page))
 
@@ -94,11 +94,19 @@ def report(
     demand_ending(output, ".html")
     from ..showing import report as run
 
+    found = Report()
     try:
-        run(source, output, _options(source, reading, "mates"))
+        run(source, output, _options(source, reading, "mates"), found)
     except KinefabError as error:
         fail(error, output, as_json, False)
-    tell(Report(), output, as_json, True)
+    _tell(found, output, as_json)
+
+
+def _tell(found: Report, written: Path, as_json: bool) -> None:
+    """What was found on the way, and where the file is."""
+    if not as_json:
+        typer.echo(written)
+    tell(found, written, as_json, True)
 
 
 def _options(source: Path, reading: dict[str, Any], *of_scenes: str) -> ExportOptions:

@@ -11,9 +11,10 @@ import pytest
 from cad.described import described, mechanism
 from cad.documented import untagged
 from cad.fusion import Fusion
+from cad.gltf import exported
 from cad.inventor import Inventor
 from cad.mutations import mutated
-from cad.onshape import answers, masses, stl
+from cad.onshape import answers, boxes, masses, of_each_part, stl
 from cad.solidworks import SolidWorks
 from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.channel import MemberFailed, record
@@ -51,7 +52,9 @@ def records(program: str):
         return Fusion(assembly, bodies=fusion_bodies).record(
             groups=(("G", [parts[0]["id"], parts[1]["id"]]),)
         )
-    return answers(assembly) | masses(assembly) | stl(assembly, POINTS, FACES)
+    drawn = exported(POINTS, FACES, [{"baseColorFactor": [0.2, 0.5, 0.9, 1.0]}] * len(FACES), binary=False)
+    bodies = of_each_part(assembly, "gltf", drawn) | boxes(assembly, POINTS) | stl(assembly, POINTS, FACES)
+    return answers(assembly) | masses(assembly) | bodies
 
 
 @pytest.mark.parametrize("program", PROGRAMS)

@@ -8,9 +8,11 @@ import pytest
 from cad.captures import Program, call
 from cad.described import described
 from cad.fusion import Fusion
+from cad.gltf import exported
 from cad.inventor import Inventor
-from cad.onshape import answers
+from cad.onshape import answers, weighed
 from cad.solidworks import SolidWorks
+from cad.tetrahedron import FACES, POINTS
 from kinefab.capture.channel import Live
 from kinefab.capture.draft import Draft
 from kinefab.capture.fusion import capture as fusion
@@ -19,6 +21,7 @@ from kinefab.capture.onshape.answers import Answers
 from kinefab.capture.onshape.capture import capture as onshape
 from kinefab.capture.solidworks import capture as solidworks
 from test_capture_kinds import side
+from test_capture_matter import tetrahedron
 
 
 def chain(parts: int, constraints: int, joints: int = 0) -> dict:
@@ -92,9 +95,13 @@ def test_onshape_is_asked_four_times_twice_a_part_and_once_a_studio():
     known = answers(described(values))
     calls: list[str] = []
 
+    drawn, solid = exported(POINTS, FACES, [None] * len(FACES)), tetrahedron()[1]
+    mass = weighed(2.0, POINTS.mean(axis=0), solid, 0.03 * 0.02 * 0.05 / 6.0)
+    others = {"gltf": drawn, "mass": mass, "parts": []}
+
     def fetch(question: str):
         calls.append(question)
-        return known[question] if question in known else b" " * 80 + b"\0\0\0\0"
+        return known[question] if question in known else others[question.partition(" ")[0]]
 
     onshape(Answers(fetch=fetch), Draft("Onshape", "m", "Z"))
     assert len(calls) == 7 and math.isclose(len(set(calls)), len(calls))

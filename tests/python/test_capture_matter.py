@@ -10,9 +10,10 @@ import pytest
 from cad.captures import capture, scene_differences
 from cad.described import described
 from cad.fusion import Fusion
+from cad.gltf import exported
 from cad.inventor import Inventor
 from cad.onshape import answers as onshape
-from cad.onshape import masses, stl
+from cad.onshape import boxes, masses, of_each_part
 from cad.solidworks import SolidWorks
 from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.draft import BodyMesh, Draft
@@ -63,7 +64,9 @@ def record(program: str, values: dict, meshed: bool):
         return SolidWorks(assembly, solidworks_bodies if meshed else None).record()
     if program == "fusion":
         return Fusion(assembly, bodies=fusion_bodies if meshed else None).record()
-    return onshape(assembly) | masses(assembly) | (stl(assembly, POINTS, FACES) if meshed else {})
+    drawn = exported(POINTS, FACES, [{"baseColorFactor": LINEAR}] * 4)
+    bodies = of_each_part(assembly, "gltf", drawn) | boxes(assembly, POINTS) if meshed else {}
+    return onshape(assembly) | masses(assembly) | bodies
 
 
 def plain(values: dict) -> dict:
@@ -118,7 +121,7 @@ def test_material_and_colour(program, tmp_path):
 @pytest.mark.parametrize("program", ["inventor", "solidworks", "fusion"])
 @pytest.mark.parametrize("count", [0, 3])
 def test_colours_of_single_faces_are_told(program, count, tmp_path):
-    """The body has one; a body with a colour of its own is none of them.  Onshape's parts answer with one."""
+    """The body has one; a body with a colour of its own is none of them.  Onshape's keep theirs."""
     values, report = machine("mm", "Z"), Report()
     values["components"][1]["look"] = {**LOOK, "painted": count}
     found = capture(program, record(program, values, True), tmp_path, "Z", report)

@@ -14,8 +14,9 @@ from cad.captures import Program, call, capture
 from cad.described import described, mechanism
 from cad.documented import KIND, TOUCHED, Answers, Refused, members
 from cad.fusion import Fusion
+from cad.gltf import exported
 from cad.inventor import Inventor
-from cad.onshape import answers, masses, stl
+from cad.onshape import answers, boxes, masses, of_each_part
 from cad.solidworks import SolidWorks
 from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.channel import Live
@@ -115,7 +116,9 @@ def onshape_cases() -> list:
     rows = patterned(*BOLTS, patterns=[row], joints=[rigid("Base", "Bolt-1")])
     rows["groups"] = [["Group", ["M/Arm", "M/Bolt-2"]]]
     described_block = described(block("mm", "Z"))
-    matter = answers(described_block) | masses(described_block) | stl(described_block, POINTS, FACES)
+    drawn = exported(POINTS, FACES, [{"baseColorFactor": [0.5, 0.5, 0.5, 1.0]}] * 4)
+    matter = answers(described_block) | masses(described_block) | boxes(described_block, POINTS)
+    matter |= of_each_part(described_block, "gltf", drawn)
     mates = only_joints("gears")
     hinge = mates["joints"][0]
     for word, names in (

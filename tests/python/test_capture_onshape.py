@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import struct
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import parse_qs, urlsplit
@@ -12,7 +11,9 @@ import pytest
 from cad.captures import capture, scene_differences
 from cad.described import described, mechanism
 from cad.gears import gear_pair
-from cad.onshape import answers
+from cad.gltf import exported
+from cad.onshape import answers, boxed
+from cad.tetrahedron import FACES, POINTS
 from command_line import run
 from kinefab.capture.onshape.mates import quantity
 from kinefab.capture.onshape.parts import stl
@@ -93,8 +94,8 @@ class Server:
                     return
                 word = self.path.partition("?")[0].rpartition("/")[2]
                 word = {"e": "definition", "elements": "name"}.get(word, word)
-                if word == "stl":
-                    body = b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+                if word == "gltf":
+                    body = exported(POINTS, FACES, [None] * len(FACES))
                 elif word in answers:
                     body = json.dumps(answers[word]).encode()
                 else:
@@ -125,16 +126,15 @@ KEYS = {"ONSHAPE_ACCESS_KEY": "on-access", "ONSHAPE_SECRET_KEY": "on-secret"}
 def test_over_http_with_keys_and_a_record_without_them(tmp_path):
     values = only_joints("gears")
     record = tmp_path / "x.record.json"
-    with Server(answers(described(values))) as server:
+    with Server(answers(described(values)) | {"boundingboxes": boxed(POINTS)}) as server:
         found = capture_onshape(
             server.address, KEYS, tmp_path / "x.bundle.json", Report(), record, up=values["meta"]["up"]
         )
     assert found.calls == len(server.asked)
     assert all(login.startswith("Basic ") for _, login in server.asked)
     parts = {c["definition"] for c in found.draft.components if c["kind"] == "part"}
-    assert found.calls == 4 + 3 * len(
-        parts
-    )  # definition, name, features, matevalues; mesh and mass of each part, looks of each studio
+    # definition, name, features, matevalues; mesh and mass of each part, which is not known, so its box; looks of each studio
+    assert found.calls == 4 + 4 * len(parts)
     assert len(found.files) == 1 + len(parts)
     assert "on-secret" not in record.read_text("utf-8") and "Basic" not in record.read_text("utf-8")
     again = run("capture", "--replay", record, "-o", tmp_path / "y.bundle.json", "--up", values["meta"]["up"])
@@ -203,7 +203,7 @@ def test_a_formula_is_told_not_guessed(expression):
 
 def test_a_mesh_that_is_none():
     with pytest.raises(ValueError):
-        stl("x", b"solid ascii")
+        stl(b"solid ascii")
 
 
 def test_a_part_of_a_linked_document_is_asked_by_its_version_through_the_document(tmp_path):
@@ -227,10 +227,13 @@ def test_a_part_of_a_linked_document_is_asked_by_its_version_through_the_documen
 
     studio = f"/api/parts/d/{'x' * 24}/v/{'v' * 24}/e/{other['elementId']}"
     queries = of(other)
-    assert set(queries) == {studio, f"{studio}/partid/JHD/stl", f"{studio}/partid/JHD/massproperties"}
+    assert set(queries) == {
+        studio,
+        *(f"{studio}/partid/JHD/{w}" for w in ("gltf", "massproperties", "boundingboxes")),
+    }
     assert all(query["linkDocumentId"] == ["d" * 24] for query in queries.values())
     assert queries[f"{studio}/partid/JHD/massproperties"]["inferMetadataOwner"] == ["true"]
     for instance, state in ((own, f"v/{'u' * 24}"), (plain, f"m/{'m' * 24}")):
         queries = of(instance)
-        assert len(queries) == 3 and all(f"/d/{'d' * 24}/{state}/e/" in path for path in queries)
+        assert len(queries) == 4 and all(f"/d/{'d' * 24}/{state}/e/" in path for path in queries)
         assert not any(query.keys() & {"linkDocumentId", "inferMetadataOwner"} for query in queries.values())

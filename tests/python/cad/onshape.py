@@ -154,18 +154,15 @@ def _feature(own: str, kind: str, data: dict[str, Any]) -> dict[str, Any]:
     return of_onshape("Feature", id=own, suppressed=False, featureType=kind, featureData=data)
 
 
-def masses(assembly: Described) -> dict[str, Any]:
+def masses(assembly: Described, volume: float = 0.0) -> dict[str, Any]:
     """What is answered for the parts: looks of each Part Studio, mass of each part; moments SI, about the centroid."""
     found: dict[str, Any] = {}
     for part in assembly.parts.values():
         where = f"{OF['documentId']} {OF['documentMicroversion']} E{part.definition}"
         if part.mass is not None:
-            tensor = part.mass["inertia"]
-            body = of_onshape(
-                "MassBody", hasMass=True, mass=[part.mass["mass"]] * 3, centroid=part.mass["center"].tolist() * 3,
-                inertia=tensor.ravel().tolist() * 3, principalInertia=np.linalg.eigvalsh(tensor).tolist(),
-            )  # fmt: skip
-            found[f"mass {where} JHD default"] = of_onshape("MassProperties", bodies={"JHD": body})
+            found[f"mass {where} JHD default"] = weighed(
+                part.mass["mass"], part.mass["center"], part.mass["inertia"], volume
+            )
         if part.look is not None:
             red, green, blue, opacity = part.look["srgb"]
             color = of_onshape("Color", red=red, green=green, blue=blue)
@@ -177,12 +174,44 @@ def masses(assembly: Described) -> dict[str, Any]:
     return found
 
 
+def weighed(mass: float, center: np.ndarray, tensor: np.ndarray, volume: float) -> dict[str, Any]:
+    """The answer on one part's mass, without a material on its volume alone."""
+    body = of_onshape(
+        "MassBody", hasMass=mass > 0.0, mass=[mass] * 3, volume=[volume] * 3, centroid=center.tolist() * 3,
+        inertia=tensor.ravel().tolist() * 3, principalInertia=np.linalg.eigvalsh(tensor).tolist(),
+    )  # fmt: skip
+    return of_onshape("MassProperties", bodies={"JHD": body})
+
+
+def boxed(points: np.ndarray) -> dict[str, Any]:
+    """The answer on one part's bounding box."""
+    ends = {"low": points.min(axis=0), "high": points.max(axis=0)}
+    return of_onshape(
+        "Box", **{f"{end}{axis}": float(p[i]) for end, p in ends.items() for i, axis in enumerate("XYZ")}
+    )
+
+
+def of_each_part(assembly: Described, kind: str, content: bytes) -> dict[str, Any]:
+    """One file as the answer for every part."""
+    where = f"{OF['documentId']} {OF['documentMicroversion']}"
+    held = {"base64": base64.b64encode(content).decode()}
+    return {
+        f"{kind} {where} E{part.definition} JHD default": held
+        for part in assembly.parts.values()
+        if not part.assembly
+    }
+
+
+def boxes(assembly: Described, points: np.ndarray) -> dict[str, Any]:
+    """The same box as the answer for every part."""
+    where = f"{OF['documentId']} {OF['documentMicroversion']}"
+    parts = [part for part in assembly.parts.values() if not part.assembly]
+    return {f"box {where} E{part.definition} JHD default": boxed(points) for part in parts}
+
+
 def stl(assembly: Described, points: np.ndarray, faces: list[list[int]]) -> dict[str, Any]:
     """A binary STL in metres for every part."""
     facets = b"".join(
         struct.pack("<12fH", 0.0, 0.0, 0.0, *points[face].ravel().tolist(), 0) for face in faces
     )
-    content = base64.b64encode(b" " * 80 + struct.pack("<I", len(faces)) + facets).decode()
-    where = f"{OF['documentId']} {OF['documentMicroversion']}"
-    parts = [part for part in assembly.parts.values() if not part.assembly]
-    return {f"stl {where} E{part.definition} JHD default": {"base64": content} for part in parts}
+    return of_each_part(assembly, "stl", b" " * 80 + struct.pack("<I", len(faces)) + facets)

@@ -7,5 +7,5 @@ rigid bodies and freedoms against the analysis, ``writing`` writes.  Not yet run
 
 Calls of an assembly of 2,000 occurrences and 5,000 constraints, linear (``tests/python/test_capture_cost.py``): Inventor 218,026,
 SolidWorks 115,027, each about a millisecond out of process; Fusion 147,033 with 5,000 joints, in process; Onshape four, two for
-each part and one for each Part Studio.
+each part and one for each Part Studio; one more for a part whose mass does not tell how its mesh stands.
 """

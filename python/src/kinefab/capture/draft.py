@@ -30,11 +30,15 @@ WRONG_ANSWER = (
 @dataclass(slots=True)
 class BodyMesh:
     """name: of the body.  points: x y z of each corner, in the part's frame, ``length`` of the draft.
-    triangles: corners, from 0.  Raises TypeError or ValueError for what is no mesh."""
+    triangles: corners, from 0.  normals: x y z of each corner, where the program states them.
+    runs: of faces with looks of their own how many have which material, in order.
+    Raises TypeError or ValueError for what is no mesh."""
 
     name: str
     points: list[float]
     triangles: list[int]
+    normals: list[float] | None = None
+    runs: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
@@ -44,6 +48,12 @@ class BodyMesh:
             raise ValueError("a mesh whose numbers are no points")
         if self.triangles and not 0 <= min(self.triangles) <= max(self.triangles) < len(self.points) // 3:
             raise ValueError("a triangle of a mesh names a corner that is not there")
+        if self.normals is not None and (
+            len(self.normals) != len(self.points) or not all(map(math.isfinite, self.normals))
+        ):
+            self.normals = None
+        if self.runs and 3 * sum(count for count, _ in self.runs) != len(self.triangles):
+            raise ValueError("a mesh whose looks are not of its triangles")
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,11 @@ def look(draft: Draft, material: str, color: Numbers | None, part: str) -> str |
     """
     if not material and color is None:
         return None
-    wanted: Record = {} if color is None else {"color": [*map(_linear, color[:3]), _share(color[3])]}
+    return listed(draft, material, {} if color is None else {"color": linear(color)}, part)
+
+
+def listed(draft: Draft, material: str, wanted: Record, part: str) -> str:
+    """The same of a look in a bundle's own words: ``color``, linear, ``metallic``, ``smoothness``."""
     name, number = material or part, 1
     while name in draft.materials and draft.materials[name] != {"name": name, **wanted}:
         number += 1
@@ -33,11 +37,15 @@ def painted(draft: Draft, name: str, count: int) -> None:
         )
 
 
+def linear(color: Numbers) -> list[float]:
+    """Of screens' red green blue (sRGB) and opacity a bundle's, IEC 61966-2-1."""
+    return [*(_linear(v) for v in color[:3]), _share(color[3])]
+
+
 def _share(value: float) -> float:
     return min(1.0, max(0.0, float(value)))
 
 
 def _linear(value: float) -> float:
-    """IEC 61966-2-1."""
     v = _share(value)
     return v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4

@@ -8,10 +8,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
+from itertools import islice
 from pathlib import Path
 from typing import Any, cast
 
-from .draft import Draft
+from .draft import BodyMesh, Draft
 
 
 def mesh_files(draft: Draft, folder: str) -> tuple[dict[str, Any], dict[str, bytes]]:
@@ -23,12 +24,15 @@ def mesh_files(draft: Draft, folder: str) -> tuple[dict[str, Any], dict[str, byt
         word = re.sub(r"[^A-Za-z0-9_-]+", "_", definition)[:40]
         named[definition] = f"{folder}/{number:04d}_{word}.obj"
         lines, first = ["# kinefab capture, part coordinates"], 1
+        normals = any(body.normals is not None for body in bodies)
         for body in bodies:
             lines.append(f"o {' '.join(body.name.split()) or 'body'}")
             corners = zip(*(iter(body.points),) * 3)
             lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in corners]
-            faces = zip(*(iter(body.triangles),) * 3)
-            lines += [f"f {a + first} {b + first} {c + first}" for a, b, c in faces]
+            if normals:
+                vectors = body.normals or [0.0] * len(body.points)
+                lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in zip(*(iter(vectors),) * 3)]
+            lines += _faces(body, first)
             first += len(body.points) // 3
         files[named[definition]] = ("\n".join(lines) + "\n").encode("utf-8")
     if named:
@@ -39,6 +43,18 @@ def mesh_files(draft: Draft, folder: str) -> tuple[dict[str, Any], dict[str, byt
         else:
             component.pop("bodies", None)
     return values, files
+
+
+def _faces(body: BodyMesh, first: int) -> list[str]:
+    """Lines of a body's faces, with its normals, below the name of the material that a run of them has.  first: its first corner."""
+    pattern = "f {0} {1} {2}" if body.normals is None else "f {0}//{0} {1}//{1} {2}//{2}"
+    numbered = (
+        pattern.format(a + first, b + first, c + first) for a, b, c in zip(*(iter(body.triangles),) * 3)
+    )
+    lines: list[str] = []
+    for count, material in body.runs:
+        lines += [f"usemtl {material}", *islice(numbered, count)]
+    return [*lines, *numbered]
 
 
 def bundle_text(values: dict[str, Any]) -> bytes:

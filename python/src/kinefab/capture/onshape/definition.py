@@ -30,6 +30,9 @@ class Definition:
         occurrences = {tuple(o["path"]): o for o in top.get("occurrences", [])}
         self.owners.append(((), top))
         self._level(top, (), self.root, subs, occurrences)
+        self.parts.read()
+        for component in self.draft.components:
+            component.update(self.parts.found.get(component.get("definition", ""), {}))
 
     def _level(
         self,
@@ -78,7 +81,7 @@ class Definition:
                 self.owners.append((own_path, sub))
                 self._level(sub, own_path, own, subs, found)
         else:
-            record.update(self.parts.read(record["definition"], record["name"], instance))
+            self.parts.want(record["definition"], record["name"], instance)
 
     def component(self, owner: tuple[str, ...], path: list[str]) -> str:
         """Id of what a feature of ``owner`` names; an empty path is the assembly itself.  Raises KeyError."""

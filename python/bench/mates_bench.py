@@ -29,8 +29,8 @@ sys.path[:0] = [str(ROOT / "fixtures"), str(ROOT / "python" / "src")]
 
 from kinefab.analysis import AnalysisOptions, analyse  # noqa: E402
 from kinefab.diagnostics import Report  # noqa: E402
-from kinefab.mates import find_mates  # noqa: E402
 from kinefab.mates.apply import with_found  # noqa: E402
+from kinefab.mates.find import find_mates  # noqa: E402
 from kinefab.model import ConstraintKind, Scene  # noqa: E402
 from kinefab.options import Closures  # noqa: E402
 from kinefab.sources import read  # noqa: E402

@@ -9,8 +9,8 @@ import pytest
 from command_line import run
 from kinefab.analysis import analyse
 from kinefab.diagnostics import KinefabError, Report
-from kinefab.mates import find_mates
 from kinefab.mates.asked import mated
+from kinefab.mates.find import find_mates
 from kinefab.mates.mates_file import text
 from kinefab.model import ConstraintKind, Scene
 from kinefab.sources import read

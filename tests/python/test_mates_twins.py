@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kinefab.diagnostics import Report
-from kinefab.mates import find_mates
+from kinefab.mates.find import find_mates
 from kinefab.mates.mate import AUTO
 from kinefab.sources import read
 

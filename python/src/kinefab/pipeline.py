@@ -23,7 +23,7 @@ from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
 from .geometry.plausibility import check_plausible
 from .geometry.weighing import weigh
-from .mates import Mates, find_mates
+from .mates import Mates
 from .mates.asked import mated
 from .model import Scene
 from .options import ExportOptions
@@ -130,6 +130,8 @@ def mates_of(
     source: str | Path, reading: Mapping[str, object], report: Report, progress: Progress = silent
 ) -> tuple[Scene, Mates]:
     """A source as it is read, and the mates found in its geometry.  Raises KinefabError with every error found."""
+    from .mates.find import find_mates  # as in ``mates.asked``
+
     files = MeshFiles(report, part_readers())
     own = {name: value for name, value in reading.items() if name != "mates"}
     scene = _read(Path(source), own, files, report, progress)

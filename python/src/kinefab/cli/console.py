@@ -31,16 +31,18 @@ def count(number: int, word: str, words: str) -> str:
 
 def log(report: Report) -> None:
     """Findings on stderr, one a line, coloured on a terminal; of thousands that are alike the first ones."""
-    from rich.console import Console
-    from rich.text import Text
-
     least = {1: 0, 0: 1, -1: 2}[verbosity]
     rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
     style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
+    shown = [found for found in listed(report.diagnostics) if rank[found.severity] >= least]
+    if not shown:  # nor is there a reason to wait for rich
+        return
+    from rich.console import Console
+    from rich.text import Text
+
     console = Console(stderr=True, soft_wrap=True, highlight=False)
-    for found in listed(report.diagnostics):
-        if rank[found.severity] >= least:
-            console.print(Text(printable(str(found)), style=style[found.severity]))
+    for found in shown:
+        console.print(Text(printable(str(found)), style=style[found.severity]))
 
 
 def json_text(values: object) -> str:

@@ -1,6 +1,5 @@
 """Mates found from exact geometry: ``find`` reads like a sentence, ``mate`` is the noun, ``mates_file`` what people edit."""
 
-from .find import find_mates
 from .mate import AUTO, Mate, Mates, MateSide
 
-__all__ = ["AUTO", "Mate", "MateSide", "Mates", "find_mates"]
+__all__ = ["AUTO", "Mate", "MateSide", "Mates"]

@@ -7,9 +7,6 @@ from pathlib import Path
 
 from ..diagnostics import Report
 from ..model import Scene
-from .apply import with_found
-from .find import find_mates
-from .mates_file import with_file
 
 
 def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
@@ -19,12 +16,18 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     Raises KinefabError for a mates file that is wrong.
     """
     choice, ground = str(asked.get("mates", "")), str(asked.get("ground", ""))
+    # what finds and reads mates is imported where they are asked for: few exports do, and all would wait for it
     if choice == "auto":
+        from .apply import with_found
+        from .find import find_mates
+
         found = find_mates(scene, ground)
         if ground and found.ground_reason != "named":
             report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
         return with_found(scene, found, report)
     if choice:
+        from .mates_file import with_file
+
         return with_file(scene, Path(choice), report)
     silent = not (scene.joints or scene.constraints or scene.dof_records)
     exact = sum(any(body.boundary for body in node.bodies) for node in scene.nodes)

@@ -9,7 +9,6 @@ from ...geometry.files import noted
 from ...geometry.pieces import MeshFile, Piece, placed
 from ...model import MeshKey, Scene, Surface
 from ..reading.request import Request
-from ..step.reader import read
 
 AS_IT_STANDS = {"up": "Y"}
 """The scene's own up axis: the file's axes stay."""
@@ -20,6 +19,8 @@ def read_exact(path: Path, report: Report, where: str) -> MeshFile | None:
 
     The joints that an AP242 file may state are not asked for: it is one part here.
     """
+    from ..step.reader import read  # the lightest part of a scene of meshes would wait for all of STEP
+
     own = Report()
     try:
         scene = read(path, own, Request(AS_IT_STANDS))

@@ -139,6 +139,7 @@ def test_placements_and_ranges_are_in_the_files_unit(tmp_path, unit, metres):
         ("spherical", (), JointKind.SPHERICAL, ()),
         ("universal", (), JointKind.UNIVERSAL, (-0.5, 0.5, None, None)),
         ("fixed", (), JointKind.FIXED, ()),
+        ("pinned", (), JointKind.UNIVERSAL, ()),
         ("free", ("tx", "rz"), JointKind.PIN_SLOT, (None, None, None, None, -0.5, 0.5, 0.0, 4.0, None, None, None, None)),
         ("free", ("tx", "ty", "tz", "rz"), JointKind.PARALLEL_PLANES, ()),
         ("free", ("tx", "ty", "rx", "ry"), JointKind.GENERAL, ()),
@@ -160,6 +161,7 @@ def test_freedoms_are_the_flags_of_the_pair(tmp_path, kind, free, wanted, ranges
         "planar": "tx ty rz",
         "spherical": "rx ry rz",
         "universal": "rx rz",
+        "pinned": "ry rz",
         "fixed": "",
     }
     for word in free or named[kind].split():
@@ -180,6 +182,127 @@ def test_a_screw_has_its_pitch(tmp_path):
     pair = Pair("p", "screw", "Base", "Arm", (np.eye(4), np.eye(4)), pitch=2.5)
     scene, _ = read(with_mechanism(data, links, [pair], "Base"), tmp_path)
     assert scene.joints[0].kind is JointKind.SCREW and scene.joints[0].lead == pytest.approx(0.0025)
+
+
+LEANING = np.array([0.6, 0.8, 0.0])
+"""The wheels' axis in the scene, whose Y is up: (0.6, 0, 0.8) in the file."""
+
+
+def carried(
+    folder: Path, unit: str = "MM"
+) -> tuple[bytes, dict[str, Link], list[Pair], dict[str, np.ndarray]]:
+    """A base with a wheel of 12 mm about an axis that leans, one of 30 mm about another, and a bar; each on its own pair."""
+    machine = Machine("Three")
+    scale = {"MM": 1.0, "INCH": 1 / 25.4}[unit]
+    tilt = frame((0.0, 0.0, 0.0), z=(0.6, 0.0, 0.8), x=(0.8, 0.0, -0.6))
+    at = {
+        "Base": np.eye(4),
+        "Small": tilt @ frame((5.0, 0, 0)),
+        "Large": tilt @ frame((47.0, 0, 0)),
+        "Bar": tilt @ frame((5.0, -12.0, 0)),
+    }
+    for name, pose in at.items():
+        machine.add(name, box((0.0, 0.0, 0.0), (4.0, 5.0, 6.0)), tuple(pose[:3, 3]), pose[:3, :3].tolist())
+    write_step(machine, folder / "three.step", schema="AP242DIS", unit=unit)
+    links, frames = {}, {}
+    for name, pose in at.items():
+        pose = pose.copy()
+        pose[:3, 3] *= scale
+        links[name], frames[name] = Link(name, "Three", pose), pose
+    bar = frames["Bar"] @ frame((0.0, 0.0, 0.0), z=(1, 0, 0), x=(0, 1, 0))
+    pairs = [
+        Pair("on small", "revolute", "Base", "Small", (frames["Small"],) * 2),
+        Pair("on large", "revolute", "Large", "Base", (frames["Large"],) * 2),
+        Pair("on bar", "prismatic", "Base", "Bar", (bar, bar)),
+    ]
+    return (folder / "three.step").read_bytes(), links, pairs, frames
+
+
+def rates(scene) -> dict[str, np.ndarray]:
+    """For each part how it moves at the exported pose, turn and then travel of its own origin, WORLD; the small wheel by 1 rad."""
+    (coupling,) = scene.couplings
+    (term,) = coupling.terms
+    speeds = {term.joint: (term.freedom, 1.0), coupling.joint: (coupling.freedom, term.ratio)}
+    found = {}
+    for joint in scene.joints:
+        if joint.id not in speeds:
+            continue
+        freedom, speed = speeds[joint.id]
+        twist = np.zeros((2, 3))
+        twist[1 if freedom < 3 else 0] = (scene.pose(joint.a) @ joint.frame_a).rotation[
+            :, freedom % 3
+        ] * speed
+        moved, other = (joint.b, joint.a) if "Base" in scene.name(joint.a) else (joint.a, joint.b)
+        found[scene.name(moved).rpartition("/")[2]] = twist if moved == joint.b else -twist
+    own = found["Small"][0] @ LEANING
+    return {name: twist / own for name, twist in found.items()}
+
+
+@pytest.mark.parametrize("external", [False, True])
+def test_a_gear_pair_couples_the_turns_of_its_links(tmp_path, external):
+    """By the standard rotation 2 is - ratio * rotation 1, each about its own placement's z, whichever way the hinges are stated."""
+    data, links, pairs, frames = carried(tmp_path)
+    pairs.append(Pair("mesh", "gear", "Small", "Large", (frames["Small"], frames["Large"]), (), (), 0.4))
+    scene, report = read(with_mechanism(data, links, pairs, "Base", external), tmp_path)
+    assert report.diagnostics == [] and len(scene.joints) == 3 and len(report.outcomes) == 4
+    np.testing.assert_allclose(rates(scene)["Large"][0], -0.4 * LEANING, atol=1e-12)
+    done = kinefab.export(tmp_path / "moving.step", tmp_path / "moving.kinefab")
+    assert done.analysed.analysis.mobility == 2
+
+
+@pytest.mark.parametrize("external", [False, True])
+@pytest.mark.parametrize("unit, metres", [("MM", 1e-3), ("INCH", 0.0254)])
+@pytest.mark.parametrize("first, second", [("Bar", "Small"), ("Small", "Bar")])
+def test_a_rack_follows_its_pinion(tmp_path, first, second, unit, metres, external):
+    """The pinion's centre is on y of the rack, so that the rack goes along x as the pinion turns about z: it rolls."""
+    data, links, pairs, frames = carried(tmp_path, unit)
+    radius = 12e-3 / metres
+    pairs.append(Pair("mesh", "rack", first, second, (frames[first], frames[second]), (), (), radius))
+    scene, report = read(with_mechanism(data, links, pairs, "Base", external), tmp_path)
+    assert report.diagnostics == []
+    own = rates(scene)
+    place = [n.name for n in scene.nodes]
+    small, bar = (scene.nodes[place.index(name)].pose for name in ("Small", "Bar"))
+    contact = np.cross(own["Small"][0], bar.translation - small.translation)
+    np.testing.assert_allclose(own["Bar"][1], contact, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(contact), 0.012, atol=1e-12)
+
+
+def test_what_carries_no_gear_and_its_ranges_are_told(tmp_path):
+    data, links, pairs, frames = carried(tmp_path)
+    ends = (frames["Small"], frames["Large"])
+    told = [*pairs[:1], Pair("mesh", "gear", "Small", "Large", ends, (), (), 0.4)]
+    scene, report = read(with_mechanism(data, links, told, "Base"), tmp_path)
+    assert scene.couplings == [] and [d.code for d in report.diagnostics] == ["STEP_PAIRS_DROPPED"]
+    pairs.append(Pair("mesh", "gear", "Small", "Large", ends, (-1.0, 1.0), (), 0.4))
+    scene, report = read(with_mechanism(data, links, pairs, "Base"), tmp_path)
+    (coupling,) = scene.couplings
+    (lost,) = report.diagnostics
+    assert coupling.id == "mesh" and "the range of a gear" in lost.message
+
+
+@pytest.mark.parametrize("external", [False, True])
+def test_a_homokinetic_pair_turns_both_shafts_alike(tmp_path, external):
+    """Its shafts are along y; driven in one bearing, the other shaft turns in its own at every angle between them."""
+    machine = Machine("Shafts")
+    bent = frame((0.0, 0.0, 0.0), z=(0.0, 0.6, 0.8), x=(1, 0, 0))
+    at = {"Base": np.eye(4), "In": np.eye(4), "Out": bent}
+    for name, pose in at.items():
+        machine.add(name, box((0.0, 0.0, 0.0), (4.0, 5.0, 6.0)), tuple(pose[:3, 3]), pose[:3, :3].tolist())
+    write_step(machine, tmp_path / "shafts.step", schema="AP242DIS")
+    links = {name: Link(name, "Shafts", pose) for name, pose in at.items()}
+    along = frame((0.0, 0.0, 0.0), z=(0, 1, 0), x=(0, 0, 1))  # z along the shafts' y
+    pairs = [
+        Pair("first", "revolute", "Base", "In", (along, along)),
+        Pair("second", "revolute", "Base", "Out", (bent @ along, bent @ along)),
+        Pair("joint", "homokinetic", "In", "Out", (at["In"], at["Out"])),
+    ]
+    scene, report = read(
+        with_mechanism((tmp_path / "shafts.step").read_bytes(), links, pairs, "Base", external), tmp_path
+    )
+    assert report.diagnostics == [] and len(scene.couplings) == 1
+    done = kinefab.export(tmp_path / "moving.step", tmp_path / "moving.kinefab")
+    assert done.analysed.analysis.mobility == 1
 
 
 def test_occurrences_of_one_product_are_told_apart(tmp_path):
@@ -204,7 +327,9 @@ def test_occurrences_of_one_product_are_told_apart(tmp_path):
         (b"AXIS2_PLACEMENT_3D('',#", b"AXIS2_PLACEMENT('',#", "placement"),
         (b"DIRECTION('',(0.,0.,1.))", b"DIRECTION('',(0.,0.,0.))", "span nothing"),
         (b",-1.,2.)", b",2.,-1.)", "ends before"),
-        (b"REVOLUTE_PAIR_WITH_RANGE('p'", b"GEAR_PAIR('p'", "gears"),
+        (b"REVOLUTE_PAIR_WITH_RANGE('p'", b"GEAR_PAIR('p'", "argument 5 is no number"),
+        (b"REVOLUTE_PAIR_WITH_RANGE('p'", b"RACK_AND_PINION_PAIR('p'", "argument 1 is no number"),
+        (b"REVOLUTE_PAIR_WITH_RANGE('p'", b"PLANAR_CURVE_PAIR('p'", "planar curve pairs are not read"),
     ],
 )  # fmt: skip
 def test_a_damaged_pair_is_left_out_by_name(tmp_path, old, new, words):
@@ -224,7 +349,10 @@ def test_mutations_of_a_mechanism_end_in_findings(tmp_path, monkeypatch):
     monkeypatch.setattr(reader, "SECONDS", 2.0)
     monkeypatch.setattr(reader, "SECONDS_PER_MEGABYTE", 0.0)
     data, links = boxes(tmp_path)
-    pairs = [Pair(k, k, "Base", "Arm", (np.eye(4), np.eye(4))) for k in ("revolute", "planar", "screw")]
+    pairs = [
+        Pair(k, k, "Base", "Arm", (np.eye(4), np.eye(4)))
+        for k in ("revolute", "planar", "screw", "gear", "rack", "homokinetic")
+    ]
     head, mark, own = with_mechanism(data, links, pairs, "Base", True).partition(b"KINEMATIC_LINK('Base')")
     chance = random.Random(12)
     for _ in range(MUTATIONS):

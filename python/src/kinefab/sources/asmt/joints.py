@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -51,14 +51,16 @@ CONSTRAINTS = {
     "LineInPlaneJoint": (ConstraintKind.DISTANCE, _PLANE, _LINE),
     "PointInLineJoint": (ConstraintKind.COINCIDENT, _LINE, _POINT),
     "RevCylJoint": (ConstraintKind.DISTANCE, _LINE, _LINE),
+    "RevRevJoint": (ConstraintKind.DISTANCE, _LINE, _LINE),
     "CylSphJoint": (ConstraintKind.DISTANCE, _LINE, _POINT),
     "SphSphJoint": (ConstraintKind.DISTANCE, _POINT, _POINT),
     "UniversalJoint": (ConstraintKind.UNIVERSAL, _LINE, _LINE),
     "NoRotationJoint": (ConstraintKind.LOCK_ORIENTATION, FeatureKind.FRAME, FeatureKind.FRAME),
 }
 """Kinds that are geometric constraints, between what of I and what of J."""
-UNSIGNED = frozenset({"RevCylJoint", "CylSphJoint", "SphSphJoint"})
+UNSIGNED = frozenset({"RevCylJoint", "RevRevJoint", "CylSphJoint", "SphSphJoint"})
 """Their distance has no side."""
+CONSTANT_VELOCITY = "ConstantVelocityJoint"
 
 COUPLINGS = frozenset({"GearJoint", "RackPinionJoint", "ScrewJoint"})
 """Kinds that couple the motions of two parts."""
@@ -163,8 +165,17 @@ def frames_together(statement: Statement, poses: Sequence[Pose]) -> Constraint:
     )
 
 
-def constraint_of(statement: Statement) -> Constraint:
-    """The scene's constraint of a statement whose kind is in ``CONSTRAINTS``."""
+def constraints_of(statement: Statement) -> list[Constraint]:
+    """The scene's constraints of a statement whose kind is in ``CONSTRAINTS``: a link between two hinges is a distance of their
+    axes, and J's point in the plane across I's."""
+    found = [_constraint(statement)]
+    if statement.kind == "RevRevJoint":
+        level = replace(statement, id=f"{statement.id} level", kind="PointInPlaneJoint", value=0.0)
+        found.append(_constraint(replace(level, raw_kind=statement.raw_kind or statement.kind)))
+    return found
+
+
+def _constraint(statement: Statement) -> Constraint:
     kind, of_i, of_j = CONSTRAINTS[statement.kind]
     value = abs(statement.value) if statement.kind in UNSIGNED else statement.value
     reading: dict[str, str] = {}
@@ -172,7 +183,7 @@ def constraint_of(statement: Statement) -> Constraint:
         reading["offset"] = "along_normal"
     elif statement.kind in UNSIGNED and value == 0.0:  # no distance has no gradient; it is one in the other
         kind = ConstraintKind.COINCIDENT
-    elif statement.kind == "RevCylJoint":
+    elif statement.kind in ("RevCylJoint", "RevRevJoint"):
         reading["line_line_distance"] = "parallel"
     return Constraint(
         statement.id,

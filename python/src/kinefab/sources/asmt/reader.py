@@ -18,7 +18,7 @@ from ..reading.record import is_encodable, shown
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, turn_to_scene
 from .assembled import add_statements
-from .joints import CONSTRAINTS, COUPLINGS, JOINTS, UNLIMITED, Marker, Statement, world
+from .joints import CONSTANT_VELOCITY, CONSTRAINTS, COUPLINGS, JOINTS, UNLIMITED, Marker, Statement, world
 from .text import AsmtError, Item, linear, parse, row
 
 TURN: Array = turn_to_scene(DIRECTIONS["Z"], DIRECTIONS[FORWARD["Z"]])
@@ -26,10 +26,10 @@ UNITS = {"OndselSolver": 1e-3}
 """Metres in the file's unit, by its first line: FreeCAD exports millimetres; the format itself names no unit."""
 SI = 1.0
 """Of the files with another first line, from before FreeCAD."""
-KINDS = (*JOINTS, *CONSTRAINTS, *COUPLINGS)
+KINDS = (*JOINTS, *CONSTRAINTS, *COUPLINGS, CONSTANT_VELOCITY)
 NUMBERS = {
     "AngleJoint": "theIzJz", "PlanarJoint": "offset", "PointInPlaneJoint": "offset", "LineInPlaneJoint": "offset",
-    "RevCylJoint": "distanceIJ", "CylSphJoint": "distanceIJ", "SphSphJoint": "distanceIJ",
+    "RevCylJoint": "distanceIJ", "RevRevJoint": "distanceIJ", "CylSphJoint": "distanceIJ", "SphSphJoint": "distanceIJ",
     "RackPinionJoint": "pitchRadius", "ScrewJoint": "pitch", "GearJoint": "radiusI",
 }  # fmt: skip
 """The field of each kind's number; all but the angle are lengths."""
@@ -160,15 +160,17 @@ class _Reader:
     def _statement(self, item: Item, ranges: dict[tuple[str, str, str], list[float]]) -> Statement | None:
         name = item.value("Name") or f"{item.text}:{item.line}"
         feature, where = f"joint {shown(name)}", self.place(item)
+        unknown = f"its type '{shown(item.text)}' is not known, or not told apart from another"
+        if not _named(item.text):
+            self._left(feature, where, unknown)
+            return None
         sides = [self.markers.get(item.value(word)) for word in ("MarkerI", "MarkerJ")]
         if sides[0] is None or sides[1] is None:
             self._left(feature, where, "one of its markers is not in the file")
             return None
         kind = self._kind(item, sides[0], sides[1])
         if not kind:
-            self._left(
-                feature, where, f"its type '{shown(item.text)}' is not known, or not told apart from another"
-            )
+            self._left(feature, where, unknown)
             return None
         word = NUMBERS.get(kind, "")
         value = (
@@ -188,12 +190,8 @@ class _Reader:
         )  # fmt: skip
 
     def _kind(self, item: Item, i: Marker, j: Marker) -> str:
-        """The joint's word; FreeCAD 1.0 writes it without its first four letters and with an E behind."""
-        if item.text in KINDS:
-            return item.text
-        alike = [kind for kind in KINDS if kind[4:] + "E" == item.text]
-        if item.text == "JointE":  # "Gear" is gone whole
-            alike = ["GearJoint"]
+        """The joint's word; "" where more than one may be meant."""
+        alike = _named(item.text)
         if len(alike) < 2:
             return alike[0] if alike else ""
         # CylSph and SphSph are left with the same letters: the pose tells whose distance it is.
@@ -237,6 +235,13 @@ class _Reader:
             freedoms[freedom] = replace(old, motion=motion, drive=Drive(target_velocity=rate, motor=True))
             self.scene.joints[index] = replace(joint, freedoms=tuple(freedoms))
             self.report.kept(f"motion {name}", where)
+
+
+def _named(word: str) -> list[str]:
+    """The kinds that a word may stand for; FreeCAD 1.0 writes it without its first four letters and with an E behind."""
+    if word in KINDS:
+        return [word]
+    return [kind for kind in KINDS if kind[4:] + "E" == word]  # of a gear "JointE"
 
 
 def _pose(item: Item) -> Pose:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 from dataclasses import replace
@@ -11,9 +12,16 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import FREEDOM_NAMES, Freedom, Joint, JointKind, Motion, Scene, freedoms_of, kind_of
 from ...spatial import Array, Pose
+from ..asmt.assembled import UNCARRIED, bodies_of
+from ..asmt.constant_velocity import add_constant_velocity
+from ..asmt.couplings import UncarriedError, coupling_of
+from ..asmt.joints import Marker, Statement
 from ..reading.record import is_encodable, shown
-from .pairs import FREEDOMS, Link, Mechanism, Pair, mechanism_of
+from .pairs import COUPLED, FREEDOMS, Link, Mechanism, Pair, mechanism_of
 from .part21 import Part21
+
+SHAFT: Array = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])
+"""Columns z, x, y."""
 
 
 def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Report) -> None:
@@ -30,6 +38,7 @@ def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Re
         if node is not None:
             scene.nodes[node] = replace(scene.nodes[node], grounded=True)
     ids: set[str] = set()
+    coupled: list[tuple[Pair, Statement]] = []
     for pair in found.pairs:
         a, b = (placed.node(link) for link in pair.links)
         if a is None or b is None:
@@ -44,17 +53,60 @@ def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Re
                 name, count = f"{_plain(pair.name)} ({count})", count + 1
             ids.add(name)
             where = f"{scene.source.uri}:#{pair.number}"
-            scene.joints.append(_joint(pair, name, a, b, turn, length, where))
+            if pair.kind in COUPLED:
+                coupled.append((pair, _tie(pair, name, a, b, turn, length, where)))
+                continue
+            if pair.kind == "HOMOKINETIC_PAIR":
+                ends = [(node, _shaft(frame, turn, length)) for node, frame in zip((a, b), pair.frames)]
+                add_constant_velocity(scene, name, pair.name, (ends[0], ends[1]), where)
+            else:
+                scene.joints.append(_joint(pair, name, a, b, turn, length, where))
             report.kept(f"kinematic pair {name}", where)
-            if pair.lost:
-                feature = f"{pair.lost} {name}"
-                report.dropped(
-                    feature,
-                    "STEP_PAIRS_DROPPED",
-                    where,
-                    name=name,
-                    reason=f"{pair.lost} has no place in a joint",
-                )
+            _tell_lost(pair, name, where, report)
+    _add_coupled(scene, coupled, report)
+
+
+def _tell_lost(pair: Pair, name: str, where: str, report: Report) -> None:
+    if pair.lost:
+        reason = f"{pair.lost} has no place in a joint"
+        report.dropped(f"{pair.lost} {name}", "STEP_PAIRS_DROPPED", where, name=name, reason=reason)
+
+
+def _tie(pair: Pair, name: str, a: int, b: int, turn: Array, length: float, where: str) -> Statement:
+    """What ties the motions of two links that other pairs carry."""
+    sides = [Marker(n, _in_scene(frame, turn, length)) for n, frame in zip((a, b), pair.frames)]
+    if pair.kind == "GEAR_PAIR":  # rotation 2 + ratio * rotation 1 = constant, each about its own z
+        return Statement(name, "GearJoint", sides[0], sides[1], pair.ratio, 1.0, name=pair.name, where=where)
+    return Statement(
+        name, "RackPinionJoint", sides[0], sides[1], pair.ratio * length, name=pair.name, where=where
+    )
+
+
+def _add_coupled(scene: Scene, coupled: list[tuple[Pair, Statement]], report: Report) -> None:
+    """Add the couplings.  Either link of a rack and pinion may be the rack: it goes along its x as the pinion turns about z."""
+    bodies, joints = bodies_of(scene), list(scene.joints)
+    for pair, statement in coupled:
+        other_way = replace(statement, i=statement.j, j=statement.i)
+        for asked in (statement, other_way) if pair.kind == "RACK_AND_PINION_PAIR" else (statement,):
+            with contextlib.suppress(UncarriedError):
+                scene.couplings.append(coupling_of(asked, joints, bodies))
+                break
+        else:
+            _left(scene, pair.name, UNCARRIED, report)
+            continue
+        report.kept(f"kinematic pair {statement.id}", statement.where)
+        _tell_lost(pair, statement.id, statement.where, report)
+
+
+def _in_scene(frame: Pose, turn: Array, length: float) -> Pose:
+    """A placement in the scene's axes and metres."""
+    return Pose(turn @ frame.rotation, turn @ frame.translation * length)
+
+
+def _shaft(frame: Pose, turn: Array, length: float) -> Pose:
+    """A homokinetic pair's placement with its shaft, which is along y, along z."""
+    placed = _in_scene(frame, turn, length)
+    return Pose(placed.rotation @ SHAFT, placed.translation)
 
 
 def _left(scene: Scene, name: str, reason: str, report: Report) -> None:

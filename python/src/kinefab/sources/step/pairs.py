@@ -2,7 +2,8 @@
 
 OpenCASCADE's binding has no classes for them, so they are read from the text.  A pair's flags say along and about which axes
 of its placements it moves; names of pairs only say which range stands where.  Source: ISO 10303-105, by the attributes that
-OpenCASCADE's readers give each entity and the files that build123d writes.
+OpenCASCADE's readers give each entity and the files that build123d writes.  Of a gear pair rotation 2 is - rotation 1 * ratio,
+of a rack and pinion the rotation is - displacement / radius (``gear_pair_value``, ``rack_and_pinion_pair_value``).
 """
 
 from __future__ import annotations
@@ -22,10 +23,13 @@ FREEDOMS = ("tx", "ty", "tz", "rx", "ry", "rz")
 OF_PAIR = {
     "REVOLUTE_PAIR": ("rz",), "PRISMATIC_PAIR": ("tz",), "CYLINDRICAL_PAIR": ("tz", "rz"), "SPHERICAL_PAIR": ("rx", "ry", "rz"),
     "PLANAR_PAIR": ("tx", "ty", "rz"), "FULLY_CONSTRAINED_PAIR": (), "UNIVERSAL_PAIR": ("rx", "rz"), "SCREW_PAIR": ("tz", "rz"),
+    "SPHERICAL_PAIR_WITH_PIN": ("ry", "rz"), "UNCONSTRAINED_PAIR": FREEDOMS, "HOMOKINETIC_PAIR": ("rx", "rz"),
 }  # fmt: skip
 """Where the file leaves the flags to be derived."""
-COUPLED = ("GEAR_PAIR", "RACK_AND_PINION_PAIR", "LINEAR_FLEXIBLE_AND_PINION_PAIR")
-_KINDS = sorted((*OF_PAIR, "LOW_ORDER_KINEMATIC_PAIR"), key=len, reverse=True)
+COUPLED = ("GEAR_PAIR", "RACK_AND_PINION_PAIR")
+"""They tie the motions of two links that other pairs carry, and hold nothing else."""
+WITHOUT_FLAGS = (*COUPLED, "SCREW_PAIR")
+_KINDS = sorted((*OF_PAIR, *COUPLED, "LOW_ORDER_KINEMATIC_PAIR"), key=len, reverse=True)
 _PAIR = re.compile(r"^(\w+?_PAIR)(?:_WITH_(RANGE|PIN|PIN_AND_RANGE|MOTION_COUPLING))?$")
 PARALLEL = 1e-9
 
@@ -34,6 +38,7 @@ PARALLEL = 1e-9
 class Pair:
     """One pair.  links: instances of its first and second link.  frames: its placement in each, in the file's unit.
     free: of FREEDOMS.  ranges: by freedom, radians and the file's unit.  pitch: of a screw.
+    ratio: of a gear pair the ratio, of a rack the pinion's radius in the file's unit.
     lost: what of it cannot be kept, in words."""
 
     number: int
@@ -44,6 +49,7 @@ class Pair:
     free: tuple[str, ...]
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
     pitch: float = 0.0
+    ratio: float = 0.0
     lost: str = ""
 
 
@@ -126,27 +132,23 @@ def mechanism_of(text: Part21) -> Mechanism:
 def _pair(text: Part21, instance: int, given: dict[str, list[Value]], turn: float) -> Pair:
     """turn: radians in the file's unit of angle."""
     names = [name for name in given if name and _PAIR.match(name)]
-    if any(name.startswith(COUPLED) for name in names):
-        raise EntityError("gears and racks are not read")
+    kind = max((k for k in _KINDS if any(n.startswith(k) for n in names)), key=_told, default="")
+    if not kind:
+        raise EntityError(f"{names[0].lower().replace('_', ' ')}s are not read")
     if len([name for name in given if name]) == 1:  # internal mapping: all arguments in a row
-        (name,) = names
-        row = given[name]
+        row = given[names[0]]
         label, items, joint, flags, rest = text_of(row, 0), row[3:5], ref(row, 5), row[6:12], row[12:]
-        if name.startswith("SCREW_PAIR"):
+        if kind in WITHOUT_FLAGS:
             flags, rest = list[Value](), row[6:]
     else:
-        name = next((n for n in names if n.startswith(tuple(OF_PAIR))), "")
-        name = name or next((n for n in names if n.startswith("LOW_ORDER")), names[0])
         label = text_of(given.get("REPRESENTATION_ITEM", []), 0)
         items = given.get("ITEM_DEFINED_TRANSFORMATION", [None] * 4)[2:4]
         joint = ref(given.get("KINEMATIC_PAIR", []), 0)
         flags = given.get("LOW_ORDER_KINEMATIC_PAIR", [])
-        own = next((k for k in _KINDS if name.startswith(k)), "")
-        of_kind = [] if own == "LOW_ORDER_KINEMATIC_PAIR" else given.get(own, [])
-        rest = [*of_kind, *given.get(f"{own}_WITH_RANGE", [])]
-    kind = next((k for k in _KINDS if name.startswith(k)), "")
-    if not kind:
-        raise EntityError(f"{name.lower().replace('_', ' ')}s are not read")
+        own = [] if kind == "LOW_ORDER_KINEMATIC_PAIR" else given.get(kind, [])
+        own = given.get("UNIVERSAL_PAIR", []) if kind == "HOMOKINETIC_PAIR" else own
+        ranged = "_AND_RANGE" if kind.endswith("_PIN") else "_WITH_RANGE"
+        rest = [*own, *given.get(f"{kind}{ranged}", [])]
     frames = tuple(_placement(text, ref(items, side)) for side in (0, 1))
     edge = entity(text, joint).get("KINEMATIC_JOINT")
     if edge is None:
@@ -164,12 +166,25 @@ def _pair(text: Part21, instance: int, given: dict[str, list[Value]], turn: floa
         if not pitch:
             raise EntityError("it has no pitch")
         found.pitch, rest = pitch, rest[1:]
-    if kind == "UNIVERSAL_PAIR":
+    if kind in COUPLED:
+        place, word = (4, "ratio") if kind == "GEAR_PAIR" else (0, "pinion radius")
+        found.ratio = number(rest, place) or 0.0
+        if not found.ratio:
+            raise EntityError(f"it has no {word}")
+        ranges = any(value is not None for value in rest[place + 1 :])
+        found.lost = f"the range of a {'gear' if kind == 'GEAR_PAIR' else 'rack'}" if ranges else ""
+        return found
+    if kind in ("UNIVERSAL_PAIR", "HOMOKINETIC_PAIR"):
         if number(rest, 0):
             raise EntityError("its axes are not square")
         rest = rest[1:]
     _set_ranges(found, rest, turn)
     return found
+
+
+def _told(kind: str) -> tuple[bool, bool, int]:
+    """How much a name says of a pair that has several: a universal pair that is homokinetic is that."""
+    return kind != "LOW_ORDER_KINEMATIC_PAIR", kind == "HOMOKINETIC_PAIR", len(kind)
 
 
 def _free(kind: str, flags: list[Value]) -> tuple[str, ...]:
@@ -178,6 +193,8 @@ def _free(kind: str, flags: list[Value]) -> tuple[str, ...]:
         return tuple(
             word for word, flag in zip(FREEDOMS, flags) if isinstance(flag, Word) and flag.text == "T"
         )
+    if kind in COUPLED:
+        return ()
     if kind not in OF_PAIR:
         raise EntityError("it does not state its freedoms")
     return OF_PAIR[kind]
@@ -191,8 +208,9 @@ def _set_ranges(pair: Pair, rest: list[Value], turn: float) -> None:
         "CYLINDRICAL_PAIR": (*slides, *turns), "PLANAR_PAIR": (*turns, *slides), "SCREW_PAIR": turns,
         "LOW_ORDER_KINEMATIC_PAIR": ("rx", "ry", "rz", "tx", "ty", "tz"),
     }.get(pair.kind, pair.free)  # fmt: skip
-    if pair.kind == "SPHERICAL_PAIR":
-        pair.lost = "the range of a ball" if any(value is not None for value in rest) else ""
+    if pair.kind.startswith(("SPHERICAL_PAIR", "HOMOKINETIC_PAIR")):
+        word = "a ball" if pair.kind.startswith("S") else "a joint of constant velocity"
+        pair.lost = f"the range of {word}" if any(value is not None for value in rest) else ""
         return
     for place, word in enumerate(order):
         low, high = number(rest, 2 * place), number(rest, 2 * place + 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from source_bundles import bundle, codes, part, read
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[2]
+CASES = int(os.environ.get("KINEFAB_BUNDLE_CASES", "60"))
 
 
 def box(path: Path, *size: float) -> None:
@@ -210,3 +212,52 @@ def test_a_missing_mesh_does_not_hide_what_the_analysis_finds(tmp_path):
     path.write_text(json.dumps(values), encoding="utf-8")
     found = codes(check(path)[0])
     assert "GEOMETRY_UNREADABLE" in found and "CONSTRAINT_GAP" in found
+
+
+def test_a_wrong_field_does_not_hide_what_the_analysis_finds(tmp_path):
+    """A joint of no known type, a file that is not there, and two mates that contradict each other; but not that nothing is
+    grounded, which the joint might have mended."""
+    mates = []
+    for number, x in enumerate((0.0, 0.25), 1):
+        side = {"component": "Base", "geometry": "point", "in": "part", "p": [x, 0, 0]}
+        other = {"component": "Arm", "geometry": "point", "in": "part", "p": [0, 0, 0]}
+        mates.append({"id": f"Mate:{number}", "kind": "coincident", "a": side, "b": other})
+    values = bundle(
+        part("Base"), part("Arm"), part("Tip", file="gone.stl"),
+        joints=[{"id": "J", "type": "turn", "a": "Arm", "b": "Tip"}], constraints=mates,
+    )  # fmt: skip
+    values["meta"]["mesh"] = {"units": "m", "layout": "per_part", "coordinates": "part"}
+    path = tmp_path / "case.bundle.json"
+    path.write_text(json.dumps(values), encoding="utf-8")
+    found = codes(check(path)[0])
+    assert {"JOINT_TYPE_UNKNOWN", "GEOMETRY_UNREADABLE", "CONSTRAINTS_CONTRADICT"} <= set(found)
+    assert "NOTHING_GROUNDED" not in found
+    values["meta"]["units"]["length"] = "furlong"  # then no length says anything
+    path.write_text(json.dumps(values), encoding="utf-8")
+    assert "CONSTRAINTS_CONTRADICT" not in codes(check(path)[0])
+
+
+def test_what_is_left_of_a_damaged_bundle_is_checked_without_a_crash(tmp_path):
+    """Every field in turn is gone, or of another type."""
+    whole = (ROOT / "fixtures" / "lever" / "lever.bundle.json").read_text("utf-8")
+    (tmp_path / "lever.obj").write_bytes((ROOT / "fixtures" / "lever" / "lever.obj").read_bytes())
+    path = tmp_path / "case.bundle.json"
+
+    def places(value: object, place: tuple = ()):
+        items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        for key, own in items:
+            yield (*place, key)
+            yield from places(own, (*place, key))
+
+    chosen = [place for place in places(json.loads(whole)) if place[0] != "meta"]
+    for number, place in enumerate(chosen[:: max(1, len(chosen) // CASES)]):
+        values = json.loads(whole)
+        holder = values
+        for key in place[:-1]:
+            holder = holder[key]
+        if number % 2:
+            del holder[place[-1]]
+        else:
+            holder[place[-1]] = (None, "x", -7, [], {}, [1, 2, 3])[number // 2 % 6]
+        path.write_text(json.dumps(values), encoding="utf-8")
+        check(path)

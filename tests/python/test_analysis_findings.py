@@ -86,6 +86,7 @@ def bounded(*others) -> Scene:
 BALL = joining("ball", C.COINCIDENT, (F.POINT, O), (F.POINT, O))
 LINES = (F.LINE, O, Z), (F.LINE, O, Z)
 SLIDE = joining("slide", C.SLIDER, *LINES)
+SPIN = joining("spin", C.INSERT, (F.CIRCLE, O, Z), (F.CIRCLE, O, Z))
 ANGLE_ALONE = Constraint(
     "angle",
     C.ANGLE,
@@ -130,6 +131,8 @@ CASES = {
     ),
     "MECHANISM_SINGULAR": lambda: scene("M05"),
     "NOTHING_GROUNDED": lambda: ungrounded(scene("P03")),
+    "NOTHING_MOVES": lambda: parts(SLIDE, SPIN),
+    "ALL_FIXED": lambda: parts(joining("bolts", C.LOCK, (F.BODY, O), (F.BODY, O))),
     "CLOSURE_ROWS_FREED": lambda: scene("M01"),
     "CLOSURE_ROWS_REPEATED": lambda: scene("M12"),
     "CLOSURE_KEPT_WHOLE": lambda: scene("M24"),
@@ -141,6 +144,26 @@ CASES = {
     "LIMITS_FOUND": lambda: scene("M03"),
     "LIMITS_NOT_SWEPT": lambda: scene("M05"),
 }
+
+
+def test_what_holds_everything_is_named():
+    """A rail and a hinge of the same parts: either alone leaves one freedom; beside a lock the lock is what holds, and where
+    no single statement does, that is told.  What still moves is not told of."""
+
+    def told(*constraints: Constraint) -> list[str]:
+        found = analyse(parts(*constraints)).report.diagnostics
+        return [d.message for d in found if d.code in ("NOTHING_MOVES", "ALL_FIXED")]
+
+    lock = joining("bolts", C.LOCK, (F.BODY, O), (F.BODY, O))
+    (both,) = told(SLIDE, SPIN)
+    assert "without any one of slide (slider), spin (insert) 1 freedom is left" in both
+    (locked,) = told(SLIDE, lock)
+    assert "without bolts (lock) 1 freedom is left" in locked
+    (several,) = told(SLIDE, lock, SPIN)
+    assert "more than one is too many" in several
+    (fixed,) = told(lock)
+    assert "(bolts)" in fixed
+    assert told(SLIDE) == told(SPIN) == told() == []
 
 
 def test_every_finding_of_the_analysis_has_a_case():

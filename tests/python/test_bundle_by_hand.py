@@ -244,7 +244,9 @@ def test_what_is_left_of_a_damaged_bundle_is_checked_without_a_crash(tmp_path):
     path = tmp_path / "case.bundle.json"
 
     def places(value: object, place: tuple = ()):
-        items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        items = (
+            value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        )
         for key, own in items:
             yield (*place, key)
             yield from places(own, (*place, key))

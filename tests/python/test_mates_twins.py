@@ -17,7 +17,7 @@ pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kin
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path[:0] = [str(FIXTURES), str(FIXTURES.parent / "python" / "bench")]
 
-from mates_bench import score  # noqa: E402
+from mates_bench import Variant, score, variants, written  # noqa: E402
 from step.fastened import bolt, washer  # noqa: E402
 from step.machine import Machine  # noqa: E402
 from step.solids import Y, box, chamfered, cut, fuse, mirrored, rod, split_round  # noqa: E402
@@ -146,3 +146,70 @@ def test_a_pin_turns_with_the_part_that_its_twin_turns_with(change: str, gap: fl
     assert "Arms/PinL" in reason and "Arms/ArmL" in reason
     result = score(machine, scene)
     assert (result.missed, result.wrong, result.mobility, result.locks) == (0, 0, 1, [])
+
+
+DOUBTFUL = {
+    "copied_rollers": "revolute",
+    "copied_studs": "spherical",
+    "copied_saddles": "revolute",
+    "copied_covers": "fixed",
+    "copied_slots": "pin_slot",
+    "copied_plungers": "cylindrical",
+}
+"""The joint that a copy takes from its twin: its own is not found, or another, where its twin's is sure."""
+
+
+@pytest.mark.parametrize("number, name", list(enumerate(DOUBTFUL)))
+def test_any_joint_of_a_copy_in_doubt_is_its_twins(number: int, name: str, tmp_path: Path):
+    """As drawn and placed anyhow without names that mean something; the twin and its faces are told."""
+    for variant in (Variant(), variants(len(DOUBTFUL), seed=5)[number]):
+        machine = written(name, variant, tmp_path / "machine.step")
+        scene = read(tmp_path / "machine.step", Report())
+        result = score(machine, scene)
+        assert (result.missed, result.wrong, result.mobility, result.locks) == (0, 0, 1, [])
+        told = [mate for mate in find_mates(scene, machine.ground).mates if "as its twin" in mate.reason]
+        assert [(mate.joint, mate.confidence) for mate in told] == [(DOUBTFUL[name], 0.7)]
+        assert told[0].reason.partition("as its twin: ")[2].count("/") >= 3
+
+
+def guided(second) -> Machine:
+    """A block in a slot of a base, held on all sides, and its copy at another place, which ``second`` makes."""
+    m = Machine("Guided", ground="Base", mobility=0)
+    slot = fuse(box((-60.0, -10.0, -12.0), (60.0, 10.0, -4.0)), box((-60.0, -6.0, -5.0), (60.0, 6.0, 1.0)))
+    m.add("Base", second(cut(box((-60.0, -30.0, -30.0), (60.0, 130.0, 0.0)), slot)))
+    block = fuse(
+        box((-15.0, -9.9, -11.9), (15.0, 9.9, -4.1)), box((-15.0, -5.9, -4.2), (15.0, 5.9, 4.0)), box((-15.0, -5.0, 4.0), (9.0, 5.0, 9.0))
+    )  # fmt: skip
+    m.add("BlockA", block, product="Block")
+    m.add("BlockB", block, (5.0, 70.0, 11.9), product="Block")
+    return m
+
+
+def test_what_guides_the_twin_must_be_there(tmp_path: Path):
+    """The copy lies on the plain base, where nothing guides it: it stays free on its plane."""
+    scene, mates = found_in(guided(lambda base: base), tmp_path)
+    joints = {scene.nodes[m.sides[1].node].name: m.joint for m in mates.mates}
+    assert joints == {"BlockA": "prismatic", "BlockB": "planar"}
+    assert not any("as its twin" in mate.reason for mate in mates.mates)
+
+
+def test_what_a_copy_surely_does_is_not_taken_from_a_twin(tmp_path: Path):
+    """One pin is bolted fast by its flange, its copy turns in a bore with shoulders: neither says anything of the other."""
+    m = Machine("Pins", ground="Base", mobility=1)
+    bore = rod(5.05, 60.0, (60.0, 0.0, -30.0))
+    base = fuse(box((-30.0, -30.0, -20.0), (30.0, 30.0, 0.0)), box((45.0, -30.0, -20.0), (75.0, 30.0, 0.0)), box((30.0, -30.0, -20.0), (45.0, 30.0, -10.0)))  # fmt: skip
+    m.add("Base", cut(base, bore, rod(5.0, 60.0, (0.0, 0.0, -30.0)), rod(2.1, 40.0, (0.0, 14.0, -30.0)), rod(2.1, 40.0, (0.0, -14.0, -30.0))))  # fmt: skip
+    pin = fuse(rod(5.0, 30.0, (0.0, 0.0, -25.0)), rod(20.0, 4.0))
+    pin = cut(pin, rod(2.1, 20.0, (0.0, 14.0, -5.0)), rod(2.1, 20.0, (0.0, -14.0, -5.0)))
+    m.add("PinA", pin, product="Pin")
+    m.add("PinB", pin, (60.0, 0.0, 0.05), product="Pin")
+    m.add("Ring", cut(rod(9.0, 3.0, (60.0, 0.0, -23.1)), rod(4.99, 30.0, (60.0, 0.0, -30.0))))
+    for i, y in enumerate((14.0, -14.0)):
+        m.add(f"Bolt:{i}", bolt(4.0, 20.0), (0.0, y, 4.0), product="Bolt")
+    scene, mates = found_in(m, tmp_path)
+    joints = {
+        frozenset(scene.nodes[s.node].name for s in mate.sides): (mate.joint, "twin" in mate.reason)
+        for mate in mates.mates
+    }
+    assert joints[frozenset(("Base", "PinA"))] == ("fixed", False)
+    assert joints[frozenset(("Base", "PinB"))] == ("revolute", False)

@@ -20,6 +20,7 @@ from .couplings.symmetry import symmetric_couplings
 from .findings.freedoms import check_records, singular_joints
 from .findings.idle import idle_freedoms
 from .findings.result import Analysis, Island
+from .findings.still import report_still
 from .joints.jointing import links_of
 from .joints.links import Link, Links
 from .loops.minimal import minimal_closures
@@ -119,6 +120,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     loose = not any(groups.grounded) and not _led(scene)
     if analysis.joints and loose and all(island.floating for island in analysis.islands):
         report.add("NOTHING_GROUNDED", count=len(analysis.joints))
+    report_still(scene, assembly, analysis.mobility, report)
     if scene.dof_records:
         check_records(assembly, analysis.freedoms, report)
     _report_outcomes(assembly, analysis, report)

@@ -32,7 +32,9 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
     teeth = {(mesh.first, mesh.second) for mesh in meshing}
     bodies = Bodies(shapes, contacts_of(shapes, [pair for pair in pairs if pair not in teeth]))
     _join_stated(scene, nodes, bodies)
-    decided = decide(bodies, Parts(forms, named, kinds))
+    poses = [scene.nodes[node].pose for node in nodes]
+    apart = [pair for pair in pairs if pair not in teeth]
+    decided = decide(bodies, Parts(forms, named, kinds, poses), apart)
     names = [scene.nodes[node].id for node in nodes]
     middles = [0.5 * (shape.low + shape.high) for shape in shapes]
     found = [
@@ -41,7 +43,7 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
         if fixing.reason != "stated"
     ]
     for edge in decided.edges:
-        found += mates_of_edge(edge, nodes, middles)
+        found += mates_of_edge(edge, nodes, middles, names)
     axles = axles_of(decided.edges)
     found += [mate for mesh in meshing if (mate := mate_of_mesh(mesh, decided, axles, nodes)) is not None]
     numbered = tuple(replace(mate, number=i) for i, mate in enumerate(found, 1))

@@ -40,32 +40,34 @@ def mate_of_fixing(
     return Mate(0, ConstraintKind.LOCK, sides, "fixed", reason, fixing.confidence)
 
 
-def mates_of_edge(edge: Edge, nodes: Sequence[int], middles: Sequence[Array]) -> list[Mate]:
-    """Usually one; several where no lower pair has the freedoms that are left."""
+def mates_of_edge(
+    edge: Edge, nodes: Sequence[int], middles: Sequence[Array], names: Sequence[str]
+) -> list[Mate]:
+    """Usually one; several where no lower pair has the freedoms that are left.  names: of the parts."""
     pair = pair_of(edge.space, edge.scale)
     main = _main(edge, pair)
-    first, second = main.first, main.second
+    first, second = edge.parts if main is None else (main.first, main.second)
+    reason = _reason(edge, names)
     if pair.kind is JointKind.FIXED:
         sides = tuple(
             MateSide(nodes[part], FeatureKind.BODY, middles[part], faces=_faces(edge.contacts, part))
             for part in (first, second)
         )
-        return [Mate(0, ConstraintKind.LOCK, sides, "fixed", edge.reason, edge.confidence)]
+        return [Mate(0, ConstraintKind.LOCK, sides, "fixed", reason, edge.confidence)]
     pair = _snapped(pair, edge)
     if pair.kind is JointKind.PIN_SLOT and pair.second is not None:
-        slot = next((c for c in edge.contacts if c.kind is ContactKind.LINE), main)
-        pin = slot.inner if slot.inner >= 0 else slot.second
+        slotted, pin = _slot_and_pin(edge, main)
         sides = (
             MateSide(
-                nodes[slot.other(pin)],
+                nodes[slotted],
                 FeatureKind.LINE,
                 pair.point,
                 pair.second,
-                faces=_faces(edge.contacts, slot.other(pin)),
+                faces=_faces(edge.contacts, slotted),
             ),
             MateSide(nodes[pin], FeatureKind.LINE, pair.point, pair.axis, faces=_faces(edge.contacts, pin)),
         )
-        return [Mate(0, ConstraintKind.PIN_SLOT, sides, "pin_slot", edge.reason, edge.confidence)]
+        return [Mate(0, ConstraintKind.PIN_SLOT, sides, "pin_slot", reason, edge.confidence)]
     if pair.kind not in _LOWER:
         return _single_contacts(edge, nodes)
     kind, geometry = _LOWER[pair.kind]
@@ -73,14 +75,35 @@ def mates_of_edge(edge: Edge, nodes: Sequence[int], middles: Sequence[Array]) ->
     sides = tuple(
         MateSide(
             nodes[part], geometry, pair.point, pair.axis if turned else None,
-            radius=main.side(part).radius if main.is_axial else 0.0, faces=_faces(edge.contacts, part),
+            radius=main.side(part).radius if main is not None and main.is_axial else 0.0, faces=_faces(edge.contacts, part),
         )
         for part in (first, second)
     )  # fmt: skip
     if geometry is FeatureKind.PLANE:
         sides = (sides[0], replace(sides[1], direction=-pair.axis))
     value = pair.pitch * 2.0 * np.pi if pair.kind is JointKind.SCREW else 0.0
-    return [Mate(0, kind, sides, pair.kind.value, edge.reason, edge.confidence, value)]
+    return [Mate(0, kind, sides, pair.kind.value, reason, edge.confidence, value)]
+
+
+def _reason(edge: Edge, names: Sequence[str]) -> str:
+    """What was seen; of a joint that was taken from a twin, that twin and its faces."""
+    twin = edge.twin
+    if twin is None or edge.swapped:
+        return edge.reason
+    of = (f"{names[p]} {', '.join(_faces(twin.contacts, p))}".rstrip() for p in (twin.part, twin.other))
+    return f"{edge.reason}, as its twin: {' with '.join(of)}"
+
+
+def _slot_and_pin(edge: Edge, main: Contact | None) -> tuple[int, int]:
+    """The part with the slot and that with the pin."""
+    slot = next((c for c in edge.contacts if c.kind is ContactKind.LINE), main)
+    if slot is not None:
+        pin = slot.inner if slot.inner >= 0 else slot.second
+        return slot.other(pin), pin
+    twin = edge.twin
+    assert twin is not None  # there is no other reason for a joint that nothing touches
+    pins = {c.inner for c in twin.contacts if c.kind is ContactKind.LINE}
+    return (twin.copy, twin.other_copy) if twin.other in pins else (twin.other_copy, twin.copy)
 
 
 def mate_of_mesh(mesh: Mesh, decided: Decided, axles: Axles, nodes: Sequence[int]) -> Mate | None:
@@ -146,14 +169,15 @@ _LOWER = {
 """The constraint and geometry that leave just a lower pair."""
 
 
-def _main(edge: Edge, pair: Pair) -> Contact:
-    """The contact that says most about a joint: a fit on its axis, else a ball, else the largest flat."""
+def _main(edge: Edge, pair: Pair) -> Contact | None:
+    """The contact that says most about a joint: a fit on its axis, else a ball, else the largest flat; None where none
+    was seen."""
 
     def weight(c: Contact) -> tuple[bool, bool, bool, float, float]:
         on_axis = c.is_axial and _off(c, pair) < SNAP * max(edge.scale.length, 1e-12)
         return on_axis, c.kind is ContactKind.BALL, c.is_axial, c.area, c.reach
 
-    return max(edge.contacts, key=weight)
+    return max(edge.contacts, key=weight, default=None)
 
 
 def _off(contact: Contact, pair: Pair) -> float:
@@ -166,6 +190,8 @@ def _off(contact: Contact, pair: Pair) -> float:
 def _snapped(pair: Pair, edge: Edge) -> Pair:
     """The pair with the exact axis of a fit or the centre of a ball, where it is that."""
     main = _main(edge, pair)
+    if main is None:
+        return pair
     if pair.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.SCREW) and main.is_axial:
         if _off(main, pair) < SNAP * max(edge.scale.length, 1e-12):
             middle = main.a.point + main.axis * (0.5 * (main.span[0] + main.span[1]))

@@ -15,9 +15,11 @@ import numpy as np
 from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
+from .copies import Copies
 from .edge import Edge
-from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fasteners, fix_pins
+from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fasteners, fix_pins, press
 from .freedom import RANK, Scale, freedom_of, null_space
+from .inherited import inherit
 from .motions import held_rows, motions_of
 from .rolling import join_races
 from .twins import fix_loose
@@ -35,15 +37,18 @@ class Decided:
     stops: list[Edge] = field(default_factory=list[Edge])
 
 
-def decide(bodies: Bodies, parts: Parts) -> Decided:
+def decide(bodies: Bodies, parts: Parts, near: Sequence[tuple[int, int]]) -> Decided:
+    """near: pairs of parts that come near each other."""
     join_races(bodies)
-    bolted = fasten(bodies, parts)
-    single = _bolt_groups(bodies, bolted)
+    single = _bolt_groups(bodies, fasten(bodies, parts))
     _clamp(bodies)
+    press(bodies, parts)
     fix_loose(bodies, parts.kinds, fasteners(parts))
     fix_pins(bodies, parts)
     _fix_held(bodies)
     edges = _edges(bodies, single)
+    copies = Copies(bodies.shapes, parts.poses, parts.kinds)
+    edges = inherit(bodies, edges, copies, parts.kinds, near, fasteners(parts))
     return _settled(bodies, edges)
 
 
@@ -267,7 +272,7 @@ def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], l
 
 def _swap(edge: Edge) -> None:
     if edge.otherwise is not None:
-        edge.space, edge.otherwise = edge.otherwise, edge.space
+        edge.space, edge.otherwise, edge.swapped = edge.otherwise, edge.space, not edge.swapped
 
 
 def _moves(members: list[int], edge: Edge, motions: Array) -> bool:

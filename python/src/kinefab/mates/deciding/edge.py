@@ -9,10 +9,24 @@ from ..touching.contact import Contact
 from .freedom import Scale
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Twin:
+    """Two parts whose joint is sure, and the copies of them that take theirs from it.  contacts: of the sure ones."""
+
+    part: int
+    other: int
+    copy: int
+    other_copy: int
+    contacts: tuple[Contact, ...]
+
+
 @dataclass(slots=True, eq=False)
 class Edge:
     """A pair of bodies with its contacts.  space: twists left free, chosen.  otherwise: what it would be as the doubtful
-    case, None where there is no doubt.  one_sided: nothing in it holds both ways."""
+    case, None where there is no doubt.  one_sided: nothing in it holds both ways.
+
+    parts: a part of either body, where contacts do not say which.  twin: what the joint was taken from; with ``otherwise``
+    in its place, from nothing."""
 
     pair: tuple[int, int]
     contacts: list[Contact]
@@ -23,3 +37,6 @@ class Edge:
     otherwise: Array | None = None
     one_sided: bool = False
     area: float = 0.0
+    parts: tuple[int, int] = (-1, -1)
+    twin: Twin | None = None
+    swapped: bool = False

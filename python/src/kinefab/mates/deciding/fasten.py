@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...spatial import cross
+from ...spatial import Pose, cross
 from ..shapes.turned import Turned
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
@@ -37,11 +37,12 @@ class Bolted:
 @dataclass(frozen=True, slots=True, eq=False)
 class Parts:
     """What is known of single parts.  turned: or None.  named: whether the name says fastener.  kinds: a number for each
-    definition, that of all its copies."""
+    definition, that of all its copies.  poses: WORLD."""
 
     turned: Sequence[Turned | None]
     named: Sequence[bool]
     kinds: Sequence[int]
+    poses: Sequence[Pose]
 
     def is_fastener(self, part: int) -> bool:
         form = self.turned[part]
@@ -68,10 +69,14 @@ def fasten(bodies: Bodies, parts: Parts) -> list[Bolted]:
             flats[contact.second].append(contact)
     _nuts(bodies, parts, fits)
     _washers(bodies, parts, fits)
-    bolted = _bolts(bodies, parts, fits, flats)
+    return _bolts(bodies, parts, fits, flats)
+
+
+def press(bodies: Bodies, parts: Parts) -> None:
+    """Fix what is pressed into a bore, and what lines one."""
+    fits = fits_of(bodies)
     _pressed(bodies, fits)
     _liners(bodies, parts, fits)
-    return bolted
 
 
 def fasteners(parts: Parts) -> set[int]:
@@ -141,12 +146,27 @@ def _bolts(
 
 
 def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
-    """A part with play in one bore and none in another was made so on purpose: where there is none it is pressed."""
-    for _, contacts in sorted(fits.items()):
+    """A part with play in one bore and none in another was made so on purpose: where there is none it is pressed.
+
+    So are bores of one axis in different bodies, and what is only in one bore of a part that has play elsewhere (a handle, a
+    dowel).  Else different axes say nothing: a crank turns without play in one bore and with some in another, a carriage is
+    located by one of two rails.
+    """
+    beside: defaultdict[int, set[int]] = defaultdict(set)
+    for contact in bodies.contacts:
+        if contact.touching or contact.two_sided:
+            for part in (contact.first, contact.second):
+                beside[part].add(contact.other(part))
+    for part, contacts in sorted(fits.items()):
         tight = [c for c in contacts if c.touching and c.gap >= -PRESSED * c.a.radius]
         loose = [c for c in contacts if not c.touching]
-        if tight and loose:
-            for contact in tight:
+        for contact in tight:
+            held = contact.other(part)
+            elsewhere = [c for c in loose if bodies.of(c.other(part)) != bodies.of(held)]
+            alone = {bodies.of(p) for p in beside[held]} - {bodies.of(held)} == {bodies.of(part)}
+            if any(axes_apart((contact, c)) == 1 for c in elsewhere) or (
+                elsewhere and alone and axes_apart(fits[held]) == 1
+            ):
                 bodies.fix(contact.first, contact.second, "pressed", 0.8, (contact,))
         for contact in tight:
             if contact.gap < -1e-4 * contact.a.radius:

@@ -28,7 +28,7 @@ def motions_of(members: Sequence[int], edges: Sequence[Edge]) -> Array:
             own = np.eye(6)
         else:
             twists[index[new]] = twists[index[known]]
-            own = np.linalg.solve(_shift(edge.scale, base), edge.space)
+            own = np.linalg.solve(shift_of(edge.scale, base), edge.space)
             own = own if new == edge.pair[1] else -own
         twists[index[new], :, column : column + own.shape[1]] = own
         column += own.shape[1]
@@ -77,10 +77,10 @@ def _tree(
 def _held(edge: Edge, base: Scale) -> Array:
     """What an edge holds, as rows on a twist about ``base``."""
     held = null_space(edge.space.T).T if edge.space.shape[1] else np.eye(6)
-    return held @ _shift(edge.scale, base)
+    return held @ shift_of(edge.scale, base)
 
 
-def _shift(own: Scale, base: Scale) -> Array:
+def shift_of(own: Scale, base: Scale) -> Array:
     """What takes a twist about ``base`` to one about ``own``: v' = v + w x (c' - c), w' = w L'/L."""
     offset = own.center - base.center
     x, y, z = offset / base.length

@@ -83,8 +83,9 @@ def add_constant_velocity(
         (f"{ident} out", between[1], at, b, frame_b, FIRST),
     )
     for key, here, frame, there, other, axes in chain:
-        sides = (Pose(side.rotation @ axes, side.translation) for side in (frame, other))
-        scene.joints.append(Joint(key, JointKind.REVOLUTE, here, there, *sides, free, name=key, where=where))
+        in_a, in_b = (Pose(side.rotation @ axes, side.translation) for side in (frame, other))
+        joint = Joint(key, JointKind.REVOLUTE, here, there, in_a, in_b, free, name=key, where=where)
+        scene.joints.append(joint)
     half = Term(f"{ident} in", RX, 1.0)
     scene.couplings.append(
         Coupling(f"{ident} halves", CouplingKind.GEAR, f"{ident} out", RX, (half,), where=where)

@@ -1,0 +1,87 @@
+"""An assembly of which nothing moves: told, with what holds it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from ...diagnostics import Report
+from ...model import Constraint, ConstraintKind, Joint, JointKind, NodeKind, Scene
+from ...rigid import active_nodes
+from ..assembly.assemble import Assembly, assemble
+
+MOST = 60
+"""Joints or constraints that are left out one by one, at most, to see which of them holds the rest."""
+NAMED = 6
+HOLDING = frozenset({ConstraintKind.LOCK, ConstraintKind.GROUND})
+
+
+def report_still(scene: Scene, assembly: Assembly, mobility: int, report: Report) -> None:
+    """Tell that nothing moves where joints or constraints are stated.
+
+    What holds it is what alone leaves the fewest freedoms, but some, when it is taken away: a fixed joint if one does, else
+    anything.  What takes a part off all others says nothing.
+    """
+    stated = list(_statements(scene))
+    if mobility or not stated or assembly.closing.contradictory:
+        return
+    active = active_nodes(scene)
+    parts = sum(a and node.kind is NodeKind.PART for a, node in zip(active, scene.nodes))
+    where = stated[0].where
+    if all(_is_fixed(statement) for statement in stated):
+        report.add("ALL_FIXED", where, parts=parts, names=_listed([s.id for s in stated]))
+        return
+    for fixed in (True, False):
+        left = _left_without(scene, [s for s in stated if _is_fixed(s) is fixed][:MOST])
+        if left:
+            break
+    reason = "no single one of them holds it, so more than one is too many"
+    if left:
+        fewest, found = min(left.items())
+        names = [f"{statement.id} ({statement.kind.value})" for statement in found]
+        freedoms = "1 freedom is" if fewest == 1 else f"{fewest} freedoms are"
+        reason = f"without {'any one of ' if len(names) > 1 else ''}{_listed(names)} {freedoms} left"
+        where = found[0].where
+    report.add("NOTHING_MOVES", where, parts=parts, count=len(stated), reason=reason)
+
+
+def _statements(scene: Scene) -> Iterator[Joint | Constraint]:
+    """What joins parts: couplings hold none still by themselves."""
+    yield from (joint for joint in scene.joints if joint.enabled)
+    yield from (constraint for constraint in scene.constraints if not constraint.suppressed)
+
+
+def _is_fixed(statement: Joint | Constraint) -> bool:
+    if isinstance(statement, Joint):
+        return statement.kind is JointKind.FIXED
+    return statement.kind in HOLDING
+
+
+def _without(scene: Scene, statement: Joint | Constraint) -> Scene:
+    joints = [joint for joint in scene.joints if joint is not statement]
+    kept = {joint.id for joint in joints}
+    return replace(
+        scene,
+        joints=joints,
+        constraints=[constraint for constraint in scene.constraints if constraint is not statement],
+        couplings=[coupling for coupling in scene.couplings if coupling.joints <= kept],
+    )
+
+
+def _left_without(
+    scene: Scene, statements: Sequence[Joint | Constraint]
+) -> dict[int, list[Joint | Constraint]]:
+    """The statements by how many freedoms are left without one; not those that leave none, nor a part that nothing holds."""
+    found: dict[int, list[Joint | Constraint]] = {}
+    held = assemble(scene, Report()).floating
+    for statement in statements:
+        assembly = assemble(_without(scene, statement), Report())
+        count = sum(finite.mobility for finite in assembly.finite)
+        if count and assembly.floating == held:
+            found.setdefault(count, []).append(statement)
+    return found
+
+
+def _listed(names: list[str]) -> str:
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    return ", ".join(names[:NAMED]) + more

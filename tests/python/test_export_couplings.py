@@ -8,6 +8,7 @@ from dataclasses import replace
 import kinefab
 import numpy as np
 import pytest
+from kinefab.analysis import analyse
 from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind, Term
 from kinefab.spatial import rotation_about
 from scenes import BOX, exported, lid_scene
@@ -90,3 +91,26 @@ def test_coupling_on_a_missing_joint_is_dropped_with_a_report(tmp_path):
     content, result = exported(scene, tmp_path)
     assert "couplings" not in content
     assert "COUPLING_WITHOUT_JOINT" in {o.code for o in result.report.outcomes}
+
+
+@pytest.mark.parametrize("kind", ["hinge", "slider"])
+def test_two_joints_that_a_coupling_keeps_in_step_stay_two(kind: str) -> None:
+    """Two wheels on one axis, or two parallel slides, at a ratio of one: they move alike, and each in its own range."""
+    scene = kinefab.Scene()
+    first, second = (scene.add_part(name, BOX, density=1000) for name in "AB")
+    add = scene.add_hinge if kind == "hinge" else scene.add_slider
+    whole = 80.0 if kind == "hinge" else 0.08
+    lead = add(None, first, point=(0, 0, 0), axis=(0, 3, 4), limits=(-0.1 * whole, whole), name="Lead")
+    follow = add(None, second, point=(0, 0.3, 0.4), axis=(0, 3, 4), limits=(-whole, 0.5 * whole), name="Follow")
+    scene.add_coupling(lead, follow, ratio=1.0, name="belt")
+    found = analyse(scene)
+    assert found.mobility == 1 and not found.report.diagnostics
+    assert [(j.name, len(j.unlocked)) for j in found.joints] == [("Lead", 1), ("Follow", 1)]
+    assert [c.id for c in found.couplings] == ["belt"]
+    mechanism = kinefab.motion(scene)
+    assert [(c.lower, c.upper) for c in mechanism.coordinates] == [
+        (-0.1 * whole, whole),
+        (-whole, pytest.approx(0.5 * whole)),
+    ]
+    stop = mechanism.sweep("Lead", 0.0, whole).stop
+    assert stop is not None and "Follow" in str(stop)

@@ -111,8 +111,8 @@ def same(found: Pose, expected: Pose) -> bool:
 
 
 @pytest.mark.parametrize("swapped", [False, True])
-def test_a_lead_on_a_cylindrical_joint_keeps_its_range_and_name(swapped: bool) -> None:
-    """A spindle between -10 and 50 mm, at 7 mm and 20 degrees; a coupling of its own freedoms makes it a screw."""
+def test_a_joint_beside_its_own_coupling_stays_what_it_is(swapped: bool) -> None:
+    """A spindle between -10 and 50 mm, at 7 mm and 20 degrees, whose slide follows its turn: all counts as before."""
     scene = machine("cylindrical", swapped, tx=limited(SLID))
     ratio = 0.004 / (2 * np.pi)
     offset = SLIDE - ratio * TURN
@@ -120,11 +120,28 @@ def test_a_lead_on_a_cylindrical_joint_keeps_its_range_and_name(swapped: bool) -
         Coupling("pitch", CouplingKind.SCREW, "own", TX, (Term("own", RX, ratio),), offset)
     )
     assert codes(scene) == []
+    joint = analyse(scene).joints[0]
+    assert (joint.name, joint.kind.value, joint.freedoms) == (
+        "Spindle",
+        "cylindrical",
+        scene.joints[0].freedoms,
+    )
+    slide = kinefab.motion(scene).coordinate("Spindle.tx")
+    assert np.allclose([slide.value, slide.lower, slide.upper], [SLIDE, *SLID], atol=1e-12)
+    for end, found in zip(SLID, ends_of(scene, "Spindle.tx")):
+        assert same(found, displaced(end, TURN + (end - SLIDE) / ratio, scene))
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_cylindrical_joint_beside_a_screw_is_a_screw_of_its_range_and_name(swapped: bool) -> None:
+    """The screw's lead counts from the exported pose, the joint's slide from elsewhere: what is left of it does not change."""
+    scene = beside(machine("cylindrical", swapped, tx=limited(SLID)), ConstraintKind.SCREW, LINE, AXIS)
+    scene.constraints[0] = replace(scene.constraints[0], value=0.004)
+    assert codes(scene) == ["JOINT_CONSTRAINTS_DISAGREE"]
     screw = analyse(scene).joints[0]
     assert (screw.name, screw.kind.value, round(screw.lead, 12)) == ("Spindle", "screw", 0.004)
     for end, found in zip(SLID, ends_of(scene, "Spindle.tx")):
-        turned = TURN + (end - SLIDE) / ratio
-        assert same(found, displaced(end, turned, scene))
+        assert same(found, displaced(end, TURN + (end - SLIDE) * 2 * np.pi / 0.004, scene))
 
 
 @pytest.mark.parametrize("swapped", [False, True])

@@ -8,9 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import Constraint, ConstraintKind, Joint, Scene
+from ...model import Constraint, ConstraintKind, Coupling, Joint, Scene
 from ...rigid import RigidGroups, is_between_led
 from ...spatial import Array, BoolArray, IntArray, Pose, cross
+from ..equations.coupled import COUPLED
 from ..equations.scene_equations import Equations, equations_of
 from ..equations.solve import Solver
 from ..equations.system import State, System
@@ -110,6 +111,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     system, duplicates = without_duplicates(folded, equations, report)
     counted = system.rows
     breakable = np.array([_stays_apart(s, scene) for s in equations.statements], dtype=bool)
+    keeping_step = np.array([_keeps_step(s) for s in equations.statements], dtype=bool)
     while True:
         body, system = _merge_rigid_pairs(body, system, breakable, mirrored, equations.length)
         edges = edges_of(system)
@@ -119,7 +121,8 @@ def assemble(scene: Scene, report: Report) -> Assembly:
         start = relative.start()
         freedoms = block_freedoms(solver, start)
         finite = finite_freedoms(solver, freedoms, start)
-        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, edges, breakable)
+        joined = edges_of(system.select(~keeping_step[system.owner]))
+        together = _moving_as_one(relative, solver, start, freedoms, finite, blocks, joined, breakable)
         if together is None:
             break
         body, system = together[body], _merged(system, together, mirrored)
@@ -155,6 +158,13 @@ def _merged(system: System, label: IntArray, mirrored: BoolArray) -> System:
 def _is_symmetry(statement: object) -> bool:
     """Its rows join three bodies, or two, where the plane's body moves as one with that of a side."""
     return isinstance(statement, Constraint) and statement.kind is ConstraintKind.SYMMETRY
+
+
+def _keeps_step(statement: object) -> bool:
+    """Whether it couples motions without joining bodies: two that it gives the same motion stay two, each in its own range."""
+    if isinstance(statement, Constraint):
+        return statement.kind in COUPLED
+    return isinstance(statement, Coupling)
 
 
 def _stays_apart(statement: object, scene: Scene) -> bool:
@@ -193,10 +203,12 @@ def _moving_as_one(
     freedoms: list[BlockFreedom],
     finite: list[FiniteFreedom],
     blocks: Blocks,
-    edges: IntArray,
+    joined: IntArray,
     breakable: BoolArray,
 ) -> IntArray | None:
     """New body numbers that merge what a block's loops hold together, or None where there is nothing.
+
+    joined: pairs of bodies with something between them beside couplings, shape (edges, 2).
 
     Equal twists are not enough at a dead centre, where a crank's velocity vanishes and its motion does
     not: a trial step of finite size decides.
@@ -204,7 +216,7 @@ def _moving_as_one(
     draw = np.random.default_rng(3)
     partition = Partition(relative.bodies)
     neighbours: dict[int, set[int]] = {}
-    for i, j in edges.tolist():
+    for i, j in joined.tolist():
         neighbours.setdefault(i, set()).add(j)
         neighbours.setdefault(j, set()).add(i)
     groups: dict[int, list[IntArray]] = {}

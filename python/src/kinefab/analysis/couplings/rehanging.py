@@ -16,8 +16,8 @@ from ...diagnostics import Report
 from ...model import FREE, RX, Constraint, ConstraintKind, JointKind, Scene, freedoms_of
 from ...spatial import cross
 from ..assembly.assemble import Assembly
+from ..equations.coupled import COUPLED
 from ..joints.links import Link
-from .stated import COUPLED
 
 ON_AXIS = 1e-6
 """Distance between two axes, and sine between them, up to which they are one."""

@@ -15,8 +15,6 @@ _KINDS = {
     ConstraintKind.RACK: (CouplingKind.RACK, RX, TX),
     ConstraintKind.LINEAR: (CouplingKind.LINEAR, TX, TX),
 }
-COUPLED = frozenset(_KINDS)
-"""Constraints that become couplings."""
 ALONG = 1.0 - 1e-6
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from ...model import Constraint, ConstraintKind, FeatureKind
 from ...spatial import Array, cross
 from .atoms import Atom
-from .coupled import coupled, screw
+from .coupled import COUPLED, coupled, screw
 from .distances import PARALLEL_SINE, apart, lines_apart, off_line
 from .features import UnknownPairing, need_directions, plain_family
 from .rows import Rows, Side
@@ -358,14 +358,14 @@ _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
     ConstraintKind.PIN_SLOT: _pin_slot,
     ConstraintKind.UNIVERSAL: _universal,
     ConstraintKind.SCREW: screw,
-    ConstraintKind.GEAR: coupled,
-    ConstraintKind.BELT: coupled,
-    ConstraintKind.RACK: coupled,
-    ConstraintKind.LINEAR: coupled,
+    **dict.fromkeys(COUPLED, coupled),
 }
 
-_BY_GEOMETRY = frozenset((
-    ConstraintKind.ANGLE, ConstraintKind.TANGENT, ConstraintKind.SYMMETRY, ConstraintKind.PIN_SLOT,
-    ConstraintKind.SCREW, ConstraintKind.GEAR, ConstraintKind.BELT, ConstraintKind.RACK, ConstraintKind.LINEAR,
-))  # fmt: skip
+_BY_GEOMETRY = COUPLED | {
+    ConstraintKind.ANGLE,
+    ConstraintKind.TANGENT,
+    ConstraintKind.SYMMETRY,
+    ConstraintKind.PIN_SLOT,
+    ConstraintKind.SCREW,
+}
 """Their builders look at where things lie and take single sides; the others take stacks too."""

@@ -9,6 +9,9 @@ from .atoms import Atom
 from .features import need_directions
 from .rows import Rows, Side
 
+COUPLED = frozenset((ConstraintKind.GEAR, ConstraintKind.BELT, ConstraintKind.RACK, ConstraintKind.LINEAR))
+"""Constraints that keep two motions in step and join nothing else: they become couplings."""
+
 
 def screw(rows: Rows, c: Constraint, a: Side, b: Side, *, context: object) -> None:
     need_directions(a, b)

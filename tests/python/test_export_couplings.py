@@ -101,7 +101,9 @@ def test_two_joints_that_a_coupling_keeps_in_step_stay_two(kind: str) -> None:
     add = scene.add_hinge if kind == "hinge" else scene.add_slider
     whole = 80.0 if kind == "hinge" else 0.08
     lead = add(None, first, point=(0, 0, 0), axis=(0, 3, 4), limits=(-0.1 * whole, whole), name="Lead")
-    follow = add(None, second, point=(0, 0.3, 0.4), axis=(0, 3, 4), limits=(-whole, 0.5 * whole), name="Follow")
+    follow = add(
+        None, second, point=(0, 0.3, 0.4), axis=(0, 3, 4), limits=(-whole, 0.5 * whole), name="Follow"
+    )
     scene.add_coupling(lead, follow, ratio=1.0, name="belt")
     found = analyse(scene)
     assert found.mobility == 1 and not found.report.diagnostics

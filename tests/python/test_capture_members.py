@@ -83,6 +83,7 @@ def cases(program: str) -> list:
         spheres = pair("coincident", side("Base", "sphere", r=0.02), side("Sub/Arm", "sphere", r=0.02))
         flush = {**BOTH["distance in a range"], "inventor": "flush"}
         kinds = machine(*BOTH.values(), flush, reference, spheres)
+        kinds["joints"] = [{**rigid("Base", "Sub/Arm"), "type": "ball"}]  # on a work point
         return [
             Inventor(described(lever)).record(), Inventor(described(lever), order="columns").record(),
             Inventor(described(kinds)).record(), Inventor(described(rows)).record(),

@@ -39,7 +39,7 @@ class Fusion:
             links[one].append(link)
             links[two].append(link)
         for name, made in self.joints.items():
-            self.answers.objects[made["object"]]["motionLinks"] = self.listed(links[name])
+            self.answers.objects[made["object"]]["motionLinks"] = links[name]
         self.as_built = as_built
 
     def listed(self, entries: list[Any]) -> dict[str, int]:
@@ -58,17 +58,22 @@ class Fusion:
         ]
         constraints = [
             a.made(
-                "AssemblyConstraint", name=name, occurrenceOne=self.occurrences[one], occurrenceTwo=self.occurrences.get(two),
-                isSuppressed=False,
+                "AssemblyConstraint", name=name, isSuppressed=False, geometricRelationships=self.listed([
+                    a.made(
+                        "Relationship", isMate=True, isFlipped=False, offsetOrAngle=a.made("Parameter", value=0.5),
+                        entityOne=a.made("Entity", assemblyContext=self.occurrences[one]),
+                        entityTwo=a.made("Entity", assemblyContext=self.occurrences.get(two)),
+                    )
+                ]),
             )
             for name, one, two in self.assembly.values.get("assemblyConstraints", [])
         ]  # fmt: skip
         root = a.made(
             "RootComponent", name=self.assembly.root, occurrences=self.listed(self.top),
             bRepBodies=self.listed(self._bodies(self.assembly.parts[self.assembly.root])),
-            allJoints=self.listed([j for n, j in self.joints.items() if n not in self.as_built]),
-            allAsBuiltJoints=self.listed([j for n, j in self.joints.items() if n in self.as_built]),
-            allRigidGroups=self.listed(made), allAssemblyConstraints=self.listed(constraints),
+            allJoints=[j for n, j in self.joints.items() if n not in self.as_built],
+            allAsBuiltJoints=[j for n, j in self.joints.items() if n in self.as_built],
+            allRigidGroups=made, allAssemblyConstraints=constraints,
             features=self._features(self.assembly.root),
         )  # fmt: skip
         design = a.made(
@@ -209,6 +214,8 @@ class Fusion:
                 "slideValue": Metres(dofs["tx"].get("value", 0.0)),
                 "slideLimits": self.limits(dofs["tx"]),
             }
+        if j["type"] == "ball":
+            motion |= {f"{word}Limits": self.limits(j.get("range", {})) for word in ("pitch", "yaw", "roll")}
         if "tz" in dofs:
             motion |= {
                 "slideDirectionVector": self.vector(fa["z"]),
@@ -216,7 +223,7 @@ class Fusion:
                 "slideLimits": self.limits(dofs["tz"]),
             }
         answers: dict[str, Any] = {
-            "name": j["id"], "jointMotion": a.made("Motion", **motion), "isSuppressed": False, "isLocked": False,
+            "name": j["id"], "jointMotion": a.made("Motion", **motion), "isSuppressed": False,
             "occurrenceOne": self.occurrences[j["b"]], "occurrenceTwo": self.occurrences.get(j["a"]),
         }  # fmt: skip
         if as_built:
@@ -231,5 +238,5 @@ class Fusion:
             for word, at in (("One", fb), ("Two", fa)):
                 axes = np.column_stack([at["z"], at["x"], np.cross(at["z"], at["x"])])
                 answers[f"geometry{word}Transform"] = self.matrix(axes, at["o"])
-            answers["healthState"] = j.get("health", 0)
-        return a.made("Joint", **answers)
+            answers |= {"healthState": j.get("health", 0), "isLocked": False}
+        return a.made("AsBuiltJoint" if as_built else "Joint", **answers)

@@ -52,9 +52,11 @@ class Inventor:
 
     def record(self, **changes: Any) -> list[dict[str, Any]]:
         a = self.answers
+        options = a.made("NameValueMap")
+        transient = a.made("TransientObjects", CreateNameValueMap=options)
         definition = a.made(
             "Definition", Occurrences=a.listed(self.top), Constraints=a.listed(self.constraints),
-            Joints=a.listed(self.joints), RigidBodyAnalysis={"null": self._rigid_bodies()},
+            Joints=a.listed(self.joints), RigidBodyAnalysis={f"#{options['object']}": self._rigid_bodies()},
             OccurrencePatterns=self._patterns(self.assembly.root),
         )  # fmt: skip
         document = a.made("Document", **{
@@ -63,7 +65,9 @@ class Inventor:
             "ComponentDefinition": definition, **changes,
         })  # fmt: skip
         version = a.made("SoftwareVersion", Major=self.major, DisplayVersion="2024")
-        a.application("Application", SoftwareVersion=version, ActiveDocument=document)
+        a.application(
+            "Application", SoftwareVersion=version, ActiveDocument=document, TransientObjects=transient
+        )
         return a.objects
 
     def _rigid_bodies(self) -> dict[str, int]:
@@ -176,8 +180,16 @@ class Inventor:
         return made
 
     def _entity(self, side: dict[str, Any]) -> dict[str, int]:
+        """A face or edge, or a work point: these have no ``Geometry``."""
         occurrence = self._occurrence_of(side["component"])
-        return self.answers.made("Entity", Geometry=self.shape(side), ContainingOccurrence=occurrence)
+        member = "Point" if side["geometry"] == "point" else "Geometry"
+        return self.answers.made("Entity", **{member: self.shape(side)}, ContainingOccurrence=occurrence)
+
+    def _work(self, side: dict[str, Any]) -> dict[str, int]:
+        """A work plane or axis."""
+        member = {"plane": "Plane", "line": "Line"}.get(side["geometry"], "Geometry")
+        occurrence = self._occurrence_of(side["component"])
+        return self.answers.made("Entity", **{member: self.shape(side)}, ContainingOccurrence=occurrence)
 
     def point(self, p: np.ndarray) -> dict[str, int]:
         p = self.base.local(np.asarray(p))
@@ -283,13 +295,13 @@ class Inventor:
             answers |= {
                 "Angle": self.parameter(value),
                 "SolutionType": c.get("solution", 78594),
-                "ReferenceVectorEntity": self._entity(c["c"]) if "c" in c else None,
+                "ReferenceVectorEntity": self._work(c["c"]) if "c" in c else None,
             }
         elif kind == "tangent":
             answers["InsideTangency"] = c.get("side") == "inside"
         elif kind == "symmetry":
             answers |= {
-                "SymmetryPlane": self._entity(c["c"]),
+                "SymmetryPlane": self._work(c["c"]),
                 "NormalsOpposed": False,
             }
         elif kind in ("gear", "linear", "rack"):
@@ -313,11 +325,12 @@ class Inventor:
             part = self.assembly.parts[component]
             p = part.local(frame["o"]) if self.points == "part" else frame["o"]
             axis = a.made("Line", RootPoint=self.point(frame["o"]), Direction=self.vector(frame["z"]))
-            return a.made("Intent", Geometry=axis, Point=self.point(p))
+            held = {"Point": self.point(frame["o"])} if j["type"] == "ball" else {"Geometry": axis}
+            return a.made("Intent", Geometry=a.made("Entity", **held), Point=self.point(p))
 
         def alignment(frame: dict[str, Any]) -> dict[str, int]:
             line = a.made("Line", RootPoint=self.point(frame["o"]), Direction=self.vector(frame["x"]))
-            return a.made("Entity", Geometry=line)
+            return a.made("Entity", Line=line)
 
         fa, fb = j["frameA"], j.get("frameB", j["frameA"])
         definition = a.made(

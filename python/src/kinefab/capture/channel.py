@@ -27,6 +27,10 @@ class MemberFailed(Exception):
         self.member, self.detail = member, detail
 
 
+class NotHeld(MemberFailed):
+    """A question that the record holds no answer to: it was never asked."""
+
+
 class RecordBroken(Exception):
     """A record that is none."""
 
@@ -156,7 +160,7 @@ class Replay:
         key = question(name, arguments)
         answers = self._answers[number]
         if key not in answers:
-            raise MemberFailed(key, "the record holds no answer")
+            raise NotHeld(key, "the record holds no answer")
         return seen(self, key, answers[key], len(self._answers))
 
 

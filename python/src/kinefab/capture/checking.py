@@ -23,6 +23,7 @@ from .readings import Poses, poses_of, readings
 CLOSED = 2e-6
 """Metres or radians up to which a joint or constraint closes: a program states its numbers with that much."""
 CHECKED = frozenset({"joints", "constraints"})
+_NOTHING: dict[str, list[Record]] = {key: [] for key in (*CHECKED, "couplings", "dof")}
 
 
 def check(draft: Draft) -> None:
@@ -97,8 +98,12 @@ def residuals(draft: Draft, **records: list[Record]) -> dict[str, float]:
 
 
 def _one_by_one(draft: Draft, records: dict[str, list[Record]]) -> dict[str, float]:
-    """Where a record is faulty it alone has no residual."""
+    """Where a record is faulty it alone has no residual; where the components are, none has."""
     found: dict[str, float] = {}
+    try:
+        scene_from_values({**plain(draft), **_NOTHING}, Path("capture.bundle.json"), b"", Report())
+    except KinefabError:
+        return found
     for key, listed in records.items():
         if len(listed) > 1:
             half = len(listed) // 2

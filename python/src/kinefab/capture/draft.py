@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, cast
 
 from ..diagnostics import Report
-from .channel import MemberFailed
+from .channel import MemberFailed, NotHeld
 
 Record = dict[str, Any]
 """A record of ``schemas/bundle.schema.json``."""
@@ -102,6 +102,26 @@ class Draft:
             yield
         except WRONG_ANSWER as error:
             self.failed(feature, error)
+
+    def each(
+        self, count: int, item: Callable[[int], Any], word: str, owner: str, first: int = 1
+    ) -> Iterator[tuple[str, Any]]:
+        """The entries of a program's collection, each with what it is called in a report.
+
+        item: of an index, from ``first``.  One that fails is told.  So is, once, where a record ends before the count that it
+        states: whatever it says, nobody asked for more.
+        """
+        for index in range(count):
+            feature = f"{word} {index + 1} of {owner}"
+            try:
+                found = item(index + first)
+            except NotHeld as error:
+                self.failed(f"{feature} and all after it", error)
+                return
+            except WRONG_ANSWER as error:
+                self.failed(feature, error)
+                continue
+            yield feature, found
 
     def failed(self, feature: str, error: Exception) -> None:
         member = error.member if isinstance(error, MemberFailed) else "an answer"
@@ -208,6 +228,10 @@ NUMBERS = frozenset({"value", "min", "max", "r", "ratio", "mass"})
 """Fields that hold a number wherever they hold no record."""
 
 
+MOST = 1e15
+"""Beyond, a bundle's reader takes a number for none."""
+
+
 def _finite(value: Any) -> bool:
     """Whether a record can be written: all its numbers finite, and what has to be a number one."""
     if isinstance(value, dict):
@@ -218,9 +242,7 @@ def _finite(value: Any) -> bool:
         return all(_finite(entry) for entry in held.values())
     if isinstance(value, list):
         return all(_finite(entry) for entry in cast("list[Any]", value))
-    return (
-        value is None or isinstance(value, (str, int)) or (isinstance(value, float) and math.isfinite(value))
-    )
+    return value is None or isinstance(value, str) or (isinstance(value, (int, float)) and abs(value) <= MOST)
 
 
 def reach(enabled: bool, value: float | None) -> float | None:

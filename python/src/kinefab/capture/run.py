@@ -22,7 +22,8 @@ from .writing import mesh_files, write_files
 class Program:
     """A program that can be captured.  module: below this package; it has ``capture(root, draft)`` and ``METHODS``.
     length: unit of its API.  up: axis that is up in its documents unless they are told otherwise.
-    identifier: ProgID, of a program that is attached to over COM.
+    identifier: ProgID, of a program that is attached to over COM; moniker: what its name in the table of running objects begins
+    with, where it may be in it under that alone.
     """
 
     name: str
@@ -30,11 +31,14 @@ class Program:
     length: str
     up: str
     identifier: str = ""
+    moniker: str = ""
 
 
 PROGRAMS = {
     "inventor": Program("Inventor", "inventor.capture", "cm", "Y", "Inventor.Application"),
-    "solidworks": Program("SolidWorks", "solidworks.capture", "m", "Y", "SldWorks.Application"),
+    "solidworks": Program(
+        "SolidWorks", "solidworks.capture", "m", "Y", "SldWorks.Application", "SolidWorks_PID_"
+    ),
     "fusion": Program("Fusion", "fusion.capture", "cm", "Z"),
     "onshape": Program("Onshape", "onshape.capture", "m", "Z"),
 }
@@ -63,7 +67,10 @@ def capture(
 
     entry = PROGRAMS[program]
     module = import_module(f".{entry.module}", __package__)
-    live = attached(entry.name, entry.identifier, module.METHODS, report)
+    live = attached(
+        entry.name, entry.identifier, module.METHODS, report, entry.moniker,
+        getattr(module, "HANDED", None), getattr(module, "NUMBERS", None),
+    )  # fmt: skip
     return captured(program, live, target, report, record_to, blank, up)
 
 

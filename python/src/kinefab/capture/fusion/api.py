@@ -40,10 +40,10 @@ class RootComponent(Protocol):
     name: str  # text | - | Component.name Property
     bRepBodies: Collection  # - | root | Component.bRepBodies Property
     occurrences: Collection  # - | root | Component.occurrences Property
-    allJoints: Collection  # - | root | Component.allJoints Property
-    allAsBuiltJoints: Collection  # - | root | Component.allAsBuiltJoints Property
-    allRigidGroups: Collection  # - | root | Component.allRigidGroups Property
-    allAssemblyConstraints: Collection  # - | root | Component.allAssemblyConstraints Property
+    allJoints: Sequence[Joint]  # array | root | Component.allJoints Property
+    allAsBuiltJoints: Sequence[AsBuiltJoint]  # array | root | Component.allAsBuiltJoints Property
+    allRigidGroups: Sequence[RigidGroup]  # array | root | Component.allRigidGroups Property
+    allAssemblyConstraints: Sequence[AssemblyConstraint]  # array | root | Component.allAssemblyConstraints Property
     features: Features  # - | - | Component.features Property
 
 
@@ -161,12 +161,21 @@ class Joint(Protocol):
     occurrenceTwo: Occurrence | None  # null = root | - | Joint.occurrenceTwo Property
     geometryOneTransform: Matrix  # - | root | Joint.geometryOneTransform Property
     geometryTwoTransform: Matrix  # - | root | Joint.geometryTwoTransform Property
-    geometry: Geometry | None  # null of a rigid one | root | AsBuiltJoint.geometry Property
     jointMotion: Motion | None  # - | - | Joint.jointMotion Property
-    motionLinks: Collection  # - | - | Joint.motionLinks Property
+    motionLinks: Sequence[MotionLink]  # array | - | Joint.motionLinks Property
     isSuppressed: bool  # flag | - | Joint.isSuppressed Property
     isLocked: bool  # flag | - | Joint.isLocked Property
     healthState: int  # FeatureHealthStates | - | Joint.healthState Property
+
+
+class AsBuiltJoint(Protocol):
+    name: str  # text | - | AsBuiltJoint.name Property
+    occurrenceOne: Occurrence | None  # null = root | - | AsBuiltJoint.occurrenceOne Property
+    occurrenceTwo: Occurrence | None  # null = root | - | AsBuiltJoint.occurrenceTwo Property
+    geometry: Geometry | None  # null of a rigid one | root | AsBuiltJoint.geometry Property
+    jointMotion: Motion | None  # - | - | AsBuiltJoint.jointMotion Property
+    motionLinks: Sequence[MotionLink]  # array | - | AsBuiltJoint.motionLinks Property
+    isSuppressed: bool  # flag | - | AsBuiltJoint.isSuppressed Property
 
 
 class Geometry(Protocol):
@@ -189,6 +198,9 @@ class Motion(Protocol):
     primarySlideLimits: Limits  # cm | - | PlanarJointMotion.primarySlideLimits Property
     secondarySlideValue: float  # cm | - | PlanarJointMotion.secondarySlideValue Property
     secondarySlideLimits: Limits  # cm | - | PlanarJointMotion.secondarySlideLimits Property
+    pitchLimits: Limits  # rad | - | BallJointMotion.pitchLimits Property
+    yawLimits: Limits  # rad | - | BallJointMotion.yawLimits Property
+    rollLimits: Limits  # rad | - | BallJointMotion.rollLimits Property
 
 
 class Limits(Protocol):
@@ -200,8 +212,8 @@ class Limits(Protocol):
 
 class MotionLink(Protocol):
     name: str  # text | - | MotionLink.name Property
-    jointOne: Joint  # - | - | MotionLink.jointOne Property
-    jointTwo: Joint | None  # null = the same joint | - | MotionLink.jointTwo Property
+    jointOne: Joint | AsBuiltJoint  # - | - | MotionLink.jointOne Property
+    jointTwo: Joint | AsBuiltJoint | None  # null = the same joint | - | MotionLink.jointTwo Property
     motionOne: int  # MotionTypes | - | MotionLink.motionOne Property
     motionTwo: int  # MotionTypes | - | MotionLink.motionTwo Property
     valueOne: Parameter  # - | - | MotionLink.valueOne Property
@@ -222,6 +234,17 @@ class RigidGroup(Protocol):
 
 class AssemblyConstraint(Protocol):
     name: str  # text | - | AssemblyConstraint.name Property
-    occurrenceOne: Occurrence | None  # null = root | - | AssemblyConstraint.occurrenceOne Property
-    occurrenceTwo: Occurrence | None  # null = root | - | AssemblyConstraint.occurrenceTwo Property
+    geometricRelationships: Collection  # - | - | AssemblyConstraint.geometricRelationships Property
     isSuppressed: bool  # flag | - | AssemblyConstraint.isSuppressed Property
+
+
+class Relationship(Protocol):
+    entityOne: Entity | None  # - | - | GeometricRelationship.entityOne Property
+    entityTwo: Entity | None  # - | - | GeometricRelationship.entityTwo Property
+    isMate: bool  # flag: else an angle | - | GeometricRelationship.isMate Property
+    isFlipped: bool  # flag: aligned, else opposed | - | GeometricRelationship.isFlipped Property
+    offsetOrAngle: Parameter | None  # - | - | GeometricRelationship.offsetOrAngle Property
+
+
+class Entity(Protocol):
+    assemblyContext: Occurrence | None  # null = root | - | BRepFace.assemblyContext Property

@@ -5,14 +5,14 @@ Standard library only: it runs in Fusion's own Python.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 from ..channel import methods_of
 from ..draft import Draft
 from . import api
-from .api import Application, Collection
-from .joints import read_as_built, read_constraint, read_group, read_joint, read_link
+from .api import Application, AsBuiltJoint, Joint
+from .joints import joint_id, read_as_built, read_constraint, read_group, read_joint, read_link
 from .occurrences import Occurrences
 from .parts import Parts
 from .patterns import read_patterns
@@ -46,28 +46,26 @@ def capture(application: Application, draft: Draft) -> None:
     ]
     for member, words, read in steps:
         with draft.safely(f"{words}s"):
-            collection = cast(Collection, getattr(root, member))
-            for index in range(collection.count):
-                with draft.safely(f"{words} {index + 1}"):
-                    read(draft, collection.item(index), tree.component)
+            for number, entry in enumerate(cast("Sequence[Any]", getattr(root, member))):
+                with draft.safely(f"{words} {number + 1}"):
+                    read(draft, entry, tree.component)
     with draft.safely("patterns"):
         read_patterns(tree, root)
     with draft.safely("motion links"):
-        _links(draft, root.allJoints)
+        _links(draft, [*root.allJoints, *root.allAsBuiltJoints], tree)
     with draft.safely("contact sets"):
         if design.contactSets.count:
             draft.report.approximated("contact sets", "CAPTURE_KIND_RAW", kind="contact", program=NAME)
             draft.notes["contactSets"] = design.contactSets.count
 
 
-def _links(draft: Draft, joints: Collection) -> None:
+def _links(draft: Draft, joints: Sequence[Joint | AsBuiltJoint], tree: Occurrences) -> None:
     """Both joints of a link list it: it is taken once."""
-    seen: set[str] = set()
-    for index in range(joints.count):
-        with draft.safely(f"motion links of joint {index + 1}"):
-            links: Any = joints.item(index).motionLinks
-            for number in range(links.count):
-                link = links.item(number)
-                if link.name not in seen:
-                    seen.add(link.name)
-                    read_link(draft, link)
+    seen: set[tuple[str, str]] = set()
+    for number, joint in enumerate(joints):
+        with draft.safely(f"motion links of joint {number + 1}"):
+            for link in joint.motionLinks:
+                first = joint_id(draft, link.jointOne, tree.component)
+                if (link.name, first) not in seen:
+                    seen.add((link.name, first))
+                    read_link(draft, link, tree.component)

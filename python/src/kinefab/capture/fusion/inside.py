@@ -7,18 +7,32 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any, cast
 
-from ..channel import Live, MemberFailed, record
+from ..channel import Live, MemberFailed, plainly, record
 from ..draft import Draft
 from ..writing import mesh_files, write_files
 from .capture import METHODS, NAME, capture
+
+
+def listed(target: Any, name: str, arguments: tuple[Any, ...] | None) -> Any:
+    """A member of Fusion's, its arrays as lists: they come as vectors of the bridge to its C++, which collections are not."""
+    found = plainly(target, name, arguments)
+    members = set(dir(cast(object, type(found))))
+    if (
+        isinstance(found, (str, list, tuple))
+        or "item" in members
+        or not {"__len__", "__getitem__"} <= members
+    ):
+        return cast(Any, found)
+    return list(found)
 
 
 def capture_to(application: object, target: str) -> str:
     """Write NAME.record.json and NAME.bundle.json; the message for the user.  Raises OSError."""
     path = Path(target)
     stem = path.name.removesuffix(".json").removesuffix(".bundle")
-    live, draft = Live(application, METHODS), Draft(NAME, "cm", "Z")
+    live, draft = Live(application, METHODS, listed), Draft(NAME, "cm", "Z")
     try:
         capture(live.root, draft)
     except MemberFailed as error:

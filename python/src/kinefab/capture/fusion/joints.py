@@ -9,7 +9,18 @@ from collections.abc import Callable
 from typing import cast
 
 from ..draft import Draft, Numbers, Record, frame, freedom, reach
-from .api import AssemblyConstraint, Joint, Limits, Motion, MotionLink, Occurrence, RigidGroup, Vector
+from .api import (
+    AsBuiltJoint,
+    AssemblyConstraint,
+    Joint,
+    Limits,
+    Motion,
+    MotionLink,
+    Occurrence,
+    Relationship,
+    RigidGroup,
+    Vector,
+)
 
 TYPES = ("rigid", "revolute", "slider", "cylindrical", "pin_slot", "planar", "ball")
 """JointTypes."""
@@ -34,6 +45,8 @@ def read_joint(draft: Draft, joint: Joint, component: Component) -> None:
     record["type"] = word
     record["frameA"], record["frameB"] = _frame(two, z, x), _frame(one, z, x)
     _finish(draft, record, word, motion, bool(joint.isLocked))
+    if word == "ball":
+        _told_of_ranges(draft, record["id"], motion)
     if bool(joint.isSuppressed) or health == SUPPRESSED:
         record["suppressed"] = True
     elif health in HEALTH:
@@ -42,7 +55,7 @@ def read_joint(draft: Draft, joint: Joint, component: Component) -> None:
     draft.joints.append(record)
 
 
-def read_as_built(draft: Draft, joint: Joint, component: Component) -> None:
+def read_as_built(draft: Draft, joint: AsBuiltJoint, component: Component) -> None:
     """Add an as-built joint: one geometry, where both sides are; its value places the other side's frame."""
     record, motion = _begun(draft, joint, component), joint.jointMotion
     geometry = joint.geometry
@@ -54,17 +67,27 @@ def read_as_built(draft: Draft, joint: Joint, component: Component) -> None:
         y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]]
         rows = [v for i in range(3) for v in (x[i], y[i], z[i], o[i])]
         record["frameA"] = _frame(rows, *_axes(word, motion, rows))
-        _finish(draft, record, word, motion, bool(joint.isLocked))
+        _finish(draft, record, word, motion, False)
     if joint.isSuppressed:
         record["suppressed"] = True
     draft.joints.append(record)
 
 
-def _begun(draft: Draft, joint: Joint, component: Component) -> Record:
+def _begun(draft: Draft, joint: Joint | AsBuiltJoint, component: Component) -> Record:
     name = joint.name
     own = draft.unique(name)
     draft.owners[own] = "world"
     return {"id": own, "name": name, "a": component(joint.occurrenceTwo), "b": component(joint.occurrenceOne)}
+
+
+def joint_id(draft: Draft, joint: Joint | AsBuiltJoint, component: Component) -> str:
+    """Id of a joint that was read: names are its component's own, so of several the one between the same occurrences."""
+    name = joint.name
+    alike = [record for record in draft.joints if record.get("name") == name]
+    if len(alike) > 1:
+        ends = {component(joint.occurrenceOne), component(joint.occurrenceTwo)}
+        alike = [record for record in alike if {record["a"], record["b"]} == ends] or alike
+    return alike[0]["id"] if alike else name
 
 
 def _finish(draft: Draft, record: Record, word: str, motion: Motion, locked: bool) -> None:
@@ -131,6 +154,16 @@ def _axes(word: str, motion: Motion, rows: Numbers) -> tuple[list[float], list[f
     return z, x
 
 
+def _told_of_ranges(draft: Draft, own: str, motion: Motion) -> None:
+    """A bundle's ball has no ranges, and of Fusion's three angles the order is not documented."""
+    with draft.safely(f"ranges of {own}"):
+        limits = (motion.pitchLimits, motion.yawLimits, motion.rollLimits)
+        if any(one.isMinimumValueEnabled or one.isMaximumValueEnabled for one in limits):
+            draft.report.approximated(
+                f"ranges of joint {own}", "CAPTURE_KIND_RAW", kind="range of a ball", program=draft.program
+            )
+
+
 def _frame(rows: Numbers, z: Numbers, x: Numbers) -> Record:
     def lifted(v: Numbers) -> list[float]:
         return [sum(rows[4 * i + k] * v[k] for k in range(3)) for i in range(3)]
@@ -138,10 +171,10 @@ def _frame(rows: Numbers, z: Numbers, x: Numbers) -> Record:
     return frame("world", [rows[3], rows[7], rows[11]], lifted(z), lifted(x))
 
 
-def read_link(draft: Draft, link: MotionLink) -> None:
+def read_link(draft: Draft, link: MotionLink, component: Component) -> None:
     """Add a motion link: the second motion goes valueTwo where the first goes valueOne."""
     one, two = link.jointOne, link.jointTwo
-    names = one.name, one.name if two is None else two.name
+    names = tuple(joint_id(draft, joint, component) for joint in (one, one if two is None else two))
     ends = [
         {"joint": name, "dof": LINKED[motion]}
         for name, motion in zip(names, (link.motionOne, link.motionTwo))
@@ -165,8 +198,17 @@ def read_constraint(draft: Draft, c: AssemblyConstraint, component: Component) -
     """Write an assembly constraint down as it stands."""
     own = draft.unique(c.name)
     record: Record = {"id": own, "name": c.name, "kind": "other", "rawKind": "AssemblyConstraint"}
-    for key, occurrence in (("a", c.occurrenceOne), ("b", c.occurrenceTwo)):
-        record[key] = {"component": component(occurrence), "geometry": "body"}
+    relationships = c.geometricRelationships
+    listed = [cast(Relationship, relationships.item(i)) for i in range(relationships.count)]
+    for key, entity in (("a", listed[0].entityOne), ("b", listed[0].entityTwo)) if listed else ():
+        if entity is not None:
+            record[key] = {"component": component(entity.assemblyContext), "geometry": "body"}
+    stated: list[Record] = []
+    for relationship in listed:
+        value = relationship.offsetOrAngle
+        said: Record = {"mate": bool(relationship.isMate), "aligned": bool(relationship.isFlipped)}
+        stated.append(said | ({} if value is None else {"value": float(value.value)}))
+    record["extras"] = {"relationships": stated}
     if c.isSuppressed:
         record["suppressed"] = True
     else:

@@ -60,9 +60,9 @@ class Occurrences:
         self.records[record["id"]] = record
 
     def _level(self, occurrences: Collection, parent: str) -> None:
-        for index in range(occurrences.count):
-            with self.draft.safely(f"occurrence {index + 1} of {parent}"):
-                self._occurrence(cast(Occurrence, occurrences.item(index)), parent)
+        for feature, found in self.draft.each(occurrences.count, occurrences.item, "occurrence", parent, 0):
+            with self.draft.safely(feature):
+                self._occurrence(cast(Occurrence, found), parent)
 
     def _occurrence(self, occurrence: Occurrence, parent: str) -> None:
         own, children, definition = self.named(occurrence), occurrence.childOccurrences, occurrence.component

@@ -26,9 +26,9 @@ def read_patterns(tree: Occurrences, root: RootComponent) -> None:
             for kind in KINDS:
                 with draft.safely(f"{kind} of {homes[0]}"):
                     listed = cast(Collection, getattr(features, kind))
-                    for index in range(listed.count):
-                        with draft.safely(f"{kind} {index + 1} of {homes[0]}"):
-                            pattern = cast(PatternFeature, listed.item(index))
+                    for feature, found in draft.each(listed.count, listed.item, kind, homes[0], 0):
+                        with draft.safely(feature):
+                            pattern = cast(PatternFeature, found)
                             copies = [
                                 tree.body(f"{home}/{path}") for path in _copies(pattern) for home in homes
                             ]

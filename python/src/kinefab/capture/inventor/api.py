@@ -15,6 +15,15 @@ from typing import Any, Protocol
 class Application(Protocol):
     SoftwareVersion: SoftwareVersion  # - | - | Application.SoftwareVersion Property
     ActiveDocument: Document | None  # - | - | Application.ActiveDocument Property
+    TransientObjects: TransientObjects  # - | - | Application.TransientObjects Property
+
+
+class TransientObjects(Protocol):
+    def CreateNameValueMap(self) -> NameValueMap: ...  # - | - | TransientObjects.CreateNameValueMap Method
+
+
+class NameValueMap(Protocol):
+    """Options; none are set."""
 
 
 class SoftwareVersion(Protocol):
@@ -48,7 +57,7 @@ class Definition(Protocol):
     AppearanceOverridesObjects: Collection  # faces, features, work surfaces, bodies | - | PartComponentDefinition.AppearanceOverridesObjects Property
     MassProperties: MassProperties | None  # - | part | PartComponentDefinition.MassProperties Property
 
-    def RigidBodyAnalysis(self, Options: None) -> RigidBodyResults: ...  # - | - | AssemblyComponentDefinition.RigidBodyAnalysis Method
+    def RigidBodyAnalysis(self, Options: NameValueMap) -> RigidBodyResults: ...  # - | - | AssemblyComponentDefinition.RigidBodyAnalysis Method
 
 
 class OccurrencePattern(Protocol):
@@ -141,7 +150,10 @@ class Sphere(Protocol):
 
 
 class Entity(Protocol):
-    Geometry: Any  # - | assembly, of a proxy | FaceProxy.Geometry Property
+    Geometry: Any  # of a face or edge | assembly, of a proxy | FaceProxy.Geometry Property
+    Plane: Plane  # of a work plane | assembly, of a proxy | WorkPlaneProxy.Plane Property
+    Line: Line  # of a work axis | assembly, of a proxy | WorkAxisProxy.Line Property
+    Point: Point  # of a work point or vertex | assembly, of a proxy | WorkPointProxy.Point Property
     ContainingOccurrence: Occurrence | None  # - | - | FaceProxy.ContainingOccurrence Property
 
 
@@ -215,7 +227,7 @@ class JointDefinition(Protocol):
 
 
 class Intent(Protocol):
-    Geometry: Any  # - | assembly, of a proxy | GeometryIntent.Geometry Property
+    Geometry: Entity  # - | - | GeometryIntent.Geometry Property
     Point: Point  # - | not stated | GeometryIntent.Point Property
 
 

@@ -9,7 +9,6 @@ from ..draft import Draft, Record
 from . import api
 from .api import (
     Application,
-    Collection,
     Constraint,
     Definition,
     Joint,
@@ -28,6 +27,10 @@ INTERFACES = tuple(
     value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
 )
 METHODS = methods_of(*INTERFACES)
+HANDED = {"GetMatrixData": ("doubles",), "CalculateFacets": ("long", "long", "doubles", "doubles", "longs")}
+"""Methods that write into arrays of their caller."""
+NUMBERS = {"Geometry": 67119422}
+"""DISPID of ``Face.Geometry``, which a face of an occurrence does not name to a late bound caller."""
 
 
 def capture(application: Application, draft: Draft) -> None:
@@ -62,28 +65,27 @@ def capture(application: Application, draft: Draft) -> None:
     for own, inner in found.flexible:
         _statements(Owner(draft, own, own), inner)
     with draft.safely("rigid bodies"):
-        draft.notes["rigidBodies"] = _rigid_bodies(root, definition)
+        draft.notes["rigidBodies"] = _rigid_bodies(application, root, definition)
 
 
 def _statements(owner: Owner, definition: Definition) -> None:
-    for index in _indices(owner, definition.Joints, "joints"):
-        with owner.draft.safely(f"joint {index} of {owner.id}"):
-            read_joint(owner, cast(Joint, definition.Joints.Item(index)))
-    for index in _indices(owner, definition.Constraints, "constraints"):
-        with owner.draft.safely(f"constraint {index} of {owner.id}"):
-            read_constraint(owner, cast(Constraint, definition.Constraints.Item(index)))
+    draft = owner.draft
+    with draft.safely(f"joints of {owner.id}"):
+        joints = definition.Joints
+        for feature, joint in draft.each(joints.Count, joints.Item, "joint", owner.id):
+            with draft.safely(feature):
+                read_joint(owner, cast(Joint, joint))
+    with draft.safely(f"constraints of {owner.id}"):
+        constraints = definition.Constraints
+        for feature, constraint in draft.each(constraints.Count, constraints.Item, "constraint", owner.id):
+            with draft.safely(feature):
+                read_constraint(owner, cast(Constraint, constraint))
     read_patterns(owner, definition)
 
 
-def _indices(owner: Owner, collection: Collection, words: str) -> range:
-    with owner.draft.safely(f"{words} of {owner.id}"):
-        return range(1, collection.Count + 1)
-    return range(0)
-
-
-def _rigid_bodies(root: str, definition: Definition) -> Record:
+def _rigid_bodies(application: Application, root: str, definition: Definition) -> Record:
     """Inventor's own reduction to rigid groups and joints between them."""
-    results = definition.RigidBodyAnalysis(None)
+    results = definition.RigidBodyAnalysis(application.TransientObjects.CreateNameValueMap())
     owner = Owner(Draft(NAME, "cm", "Z"), root, "world")
     groups: list[Record] = []
     for index in range(1, results.RigidBodyGroups.Count + 1):

@@ -11,7 +11,7 @@ from typing import Any
 from ..channel import MemberFailed
 from ..draft import Draft, Record, reach
 from .api import Constraint, Entity, Occurrence
-from .geometry import shape
+from .geometry import entity_shape, shape
 
 MATE, FLUSH, INSERT, ANGLE, TANGENT = "Mate", "Flush", "Insert", "Angle", "Tangent"
 KINDS = {
@@ -21,6 +21,7 @@ KINDS = {
     100667136: "TranslateTranslate", 100677888: "TranslateTranslate", 100666112: "Transitional",
     100677376: "Transitional", 100707840: "AssemblySymmetry", 100708096: "AssemblySymmetry", 100673536: "Custom",
     100677632: "Custom", 100678144: "Composite", 100699392: "Layout",
+    100699648: "Layout",
 }  # fmt: skip
 """ObjectTypeEnum, native and proxy."""
 
@@ -46,8 +47,12 @@ class Owner:
     def component(self, occurrence: Occurrence | None) -> str:
         """Id of an occurrence that the owner's constraint names: through its parents, up to the owner."""
         names: list[str] = []
+        passed: set[Occurrence] = set()
         at = occurrence
         while at is not None:
+            if at in passed:
+                raise ValueError("an occurrence that is its own parent")
+            passed.add(at)
             names.append(at.Name)
             at = at.ParentOccurrence
         return "/".join([self.id, *reversed(names)])
@@ -102,14 +107,14 @@ def _sides(owner: Owner, c: Constraint, kind: str, record: Record) -> None:
     expected = {INSERT: ("circle",), FLUSH: ("plane",), "Transitional": ("cylinder",)}.get(kind, ())
     both = ((c.OccurrenceOne, "One", "a"), (c.OccurrenceTwo, "Two", "b"))
     for occurrence, side, key in both:
-        try:
-            geometry = getattr(c, f"Geometry{side}")
-        except MemberFailed:  # not stated of tangent and motion constraints
-            geometry = getattr(c, f"Entity{side}").Geometry
-        if geometry is None:
-            geometry = getattr(c, f"Entity{side}").Geometry
         component = owner.component(occurrence) if occurrence is not None else "ground"
-        record[key] = {"component": component, **shape(geometry, owner.frame, expected)}
+        stated: Record | None = None
+        with suppress(MemberFailed):  # none of a kind that states no geometry
+            if (geometry := getattr(c, f"Geometry{side}")) is not None:
+                stated = shape(geometry, owner.frame, expected)
+        if stated is None:
+            stated = entity_shape(getattr(c, f"Entity{side}"), owner.frame, expected)
+        record[key] = {"component": component, **stated}
 
 
 def _value(record: Record, c: Constraint, value: float) -> None:
@@ -174,7 +179,7 @@ def _angle(owner: Owner, c: Constraint, record: Record) -> None:
     solution = c.SolutionType
     _value(record, c, c.Angle.Value)
     if solution == REFERENCE_VECTOR and (entity := c.ReferenceVectorEntity) is not None:
-        axis = shape(entity.Geometry, owner.frame)
+        axis = entity_shape(entity, owner.frame)
         record["c"] = {"component": owner.holder(entity), **axis, "geometry": "line"}
         record["c"].pop("r", None)
     if solution in (DIRECTED, REFERENCE_VECTOR):
@@ -211,7 +216,7 @@ def _motion(kind: str) -> Callable[[Owner, Constraint, Record], None]:
 
 def _symmetry(owner: Owner, c: Constraint, record: Record) -> None:
     entity = c.SymmetryPlane
-    plane = shape(entity.Geometry, owner.frame, ("plane",))
+    plane = entity_shape(entity, owner.frame, ("plane",))
     _inferred(record, "a", c.EntityOneInferredType)
     _inferred(record, "b", c.EntityTwoInferredType)
     record |= {

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 from ..channel import MemberFailed
 from ..draft import Record
-from .api import Point, Vector
+from .api import Entity, Point, Vector
 
 SHAPES = (
     ("cylinder", "BasePoint", "AxisVector"),
@@ -43,6 +43,13 @@ def shape(geometry: Any, inside: str, expected: tuple[str, ...] = ()) -> Record:
     return {"geometry": "point", "in": inside, "p": numbers(cast(Point, geometry))}
 
 
-def side(geometry: Any, entity: Any, inside: str, expected: tuple[str, ...] = ()) -> Record:
-    """As ``shape``; of a kind of constraint that states no geometry that of its entity."""
-    return shape(geometry if geometry is not None else entity().Geometry, inside, expected)
+def entity_shape(entity: Entity, inside: str, expected: tuple[str, ...] = ()) -> Record:
+    """As ``shape`` of what a face or edge is of, a work plane, axis or point, or a vertex.  Raises MemberFailed for anything else."""
+    for member in ("Geometry", "Plane", "Line", "Point"):
+        try:
+            geometry = getattr(entity, member)
+            if geometry is not None:
+                return shape(geometry, inside, expected)
+        except (MemberFailed, AttributeError):
+            continue
+    raise MemberFailed("Geometry", "a kind of entity that is not known")

@@ -8,7 +8,7 @@ from ..channel import MemberFailed
 from ..draft import Record, frame, freedom, reach
 from .api import Entity, Intent, Joint, JointDefinition, Parameter
 from .constraints import HEALTH, SUPPRESSED, WELL, Owner
-from .geometry import numbers, shape
+from .geometry import entity_shape, numbers
 
 TYPES = {
     102401: ("rigid", "", ""),
@@ -83,13 +83,13 @@ def mirrored(record: Record) -> Record:
 
 
 def _frame(owner: Owner, origin: Intent, alignment: Entity | None, flip_z: bool, flip_x: bool) -> Record:
-    shown = shape(origin.Geometry, owner.frame)
+    shown = entity_shape(origin.Geometry, owner.frame)
     try:
         point = numbers(origin.Point)
     except (MemberFailed, AttributeError):
         point = shown["p"]
     z: Any = shown.get("d") or [0.0, 0.0, 1.0]
-    x = shape(alignment.Geometry, owner.frame).get("d") if alignment is not None else None
+    x = entity_shape(alignment, owner.frame).get("d") if alignment is not None else None
     z = [-v for v in z] if flip_z else z
     x = [-v for v in x] if flip_x and x else x
     return frame(owner.frame, point, z, x)

@@ -41,9 +41,9 @@ class Occurrences:
     definitions: dict[str, Record] = field(default_factory=dict[str, Record])
 
     def read(self, occurrences: Collection, parent: str) -> None:
-        for index in range(1, occurrences.Count + 1):
-            with self.draft.safely(f"occurrence {index} of {parent}"):
-                self._occurrence(cast(Occurrence, occurrences.Item(index)), parent)
+        for feature, occurrence in self.draft.each(occurrences.Count, occurrences.Item, "occurrence", parent):
+            with self.draft.safely(feature):
+                self._occurrence(cast(Occurrence, occurrence), parent)
 
     def _occurrence(self, occurrence: Occurrence, parent: str) -> None:
         name = occurrence.Name

@@ -15,9 +15,9 @@ def read_patterns(owner: Owner, definition: Definition) -> None:
     listed: set[str] = set()
     with draft.safely(f"patterns of {owner.id}"):
         patterns = definition.OccurrencePatterns
-        for index in range(1, patterns.Count + 1):
-            with draft.safely(f"pattern {index} of {owner.id}"):
-                listed |= _pattern(owner, cast(OccurrencePattern, patterns.Item(index)))
+        for feature, pattern in draft.each(patterns.Count, patterns.Item, "pattern", owner.id):
+            with draft.safely(feature):
+                listed |= _pattern(owner, cast(OccurrencePattern, pattern))
     flagged = [
         c["id"] for c in draft.components
         if c.get("parent") == owner.id and c.get("extras", {}).get("patternElement") and c["id"] not in listed

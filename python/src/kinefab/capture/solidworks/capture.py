@@ -12,6 +12,7 @@ from ..looks import look, painted
 from ..masses import mass_record
 from . import api
 from .api import Application, Component, Feature, Model
+from .features import features, features_below
 from .mates import UNIT, Owner, read_mate
 from .patterns import read_patterns
 
@@ -71,8 +72,11 @@ def _assembly(model: Model, draft: Draft, root: str) -> None:
     found.read(top, root)
     for own, inner in [(root, model), *found.flexible]:
         frame = "world" if own == root else own
-        owner = Owner(draft, own, frame, UNIT.get(inner.LengthUnit, 1.0))
-        _mates(owner, inner)
+        owner = Owner(draft, own, frame, 1.0)
+        with draft.safely(f"unit of {own}"):
+            owner.unit = UNIT[inner.LengthUnit]
+        with draft.safely(f"mates of {own}"):
+            _mates(owner, inner)
         with draft.safely(f"patterns of {own}"):
             read_patterns(owner, inner)
 
@@ -191,17 +195,15 @@ def _painted(body: api.Body) -> int:
 
 
 def _mates(owner: Owner, model: Model) -> None:
-    feature = model.FirstFeature()
-    while feature is not None:
-        kind = feature.GetTypeName2()
-        if kind == "MateGroup":
-            for mate in _below(feature):
-                with owner.draft.safely(f"a mate of {owner.id}"):
-                    read_mate(owner, mate)
-        elif kind in SHAPING:
-            with owner.draft.safely(f"a feature of {owner.id}"):
+    for feature in features(model):
+        with owner.draft.safely(f"a feature of {owner.id}"):
+            kind = feature.GetTypeName2()
+            if kind == "MateGroup":
+                for mate in _below(feature):
+                    with owner.draft.safely(f"a mate of {owner.id}"):
+                        read_mate(owner, mate)
+            elif kind in SHAPING:
                 _shaping(owner, feature, kind)
-        feature = feature.GetNextFeature()
 
 
 def _shaping(owner: Owner, feature: Feature, kind: str) -> None:
@@ -213,11 +215,9 @@ def _shaping(owner: Owner, feature: Feature, kind: str) -> None:
 
 def _below(group: Feature) -> Iterator[Feature]:
     """The mates of a group and of its folders."""
-    feature = group.GetFirstSubFeature()
-    while feature is not None:
+    for feature in features_below(group):
         kind = feature.GetTypeName2()
         if kind == "FtrFolder":
             yield from _below(feature)
         elif kind != "MateInPlace":
             yield feature
-        feature = feature.GetNextSubFeature()

@@ -24,8 +24,10 @@ ERRORS = {
     42: "the tangency is not met", 43: "dangling", 44: "not linear", 45: "failed", 46: "over-defined",
     47: "ill-defined", 48: "broken",
 }  # fmt: skip
-UNIT = {0: 0.001, 1: 0.01, 2: 1.0, 3: 0.0254, 4: 0.3048}
-"""swLengthUnit_e, metres."""
+UNIT = {
+    0: 0.001, 1: 0.01, 2: 1.0, 3: 0.0254, 4: 0.3048, 5: 0.0254, 6: 1e-10, 7: 1e-9, 8: 1e-6, 9: 2.54e-5, 10: 2.54e-8,
+}  # fmt: skip
+"""swLengthUnit_e, metres; of feet and inches together the inch."""
 PARALLEL = 1e-9
 
 

@@ -7,6 +7,7 @@ from contextlib import suppress
 from ..channel import MemberFailed
 from ..patterns import follow, free
 from .api import Component, Feature, Model, PatternData
+from .features import features, features_below
 from .mates import Owner
 
 PATTERNS = frozenset({
@@ -49,23 +50,12 @@ def read_patterns(owner: Owner, model: Model) -> None:
 def _named(owner: Owner, model: Model) -> dict[str, list[str]]:
     """The seeds that the pattern of each instance names.  Asking for them opens its definition, which is closed again."""
     found: dict[str, list[str]] = {}
-    feature = model.FirstFeature()
-    while feature is not None:
+    for feature in features(model):
         if feature.GetTypeName2() in PATTERNS:
             with owner.draft.safely(f"a pattern of {owner.id}"):
-                instances = _instances(owner, feature)
+                instances = [_component(owner, instance) for instance in features_below(feature)]
                 seeds = _seeds(owner, model, feature.GetDefinition())
                 found |= dict.fromkeys(instances, seeds)
-        feature = feature.GetNextFeature()
-    return found
-
-
-def _instances(owner: Owner, pattern: Feature) -> list[str]:
-    found: list[str] = []
-    feature = pattern.GetFirstSubFeature()
-    while feature is not None:
-        found.append(_component(owner, feature))
-        feature = feature.GetNextSubFeature()
     return found
 
 

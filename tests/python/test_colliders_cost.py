@@ -12,6 +12,7 @@ import pytest
 import trimesh
 from golden import FIXTURES
 from kinefab.diagnostics import Report
+from kinefab.geometry import hulls
 from kinefab.geometry.contact import decomposition
 from kinefab.geometry.contact.nearness import close_pairs, extents
 from kinefab.geometry.hulls import UNITY_TRIANGLES, collision_hulls, hull_of_points
@@ -144,8 +145,9 @@ def test_close_pairs_are_those_of_every_pair():
         trimesh.creation.icosphere(4),
         trimesh.creation.torus(0.3, 0.1),
         trimesh.creation.cylinder(0.1, 0.4, sections=500),
+        trimesh.creation.cone(1.0, 0.001, sections=400),  # so flat that Manifold leaves out vertices of it
     ],
-    ids=["ball", "torus", "cylinder"],
+    ids=["ball", "torus", "cylinder", "flat cone"],
 )
 def test_the_hull_of_a_fine_mesh_is_as_far_inside_as_it_says(shape):
     """The deviation told is that of the farthest vertex, and no more than 2 % of the size."""
@@ -172,6 +174,27 @@ def test_the_hull_of_a_fine_mesh_with_few_corners_is_exact_and_says_nothing():
     whole = hull_of_points(mesh.vertices)
     assert report.diagnostics == [] and len(hull.vertices) == 24
     assert solid_volume(hull.vertices, hull.faces) == pytest.approx(solid_volume(*whole), rel=1e-12)
+
+
+@MANIFOLD
+@pytest.mark.parametrize(
+    "shape", [ring(2), trimesh.creation.capsule(0.3, 0.1), trimesh.creation.icosphere(4)]
+)
+def test_the_hull_of_a_fine_mesh_is_the_same_without_manifold(shape, monkeypatch):
+    """The same vertices in the same places and as far inside, only flat faces may be cut otherwise."""
+    mesh = Mesh("m", np.array(shape.vertices) + 7.0, np.array(shape.faces))
+
+    def made() -> tuple[np.ndarray, float, list[str]]:
+        report = Report()
+        hull = collision_hulls(Scene(meshes=[mesh]), [(0, "P/b")], report)[0]
+        ordered = hull.vertices[np.lexsort(hull.vertices.T)]
+        return ordered, solid_volume(hull.vertices, hull.faces), [d.message for d in report.diagnostics]
+
+    by_manifold = made()
+    monkeypatch.setattr(hulls, "_manifold", lambda: None)
+    by_qhull = made()
+    assert np.array_equal(by_manifold[0], by_qhull[0]) and by_manifold[2] == by_qhull[2]
+    assert by_manifold[1] == pytest.approx(by_qhull[1], rel=1e-9)
 
 
 def placed_solids(content: dict, buffer: bytes) -> list[tuple[str, int | None, object]]:

@@ -53,6 +53,12 @@ class Pose:
         return d @ self.rotation.T
 
 
+def bounds(points: Array) -> tuple[Array, Array]:
+    """Lowest and highest coordinates of points, shape (n, 3): each of shape (3,).  Numpy is several times as fast along rows."""
+    rows = np.ascontiguousarray(points.T)
+    return rows.min(axis=1), rows.max(axis=1)
+
+
 def cross(x: Array, y: Array) -> Array:
     """Cross product over the last axis, far cheaper than numpy's own on the small arrays used here."""
     if x.ndim == y.ndim == 1:

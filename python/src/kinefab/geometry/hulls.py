@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import cache, lru_cache
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import Mesh, Scene
-from ..spatial import Array, IntArray, cross
+from ..spatial import Array, IntArray, bounds, cross
 
 UNITY_TRIANGLES = 255
 """Most triangles of a convex MeshCollider."""
@@ -29,6 +32,9 @@ BLOCK = 256
 """Vertices looked at together: few enough that BLAS starts no threads for them, which would cost more than they bring."""
 
 Hull = tuple[Array, IntArray]
+
+_KEY: Array = np.array([1.0, math.sqrt(2.0), math.sqrt(3.0)])
+"""Along it few points of a mesh are at one height."""
 
 
 def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Report) -> dict[int, Mesh]:
@@ -74,7 +80,7 @@ def within_unity(hull: Hull) -> tuple[Hull, float]:
 def _small_hull(points: Array) -> tuple[Hull | None, str, float]:
     """A hull that Unity takes, how many triangles it would have had ("" where it is the whole hull), how far inside it lies."""
     if len(points) > EXACT and _is_solid(points):
-        hull, deviation = _through_extremes(points, MANY_DIRECTIONS, COARSE)
+        hull, deviation = _through_extremes(points, MANY_DIRECTIONS, COARSE, fast=True)
         if hull is not None:
             return hull, f"more than {len(hull[1])}" if deviation > 0.0 else "", deviation
     whole = hull_of_points(points)
@@ -84,18 +90,22 @@ def _small_hull(points: Array) -> tuple[Hull | None, str, float]:
     return hull, "" if hull is whole else str(len(whole[1])), deviation
 
 
-def _through_extremes(points: Array, directions: int, coarse: float) -> tuple[Hull | None, float]:
+def _through_extremes(
+    points: Array, directions: int, coarse: float, fast: bool = False
+) -> tuple[Hull | None, float]:
     """A hull through at most ``UNITY_VERTICES`` of the points, and how far the others stand out of it, 0 where none does.
 
     It starts from the extreme points along ``directions`` and takes those that stand out the farthest; with more than half of
-    the vertices that Unity takes, it ends when it lies no more than ``coarse`` of the size inside.
+    the vertices that Unity takes, it ends when it lies no more than ``coarse`` of the size inside.  fast: by Manifold where it can.
     None where the extreme points are flat.
     """
-    size = float(np.ptp(points, axis=0).max())
+    low, high = bounds(points)
+    size = float((high - low).max())
     chosen: IntArray = np.unique(_extreme(points, _directions(directions))[0])
-    while (found := _wrapped(points[chosen])) is not None:
-        hull, planes = found
-        outside = _standing_out(points, planes)
+    if not _is_solid(points[chosen]):  # of a flat cone all of them are on its rim
+        chosen = np.unique(_extreme(_evened(points), _directions(directions))[0])
+    while (found := _enclosing(points, chosen, size, fast)) is not None:
+        hull, planes, outside = found
         fresh = np.flatnonzero(outside > INSIDE * size)
         deviation = float(outside.max()) if len(fresh) else 0.0
         room = UNITY_VERTICES - len(chosen)
@@ -109,6 +119,16 @@ def _through_extremes(points: Array, directions: int, coarse: float) -> tuple[Hu
     return None, 0.0
 
 
+def _enclosing(points: Array, chosen: IntArray, size: float, fast: bool) -> tuple[Hull, Array, Array] | None:
+    """The hull of the chosen points, the planes of its faces, and how far every point stands out of it."""
+    if fast and (found := _wrapped_fast(points[chosen])) is not None:
+        outside = _standing_out(points, found[1])
+        if outside[chosen].max() <= 0.5 * INSIDE * size:
+            return *found, outside
+    found = _wrapped(points[chosen])
+    return None if found is None else (*found, _standing_out(points, found[1]))
+
+
 def _farthest(points: Array, planes: Array, taken: IntArray) -> list[int]:
     """For each plane the point that stands out of it the most, each once, the farthest first, without those taken."""
     highest, height = _extreme(points, planes[:, :3])
@@ -119,9 +139,9 @@ def _farthest(points: Array, planes: Array, taken: IntArray) -> list[int]:
 
 def _standing_out(points: Array, planes: Array) -> Array:
     """How far each point is outside the hull of these planes, shape (n,), negative inside."""
-    ones = np.column_stack([points, np.ones(len(points))])  # so that the product adds the offset
-    blocks = (ones[start : start + BLOCK] for start in range(0, len(points), BLOCK))
-    return np.concatenate([(planes @ block.T).max(axis=0) for block in blocks])
+    ones = np.vstack([points.T, np.ones(len(points))])  # so that the product adds the offset
+    blocks = (ones[:, start : start + BLOCK] for start in range(0, len(points), BLOCK))
+    return np.concatenate([(planes @ block).max(axis=0) for block in blocks])
 
 
 def _extreme(points: Array, directions: Array) -> tuple[IntArray, Array]:
@@ -154,11 +174,56 @@ def _wrapped(points: Array) -> tuple[Hull, Array] | None:
     return (points[used], numbers[faces]), hull.equations
 
 
+def _wrapped_fast(points: Array) -> tuple[Hull, Array] | None:
+    """``_wrapped`` by Manifold, in a third of the time; None where that is not installed or finds no hull.
+
+    It is the same hull but for how flat faces of more than three vertices are cut into triangles, unless rounding decides where a
+    narrow face looks or whether a point is a vertex: then some of the points stand out of the planes.
+    """
+    library = _manifold()
+    if library is None:
+        return None
+    low, high = bounds(points)
+    moved = points - 0.5 * (low + high)  # what it takes for rounding grows with the distance from the origin
+    mesh = library.Manifold.hull_points(moved).to_mesh64()
+    corners = np.asarray(mesh.vert_properties, dtype=np.float64)
+    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
+    # It tells where the vertices are, not which of the points they were.
+    key = moved @ _KEY
+    order = np.argsort(key)
+    number = order[np.minimum(np.searchsorted(key[order], corners @ _KEY), len(order) - 1)]
+    if not len(faces) or not np.array_equal(moved[number], corners):
+        return None
+    vertices = points[number]
+    at = np.take(np.ascontiguousarray(vertices.T), faces.T, axis=1)  # by axis, corner and face
+    (a, b, c), (d, e, f) = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
+    normals = np.stack([b * f - c * e, c * d - a * f, a * e - b * d])
+    length = np.sqrt((normals * normals).sum(axis=0))
+    if not length.all():
+        return None
+    normals /= length
+    return (vertices, faces), np.vstack([normals, -(normals * at[:, 0]).sum(axis=0)]).T
+
+
+@cache
+def _manifold() -> Any:
+    """The library, which states no types, or None."""
+    return import_module("manifold3d") if find_spec("manifold3d") is not None else None
+
+
 def _is_solid(points: Array) -> bool:
     """Whether the points leave every plane by more than rounding."""
-    centred = points - points.mean(axis=0)
-    spread = np.linalg.eigvalsh(centred.T @ centred)  # squares of lengths
+    rows = np.ascontiguousarray(points.T)
+    centred = rows - rows.mean(axis=1)[:, None]
+    spread = np.linalg.eigvalsh(centred @ centred.T)  # squares of lengths
     return bool(spread[0] > 1e-14 * spread[2])
+
+
+def _evened(points: Array) -> Array:
+    """Solid points stretched so that they spread as far along each axis."""
+    centred = points - points.mean(axis=0)
+    squares, axes = np.linalg.eigh(centred.T @ centred)
+    return centred @ (axes / np.sqrt(squares))
 
 
 @lru_cache(maxsize=2)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import Body, Mesh, MeshReference, Scene, Surface
-from ..spatial import Array
+from ..spatial import Array, bounds
 from .files import Reader, read_mesh_file, transformed
 from .lending import tell_losses, with_lent_bodies, without_lent_bodies
 from .matching import Wanted, match_bodies
@@ -161,13 +161,14 @@ class _Loading:
         key = (len(piece.vertices), piece.face_counts, stated, zlib.crc32(faces.data))
         alike = self._by_shape.setdefault(key, [])
         spread = float(np.abs(piece.vertices).mean())
-        tolerance = SAME_SHAPE * float(np.ptp(piece.vertices, axis=0).max())
+        low, high = bounds(piece.vertices)
+        tolerance = SAME_SHAPE * float((high - low).max())
         reach = (
             1.001 * tolerance + 1e-12 * spread
         )  # the other's tolerance is its own, and the mean is rounded
-        low = bisect_left(alike, spread - reach, key=_spread)
-        high = bisect_right(alike, spread + reach, key=_spread)
-        for known in sorted(alike[low:high], key=lambda known: known.mesh):
+        first = bisect_left(alike, spread - reach, key=_spread)
+        last = bisect_right(alike, spread + reach, key=_spread)
+        for known in sorted(alike[first:last], key=lambda known: known.mesh):
             mesh = self._meshes[known.mesh]
             if (
                 _deviation(mesh.vertices, piece.vertices) <= known.tolerance

@@ -9,7 +9,7 @@ from itertools import permutations
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, IntArray, Pose, cross
+from ..spatial import Array, IntArray, Pose, bounds
 
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
@@ -23,18 +23,15 @@ def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassPr
     Blow and Binstock, *How to find the inertia tensor (or other mass properties) of a 3D solid body represented by a
     triangle mesh*.
     """
-    middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))  # moments lose digits far from the origin
-    corners = (vertices - middle)[faces]
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    six = np.einsum("ij,ij->i", a, cross(b, c))  # times the volume of each tetrahedron
-    whole = a + b + c
+    low, high = bounds(vertices)
+    middle = 0.5 * (low + high)  # moments lose digits far from the origin
+    corners, six = _tetrahedra(vertices - middle, faces)
+    whole = corners[:, 0] + corners[:, 1] + corners[:, 2]
     volume = float(six.sum()) / 6.0
     with np.errstate(divide="ignore", invalid="ignore"):  # of no volume: the caller looks at the mass
-        center = (six @ whole) / (24.0 * volume)
+        center = (whole @ six) / (24.0 * volume)
     # The integral of x x' over a tetrahedron with a corner at the origin is det / 120 (sum of v v' + s s').
-    second = (corners * six[:, None, None]).reshape(-1, 3).T @ corners.reshape(-1, 3) + (
-        whole.T * six
-    ) @ whole
+    second = (corners * six).reshape(3, -1) @ corners.reshape(3, -1).T + (whole * six) @ whole.T
     second = second / 120.0 - volume * np.outer(center, center)
     inertia = np.trace(second) * np.eye(3) - second
     return MassProperties(volume * density, center + middle, inertia * density)
@@ -42,8 +39,17 @@ def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassPr
 
 def solid_volume(vertices: Array, faces: IntArray) -> float:
     """Of the solid inside a closed mesh, cubic metres; negative where it is wound inwards."""
-    corners = (vertices - vertices[0])[faces]
-    return float(np.einsum("ij,ij->", corners[:, 0], cross(corners[:, 1], corners[:, 2]))) / 6.0
+    return float(_tetrahedra(vertices - vertices[0], faces)[1].sum()) / 6.0
+
+
+def _tetrahedra(vertices: Array, faces: IntArray) -> tuple[Array, Array]:
+    """From the origin to each face: its corners by axis and corner, shape (3, 3, m), and six times its volume, shape (m,).
+
+    Numpy is twice as fast on three long rows as on many short ones.
+    """
+    corners = np.take(np.ascontiguousarray(vertices.T), faces.T, axis=1)
+    (a, b, c), (d, e, f), (g, h, i) = corners[:, 0], corners[:, 1], corners[:, 2]
+    return corners, a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
 
 
 def moved(properties: MassProperties, pose: Pose) -> MassProperties:
@@ -98,7 +104,8 @@ def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
     if np.abs(symmetric - np.diag(diagonal)).max() <= DIAGONAL * np.abs(diagonal).max():
         return diagonal.copy(), np.eye(3)
     moments, axes = np.linalg.eigh(symmetric)
-    order = max(permutations(range(3)), key=lambda p: sum(abs(axes[i, p[i]]) for i in range(3)))
+    along = np.abs(axes).tolist()
+    order = max(permutations(range(3)), key=lambda p: sum(along[i][p[i]] for i in range(3)))
     axes, moments = axes[:, order], moments[list(order)]
     axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
     if np.linalg.det(axes) < 0.0:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import Freedom, Motion, Scene
-from ..spatial import Array
+from ..spatial import Array, bounds
 
 LARGE = 100.0
 """Metres: no part is that large, but one whose millimetres were taken for metres is."""
@@ -54,7 +54,7 @@ def _boxes(scene: Scene) -> dict[int, Box]:
     if not drawn:
         return {}
     used = {mesh: number for number, mesh in enumerate({mesh for _, _, mesh in drawn})}
-    ends = np.array([(v.min(axis=0), v.max(axis=0)) for v in (scene.meshes[m].vertices for m in used)])
+    ends = np.array([bounds(scene.meshes[m].vertices) for m in used])
     ends = ends[[used[mesh] for _, _, mesh in drawn]] * np.array([b.scale for _, b, _ in drawn])[:, None]
     eight = np.where(CORNERS, ends[:, 1:], ends[:, :1])
     rotations = np.array([b.pose.rotation for _, b, _ in drawn])

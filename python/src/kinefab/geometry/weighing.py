@@ -9,7 +9,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import MassProperties, Mesh, Node, Scene
-from ..spatial import Array
+from ..spatial import Array, bounds
 from .closure import is_skin
 from .hulls import hull_of_points
 from .mass import combined, is_possible, moved, solid_properties, stretched
@@ -56,7 +56,8 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
 
 def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassProperties | None:
     """Of one mesh at density 1; of its convex hull where it is open; None where it has no volume."""
-    size = float(np.ptp(mesh.vertices, axis=0).max())
+    low, high = bounds(mesh.vertices)
+    size = float((high - low).max())
     if is_skin(mesh.vertices, mesh.faces):
         found = solid_properties(mesh.vertices, mesh.faces, 1.0)
         if abs(found.mass) > THIN * size**3:

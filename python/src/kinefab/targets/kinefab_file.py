@@ -23,6 +23,7 @@ import numpy as np
 from .. import __version__, model
 from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
+from ..spatial import bounds
 from ..unity.scene import Coupling, Joint, Mesh, UnityScene
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
@@ -210,7 +211,7 @@ def _write_buffer(
 def _mesh_entry(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
     """One mesh in the buffer, and its entry in the scene."""
     count = len(mesh.vertices)
-    low, high = (v.astype(np.float64) for v in (mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)))
+    low, high = bounds(np.asarray(mesh.vertices, dtype=np.float64))
     short = count <= UINT16_VERTICES
     found: dict[str, Any] = {
         "name": mesh.name,

@@ -10,7 +10,7 @@ from ..diagnostics import Report
 from ..geometry.contact.depth import Depths, Solid, is_available
 from ..geometry.contact.nearness import close_pairs
 from ..geometry.primitives import box, sphere
-from ..spatial import Array, IntArray, matrix_from_quaternion
+from ..spatial import Array, IntArray, bounds, matrix_from_quaternion
 from .scene import BoxCollider, CapsuleCollider, Joint, MeshCollider, Rigidbody, SphereCollider, UnityScene
 
 CONTACT_OFFSET = 0.01
@@ -117,7 +117,7 @@ def _placed(scene: UnityScene, moved: list[int | None]) -> list[_Placed]:
             vertices, faces, convex = _shape(scene, component)
             points = vertices @ world[i][0].T + world[i][1]
             solid = Solid(points, faces, convex)
-            found.append(_Placed(i, moved[i], solid, points.min(axis=0), points.max(axis=0)))
+            found.append(_Placed(i, moved[i], solid, *bounds(points)))
     return found
 
 

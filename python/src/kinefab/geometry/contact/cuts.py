@@ -101,9 +101,13 @@ def _best(part: _Part, planes: list[_Plane], library: Any) -> tuple[float, _Plan
         start, end = part.edges[:, above[part.edges[0]] != above[part.edges[1]]]
         share = height[start] / (height[start] - height[end])
         section = part.points[start] + share[:, None] * (part.points[end] - part.points[start])
-        halves = (np.concatenate([part.points[side], section]) for side in (above, ~above))
-        filled = sum(float(library.Manifold.hull_points(half).volume()) for half in halves)
-        if filled < least * (1.0 - SAME):
+        filled, enough = 0.0, least * (1.0 - SAME)
+        for side in (above, ~above):
+            half = np.concatenate([part.points[side], section])
+            filled += float(library.Manifold.hull_points(half).volume())
+            if filled >= enough:
+                break
+        else:
             least, found = filled, (normal, offset)
     return float(least), found
 

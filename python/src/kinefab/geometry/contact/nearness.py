@@ -19,8 +19,8 @@ DIRECTIONS: Array = np.array(
 
 def extents(points: Array) -> tuple[Array, Array]:
     """Lowest and highest of points along ``DIRECTIONS``, each of shape (13,).  points: shape (n, 3)."""
-    heights = points @ DIRECTIONS.T
-    return heights.min(axis=0), heights.max(axis=0)
+    heights = DIRECTIONS @ points.T
+    return heights.min(axis=1), heights.max(axis=1)
 
 
 def close_pairs(low: Array, high: Array) -> IntArray:

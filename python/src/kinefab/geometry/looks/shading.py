@@ -10,7 +10,7 @@ import numpy as np
 
 from ...model import Mesh, Scene
 from ...spatial import Array, IntArray
-from ..closure import joined_vertices
+from ..closure import joined_across
 
 UP = np.array([0.0, 1.0, 0.0])
 """Normal of a vertex that no face with an area uses."""
@@ -66,15 +66,11 @@ def _shaded(meshes: list[Mesh], angle: float) -> list[Mesh]:
     """``shaded``, of meshes without normals, in one go: most are so small that calling numpy for each costs more than its work."""
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     ends = np.cumsum([len(mesh.faces) for mesh in meshes])
-    joined = [joined_vertices(mesh.vertices) for mesh in meshes]
-    firsts = np.cumsum([0, *(int(numbers.max()) + 1 for numbers in joined)])
-    places = np.concatenate([numbers + first for numbers, first in zip(joined, firsts)])
-    sizes = [float(np.ptp(mesh.vertices, axis=0).max()) for mesh in meshes]
+    places, lengths = joined_across([mesh.vertices for mesh in meshes])
     vertices = np.concatenate([mesh.vertices for mesh in meshes])
     faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts)])
-    normals, faces, origin = _split(
-        vertices, faces, places, np.repeat(sizes, np.diff(ends, prepend=0)), math.radians(angle)
-    )
+    sizes = np.repeat(lengths, np.diff(ends, prepend=0))
+    normals, faces, origin = _split(vertices, faces, places, sizes, math.radians(angle))
     # What was repeated stands at the end, in the order of the vertices that it repeats.
     added = np.searchsorted(origin[starts[-1] :], starts) + starts[-1]
     found: list[Mesh] = []
@@ -194,34 +190,54 @@ def _smooth_groups(
 ) -> IntArray:
     """A number for each corner: corners at one place are alike when smooth edges lead from face to face between them.
 
-    numbers: places of the faces' corners, shape (3, m).  face, corner: the corners asked for, all of a place or none.  An edge of
-    two faces that run through it one way and the other is smooth when their normals differ by no more than the angle; any other
-    edge is hard.
+    numbers: places of the faces' corners, shape (3, m).  face, corner: the corners asked for, by face, all of a place or none.  An
+    edge of two faces that run through it one way and the other is smooth when their normals differ by no more than the angle;
+    any other edge is hard.
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    count = int(numbers.max()) + 1
-    here = numbers[corner, face]
-    ahead, behind = numbers[(corner + 1) % 3, face], numbers[(corner + 2) % 3, face]
-    # Round a place each edge leaves one face as its next corner and enters another as its last.
-    leaving, leaves = _single(here * count + ahead)
-    entering, enters = _single(here * count + behind)
-    _, left, entered = np.intersect1d(leaving, entering, assume_unique=True, return_indices=True)
-    one, other = leaves[left], enters[entered]
-    smooth = _dot(np.take(across, face[one], axis=1), np.take(across, face[other], axis=1)) >= cosine - 1e-9
+    asked = np.full(numbers.shape[::-1], -1)
+    asked[face, corner] = np.arange(len(face))
+    # Edges by the corner that they leave: those that end or start at a corner asked for.
+    own, start = np.nonzero((asked >= 0) | (asked[:, [1, 2, 0]] >= 0))
+    end = np.where(start == 2, 0, start + 1)
+    one, other = _twins(numbers[start, own], numbers[end, own])
+    smooth = _dot(np.take(across, own[one], axis=1), np.take(across, own[other], axis=1)) >= cosine - 1e-9
     one, other = one[smooth], other[smooth]
-    links = coo_matrix((np.ones(len(one), dtype=np.int8), (one, other)), (len(face), len(face)))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+    # Round a place each edge leaves one face as its next corner and enters another as its last.
+    ahead = np.arange(len(face))
+    behind = ahead.copy()
+    for edge, twin in ((one, other), (other, one)):
+        leaves, enters = asked[own[edge], start[edge]], asked[own[twin], end[twin]]
+        there = leaves >= 0
+        leaves, enters = leaves[there], enters[there]
+        ahead[leaves], behind[enters] = enters, leaves
+    lowest = np.minimum(_lowest_along(ahead), _lowest_along(behind))
+    return (np.cumsum(lowest == np.arange(len(face))) - 1)[lowest]
 
 
-def _single(keys: IntArray) -> tuple[IntArray, IntArray]:
-    """The keys that are there once, in order, and where."""
-    order = np.argsort(keys, kind="stable")
+def _lowest_along(following: IntArray) -> IntArray:
+    """Of each number the lowest that is met by going on from it.  following: of each the next, itself at an end."""
+    lowest = np.arange(len(following))
+    while True:  # twice as far each time
+        lower = np.minimum(lowest, lowest[following])
+        if np.array_equal(lower, lowest):
+            return lowest
+        lowest, following = lower, following[following]
+
+
+def _twins(start: IntArray, end: IntArray) -> tuple[IntArray, IntArray]:
+    """Pairs of edges that run between two places one way and the other, with no third; an edge within a place, if it is the only
+    one there, is its own twin.  start, end: places."""
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    keys = low * (int(high.max(initial=0)) + 1) + high
+    order = np.argsort(keys)
     ordered = keys[order]
-    first = np.r_[True, ordered[1:] != ordered[:-1]]
-    alone = first & np.r_[first[1:], True]
-    return ordered[alone], order[alone]
+    first = np.flatnonzero(np.r_[True, ordered[1:] != ordered[:-1]][: len(keys)])
+    count = np.diff(np.r_[first, len(keys)])
+    pairs, single = first[count == 2], order[first[count == 1]]
+    one, other = order[pairs], order[pairs + 1]
+    opposite = (start[one] == end[other]) & (start[one] != end[one])
+    single = single[start[single] == end[single]]
+    return np.r_[one[opposite], single], np.r_[other[opposite], single]
 
 
 def _unit(normals: Array) -> Array:

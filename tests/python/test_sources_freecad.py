@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from freecad_files import (
     assembly,
     document,
     flag,
+    integer,
     joint,
     link,
     links,
@@ -345,3 +347,83 @@ def test_a_plane_of_an_older_asmt_has_no_offset(tmp_path):
     assert [
         constraint.value for constraint in scene.constraints if constraint.kind is ConstraintKind.DISTANCE
     ] == [0.0]
+
+
+def test_a_copied_joint_that_names_its_own_file_is_followed_to_the_copy(tmp_path):
+    """Of a flexible sub-assembly that holds another one, FreeCAD 1.0 copies a joint with one side left in its own file."""
+    inner = assembly({"Frame": part(), "Arm": part()}, {"M": joint("Revolute", "Frame.", "Arm.")})
+    (tmp_path / "unit.FCStd").write_bytes(document(inner))
+    sides = {
+        f"Reference{n}": (
+            "App::PropertyXLinkSubHidden",
+            f'<XLink file={quoteattr(file)} stamp="" name="Assembly" count="1"><Sub value={quoteattr(path)}/></XLink>',
+        )
+        for n, file, path in ((1, "", "Unit.Frame."), (2, "unit.FCStd", "Arm."))
+    }
+    copied = ("App::FeaturePython", {**joint("Revolute", "", "")[1], **sides})
+    below = {
+        "UnitJoints": ("Assembly::JointGroup", {"Group": links("Copied")}),
+        "Frame": ("App::Link", {"LinkedObject": link("Frame", "unit.FCStd"), "Placement": placement()}),
+        "Arm": ("App::Link", {"LinkedObject": link("Arm", "unit.FCStd"), "Placement": placement()}),
+        "Copied": copied,
+    }
+    unit = {"LinkedObject": link("Assembly", "unit.FCStd"), "Rigid": flag(False), "Group": links(*below)}
+    outer = assembly(
+        {"Base": part(), "Unit": ("Assembly::AssemblyLink", unit)},
+        {"Held": joint("Fixed", "Base.", "Unit.Frame.")},
+        **below,
+    )
+    (tmp_path / "whole.FCStd").write_bytes(document(outer))
+    report = Report()
+    scene = sources.read(tmp_path / "whole.FCStd", report)
+    assert not report.of(Severity.ERROR) and "FREECAD_JOINT_DROPPED" not in [
+        d.code for d in report.diagnostics
+    ]
+    ends = {(scene.name(j.a), scene.name(j.b)) for j in scene.joints if j.kind is JointKind.REVOLUTE}
+    assert ends == {("Assembly/Unit/Frame", "Assembly/Unit/Arm")}
+
+
+def grid(**more):
+    """An assembly of a base and an array of two carriages, each of a plate and a post; the carriage stands 40 mm up."""
+    at = {"Plate": placement(x=1.0), "Post": placement(y=2.0)}
+    brep = shape("Base.Shape.brp")
+    parts = {name: ("Part::Feature", {"Placement": place, "Shape": brep}) for name, place in at.items()}
+    linked = {"LinkedObject": link("Carriage"), "LinkTransform": flag(True)}
+    array = {**linked, "ElementCount": integer(2), "ElementList": links("E0", "E1"), "Placement": placement()}
+    elements = {
+        f"E{n}": ("App::LinkElement", {**linked, "Placement": placement(x=50.0 * n)}) for n in range(2)
+    }
+    carriage = ("App::Part", {"Placement": placement(z=40.0), "Group": links(*parts)})
+    return {"Base": part(), "Row": ("App::Link", array), **more}, {**elements, **parts, "Carriage": carriage}
+
+
+def with_brep(objects) -> bytes:
+    with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
+        return document(objects, **{"Base.Shape.brp": file.read("Base.Shape.brp")})
+
+
+def test_elements_of_an_array_of_parts_move_and_their_joints_stand_where_freecad_has_them(tmp_path):
+    """FreeCAD's solver multiplies the placements of a joint's path: that of the linked part, which LinkTransform shows, is none
+    of them.  An element moves by itself; nothing of an array is on the ground."""
+    inside, outside = grid()
+    held = {"S": joint("Slider", "Base.", "Row.E1.Plate.Face6", Placement2=placement(x=3.0))}
+    (tmp_path / "a.FCStd").write_bytes(with_brep(assembly(inside, held, **outside)))
+    scene, report = read(tmp_path / "a.FCStd")
+    assert not report.of(Severity.ERROR)
+    assert {node.id for node in scene.nodes if node.grounded} == {"Assembly/Base"}
+    (sliding,) = scene.joints
+    frame = scene.pose(sliding.b) @ sliding.frame_b
+    np.testing.assert_allclose(frame.translation, [0.054, 0.0, 0.0], atol=1e-12)
+    assert scene.name(sliding.b) == "Assembly/Row/E1"
+
+
+def test_a_link_to_an_array_shows_all_of_its_elements(tmp_path):
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    again = ("App::Link", {"LinkedObject": link("Row"), "Placement": placement(y=300.0)})
+    inside, outside = grid(Again=again)
+    (tmp_path / "a.FCStd").write_bytes(with_brep(assembly(inside, {}, **outside)))
+    scene, _ = read(tmp_path / "a.FCStd")
+    ids = [node.id for node in scene.nodes if node.bodies]
+    assert ids == [f"Assembly/{name}/E{n}" for name in ("Row", "Again") for n in range(2)]
+    ends = [node.pose.translation for node in scene.nodes if node.id.startswith("Assembly/Again/")]
+    np.testing.assert_allclose(ends, [[0.0, 0.0, -0.3], [0.05, 0.0, -0.3]], atol=1e-12)

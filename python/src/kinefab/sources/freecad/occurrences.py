@@ -45,8 +45,9 @@ class Occurrence:
     """An object at a place.
 
     thing: what stands in the tree.  target: what it shows, its links followed; None where they lead nowhere.
-    name: by which a path in the document goes through it.  pose: its frame in the world, the one that joints mean.
+    name: by which a path in the document goes through it.  pose: its frame in the world.
     inner: the frame that its target's insides stand in; another one only through a link that keeps its target's place.
+    jcs: its frame as joints have it: FreeCAD multiplies the placements of a path, and no link's target's.
     scale: of its link, along its own axes.  shown: whether it and everything above it is visible.
     array: an array of links, its elements below it.  movable: whether its elements can move apart.
     """
@@ -56,6 +57,7 @@ class Occurrence:
     name: str
     pose: Pose
     inner: Pose
+    jcs: Pose
     parent: Occurrence | None = None
     children: list[Occurrence] = field(default_factory=list["Occurrence"])
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
@@ -118,8 +120,11 @@ class Tree:
             else Pose(outer.rotation @ placed.rotation, outer.point(placed.translation * _scale(parent)))
         )
         target, inner = self._resolved(thing, pose)
+        jcs = Pose() if parent is None else parent.jcs
+        if thing.type not in GROUPS:
+            jcs = Pose(jcs.rotation @ placed.rotation, jcs.point(placed.translation * _scale(parent)))
         here = Occurrence(
-            thing, target, name, pose, inner, parent,
+            thing, target, name, pose, inner, jcs, parent,
             scale=self._scaled(thing, parent), label=label,
             shown=visible and (parent is None or parent.shown),
         )  # fmt: skip
@@ -130,8 +135,10 @@ class Tree:
             here.target = None
             return here
         path = (*above, target.key)
-        if thing.type == LINK and thing.count("ElementCount") > 0:
-            self._elements(here, thing, path)
+        array, base = self._array(thing, pose)
+        if array is not None and array.key not in above:
+            here.movable = array is thing  # a link to an array shows its elements as they stand there
+            self._elements(here, array, base, (*above, array.key, target.key))
         elif target.type in PARTS or target.type in GROUPS:
             self._children(here, target, path)
         return here
@@ -171,12 +178,29 @@ class Tree:
                 )
             )
 
-    def _elements(self, here: Occurrence, thing: Thing, path: tuple[tuple[object, str], ...]) -> None:
-        """The elements of an array: objects of their own, or a list of places."""
+    def _array(self, thing: Thing, pose: Pose) -> tuple[Thing | None, Pose]:
+        """The array that an object is or shows through links, and the frame of its elements; None where it is none."""
+        inner, seen = pose, set[tuple[object, str]]()
+        shown: Thing | None = thing
+        while shown is not None and shown.type in LINKS and shown.key not in seen:
+            if shown.type == LINK and shown.count("ElementCount") > 0:
+                return shown, inner
+            seen.add(shown.key)
+            target = shown.target("LinkedObject")
+            below = None if target is None else self._documents.follow(shown, target)
+            if below is not None and shown.flag("LinkTransform"):
+                inner = inner @ below.placement()
+            shown = below
+        return None, pose
+
+    def _elements(
+        self, here: Occurrence, thing: Thing, base: Pose, path: tuple[tuple[object, str], ...]
+    ) -> None:
+        """The elements of an array: objects of their own, or a list of places.  base: the frame that they stand in."""
         here.array = True
         seen = thing.text("VisibilityList")
         elements = [self._documents.follow(thing, entry) for entry in thing.targets("ElementList")]
-        here.inner = here.pose
+        here.inner = base
         for number, element in enumerate(elements):
             if element is not None:
                 visible = element.flag("Visibility", True) and seen[number : number + 1] != "0"
@@ -195,11 +219,11 @@ class Tree:
             self._count += 1
             if self._count > MAX_OCCURRENCES:
                 raise TooManyError
-            pose = here.pose @ places[number]
+            pose = base @ places[number]
             target, inner = self._resolved(thing, pose)
             s = here.scale
             child = Occurrence(
-                thing, target, str(number), pose, inner, here,
+                thing, target, str(number), pose, inner, here.jcs @ places[number], here,
                 scale=(s[0] * scales[number][0], s[1] * scales[number][1], s[2] * scales[number][2]),
                 shown=here.shown and seen[number : number + 1] != "0",
                 label=f"{thing.label}:{number}",

@@ -96,7 +96,7 @@ class Parts:
                     self._show(child, here, node)
             return
         node = self._node(here, parent, NodeKind.ASSEMBLY, flexible=loose, grounded=ground and not assembly)
-        outside = loose and here.type == "App::Part"
+        outside = loose and here.type == "App::Part" and not here.array
         for child in inside:
             self.add(child, node, loose and not outside, ground=outside and child.type != ASSEMBLY)
 

@@ -36,39 +36,44 @@ def resolve(target: Target, root: Occurrence, parts: Parts) -> Reference:
     while chain[-1].parent is not None:
         chain.append(chain[-1].parent)
     by_name = {above.name: above for above in chain}
-    if root.name in names:
+    linked = root.thing.target("LinkedObject") if target.file else None
+    if linked is not None and linked.name == names[0]:
+        # FreeCAD 1.0 leaves a joint that it copies out of a flexible sub-assembly's own file at that file's objects
+        names = names[1:]
+    elif root.name in names:
         names = names[names.index(root.name) + 1 :]
     elif names[0] in by_name:
         start, names = by_name[names[0]], names[1:]
-    here, pose = start, start.pose
+    here, pose = start, start.jcs
     owner: Thing | None = None
     within: Thing | None = None
     for number, name in enumerate(names):
         if within is None:
             below = child_of(here, name)
             if below is not None:
-                here, pose, owner = below, below.pose, below.target
+                here, pose, owner = below, below.jcs, below.target
                 continue
             if number == 0 and here is start:
                 raise Lost(f"it names '{name}', which is not in the assembly")
         inside = _inside(within or here.target, name)
         if inside is None:
             continue  # a feature of a body, a folder, or an element's mapped name: the frame stays
-        outer = here.inner if within is None else pose
-        within, pose, owner = inside, outer @ inside.placement(), inside
+        within, pose, owner = inside, pose @ inside.placement(), inside
     node = parts.node(here)
     if here is start or node is None:
         raise Lost("it names no part of the assembly")
-    moving = here
-    return Reference(parts.of[id(_moving(moving, parts))], pose, element, owner)
+    moving = _moving(here, parts)
+    return Reference(parts.of[id(moving)], moving.pose @ moving.jcs.inverse() @ pose, element, owner)
 
 
 def _moving(here: Occurrence, parts: Parts) -> Occurrence:
-    """The nearest occurrence upwards that is a node."""
-    found: Occurrence | None = here
-    while found is not None and id(found) not in parts.of:
+    """The occurrence whose frame the node has that this one is or goes with."""
+    node = parts.node(here)
+    found = here
+    while found.parent is not None and parts.of.get(id(found)) != node:
         found = found.parent
-    assert found is not None
+    while found.parent is not None and parts.of.get(id(found.parent)) == node:
+        found = found.parent
     return found
 
 

@@ -33,6 +33,7 @@ from ...model import (
 )
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
+from ..joints.placement import COUNTS_CONNECTED, alike_from_both_sides
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
@@ -105,8 +106,9 @@ def restored(document: Entry) -> Restored:
 
     The first node stands for the world.  A joint is named by its object's id, with ``[component]`` behind it where the
     object carries several, as the C# tool names them, and keeps the name that the source gave it.  Its coordinate is that of
-    the own body against the connected one, as in the source, and zero at the pose in the file; where slides and turns mix
-    axes, Unity counts in the own body, and so is it here: the connected one against the own, from the anchors.
+    the own body against the connected one, or the other way round where ``extras.counts`` says so, as in the source, and
+    zero at the pose in the file; where slides and turns mix axes, Unity counts in the own body, and so is it here: the
+    connected one against the own, from the anchors.
     """
     reading = _Reading(document)
     joints: list[Joint] = []
@@ -133,6 +135,7 @@ def restored(document: Entry) -> Restored:
 
 def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     connected: int | None = component.get("connectedBody")
+    extras: Entry = component.get("extras", {})
     if connected is not None and (not reading.active[connected] or reading.node_of[connected] == 0):
         connected = connected if reading.active[connected] else None
     hinge = component["type"] == "HingeJoint"
@@ -155,34 +158,34 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     ]
     if hinge or component.get("swapBodies", False):
         sides.reverse()
-    elif _alike_from_both_sides(unlocked):
-        along = world @ np.where([i in unlocked for i in range(RX)], world.T @ (at_own - at_other), 0.0)
-        freedoms = _turned_round(freedoms, world.T @ along)
-        sides = [(sides[1][0], at_other + along), sides[0]]
+    elif alike_from_both_sides(unlocked):
+        if not COUNTS_CONNECTED.items() <= extras.items():
+            freedoms = tuple(map(_turned_round, freedoms))
+            sides.reverse()
+        (first, at_first), (_, at_second) = sides
+        gap = np.where([i in unlocked for i in range(RX)], world.T @ (at_second - at_first), 0.0)
+        freedoms = _counted_from(freedoms, gap)
+        sides[0] = (first, at_first + world @ gap)
     (a, at_a), (b, at_b) = sides
     kind = JointKind.REVOLUTE if hinge else kind_of(unlocked)
     frame_a, frame_b = (
         reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
     )
     because = tuple(str(source) for source in component.get("because", ()))
-    own = str(component.get("extras", {}).get("name", ""))
+    own = str(extras.get("name", ""))
     return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
 
 
-def _alike_from_both_sides(unlocked: Sequence[int]) -> bool:
-    """Whether either body counts the other's motion along the same axes: slides alone, or a turn about the one that slides."""
-    slides = {i for i in unlocked if i < RX}
-    turns = {i - RX for i in unlocked if i >= RX}
-    return bool(slides) and (not turns or slides == turns and len(turns) == 1)
+def _turned_round(own: Freedom) -> Freedom:
+    """Of a against b what is given of b against a."""
+    return replace(own, lower=-own.upper, upper=-own.lower) if own.motion is Motion.LIMITED else own
 
 
-def _turned_round(freedoms: tuple[Freedom, ...], gap: Array) -> tuple[Freedom, ...]:
-    """Of a against b what is given of b against a.  gap: where b's side now has its zero, metres, shape (3,)."""
+def _counted_from(freedoms: tuple[Freedom, ...], zeros: Array) -> tuple[Freedom, ...]:
+    """The same slides with their zeros elsewhere.  zeros: metres, shape (3,)."""
     return tuple(
-        replace(own, lower=-own.upper - zero, upper=-own.lower - zero)
-        if own.motion is Motion.LIMITED
-        else own
-        for own, zero in zip(freedoms, (*gap.tolist(), 0.0, 0.0, 0.0))
+        replace(own, lower=own.lower - zero, upper=own.upper - zero) if own.motion is Motion.LIMITED else own
+        for own, zero in zip(freedoms, (*zeros.tolist(), 0.0, 0.0, 0.0))
     )
 
 

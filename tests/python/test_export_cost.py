@@ -106,9 +106,9 @@ def test_edges_between_three_faces_are_hard():
 def test_ids_of_like_components_are_hashed_once_each(monkeypatch):
     """Sixteen pieces of one part's collider are sixteen hashes, not a hundred and thirty-six; the ids are as before."""
     hashed = []
-    monkeypatch.setattr(ids, "xxh64", lambda data: hashed.append(data) or xxh64(data))
-    fresh = ids.FileIds()
-    found = [fresh.new("MeshCollider", "Ring") for _ in range(16)]
+    each = ids.xxh64_each
+    monkeypatch.setattr(ids, "xxh64_each", lambda texts: hashed.extend(texts) or each(texts))
+    found = ids.FileIds().each([("MeshCollider", "Ring")] * 16)
     names = ["Ring", *(f"Ring#{k}" for k in range(2, 17))]
     assert hashed == [f"Kinefab:MeshCollider->{name}".encode() for name in names]
     assert found == [xxh64(data) & (2**63 - 1) for data in hashed]

@@ -53,14 +53,14 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "targets": [
         {"numbers", "content"},
-        {"noun_entry"},
+        {"noun_entry", "filtering", "packing"},
         {"kinefab_file", "prefab", "gltf", "usd"},
         {"unitypackage"},
         {"__init__"},
     ],
     "targets/prefab": [
         {"text", "files", "names", "manifest"},
-        {"options", "assets", "objects", "moment", "links"},
+        {"options", "assets", "objects", "moment", "links", "meshes"},
         {"losses", "articulation", "project", "folder"},
         {"exporting"},
         {"__init__"},

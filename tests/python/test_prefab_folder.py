@@ -209,3 +209,18 @@ def test_what_a_yaml_parser_takes_for_a_word_of_its_own_is_quoted(tmp_path):
         if "GameObject" in entry
     }
     assert {n.replace("\u2028", "_") for n in names} <= found
+
+
+@pytest.mark.parametrize("name", ["CON", "nul", "Aux.v2", "com1", "a:b", "what?", "Robot.", "Robot "])
+def test_a_prefab_has_no_name_that_windows_refuses(tmp_path, name):
+    """A project is shared between systems; in a package the prefab gets another name."""
+    scene = kinefab.Scene()
+    scene.add_part("Part", trimesh.creation.box((1, 1, 1)))
+    with pytest.raises(kinefab.KinefabError, match="Windows"):
+        kinefab.export(scene, tmp_path / f"{name}.prefab")
+    assert not list(tmp_path.iterdir())
+    kinefab.export(scene, tmp_path / f"{name}.unitypackage")
+    with tarfile.open(tmp_path / f"{name}.unitypackage") as tar:
+        paths = [tar.extractfile(e).read().decode() for e in tar if e.name.endswith("/pathname")]
+    (prefab,) = [path for path in paths if path.endswith(".prefab")]
+    assert prefab.removeprefix("Assets/Kinefab/").removesuffix(".prefab") != name

@@ -9,6 +9,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from kinefab import model
 from kinefab.model import ColliderKind
 from kinefab.spatial import Pose
@@ -331,3 +332,45 @@ def test_png_of_the_tests_is_one(tmp_path):
     Pillow = pytest.importorskip("PIL.Image")
     pixels = np.arange(64).reshape(4, 4, 4)
     assert np.array_equal(np.asarray(Pillow.open(png(tmp_path / "x.png", pixels))), pixels)
+
+
+@pytest.mark.parametrize("pipeline", ["builtin", "urp", "hdrp"])
+def test_colours_of_vertices_are_kept_and_told(tmp_path, pipeline):
+    """No pipeline's standard shader shows them; the asset has them for one that does."""
+    box = trimesh.creation.box((1, 1, 1))
+    colors = np.linspace(0.0, 1.0, 32).reshape(8, 4)
+    mesh = model.Mesh("Painted", np.array(box.vertices), np.array(box.faces), colors=colors)
+    scene = model.Scene([model.Node("A", "A", bodies=(model.Body("b", 0),))], meshes=[mesh])
+    options = kinefab.ExportOptions(writing={"pipeline": pipeline})
+    result = kinefab.export(scene, tmp_path / "A.prefab", options)
+    told = [o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"]
+    assert told == ["mesh Painted"]
+
+
+def test_no_image_is_made_smaller(tmp_path):
+    """Unity's own most of a side, in what the editor reads for every platform."""
+    scene = rich_scene(tmp_path)
+    exported(scene, tmp_path)
+    for path in sorted((tmp_path / "out").rglob("*.png.meta")):
+        imported = mapping(path.read_text())["TextureImporter"]
+        (platform,) = imported["platformSettings"]
+        assert platform["buildTarget"] == "DefaultTexturePlatform"
+        assert imported["maxTextureSize"] == platform["maxTextureSize"] == "16384"
+
+
+@pytest.mark.parametrize("count, short", [(65_535, True), (65_536, False)])
+def test_indices_have_16_bits_up_to_65535_vertices(tmp_path, count, short):
+    """A sheet whose last triangle uses the last vertex, in two submeshes."""
+    angle = np.linspace(0.0, 6.0, count)
+    vertices = np.column_stack([angle, np.tile([0.0, 1.0], count)[:count], np.zeros(count)])
+    corners = np.arange(count - 2)
+    faces = np.column_stack([corners, corners + 1, corners + 2])
+    normals = np.tile([0.0, 0.0, 1.0], (count, 1))
+    mesh = model.Mesh("Sheet", vertices, faces, normals, face_counts=(count - 3, 1))
+    scene = model.Scene([model.Node("A", "A", grounded=True, bodies=(model.Body("b", 0),))], meshes=[mesh])
+    result = kinefab.export(scene, tmp_path / "A.prefab", kinefab.ExportOptions(colliders="none"))
+    (asset,) = [path for path in result.files if path.suffix == ".asset"]
+    found = read_mesh(documents(asset.read_text("utf-8"))[0])
+    assert found["short"] == short and len(found["channels"][0]) == count
+    assert [len(part) for part in found["submeshes"]] == [count - 3, 1]
+    assert sorted(found["submeshes"][1][0]) == [count - 3, count - 2, count - 1]

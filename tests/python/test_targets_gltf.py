@@ -8,6 +8,7 @@ import shutil
 import struct
 import subprocess
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
@@ -312,3 +313,67 @@ def test_khronos_validator_finds_no_error_and_no_warning(tmp_path):
     assert done.returncode == 0, done.stderr
     found = [json.loads(line) for line in done.stdout.splitlines()]
     assert len(found) == len(files) and [f for f in found if f["bad"]] == []
+
+
+def colliding(document: dict, first: dict, second: dict) -> bool:
+    """By the draft, read both ways: a system within the other's list, or any of its systems in it."""
+    filters = document.get("extensions", {}).get(BODIES, {}).get("collisionFilters", [])
+
+    def lets(one: dict, other: dict) -> bool:
+        if "collisionFilter" not in one or "collisionFilter" not in other:
+            return True
+        own = set(filters[one["collisionFilter"]]["collisionSystems"])
+        ignored = set(filters[other["collisionFilter"]]["notCollideWithSystems"])
+        assert (own <= ignored) == bool(own & ignored)
+        return not own & ignored
+
+    return lets(first, second) and lets(second, first)
+
+
+def test_what_does_not_collide_has_filters(tmp_path):
+    """Groups, MuJoCo's masks and pairs of parts; a pair says nothing of the bodies that hang below its parts."""
+    ball = Collider(ColliderKind.SPHERE, radius=0.1)
+    weight = MassProperties(1.0, np.zeros(3), np.eye(3))
+
+    def part(name: str, group: str = "", parent: int | None = None) -> Node:
+        colliders = (replace(ball, group=group),)
+        return Node(name, name[-1], parent=parent, mass=weight, colliders=colliders)
+
+    nodes = [
+        part("A"), part("B"), part("A/C", parent=0), part("D", "ghosts"), part("E", "stones"),
+        part("F", "mask"), part("G", "ghosts"),
+        Node("H", "H", mass=weight, bodies=(Body("b", 0),)),
+    ]  # fmt: skip
+    extras = {
+        "ignoreCollision": [["A", "B"], ["E", "H"], ["A", "nobody"]],
+        "collisionGroups": {"ghosts": ["stones", "ghosts", "of nobody"]},
+        "collisionMasks": {"mask": [2, 2], "stones": [1, 3]},
+    }
+    mesh = kinefab.model.Mesh("cube", CUBE.vertices, CUBE.faces)
+    scene = Scene(nodes, meshes=[mesh], extras=extras)
+    result = kinefab.export(scene, tmp_path / "a.glb")
+    assert "filtered pair A and nobody" in {o.feature for o in result.report.outcomes if o.code}
+    document, _ = parsed(tmp_path / "a.glb")
+    found: dict[str, dict] = {}
+    names = {child: node["name"] for node in document["nodes"] for child in node.get("children", ())}
+    for i, node in enumerate(document["nodes"]):
+        if "collider" in node.get("extensions", {}).get(BODIES, {}):
+            found[names[i]] = node["extensions"][BODIES]["collider"]
+    apart = {"AB", "EH", "DE", "EG", "DG", "DD", "GG", "AF", "BF", "CF", "FH"}
+    for first in "ABCDEFGH":
+        for second in "ABCDEFGH":
+            wanted = "".join(sorted(first + second)) not in apart
+            assert colliding(document, found[first], found[second]) == wanted, first + second
+
+
+def test_what_gltf_has_no_place_for_is_told(tmp_path):
+    weight = MassProperties(1.0, np.zeros(3), np.eye(3))
+    node = Node(
+        "A", "A", mass=weight, layer="Robots", tag="Cart", dynamics=Dynamics(max_angular_velocity=3.0)
+    )
+    scene = Scene([node], physics=kinefab.model.Physics((0.0, -1.0, 0.0), 0.01))
+    result = kinefab.export(scene, tmp_path / "a.glb")
+    told = {o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"}
+    assert told == {"project setting gravity", "project setting fixed_timestep", "body A"}
+    (own,) = parsed(tmp_path / "a.glb")[0]["nodes"]
+    assert own["extras"] == {"id": "A", "layer": "Robots", "tag": "Cart"}

@@ -38,6 +38,7 @@ from prefab_scenes import rich_scene
 from test_targets_gltf import robot
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
+from pxr import Usd  # noqa: E402
 from usd_roundtrip import compared, there_and_back  # noqa: E402
 
 TOOL = shutil.which("dotnet-kinefab")
@@ -247,6 +248,84 @@ def test_a_clip_comes_back(tmp_path):
     (first,), (second,) = one.tracks, other.tracks
     assert np.allclose(first.localPosition, second.localPosition, atol=1e-12)
     assert np.allclose(first.localRotation, second.localRotation, atol=1e-12)
+
+
+@pytest.mark.parametrize("ending", [".usda", ".usdc", ".usdz"])
+def test_clips_stand_one_after_another_and_come_back(tmp_path, ending):
+    """Each with its name, its times, its repeat and only what it moves; what a clip does not move rests while it plays."""
+    turned = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, np.sin(0.4), 0.0, np.cos(0.4)]])
+    there = np.array([[1.0, 0.0, 0.0], [1.5, 0.25, 0.0]])
+    nodes = [
+        Node(
+            name,
+            name,
+            pose=Pose(np.eye(3), there[0] if name == "A" else np.zeros(3)),
+            mass=MassProperties(1.0, np.zeros(3), np.eye(3) * 0.01),
+            dynamics=kinefab.model.Dynamics(kinematic=True),
+        )
+        for name in "ABC"
+    ]
+    track = kinefab.model.Track
+    clips = [
+        kinefab.model.AnimationClip("Open", np.array([0.5, 1.0 / 3.0 + 1.0]), (track(0, there),)),
+        kinefab.model.AnimationClip(
+            "Turn é", np.array([0.0, 2.0]), (track(2, None, turned),), kinefab.model.Repeat.LOOP
+        ),
+        kinefab.model.AnimationClip(
+            "Both",
+            np.array([1.0, 1.7, 3.0]),
+            (track(0, there[[0, 1, 0]]), track(1, None, turned[[1, 0, 1]])),
+            kinefab.model.Repeat.PING_PONG,
+        ),
+    ]
+    direct = kinefab.export(Scene(nodes, animations=clips), tmp_path / "direct.kinefab")
+    path = tmp_path / f"clips{ending}"
+    told = kinefab.export(Scene(nodes, animations=clips), path)
+    assert [o.code for o in told.report.outcomes if o.feature.startswith("clip")] == [
+        "TARGET_CLIP_IN_LINE"
+    ] * 3
+    back = kinefab.export(path, tmp_path / "back.kinefab")
+    stage = Usd.Stage.Open(str(path))
+    assert stage.GetStartTimeCode() == 30.0 and stage.GetEndTimeCode() == pytest.approx(
+        80 + 1 + 120 + 1 + 120
+    )
+    names = {entry.id: entry.name for entry in back.unity.gameObjects}
+    assert len(back.unity.animations) == 3
+    for one, other in zip(direct.unity.animations, back.unity.animations):
+        assert (one.name, one.wrapMode) == (other.name, other.wrapMode)
+        assert other.times == pytest.approx(one.times, abs=1e-12)
+        sides = []
+        for result, clip in ((direct, one), (back, other)):
+            objects = result.unity.gameObjects
+            sides.append({objects[t.gameObject].name: t for t in clip.tracks})
+        assert sides[0].keys() == sides[1].keys()
+        for name in sides[0]:
+            for key in ("localPosition", "localRotation"):
+                first, second = (getattr(side[name], key) for side in sides)
+                assert bool(first) == bool(second) and np.allclose(first or 0, second or 0, atol=1e-12)
+    assert set(names.values()) >= {"A", "B", "C"}
+
+
+def test_clips_that_the_layer_tells_wrongly_are_one(tmp_path):
+    """What somebody else wrote there, or an edit: no number, no keys within, a repeat that is none."""
+    there = np.array([[0.0, 0.0, 0.0], [1.5, 0.25, 0.0]])
+    mass = MassProperties(1.0, np.zeros(3), np.eye(3) * 0.01)
+    still = Node("A", "A", mass=mass, dynamics=kinefab.model.Dynamics(kinematic=True))
+    clip = kinefab.model.AnimationClip("Open", np.array([0.0, 1.0]), (kinefab.model.Track(0, there),))
+    kinefab.export(Scene([still], animations=[clip]), tmp_path / "a.usda")
+    text = (tmp_path / "a.usda").read_text()
+    assert 'string repeat = "once"' in text
+    for old, new in (
+        ('string repeat = "once"', 'string repeat = "never"'),
+        ("double end = 60", "double end = -60"),
+        ("double start = 0", 'string start = "0"'),
+        ('string name = "Open"', "int name = 3"),
+        ("dictionary clip0 = {", "dictionary clip0 = {} \n dictionary other = {"),
+    ):
+        assert old in text
+        (tmp_path / "b.usda").write_text(text.replace(old, new))
+        (found,) = kinefab.export(tmp_path / "b.usda", tmp_path / "b.kinefab").unity.animations
+        assert found.name == "Animation" and found.times == pytest.approx([0.0, 1.0])
 
 
 def test_gravity_and_step_come_back(tmp_path):

@@ -130,20 +130,19 @@ def frame_from_axes(primary: Array, secondary: Array | None = None) -> Array:
 
 def quaternion_from_matrix(r: Array) -> Array:
     """Unit quaternion (x, y, z, w) of a rotation matrix, w >= 0, shape (4,) (Shepperd's method)."""
-    trace = np.trace(r)
-    choice = int(np.argmax([r[0, 0], r[1, 1], r[2, 2], trace]))
-    q = np.empty(4)
-    if choice == 3:
-        q[0], q[1], q[2] = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
-        q[3] = 1.0 + trace
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r.tolist()
+    trace = xx + yy + zz
+    largest = max(xx, yy, zz, trace)
+    if xx == largest:
+        q = (1.0 - trace + 2.0 * xx, yx + xy, zx + xz, zy - yz)
+    elif yy == largest:
+        q = (xy + yx, 1.0 - trace + 2.0 * yy, zy + yz, xz - zx)
+    elif zz == largest:
+        q = (xz + zx, yz + zy, 1.0 - trace + 2.0 * zz, yx - xy)
     else:
-        i, j, k = choice, (choice + 1) % 3, (choice + 2) % 3
-        q[i] = 1.0 - trace + 2.0 * r[i, i]
-        q[j] = r[j, i] + r[i, j]
-        q[k] = r[k, i] + r[i, k]
-        q[3] = r[k, j] - r[j, k]
-    q /= np.linalg.norm(q)
-    return -q if q[3] < 0.0 else q
+        q = (zy - yz, xz - zx, yx - xy, 1.0 + trace)
+    size = math.hypot(*q)
+    return np.array(q) / (-size if q[3] < 0.0 else size)
 
 
 def quaternions_from_matrices(r: Array) -> Array:
@@ -167,7 +166,7 @@ def quaternions_from_matrices(r: Array) -> Array:
 
 def matrix_from_quaternion(q: Array) -> Array:
     """Rotation matrix of a quaternion (x, y, z, w) of any length above zero, shape (3, 3)."""
-    x, y, z, w = q / np.linalg.norm(q)
+    x, y, z, w = (q / math.hypot(*q)).tolist()
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

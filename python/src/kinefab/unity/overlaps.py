@@ -102,6 +102,7 @@ def _placed(scene: UnityScene, moved: list[int | None]) -> list[_Placed]:
     world: list[tuple[Array, Array]] = []  # linear part and translation of each object
     active: list[bool] = []
     found: list[_Placed] = []
+    shapes: dict[int, tuple[Array, IntArray]] = {}  # of meshes, many of which stand in several places
     for i, entry in enumerate(scene.gameObjects):
         t = entry.transform
         linear = matrix_from_quaternion(np.array(t.localRotation)) * np.array(t.localScale)
@@ -114,7 +115,7 @@ def _placed(scene: UnityScene, moved: list[int | None]) -> list[_Placed]:
                 continue
             if not component.enabled or component.isTrigger or _is_nothing(component):
                 continue
-            vertices, faces, convex = _shape(scene, component)
+            vertices, faces, convex = _shape(scene, component, shapes)
             points = vertices @ world[i][0].T + world[i][1]
             solid = Solid(points, faces, convex)
             found.append(_Placed(i, moved[i], solid, *bounds(points)))
@@ -128,11 +129,16 @@ def _is_nothing(collider: _Collider) -> bool:
     return max(collider.size) <= 0.0 if isinstance(collider, BoxCollider) else collider.radius <= 0.0
 
 
-def _shape(scene: UnityScene, collider: _Collider) -> tuple[Array, IntArray, bool]:
-    """Vertices in the object's frame, triangles, and whether the shape is convex."""
+def _shape(
+    scene: UnityScene, collider: _Collider, shapes: dict[int, tuple[Array, IntArray]]
+) -> tuple[Array, IntArray, bool]:
+    """Vertices in the object's frame, triangles, and whether the shape is convex.  shapes: gets those of meshes."""
     if isinstance(collider, MeshCollider):
-        mesh = scene.meshes[collider.mesh]
-        return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.triangles, np.int64), collider.convex
+        if collider.mesh not in shapes:
+            mesh = scene.meshes[collider.mesh]
+            own = (np.asarray(mesh.vertices, np.float64), np.asarray(mesh.triangles, np.int64))
+            shapes[collider.mesh] = own
+        return *shapes[collider.mesh], collider.convex
     center = np.array(collider.center)
     if isinstance(collider, BoxCollider):
         made = box(collider.size)

@@ -1,15 +1,19 @@
-"""Time-sampled transforms as a clip: poses of nodes in their parents, by seconds."""
+"""Time-sampled transforms as clips: poses of nodes in their parents, by seconds.
+
+One clip of the whole line of time, or those that the root layer says stand on it one after another, as Kinefab writes them.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import AnimationClip, Node, Track
+from ...model import AnimationClip, Node, Repeat, Track
 from ...spatial import Array, Pose, quaternion_from_matrix
 from .api import Usd, UsdGeom
 from .stage import OpenStage
@@ -24,7 +28,7 @@ STILL = 1e-9
 
 
 def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: Report) -> list[AnimationClip]:
-    """One clip of everything that moves, or none.  nodes: as ``Parts.read`` makes them, groups before parts."""
+    """Clips of everything that moves.  nodes: as ``Parts.read`` makes them, groups before parts."""
     if not found.animated:
         return []
     times = _times(list(found.animated.values()), opened)
@@ -39,7 +43,8 @@ def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: R
         )
     prims = [group.prim for group in found.groups] + [part.prim for part in found.parts]
     placing = _Placing(found.animated)
-    tracks: list[Track] = []
+    spans = _spans(times, opened)
+    tracks: list[list[Track]] = [[] for _ in spans]
     told: set[str] = set()
     for number, node in enumerate(nodes):
         above = prims[node.parent] if node.parent is not None else None
@@ -59,18 +64,59 @@ def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: R
                 detail="its samples are not finite; it stays as at the exported time",
             )  # fmt: skip
             continue
-        track = _track(number, prims[number], above, times, placing, opened)
-        if track is not None:
-            tracks.append(track)
+        for own, span in zip(tracks, spans):
+            track = _track(number, prims[number], above, span.codes, placing, opened)
+            if track is not None:
+                own.append(track)
     for path in sorted(found.animated.keys() - told):
         report.dropped(
             f"animation of {path[1:]}", "USD_FEATURE_DROPPED", opened.place(path),
             detail="it moves geometry within a body, which stays as at the exported time",
         )  # fmt: skip
-    if not tracks:
-        return []
-    seconds = (times - times[0]) / opened.stage.GetTimeCodesPerSecond()
-    return [AnimationClip("Animation", seconds, tuple(tracks), where=opened.name)]
+    rate = opened.stage.GetTimeCodesPerSecond()
+    return [
+        AnimationClip(
+            span.name,
+            span.start + (span.codes - span.codes[0]) / rate,
+            tuple(own),
+            span.repeat,
+            where=opened.name,
+        )
+        for own, span in zip(tracks, spans)
+        if own
+    ]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Span:
+    """A clip's part of the line of time.  codes: of its keys.  start: seconds at the first of them."""
+
+    name: str
+    codes: Array
+    start: float = 0.0
+    repeat: Repeat = Repeat.ONCE
+
+
+def _spans(times: Array, opened: OpenStage) -> list[_Span]:
+    """Those that the root layer tells, where each holds keys; else the whole.  times: codes of all keys."""
+    whole = [_Span("Animation", times)]
+    told = _mapping(_mapping(opened.stage.GetRootLayer().customLayerData).get("kinefab")).get("clips")
+    found: list[_Span] = []
+    for entry in map(_mapping, _mapping(told).values()):
+        name, low, high, start = (entry.get(key) for key in ("name", "start", "end", "seconds"))
+        repeats = [repeat for repeat in Repeat if repeat.value == entry.get("repeat")]
+        numbers = all(isinstance(n, float) and math.isfinite(n) for n in (low, high, start))
+        if not isinstance(name, str) or not numbers or not repeats:
+            return whole
+        codes = times[(times >= cast(float, low)) & (times <= cast(float, high))]
+        if not len(codes):
+            return whole
+        found.append(_Span(name, codes, cast(float, start), repeats[0]))
+    return found or whole
+
+
+def _mapping(value: object) -> Mapping[str, object]:
+    return cast("Mapping[str, object]", value) if isinstance(value, Mapping) else {}
 
 
 class _Placing:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ... import __version__
-from ...model import Body, Collider, ColliderKind, Mesh, Repeat, Surface
+from ...model import Body, Collider, ColliderKind, Mesh, Physics, Repeat, Surface
 from ...options import ColliderShape
 from ...replacing import replacing
 from ...rigid import active_nodes
@@ -19,6 +20,7 @@ from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_kinematic, 
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
 from .binary import Binary
+from .filters import Filters
 from .looks import Looks
 from .physics import BODIES, PhysicsEntries, motion, shape_pose
 
@@ -55,6 +57,7 @@ class _Document:
         self.binary = Binary()
         self.looks = Looks(self.binary, content.report)
         self.physics = PhysicsEntries(content.report)
+        self.filters = Filters(content.scene, content.groups, content.report)
         self.nodes: list[dict[str, Any]] = []
         self.roots: list[int] = []
         self.meshes: list[dict[str, Any]] = []
@@ -67,6 +70,7 @@ class _Document:
         self._add_bodies()
         self._add_joints()
         self._tell_rest()
+        self.physics.filters = self.filters.written()
         values: dict[str, Any] = {"asset": {"version": "2.0", "generator": f"kinefab {__version__}"}}
         extensions = self.physics.used()
         used = sorted({*extensions, *self.looks.extensions, *self._node_extensions()})
@@ -120,7 +124,8 @@ class _Document:
             parent = None if node.parent is None else self.node_of[node.parent]
             index = self._node(node.name, parent, local)
             self.node_of.append(index)
-            self.nodes[index]["extras"] = {"id": node.id}
+            told = {"id": node.id, "layer": node.layer, "tag": node.tag}
+            self.nodes[index]["extras"] = {key: value for key, value in told.items() if value or key == "id"}
             if not self.active[i]:
                 self.report.dropped(
                     f"part {node.id}", "COMPONENT_SUPPRESSED_DROPPED", node.where, node=node.id
@@ -132,7 +137,7 @@ class _Document:
                 if body.mesh is not None:
                     self._add_body(i, index, body)
             for collider in node.colliders or ():
-                self._add_collider(index, collider, self._moves(i))
+                self._add_collider(i, index, collider)
 
     def _moves(self, node: int) -> bool:
         """Whether forces move a node's body."""
@@ -159,9 +164,11 @@ class _Document:
             geometry: dict[str, Any] = {"node": index}
             if self._moves(node) or own.collision in (ColliderShape.BOX, ColliderShape.HULL):
                 geometry["convexHull"] = True
-            self._extend(index, "collider", {"geometry": geometry})
+            entry = {"geometry": geometry}
+            self.filters.add(node, "", entry)
+            self._extend(index, "collider", entry)
 
-    def _add_collider(self, parent: int, collider: Collider, moves: bool) -> None:
+    def _add_collider(self, node: int, parent: int, collider: Collider) -> None:
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
         if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
             assert collider.mesh is not None
@@ -172,13 +179,14 @@ class _Document:
                 }
             )
             geometry: dict[str, Any] = {"node": len(self.nodes) - 1}
-            if collider.kind is not ColliderKind.MESH or moves:
+            if collider.kind is not ColliderKind.MESH or self._moves(node):
                 geometry["convexHull"] = True
         else:
             geometry = self.physics.geometry(collider)
         entry: dict[str, Any] = {"geometry": geometry}
         if collider.material is not None and not collider.trigger:
             entry["physicsMaterial"] = self.physics.material(collider.material)
+        self.filters.add(node, collider.group, entry)
         self._extend(index, "trigger" if collider.trigger else "collider", entry)
 
     def _mesh(self, number: int, surfaces: tuple[int, ...]) -> int:
@@ -227,11 +235,14 @@ class _Document:
             ):
                 if value is not None:
                     entry[key] = (turned @ value).tolist()
-            if dynamics.linear_damping or dynamics.angular_damping:
-                own = self.scene.nodes[carrier]
-                self.report.dropped(
-                    f"body {own.id}", "TARGET_FIELD_DROPPED", own.where, field="damping", target=".glb"
-                )
+            own = self.scene.nodes[carrier]
+            for field, there in (
+                ("damping", dynamics.linear_damping or dynamics.angular_damping),
+                ("the largest angular velocity", dynamics.max_angular_velocity is not None),
+            ):
+                if there:
+                    told = {"field": field, "target": ".glb"}
+                    self.report.dropped(f"body {own.id}", "TARGET_FIELD_DROPPED", own.where, **told)
             self._extend(self.node_of[carrier], "motion", entry)
         for own, connected in self.placed.fixed:
             frame = self._node("fixed", self.node_of[own], Pose())
@@ -267,6 +278,10 @@ class _Document:
             self._extend(frame, "joint", entry)
 
     def _tell_rest(self) -> None:
+        for setting in fields(Physics):
+            if getattr(self.scene.physics, setting.name) != getattr(Physics(), setting.name):
+                told = {"field": setting.name, "target": ".glb"}
+                self.report.dropped(f"project setting {setting.name}", "TARGET_FIELD_DROPPED", **told)
         for coupling in self.scene.couplings:
             self.report.dropped(
                 f"coupling {coupling.id}",

@@ -7,7 +7,6 @@ axes, as the model has them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -30,23 +29,25 @@ BODIES, SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes"
 ALONG_Y = rotation_about(np.array([1.0, 0.0, 0.0]), math.pi / 2)
 """Turns Y, along which glTF's round shapes lie, to Z, along which the model's do."""
 
-AddNode = Callable[[str, "int | None", Pose], int]
-"""Adds a node of this name below another at a pose, and returns its index."""
-
 
 class PhysicsEntries:
-    """The document's shapes, physics materials and joint descriptions, each once."""
+    """The document's shapes, physics materials, joint descriptions and collision filters, each once."""
 
     def __init__(self, report: Report):
         self._report = report
         self.shapes: list[dict[str, Any]] = []
         self.materials: list[dict[str, Any]] = []
         self.joints: list[dict[str, Any]] = []
+        self.filters: list[dict[str, Any]] = []
 
     def used(self) -> dict[str, Any]:
         """The document's ``extensions``."""
         found: dict[str, Any] = {}
-        lists = {"physicsMaterials": self.materials, "physicsJoints": self.joints}
+        lists = {
+            "physicsMaterials": self.materials,
+            "physicsJoints": self.joints,
+            "collisionFilters": self.filters,
+        }
         if bodies := {key: value for key, value in lists.items() if value}:
             found[BODIES] = bodies
         if self.shapes:

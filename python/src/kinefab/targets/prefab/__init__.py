@@ -12,7 +12,7 @@ from ...diagnostics import KinefabError
 from ..content import Content
 from .exporting import prefab_files
 from .folder import put_in_place
-from .names import UNSEEN
+from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
 from .project import has_script
 
@@ -33,6 +33,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     name = target.name[: -len(ENDING)]
     if UNSEEN.fullmatch(name):
         detail = f"Unity imports no assets, or not for every build, from a folder '{name}', which is its folder's name"
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
+    if detail := why_not_shared(name):
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
     scripts = None if options.scripts and has_script(target) else f"{name}/Scripts"

@@ -9,7 +9,6 @@ from ...unity.scene import (
     AnimationClip,
     ArticulationBody,
     Component,
-    Mesh,
     MeshFilter,
     MeshRenderer,
     Rigidbody,
@@ -26,6 +25,7 @@ from .assets.tangents import with_tangents
 from .assets.textures import TextureFile, Textures, reference, shown
 from .files import AssetFile
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
+from .meshes import mesh_name
 from .names import file_name, folded, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
 from .objects.hierarchy import Hierarchy, References
@@ -129,7 +129,7 @@ class _Export:
         meshes = self.scene.meshes
         identities = mesh_identities(self.scene, self.content.scene)
         used = sorted(identities)
-        names = [_mesh_name(meshes, i) for i in used]
+        names = [mesh_name(meshes, i) for i in used]
 
         bumpy = _normal_mapped(self.scene)
 
@@ -198,12 +198,6 @@ class _Export:
 
 def _bytes_of(name: str) -> list[bytes]:
     return [(FOLDER / name).read_bytes()]
-
-
-def _mesh_name(meshes: Sequence[Mesh], index: int) -> str:
-    """Without mapping a mesh for it, where the scene can tell."""
-    told = getattr(meshes, "name", None)
-    return told(index) if told is not None else meshes[index].name
 
 
 def _prefab(hierarchy: Hierarchy) -> Iterator[bytes]:

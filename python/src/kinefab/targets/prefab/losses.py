@@ -14,12 +14,14 @@ from ...unity.scene import (
     Coupling,
     HingeJoint,
     Joint,
+    MeshFilter,
     Physics,
     Rigidbody,
     SphereCollider,
     UnityScene,
 )
 from .links import RUNTIME
+from .meshes import is_colored, mesh_name
 from .options import PrefabOptions
 from .text.dialects import Pipeline
 
@@ -48,11 +50,21 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
     for name in sorted(SETTINGS):
         if getattr(scene.physics, name) != getattr(Physics(), name):
             report.dropped(f"project setting {name}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
+    _tell_vertex_colors(scene, options, report)
     if options.pipeline is Pipeline.BUILTIN:
         for material in scene.materials:
             if material.doubleSided:
                 told = {"field": "doubleSided", "target": "Unity's Standard shader"}
                 report.dropped(f"material {material.name}", "TARGET_FIELD_DROPPED", **told)
+
+
+def _tell_vertex_colors(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
+    """The asset has them; the pipelines' standard shaders do not look at them."""
+    shown = {c.mesh for entry in scene.gameObjects for c in entry.components if isinstance(c, MeshFilter)}
+    for index in sorted(shown):
+        if is_colored(scene.meshes, index):
+            told = {"field": "the colours of vertices", "target": f"the {options.pipeline.value} shader"}
+            report.dropped(f"mesh {mesh_name(scene.meshes, index)}", "TARGET_FIELD_DROPPED", **told)
 
 
 def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report: Report) -> None:

@@ -14,6 +14,7 @@ RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that Windows keeps for devices, whatever follows the dot."""
 UNSEEN = re.compile(r"(\..*|.*~|cvs|.*\.tmp|editor|streamingassets)?", re.IGNORECASE)
 """Folders whose assets Unity leaves alone, or out of what it builds; and no name at all."""
+NOT_IN_WINDOWS = re.compile(r'[<>:"\\|?*\x00-\x1f]')
 _DIGITS = 6
 
 
@@ -33,6 +34,15 @@ def file_name(name: str) -> str:
         plain = plain[:-1]
     plain = plain.rstrip(" .") or "_"
     return f"_{plain}" if RESERVED.fullmatch(plain) else plain
+
+
+def why_not_shared(name: str) -> str:
+    """Why a project with a file of this name, without ending, cannot be opened on Windows; "" where it can."""
+    if RESERVED.fullmatch(name):
+        return f"Windows keeps the name '{name}' for a device"
+    if NOT_IN_WINDOWS.search(name) or name != name.rstrip(" ."):
+        return f"Windows holds no folder '{name}', and a project is shared; '{file_name(name)}' would do"
+    return ""
 
 
 def unique(named: Sequence[tuple[str, str]], key: Callable[[str], str] = str) -> list[str]:

@@ -50,3 +50,7 @@ class MappedMeshes(Sequence[Mesh]):
     def name(self, index: int) -> str:
         """Without mapping it."""
         return self._meshes[index].name
+
+    def is_colored(self, index: int) -> bool:
+        """Whether its vertices have colours; without mapping it."""
+        return self._meshes[index].colors is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from binascii import hexlify
 from collections.abc import Iterator
 
 import numpy as np
@@ -88,7 +89,7 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
         (HEADER + document(43, "Mesh", MESH_ID, fields)).encode("ascii").split(_SPLIT.encode())
     )
     yield head
-    yield indices.data.cast("B").hex().encode("ascii")
+    yield hexlify(indices.data)
     yield middle
     yield from _interleaved(columns, width)
     yield tail
@@ -119,7 +120,7 @@ def _interleaved(columns: list[tuple[int, np.ndarray]], width: int) -> Iterator[
         for _, values in columns:
             rows[:, at : at + values.shape[1]] = values[start : start + _ROWS]
             at += values.shape[1]
-        yield rows.data.cast("B").hex().encode("ascii")
+        yield hexlify(rows.data)
 
 
 def _submeshes(mesh: Mesh, vertices: np.ndarray, indices: np.ndarray) -> list[Fields]:

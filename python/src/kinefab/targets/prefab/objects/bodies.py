@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from ....unity.scene import BoxCollider, CapsuleCollider, Collider, MeshCollider, Rigidbody, SphereCollider
 from ..text.dialects import Dialect
-from ..text.documents import component_head, layers, version
-from ..text.yaml import Fields, Plain, placed, vector
+from ..text.documents import COMPONENT, layers, version
+from ..text.forms import BLANK, Form
+from ..text.yaml import Fields, Plain, local, number, placed, vector
 
 INTERPOLATION = {"None": 0, "Interpolate": 1, "Extrapolate": 2}
 DETECTION = {"Discrete": 0, "Continuous": 1, "ContinuousDynamic": 2, "ContinuousSpeculative": 3}
@@ -25,78 +28,98 @@ COOKING = 30
 LEAST_INERTIA = 1e-9
 """kg m^2: Unity refuses moments that are not above zero."""
 
-ColliderClass = tuple[int, str]
 
-
-def rigidbody_fields(body: Rigidbody, owner: int, dialect: Dialect) -> Fields:
+@cache
+def _rigidbody(dialect: Dialect) -> Form:
     mass: Fields = {}
     if dialect.mass_properties:
         mass = {
-            "m_CenterOfMass": placed(body.centerOfMass),
-            "m_InertiaTensor": vector(
-                [moment if moment > 0.0 else LEAST_INERTIA for moment in body.inertiaTensor]
-            ),
-            "m_InertiaRotation": placed(body.inertiaTensorRotation),
+            "m_CenterOfMass": BLANK,
+            "m_InertiaTensor": BLANK,
+            "m_InertiaRotation": BLANK,
             **layers(True),
             "m_ImplicitCom": 0,
             "m_ImplicitTensor": 0,
         }
+    fields: Fields = {
+        **COMPONENT,
+        **version(dialect.rigidbody),
+        "m_Mass": BLANK,
+        "m_Drag": BLANK,
+        "m_AngularDrag": BLANK,
+        **mass,
+        "m_UseGravity": BLANK,
+        "m_IsKinematic": BLANK,
+        "m_Interpolate": BLANK,
+        "m_Constraints": BLANK,
+        "m_CollisionDetection": BLANK,
+    }
+    return Form(54, "Rigidbody", fields)
+
+
+def rigidbody(body: Rigidbody, file_id: int, owner: int, dialect: Dialect) -> str:
+    """The document.  owner: fileID of the GameObject."""
+    mass: tuple[Plain, ...] = ()
+    if dialect.mass_properties:
+        moments = [moment if moment > 0.0 else LEAST_INERTIA for moment in body.inertiaTensor]
+        mass = (placed(body.centerOfMass), vector(moments), placed(body.inertiaTensorRotation))
     frozen = 0
     for word in body.constraints:
         frozen |= CONSTRAINTS[word]
-    return {
-        **component_head(owner),
-        **version(dialect.rigidbody),
-        "m_Mass": body.mass,
-        "m_Drag": body.linearDamping,
-        "m_AngularDrag": body.angularDamping,
-        **mass,
-        "m_UseGravity": body.useGravity,
-        "m_IsKinematic": body.isKinematic,
-        "m_Interpolate": INTERPOLATION[body.interpolation],
-        "m_Constraints": frozen,
-        "m_CollisionDetection": DETECTION[body.collisionDetectionMode],
+    return _rigidbody(dialect).filled(
+        file_id,
+        local(owner),
+        number(body.mass),
+        number(body.linearDamping),
+        number(body.angularDamping),
+        *mass,
+        int(body.useGravity),
+        int(body.isKinematic),
+        INTERPOLATION[body.interpolation],
+        frozen,
+        DETECTION[body.collisionDetectionMode],
+    )
+
+
+@cache
+def _collider(kind: type[Collider], dialect: Dialect) -> Form:
+    kinds: dict[type[Collider], tuple[int, int, tuple[str, ...]]] = {
+        BoxCollider: (65, dialect.box, ("m_Size", "m_Center")),
+        SphereCollider: (135, dialect.sphere, ("m_Radius", "m_Center")),
+        CapsuleCollider: (136, dialect.capsule, ("m_Radius", "m_Height", "m_Direction", "m_Center")),
+        MeshCollider: (64, dialect.mesh_collider, ("m_Convex", "m_CookingOptions", "m_Mesh")),
     }
-
-
-def collider_class(collider: Collider) -> ColliderClass:
-    """Unity's number and name."""
-    kinds: dict[type[Collider], ColliderClass] = {
-        BoxCollider: (65, "BoxCollider"),
-        SphereCollider: (135, "SphereCollider"),
-        CapsuleCollider: (136, "CapsuleCollider"),
-        MeshCollider: (64, "MeshCollider"),
-    }
-    return kinds[type(collider)]
-
-
-def collider_fields(collider: Collider, owner: int, material: Plain, mesh: Plain, dialect: Dialect) -> Fields:
-    """material, mesh: references, of the mesh where the collider has one."""
+    class_id, number_of_version, shape = kinds[kind]
     priority: Fields = {"m_LayerOverridePriority": 0} if dialect.layer_overrides else {}
     contacts: Fields = {"m_ProvidesContacts": 0} if dialect.layer_overrides else {}
-    head = {
-        **component_head(owner),
-        "m_Material": material,
+    fields: Fields = {
+        **COMPONENT,
+        "m_Material": BLANK,
         **layers(dialect.layer_overrides),
         **priority,
-        "m_IsTrigger": collider.isTrigger,
+        "m_IsTrigger": BLANK,
         **contacts,
-        "m_Enabled": collider.enabled,
+        "m_Enabled": BLANK,
+        **version(number_of_version),
+        **dict.fromkeys(shape, BLANK),
     }
+    return Form(class_id, kind.__name__, fields)
+
+
+def collider(
+    collider: Collider, file_id: int, owner: int, material: Plain, mesh: Plain, dialect: Dialect
+) -> str:
+    """The document.  material, mesh: references, of the mesh where the collider has one."""
     if isinstance(collider, BoxCollider):
-        shape: Fields = {"m_Size": placed(collider.size), "m_Center": placed(collider.center)}
-        return {**head, **version(dialect.box), **shape}
-    if isinstance(collider, SphereCollider):
-        shape = {"m_Radius": collider.radius, "m_Center": placed(collider.center)}
-        return {**head, **version(dialect.sphere), **shape}
-    if isinstance(collider, CapsuleCollider):
-        shape = {
-            "m_Radius": collider.radius,
-            "m_Height": collider.height,
-            "m_Direction": "XYZ".index(collider.direction),
-            "m_Center": placed(collider.center),
-        }
-        return {**head, **version(dialect.capsule), **shape}
-    assert isinstance(collider, MeshCollider)
-    shape = {"m_Convex": collider.convex, "m_CookingOptions": COOKING, "m_Mesh": mesh}
-    return {**head, **version(dialect.mesh_collider), **shape}
+        shape: tuple[str | int, ...] = (placed(collider.size), placed(collider.center))
+    elif isinstance(collider, SphereCollider):
+        shape = (number(collider.radius), placed(collider.center))
+    elif isinstance(collider, CapsuleCollider):
+        direction = "XYZ".index(collider.direction)
+        lengths = (number(collider.radius), number(collider.height))
+        shape = (*lengths, direction, placed(collider.center))
+    else:
+        assert isinstance(collider, MeshCollider)
+        shape = (int(collider.convex), COOKING, mesh)
+    head = (file_id, local(owner), material, int(collider.isTrigger), int(collider.enabled))
+    return _collider(type(collider), dialect).filled(*head, *shape)

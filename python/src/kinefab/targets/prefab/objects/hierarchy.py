@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from ....unity.scene import (
     ArticulationBody,
@@ -21,16 +22,17 @@ from ....unity.scene import (
 )
 from ..names import sibling_names
 from ..text.dialects import Dialect
-from ..text.documents import HEAD, Document, component_head, version
+from ..text.documents import COMPONENT, HEAD, version
+from ..text.forms import BLANK, Form
 from ..text.ids import FileIds
-from ..text.yaml import NULL, Fields, Plain, local, vector
+from ..text.yaml import NULL, Fields, Plain, document, local, text, vector
 from ..text.yaml import placed as rounded
 from .articulations import CLASS as ARTICULATION_CLASS
 from .articulations import articulation_fields
-from .bodies import collider_class, collider_fields, rigidbody_fields
+from .bodies import collider, rigidbody
 from .couplings import coupling_fields
 from .joints import joint_class, joint_fields
-from .rendering import animation_fields, mesh_filter_fields, mesh_renderer_fields
+from .rendering import animation_fields, mesh_filter, mesh_renderer
 
 ROOT = "kinefab:root"
 """What the prefab's own root is, where the scene has none that could be it."""
@@ -48,7 +50,8 @@ class References:
 
 @dataclass(slots=True)
 class _Placed:
-    """A GameObject with its numbers.  order: its place among its siblings."""
+    """A GameObject with its numbers.  order: its place among its siblings.  components: each with its number; documents that the
+    export adds are ready."""
 
     name: str
     file_id: int
@@ -58,7 +61,7 @@ class _Placed:
     parent: int | None
     order: int = 0
     children: list[int] = field(default_factory=list[int])
-    components: list[Document] = field(default_factory=list[Document])
+    components: list[tuple[int, Component | str]] = field(default_factory=list[tuple[int, Component | str]])
 
 
 class Hierarchy:
@@ -91,10 +94,10 @@ class Hierarchy:
         self.scene_names = self.names[shift:]
         self._first = shift
         self._placed: list[_Placed] = []
-        for i, identity in enumerate(ids):
+        file_ids = self.ids.each([("GameObject", identity) for identity in ids])
+        transform_ids = self.ids.each([("Transform", identity) for identity in ids])
+        for i, (file_id, transform_id) in enumerate(zip(file_ids, transform_ids)):
             own = objects[i - shift] if i >= shift else None
-            file_id = self.ids.new("GameObject", identity)
-            transform_id = self.ids.new("Transform", identity)
             active = own.active if own else True
             transform = own.transform if own else Transform()
             self._placed.append(_Placed(self.names[i], file_id, transform_id, active, transform, parents[i]))
@@ -109,15 +112,15 @@ class Hierarchy:
 
     def _number_components(self) -> None:
         """Each component's fileID, by the object's index in the scene and its own; Rigidbodies also by the object's alone."""
-        for i, entry in enumerate(self.scene.gameObjects):
-            for k, component in enumerate(entry.components):
-                identity = f"{entry.id}{_told(component, self.scene.gameObjects)}"
-                found = self.ids.new(type(component).__name__, identity)
-                self.component_ids[i, k] = found
-                if isinstance(component, Rigidbody):
-                    self.bodies[i] = found
-                elif isinstance(component, ArticulationBody):
-                    self.links[i] = found
+        objects = self.scene.gameObjects
+        all_of_them = [(i, k, c) for i, entry in enumerate(objects) for k, c in enumerate(entry.components)]
+        told = [(type(c).__name__, f"{objects[i].id}{_told(c, objects)}") for i, _, c in all_of_them]
+        for (i, k, component), found in zip(all_of_them, self.ids.each(told)):
+            self.component_ids[i, k] = found
+            if isinstance(component, Rigidbody):
+                self.bodies[i] = found
+            elif isinstance(component, ArticulationBody):
+                self.links[i] = found
 
     def game_object_id(self, index: int) -> int:
         return self._placed[index + self._first].file_id
@@ -134,17 +137,16 @@ class Hierarchy:
     def add(self, index: int | None, class_id: int, kind: str, file_id: int, fields: Fields) -> None:
         """A component of an object of the scene, None for the root, after those that it has."""
         at = 0 if index is None else index + self._first
-        self._placed[at].components.append(Document(class_id, kind, file_id, fields))
+        self._placed[at].components.append((file_id, document(class_id, kind, file_id, fields)))
 
     def add_components(self, references: References) -> None:
-        """What the scene's objects hold."""
+        """What the scene's objects hold; their documents are made when they are written."""
+        self._references = references
         for i, entry in enumerate(self.scene.gameObjects):
+            held = self._placed[i + self._first].components
             for k, component in enumerate(entry.components):
-                if (i, k) in self.left_out:
-                    continue
-                class_id, kind = component_class(component)
-                fields = self._component(i, component, references)
-                self.add(i, class_id, kind, self.component_ids[i, k], fields)
+                if (i, k) not in self.left_out:
+                    held.append((self.component_ids[i, k], component))
 
     def add_couplings(self) -> None:
         """The script's components, each on the object whose joint follows."""
@@ -159,80 +161,94 @@ class Hierarchy:
         fields = animation_fields(self._placed[0].file_id, clips, plays, self.dialect)
         self.add(None, 111, "Animation", self.ids.new("Animation", ROOT), fields)
 
-    def _component(self, index: int, component: Component, references: References) -> Fields:
-        owner = self.game_object_id(index)
-        if isinstance(component, MeshFilter):
-            return mesh_filter_fields(owner, references.meshes.get(component.mesh, NULL))
-        if isinstance(component, MeshRenderer):
-            materials = [references.materials[m] for m in component.materials]
-            return mesh_renderer_fields(owner, component.enabled, materials, self.dialect)
-        if isinstance(component, Rigidbody):
-            return rigidbody_fields(component, owner, self.dialect)
-        if isinstance(component, Collider):
-            mesh = (
-                references.meshes.get(component.mesh, NULL) if isinstance(component, MeshCollider) else NULL
-            )
-            rubbing = NULL if component.material is None else references.physics_materials[component.material]
-            return collider_fields(component, owner, rubbing, mesh, self.dialect)
-        if isinstance(component, ArticulationBody):
-            return articulation_fields(component, owner, self.dialect)
-        other = component.connectedBody
-        connected = NULL if other is None or other in self.links else local(self.bodies[other])
-        link = local(self.links[other]) if other is not None and other in self.links else NULL
-        return joint_fields(component, owner, connected, self.dialect, link)
-
     def documents(self) -> Iterator[str]:
         """GameObjects by rising fileID, each before its components, as the editor writes them."""
         for placed in sorted(self._placed, key=lambda p: p.file_id):
-            yield Document(1, "GameObject", placed.file_id, self._game_object(placed)).text()
-            yield Document(4, "Transform", placed.transform_id, self._transform(placed)).text()
-            for component in placed.components:
-                yield component.text()
+            yield self._game_object(placed)
+            yield self._transform(placed)
+            for file_id, component in placed.components:
+                if isinstance(component, str):
+                    yield component
+                else:
+                    yield self._component(file_id, placed.file_id, component)
 
-    def _game_object(self, placed: _Placed) -> Fields:
-        ids = [placed.transform_id, *(c.file_id for c in placed.components)]
-        return {
-            **HEAD,
-            "serializedVersion": 6,
-            "m_Component": [{"component": local(i)} for i in ids],
-            "m_Layer": 0,
-            "m_Name": placed.name,
-            "m_TagString": "Untagged",
-            "m_Icon": NULL,
-            "m_NavMeshLayer": 0,
-            "m_StaticEditorFlags": 0,
-            "m_IsActive": placed.active,
-        }
+    def _component(self, file_id: int, owner: int, component: Component) -> str:
+        references, dialect = self._references, self.dialect
+        if isinstance(component, MeshFilter):
+            return mesh_filter(file_id, owner, references.meshes.get(component.mesh, NULL))
+        if isinstance(component, MeshRenderer):
+            materials = [references.materials[m] for m in component.materials]
+            return mesh_renderer(file_id, owner, component.enabled, materials, dialect)
+        if isinstance(component, Rigidbody):
+            return rigidbody(component, file_id, owner, dialect)
+        if isinstance(component, Collider):
+            shape = component.mesh if isinstance(component, MeshCollider) else None
+            mesh = NULL if shape is None else references.meshes.get(shape, NULL)
+            rubbing = NULL if component.material is None else references.physics_materials[component.material]
+            return collider(component, file_id, owner, rubbing, mesh, dialect)
+        if isinstance(component, ArticulationBody):
+            return document(*ARTICULATION_CLASS, file_id, articulation_fields(component, owner, dialect))
+        other = component.connectedBody
+        connected = NULL if other is None or other in self.links else local(self.bodies[other])
+        link = local(self.links[other]) if other is not None and other in self.links else NULL
+        fields = joint_fields(component, owner, connected, dialect, link)
+        return document(*joint_class(component), file_id, fields)
 
-    def _transform(self, placed: _Placed) -> Fields:
+    def _game_object(self, placed: _Placed) -> str:
+        ids = [placed.transform_id, *(file_id for file_id, _ in placed.components)]
+        form = _object_form(len(ids))
+        return form.filled(placed.file_id, *map(local, ids), text(placed.name), int(placed.active))
+
+    def _transform(self, placed: _Placed) -> str:
         parent = None if placed.parent is None else self._placed[placed.parent]
-        order: Fields = {}
-        if self.dialect.root_order:
-            order = {"m_RootOrder": placed.order}
-        return {
-            **component_head(placed.file_id),
-            **version(self.dialect.transform),
-            "m_LocalRotation": rounded(placed.transform.localRotation),
-            "m_LocalPosition": rounded(placed.transform.localPosition),
-            "m_LocalScale": rounded(placed.transform.localScale),
-            "m_ConstrainProportionsScale": 0,
-            "m_Children": [local(self._placed[i].transform_id) for i in placed.children],
-            "m_Father": local(0 if parent is None else parent.transform_id),
-            **order,
-            "m_LocalEulerAnglesHint": vector((0.0, 0.0, 0.0)),
-        }
+        own = placed.transform
+        order = (placed.order,) if self.dialect.root_order else ()
+        return _transform_form(len(placed.children), self.dialect).filled(
+            placed.transform_id,
+            local(placed.file_id),
+            rounded(own.localRotation),
+            rounded(own.localPosition),
+            rounded(own.localScale),
+            *[local(self._placed[i].transform_id) for i in placed.children],
+            local(0 if parent is None else parent.transform_id),
+            *order,
+        )
 
 
-def component_class(component: Component) -> tuple[int, str]:
-    """Unity's number and name of a component's class."""
-    if isinstance(component, Joint):
-        return joint_class(component)
-    if isinstance(component, Collider):
-        return collider_class(component)
-    if isinstance(component, ArticulationBody):
-        return ARTICULATION_CLASS
-    kinds = {MeshFilter: (33, "MeshFilter"), MeshRenderer: (23, "MeshRenderer"), Rigidbody: (54, "Rigidbody")}
-    return kinds[type(component)]
+@lru_cache(maxsize=64)
+def _object_form(components: int) -> Form:
+    """components: how many, the Transform among them."""
+    fields: Fields = {
+        **HEAD,
+        "serializedVersion": 6,
+        "m_Component": [{"component": BLANK}] * components,
+        "m_Layer": 0,
+        "m_Name": BLANK,
+        "m_TagString": "Untagged",
+        "m_Icon": NULL,
+        "m_NavMeshLayer": 0,
+        "m_StaticEditorFlags": 0,
+        "m_IsActive": BLANK,
+    }
+    return Form(1, "GameObject", fields)
+
+
+@lru_cache(maxsize=64)
+def _transform_form(children: int, dialect: Dialect) -> Form:
+    order: Fields = {"m_RootOrder": BLANK} if dialect.root_order else {}
+    fields: Fields = {
+        **COMPONENT,
+        **version(dialect.transform),
+        "m_LocalRotation": BLANK,
+        "m_LocalPosition": BLANK,
+        "m_LocalScale": BLANK,
+        "m_ConstrainProportionsScale": 0,
+        "m_Children": [BLANK] * children,
+        "m_Father": BLANK,
+        **order,
+        "m_LocalEulerAnglesHint": vector((0.0, 0.0, 0.0)),
+    }
+    return Form(4, "Transform", fields)
 
 
 def _told(component: Component, objects: Sequence[GameObject]) -> str:

@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from ..text.dialects import Dialect
-from ..text.documents import component_head, version
-from ..text.yaml import NULL, Fields, Plain
+from ..text.documents import COMPONENT, component_head, version
+from ..text.forms import BLANK, Form
+from ..text.yaml import NULL, Fields, Plain, local
+
+_FILTER = Form(33, "MeshFilter", {**COMPONENT, "m_Mesh": BLANK})
 
 
-def mesh_filter_fields(owner: int, mesh: Plain) -> Fields:
-    return {**component_head(owner), "m_Mesh": mesh}
+def mesh_filter(file_id: int, owner: int, mesh: Plain) -> str:
+    """The document.  owner: fileID of the GameObject.  mesh: a reference."""
+    return _FILTER.filled(file_id, local(owner), mesh)
 
 
-def mesh_renderer_fields(owner: int, enabled: bool, materials: Sequence[Plain], dialect: Dialect) -> Fields:
-    """materials: references, one for each submesh."""
+def mesh_renderer(
+    file_id: int, owner: int, enabled: bool, materials: Sequence[Plain], dialect: Dialect
+) -> str:
+    """The document.  materials: references, one for each submesh."""
+    return _renderer(len(materials), dialect).filled(file_id, local(owner), int(enabled), *materials)
+
+
+@lru_cache(maxsize=64)
+def _renderer(materials: int, dialect: Dialect) -> Form:
     tracing: Fields = {"m_RayTracingMode": 2, "m_RayTraceProcedural": 0}
     if not dialect.root_order:
         tracing = {
@@ -23,9 +35,9 @@ def mesh_renderer_fields(owner: int, enabled: bool, materials: Sequence[Plain], 
             "m_RayTracingAccelStructBuildFlags": 1,
             "m_SmallMeshCulling": 1,
         }
-    return {
-        **component_head(owner),
-        "m_Enabled": enabled,
+    fields: Fields = {
+        **COMPONENT,
+        "m_Enabled": BLANK,
         "m_CastShadows": 1,
         "m_ReceiveShadows": 1,
         "m_DynamicOccludee": 1,
@@ -36,7 +48,7 @@ def mesh_renderer_fields(owner: int, enabled: bool, materials: Sequence[Plain], 
         **tracing,
         "m_RenderingLayerMask": 1,
         "m_RendererPriority": 0,
-        "m_Materials": list(materials),
+        "m_Materials": [BLANK] * materials,
         "m_StaticBatchInfo": {"firstSubMesh": 0, "subMeshCount": 0},
         "m_StaticBatchRoot": NULL,
         "m_ProbeAnchor": NULL,
@@ -57,6 +69,7 @@ def mesh_renderer_fields(owner: int, enabled: bool, materials: Sequence[Plain], 
         "m_SortingOrder": 0,
         "m_AdditionalVertexStreams": NULL,
     }
+    return Form(23, "MeshRenderer", fields)
 
 
 def animation_fields(owner: int, clips: Sequence[Plain], plays: bool, dialect: Dialect) -> Fields:

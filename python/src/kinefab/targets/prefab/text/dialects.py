@@ -14,7 +14,7 @@ class Pipeline(str, Enum):
     HDRP = "hdrp"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Dialect:
     """Versions of the classes (``serializedVersion``, 1 is not written) and what came with them.
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from .yaml import NULL, Fields, document, local
+from .forms import BLANK
+from .yaml import NULL, Fields, local
 
 HEAD: Fields = {
     "m_ObjectHideFlags": 0,
@@ -16,17 +15,8 @@ NO_LAYERS: Fields = {"serializedVersion": 2, "m_Bits": 0}
 """A mask of layers without any."""
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
-    """class_id, kind: Unity's number and name of the class."""
-
-    class_id: int
-    kind: str
-    file_id: int
-    fields: Fields
-
-    def text(self) -> str:
-        return document(self.class_id, self.kind, self.file_id, self.fields)
+COMPONENT: Fields = {**HEAD, "m_GameObject": BLANK}
+"""With which every component's form begins."""
 
 
 def version(number: int) -> Fields:

@@ -3,49 +3,90 @@
 from __future__ import annotations
 
 import hashlib
+from collections import defaultdict
+from collections.abc import Sequence
 
-_P1, _P2, _P3 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9
-_P4, _P5 = 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
-_MASK = (1 << 64) - 1
+import numpy as np
+from numpy.typing import NDArray
+
+Words = NDArray[np.uint64]
+
+_P1, _P2, _P3, _P4, _P5 = (
+    np.uint64(prime)
+    for prime in (
+        0x9E3779B185EBCA87,
+        0xC2B2AE3D27D4EB4F,
+        0x165667B19E3779F9,
+        0x85EBCA77C2B2AE63,
+        0x27D4EB2F165667C5,
+    )
+)
+_STARTS = (0x60EA27EEADC0B5D6, 0xC2B2AE3D27D4EB4F, 0, 0x61C8864E7A143579)
+"""Of the four lanes: P1 + P2, P2, 0 and -P1."""
 _POSITIVE = (1 << 63) - 1
 
 
 def xxh64(data: bytes) -> int:
     """xxHash64 with seed 0, unsigned (Yann Collet, github.com/Cyan4973/xxHash): the hash of Unity's own importers."""
-    length, at = len(data), 0
+    return xxh64_each([data])[0]
+
+
+def xxh64_each(texts: Sequence[bytes]) -> list[int]:
+    """The hash of each, those of one length at once."""
+    alike: dict[int, list[int]] = defaultdict(list)
+    for i, data in enumerate(texts):
+        alike[len(data)].append(i)
+    found = [0] * len(texts)
+    for length, members in alike.items():
+        joined = np.frombuffer(b"".join([texts[i] for i in members]), dtype=np.uint8)
+        for i, value in zip(members, _hashed(joined.reshape(len(members), length)).tolist()):
+            found[i] = value
+    return found
+
+
+def _hashed(rows: NDArray[np.uint8]) -> Words:
+    """Of texts of one length, shape (n, length); products and sums wrap at 64 bits."""
+    count, length = rows.shape
+    at = 0
+    found = np.full(count, _P5)
     if length >= 32:
-        lanes = [(_P1 + _P2) & _MASK, _P2, 0, -_P1 & _MASK]
+        lanes = [np.full(count, start, dtype=np.uint64) for start in _STARTS]
         while at <= length - 32:
             for i in range(4):
-                lanes[i] = _round(lanes[i], int.from_bytes(data[at : at + 8], "little"))
+                lanes[i] = _round(lanes[i], _words(rows, at, 8))
                 at += 8
-        found = sum(_turned(lane, by) for lane, by in zip(lanes, (1, 7, 12, 18))) & _MASK
+        found = np.zeros(count, dtype=np.uint64)
+        for lane, by in zip(lanes, (1, 7, 12, 18)):
+            found += _turned(lane, by)
         for lane in lanes:
-            found = ((found ^ _round(0, lane)) * _P1 + _P4) & _MASK
-    else:
-        found = _P5
-    found = (found + length) & _MASK
+            found = (found ^ _round(np.zeros_like(lane), lane)) * _P1 + _P4
+    found = found + np.uint64(length)
     while at <= length - 8:
-        found ^= _round(0, int.from_bytes(data[at : at + 8], "little"))
-        found = (_turned(found, 27) * _P1 + _P4) & _MASK
+        found ^= _round(np.zeros_like(found), _words(rows, at, 8))
+        found = _turned(found, 27) * _P1 + _P4
         at += 8
     if at <= length - 4:
-        found ^= int.from_bytes(data[at : at + 4], "little") * _P1 & _MASK
-        found = (_turned(found, 23) * _P2 + _P3) & _MASK
+        found ^= _words(rows, at, 4) * _P1
+        found = _turned(found, 23) * _P2 + _P3
         at += 4
-    for byte in data[at:]:
-        found = _turned(found ^ (byte * _P5 & _MASK), 11) * _P1 & _MASK
-    found = (found ^ (found >> 33)) * _P2 & _MASK
-    found = (found ^ (found >> 29)) * _P3 & _MASK
-    return found ^ (found >> 32)
+    for byte in range(at, length):
+        found = _turned(found ^ (rows[:, byte].astype(np.uint64) * _P5), 11) * _P1
+    found = (found ^ (found >> np.uint64(33))) * _P2
+    found = (found ^ (found >> np.uint64(29))) * _P3
+    return found ^ (found >> np.uint64(32))
 
 
-def _round(lane: int, word: int) -> int:
-    return _turned((lane + word * _P2) & _MASK, 31) * _P1 & _MASK
+def _words(rows: NDArray[np.uint8], at: int, size: int) -> Words:
+    """Little-endian words that begin at a byte, shape (n,).  size: bytes of each, 4 or 8."""
+    return np.ascontiguousarray(rows[:, at : at + size]).view(f"<u{size}")[:, 0].astype(np.uint64)
 
 
-def _turned(value: int, by: int) -> int:
-    return (value << by | value >> (64 - by)) & _MASK
+def _round(lane: Words, word: Words) -> Words:
+    return _turned(lane + word * _P2, 31) * _P1
+
+
+def _turned(value: Words, by: int) -> Words:
+    return value << np.uint64(by) | value >> np.uint64(64 - by)
 
 
 def imported_id(kind: str, identifier: str) -> int:
@@ -63,15 +104,29 @@ class FileIds:
 
     def new(self, kind: str, identity: str) -> int:
         """kind: Unity's class.  identity: what the object is in the source; one that comes again gets a number behind it."""
-        count = self._counts.get((kind, identity), 0) + 1  # sixteen convex pieces are the same to the source
-        while True:
-            told = identity if count == 1 else f"{identity}#{count}"
-            found = xxh64(f"Kinefab:{kind}->{told}".encode("utf-8", "surrogatepass")) & _POSITIVE
-            if found and found not in self._taken:
-                self._taken.add(found)
-                self._counts[kind, identity] = count
-                return found
-            count += 1
+        return self.each([(kind, identity)])[0]
+
+    def each(self, objects: Sequence[tuple[str, str]]) -> list[int]:
+        """Those of many objects, each (kind, identity), in this order."""
+        counts, told = self._counts, list[bytes]()
+        for known in objects:
+            count = counts[known] = (
+                counts.get(known, 0) + 1
+            )  # sixteen convex pieces are the same to the source
+            told.append(_told(*known, count))
+        return [self._free(known, value & _POSITIVE) for known, value in zip(objects, xxh64_each(told))]
+
+    def _free(self, known: tuple[str, str], found: int) -> int:
+        while not found or found in self._taken:
+            count = self._counts[known] = self._counts[known] + 1
+            found = xxh64(_told(*known, count)) & _POSITIVE
+        self._taken.add(found)
+        return found
+
+
+def _told(kind: str, identity: str, count: int) -> bytes:
+    tail = "" if count == 1 else f"#{count}"
+    return f"Kinefab:{kind}->{identity}{tail}".encode("utf-8", "surrogatepass")
 
 
 def guid(*identity: str) -> str:

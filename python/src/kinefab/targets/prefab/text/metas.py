@@ -35,6 +35,10 @@ def assembly_meta(guid: str) -> str:
     return _meta(guid, "AssemblyDefinitionImporter", {**_HEAD, **_TAIL})
 
 
+LARGEST_TEXTURE = 16384
+"""Pixels of a side: Unity's own most, so that no image is made smaller when it is imported."""
+
+
 def texture_meta(guid: str, srgb: bool, normal: bool, wrap: int) -> str:
     """srgb: whether its numbers are colours.  wrap: Unity's number of what lies beyond the edge."""
     fields: Fields = {
@@ -67,7 +71,7 @@ def texture_meta(guid: str, srgb: bool, normal: bool, wrap: int) -> str:
         "cubemapConvolution": 0,
         "seamlessCubemap": 0,
         "textureFormat": 1,
-        "maxTextureSize": 2048,
+        "maxTextureSize": LARGEST_TEXTURE,
         "textureSettings": {
             "serializedVersion": 2,
             "filterMode": 1,
@@ -85,6 +89,22 @@ def texture_meta(guid: str, srgb: bool, normal: bool, wrap: int) -> str:
         "alphaIsTransparency": 0,
         "textureType": 1 if normal else 0,
         "textureShape": 1,
+        "platformSettings": [
+            {
+                "serializedVersion": 3,
+                "buildTarget": "DefaultTexturePlatform",
+                "maxTextureSize": LARGEST_TEXTURE,
+                "resizeAlgorithm": 0,
+                "textureFormat": -1,
+                "textureCompression": 1,
+                "compressionQuality": 50,
+                "crunchedCompression": 0,
+                "allowsAlphaSplitting": 0,
+                "overridden": 0,
+                "androidETC2FallbackOverride": 0,
+                "forceMaximumCompressionQuality_BC6H_BC7": 0,
+            }
+        ],
         **_TAIL,
     }
     return _meta(guid, "TextureImporter", fields)

@@ -23,6 +23,9 @@ SMALLEST_POSITIONAL, LARGEST_POSITIONAL = -9, 20
 INFINITE = 2.0**128 - 2.0**103
 """From here on a number is rounded to no float32: half a step above the largest."""
 
+WHOLE = 1e7
+"""Below this a whole number is a float32 exactly."""
+
 Fields = Mapping[str, Any]
 
 
@@ -35,20 +38,17 @@ NULL = Plain(NOTHING)
 
 def number(value: float) -> str:
     """A float as the editor writes it: shortest digits of the float32, no negative zero."""
-    if value == 0.0:
-        return "0"
-    if value == int(value) if math.isfinite(value) and abs(value) < 1e7 else False:
-        return str(int(value))
-    return _digits(float(value))
-
-
-@lru_cache(maxsize=65536)
-def _digits(value: float) -> str:
-    if math.isnan(value):
-        return "NaN"
-    if abs(value) >= INFINITE:
-        return "-Infinity" if value < 0 else "Infinity"
+    if -WHOLE < value < WHOLE and value == (whole := int(value)):
+        return str(whole)
+    if not -INFINITE < value < INFINITE:
+        return "NaN" if math.isnan(value) else "-Infinity" if value < 0 else "Infinity"
     single = np.float32(value)
+    told = str(single)
+    return told if "e" not in told and not told.endswith(".0") else _digits(single)
+
+
+@lru_cache(maxsize=4096)
+def _digits(single: np.float32) -> str:
     if single == 0:
         return "0"
     mantissa, power = np.format_float_scientific(single, unique=True, trim="-").split("e")
@@ -67,7 +67,7 @@ def _digits(value: float) -> str:
 
 def vector(values: Sequence[float], names: str = "xyzw") -> Plain:
     """``{x: 1, y: 2, z: 3}``; colours by the names ``rgba``."""
-    return Plain("{" + ", ".join(f"{name}: {number(value)}" for name, value in zip(names, values)) + "}")
+    return Plain("{" + ", ".join([f"{name}: {number(value)}" for name, value in zip(names, values)]) + "}")
 
 
 def placed(values: Sequence[float]) -> Plain:
@@ -144,6 +144,6 @@ def _listed(head: str, values: Iterable[Any], indent: str) -> Iterator[str]:
             yield f"{indent}- {entry if isinstance(entry, Plain) else text(str(entry))}"
 
 
-def document(class_id: int, class_name: str, file_id: int, fields: Fields) -> str:
+def document(class_id: int, class_name: str, file_id: int | Plain, fields: Fields) -> str:
     """One object of a file, with its line ends."""
     return "\n".join((f"--- !u!{class_id} &{file_id}", f"{class_name}:", *lines(fields))) + "\n"

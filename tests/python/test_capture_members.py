@@ -25,7 +25,7 @@ from test_capture_fusion_tree import nested as inside
 from test_capture_fusion_tree import only_own
 from test_capture_kinds import BOTH, SOLIDWORKS, machine, pair, side
 from test_capture_matter import machine as block
-from test_capture_onshape import only_joints
+from test_capture_onshape import nested, only_joints
 from test_capture_patterns import BOLTS, as_mates, rigid
 from test_capture_patterns import machine as patterned
 from test_capture_rigid_bodies import GROUPS, JOINTS
@@ -95,7 +95,8 @@ def cases(program: str) -> list:
         ranges = [{**BOTH["angle"], "min": -0.1, "max": 0.9}, BOTH["distance in a range"]]
         hinge = {**BOTH["insert, aligned"], "min": -0.2, "max": 1.4}
         hinge["across"] = {"a": np.array([1.0, 0.0, 0.0]), "b": np.array([0.0, 1.0, 0.0])}
-        kinds = machine(*BOTH.values(), *SOLIDWORKS.values(), *ranges, hinge)
+        held = pair("parallel", side("Base", "line"), {**side("Base", "line"), "component": "ground"})
+        kinds = machine(*BOTH.values(), *SOLIDWORKS.values(), *ranges, hinge, held)
         return [
             SolidWorks(described(kinds)).record(), SolidWorks(described(as_mates(rows))).record(),
             SolidWorks(described(block("mm", "Z")), solidworks_bodies).record(),
@@ -133,7 +134,11 @@ def onshape_cases() -> list:
     screw = {"id": "Screw", "kind": "screw", "a": {"joint": "cylindrical", "dof": "rz"}, "ratio": 0.003}
     mates["couplings"].append({**screw, "b": {"joint": "cylindrical", "dof": "tz"}})
     lever = only_joints("lever/lever.bundle.json")
-    return [matter, *(answers(described(values)) for values in (rows, mates, lever))]
+    return [
+        matter,
+        nested(answers(described(mates))),
+        *(answers(described(values)) for values in (rows, mates, lever)),
+    ]
 
 
 @pytest.mark.parametrize("program", (*PROGRAMS, "onshape"))

@@ -7,9 +7,11 @@ import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import parse_qs, urlsplit
 
+import numpy as np
 import pytest
 from cad.captures import capture, scene_differences
 from cad.described import described, mechanism
+from cad.documented import of_onshape
 from cad.gears import gear_pair
 from cad.gltf import exported
 from cad.onshape import answers, boxed
@@ -237,3 +239,90 @@ def test_a_part_of_a_linked_document_is_asked_by_its_version_through_the_documen
         queries = of(instance)
         assert len(queries) == 4 and all(f"/d/{'d' * 24}/{state}/e/" in path for path in queries)
         assert not any(query.keys() & {"linkDocumentId", "inferMetadataOwner"} for query in queries.values())
+
+
+def nested(held: dict) -> dict:
+    """The answers on an assembly with the given one inside it: its mates are stated in its own features."""
+    top = held["definition"]["rootAssembly"]
+    key = {
+        "documentId": "d" * 24,
+        "documentMicroversion": "m" * 24,
+        "elementId": "ESub",
+        "configuration": "default",
+    }
+    sub = of_onshape("Assembly", **{k: top[k] for k in ("instances", "features", "patterns")}, **key)
+    instance = of_onshape("Instance", id="S", name="Sub", type="Assembly", suppressed=False, **key)
+    placed = [
+        of_onshape("Occurrence", path=["S"], transform=np.eye(4).ravel().tolist(), fixed=False, hidden=False)
+    ]
+    placed += [{**o, "path": ["S", *o["path"]]} for o in top["occurrences"]]
+    root = of_onshape("Assembly", instances=[instance], occurrences=placed, features=[], patterns=[])
+    return {
+        **held, "features": of_onshape("Features", features=[]), "matevalues": of_onshape("MateValues", mateValues=[]),
+        "definition": of_onshape("Definition", rootAssembly=root, subAssemblies=[sub], parts=[]),
+        f"limits {'d' * 24} {'m' * 24} ESub - default": held["features"],
+    }  # fmt: skip
+
+
+def limited() -> dict:
+    values = only_joints("gears")
+    values["joints"][0]["dof"] = [{"name": "rz", "value": 0.0, "min": -0.5, "minEnabled": True}]
+    return values
+
+
+def test_mates_of_an_assembly_inside_have_their_limits(tmp_path):
+    held = answers(described(limited()))
+    flat = capture("onshape", held, tmp_path, "Z").draft
+    found = capture("onshape", nested(held), tmp_path, "Z")
+    assert [j["id"] for j in found.draft.joints] == [
+        f"{flat.components[0]['id']}/Sub/{j['id']}" for j in flat.joints
+    ]
+    (dof,) = found.draft.joints[0]["dof"]
+    assert (dof["min"], dof["minEnabled"]) == (pytest.approx(-0.5), True) and "max" not in dof
+    assert found.draft.report.diagnostics == []
+    without, report = nested(held), Report()
+    del without[f"limits {'d' * 24} {'m' * 24} ESub - default"]
+    capture("onshape", without, tmp_path, "Z", report)
+    assert [d.code for d in report.diagnostics] == ["CAPTURE_MEMBER_FAILED"]
+
+
+def test_a_limit_that_the_configuration_chooses_is_told(tmp_path):
+    held, report = answers(described(limited())), Report()
+    for feature in held["features"]["features"]:
+        for parameter in feature["message"]["parameters"]:
+            if parameter["message"]["parameterId"] == "limitAxialZMin":
+                parameter["message"].pop("expression")
+    capture("onshape", held, tmp_path, "Z", report)
+    told = [d for d in report.diagnostics if "configuration chooses" in d.message]
+    assert told and {d.code for d in told} == {"CAPTURE_MEMBER_FAILED"}, [str(d) for d in report.diagnostics]
+
+
+def test_a_range_of_a_ball_is_told(tmp_path):
+    values = limited()
+    values["joints"][0] |= {"type": "ball", "dof": []}
+    values.pop("couplings")
+    held, report = answers(described(values)), Report()
+    listed = [
+        {"parameterId": "limitsEnabled", "value": True},
+        {"parameterId": "limitEulerConeAngleMax", "expression": "20 deg"},
+    ]
+    held["features"]["features"][0]["message"]["parameters"] = [
+        of_onshape("ListedParameter", message=of_onshape("Parameter", **entry)) for entry in listed
+    ]
+    capture("onshape", held, tmp_path, "Z", report)
+    assert ["range of a ball" in d.message for d in report.diagnostics] == [True]
+
+
+def test_instances_of_a_pattern_may_be_named_by_paths(tmp_path):
+    values = only_joints("gears")
+    held = answers(described(values))
+    top = held["definition"]["rootAssembly"]
+    one, two = (entry["id"] for entry in top["instances"][:2])
+    ties = {one: [[two]]}
+    top["patterns"] = [
+        of_onshape("Pattern", id="P", name="Row", suppressed=False, seedToPatternInstances=ties)
+    ]
+    found = capture("onshape", held, tmp_path, "Z")
+    assert [j["id"] for j in found.draft.joints if j["type"] == "rigid"] and not [
+        d for d in found.draft.report.diagnostics if d.code == "CAPTURE_MEMBER_FAILED"
+    ]

@@ -102,3 +102,33 @@ def test_what_an_assembly_cuts_from_its_parts_is_told(tmp_path):
     told = [d.message for d in report.diagnostics if d.code == "CAPTURE_ASSEMBLY_FEATURE"]
     assert len(told) == 1 and "feature Cut-Extrude1 of Lever (ICE)" in told[0]
     assert found.draft.constraints
+
+
+def test_an_entity_that_is_said_to_be_the_assemblys_is_its_faces_components(tmp_path):
+    """Mates onto what is deep inside may name the assembly itself; its name ends with no number of a copy."""
+    values = mechanism("lever/lever.bundle.json")
+    values.pop("joints", None)
+    answers = SolidWorks(described(values)).record()
+    sound = capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints
+    entity = [e for e in answers if e.get("ReferenceComponent")][-1]
+    answers.append({"#kind": "solidworks.Component", "Name2": "Lever assembly"})
+    answers.append({"#kind": "solidworks.Entity", "GetComponent()": entity["ReferenceComponent"]})
+    entity["ReferenceComponent"] = {"object": len(answers) - 2}
+    entity["Reference"] = {"object": len(answers) - 1}
+    assert capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints == sound
+    entity["Reference"] = {"failed": "com_error: a plane"}
+    found = capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints
+    assert [c["id"] for c in found] == [c["id"] for c in sound] and found != sound
+
+
+def test_mates_of_a_folder_that_are_listed_behind_it_too_are_read_once(tmp_path):
+    values = mechanism("lever/lever.bundle.json")
+    values.pop("joints", None)
+    answers = SolidWorks(described(values)).record()
+    sound = capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints
+    group = next(e for e in answers if e.get("GetTypeName2()") == "MateGroup")
+    first = group["GetFirstSubFeature()"]
+    folder = {"#kind": "solidworks.Feature", "Name": "dof", "GetTypeName2()": "FtrFolder"}
+    answers.append({**folder, "GetFirstSubFeature()": first, "GetNextSubFeature()": first})
+    group["GetFirstSubFeature()"] = {"object": len(answers) - 1}
+    assert capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints == sound

@@ -138,11 +138,14 @@ class SolidWorks:
         )  # fmt: skip
 
     def entity(self, side: dict[str, Any], base: Part, word: str = "") -> dict[str, int]:
-        component = None if side["component"] == "ground" else self._relative(side["component"], base)
+        grounded = side["component"] == "ground"
+        component = None if grounded else self._relative(side["component"], base)
+        face = {"Reference": self.answers.made("Entity", GetComponent=None)} if grounded else {}
         p, d = base.local(side["p"]), base.turned(side["d"]) if "d" in side else np.zeros(3)
         return self.answers.made(
             "MateEntity", EntityParams=[*p.tolist(), *np.asarray(d).tolist(), side.get("r", 0.0), 0.0],
             ReferenceType=SHAPES[word or side["geometry"]], ReferenceComponent=component,
+            **face,
         )  # fmt: skip
 
     def _relative(self, component: str, base: Part) -> dict[str, int]:

@@ -87,6 +87,11 @@ class Late:
     numbers: Mapping[str, int] = field(default_factory=dict[str, int])
 
     def ask(self, target: Any, name: str, arguments: tuple[Any, ...] | None) -> Any:
+        """A member's answer, out of the VARIANT that it may come in."""
+        found = self._asked(target, name, arguments)
+        return found.value if type(found).__name__ == "VARIANT" else found
+
+    def _asked(self, target: Any, name: str, arguments: tuple[Any, ...] | None) -> Any:
         if name.endswith(SET):
             return plainly(target, name, arguments)
         try:

@@ -2,6 +2,8 @@
 
 A program places copy k by a transform P of its seed: it moves as P * motion * P^-1.  Fixed to its seed it moves as the seed does.
 Both are one where P and the motion commute: at rest, along a line, about the pattern's own axis; ``comparing`` tells which.
+Autodesk's and SolidWorks' pages say that a pattern moves with what it repeats, not whether each copy turns about an axis of its own:
+where that makes a difference the copies are told as approximated.
 Standard library only: it also runs in a CAD program's own Python.
 """
 

@@ -1,7 +1,7 @@
 """Onshape's answers: over REST with keys from the environment, from a folder of saved JSON, or from a record.
 
 Every answer is kept by its question (``definition``, ``features``, ``matevalues``, ``name``, ``gltf ...``, ``stl ...``, ``mass ...``,
-``box ...``, ``parts ...``), once.
+``box ...``, ``parts ...``, ``limits ...``), once.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ TRIES, LONGEST_WAIT = 3, 60.0
 AGAIN = frozenset({429, 502, 503, 504})
 """Asked to wait, or nobody was there for the moment."""
 HOME = "onshape.com"
-OF_PARTS = frozenset({"gltf", "stl", "mass", "box", "parts"})
+OF_PARTS = frozenset({"gltf", "stl", "mass", "box", "parts", "limits"})
+"""What is asked of other elements than the assembly itself; ``limits``: the features of an assembly inside it."""
 GLTF = "model/gltf-binary;qs=0.08, model/gltf+json;charset=UTF-8;qs=0.08"
 """As the documentation of ``partid/gltf`` has it; either is read."""
 FACETS = {"angleTolerance": "0.2", "chordTolerance": "0.0001", "outputFaceAppearances": "true"}
@@ -107,6 +108,10 @@ class Rest:
             asked["linkDocumentId"] = self.where["did"]
         state = quote(state) if versioned else f"m/{quote(state)}"
         studio = f"/api/parts/d/{quote(did)}/{state}/e/{quote(eid)}"
+        if kind == "limits":
+            return self._json(
+                f"/api/assemblies/d/{quote(did)}/{state}/e/{quote(eid)}/features?{urlencode(asked)}"
+            )
         if kind == "parts":
             return self._json(f"{studio}?{urlencode(asked)}")
         if kind == "mass":
@@ -270,6 +275,11 @@ def box_question(instance: Mapping[str, Any]) -> str:
 def mass_question(instance: Mapping[str, Any]) -> str:
     """What is asked for the mass of an instance's part."""
     return _question("mass", instance, str(instance.get("partId")))
+
+
+def limits_question(assembly: Mapping[str, Any]) -> str:
+    """What is asked for the limits of the mates that an assembly inside the asked one states."""
+    return _question("limits", assembly, "-")
 
 
 def look_question(instance: Mapping[str, Any]) -> str:

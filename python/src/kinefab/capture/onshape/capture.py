@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any, cast
 
 from ..draft import Draft, pose
-from .answers import Answers, replayed
+from .answers import Answers, limits_question, replayed
 from .definition import Definition
-from .mates import Mates, limits_of
+from .mates import Limits, Mates, limits_of
 from .parts import Parts
 from .patterns import read_patterns
 
@@ -29,14 +29,25 @@ def capture(root: Answers, draft: Draft) -> None:
     draft.component({"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity})
     definition = Definition(Parts(root, draft), draft, name, cast("dict[str, Any]", values))
     definition.read()
-    features: dict[str, Any] = {}
+    features: Limits = {}
     with draft.safely("limits of the mates"):
-        features = limits_of(root.ask("features"))
+        features[""] = limits_of(root.ask("features"))
+    _inner_limits(root, definition, features)
     shown: dict[str, Any] = {}
     with draft.safely("values of the mates"):
         shown = {entry["featureId"]: entry for entry in root.ask("matevalues").get("mateValues", [])}
     Mates(definition, features, shown).read()
     read_patterns(definition)
+
+
+def _inner_limits(root: Answers, definition: Definition, features: Limits) -> None:
+    """Those of the assemblies inside, each asked once; what was not saved of them is told."""
+    for path, assembly in definition.owners:
+        stated = any(feature.get("featureType") == "mate" for feature in assembly.get("features", []))
+        if path and stated and (question := limits_question(assembly)) not in features:
+            features[question] = {}
+            with definition.draft.safely(f"limits of the mates of {definition.ids[path]}"):
+                features[question] = limits_of(root.ask(question))
 
 
 __all__ = ["METHODS", "NAME", "capture", "replayed"]

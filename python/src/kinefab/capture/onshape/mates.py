@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..draft import Draft, Record, frame, freedom
+from .answers import limits_question
 from .definition import Definition, Json
 
 TYPES: Mapping[str, tuple[str, dict[str, str]]] = {
@@ -26,6 +27,7 @@ LIMITS = {
     "tx": ("limitXMin", "limitXMax"),
     "ty": ("limitYMin", "limitYMax"),
 }
+CONE = "limitEulerConeAngleMax"
 RELATIONS = {"GEAR": "gear", "RACK_AND_PINION": "rack", "SCREW": "screw", "LINEAR": "linear"}
 COORDINATE = {
     "GEAR": ("rz", "rz"),
@@ -38,6 +40,8 @@ UNITS = {
     "inch": 0.0254, "ft": 0.3048, "foot": 0.3048, "yd": 0.9144, "yard": 0.9144, "deg": math.pi / 180.0,
     "degree": math.pi / 180.0, "rad": 1.0, "radian": 1.0,
 }  # fmt: skip
+CHOSEN = "what the configuration chooses"
+"""Stands for a parameter that has a value for each configuration."""
 EXPRESSION = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*\*?\s*([a-z]*)\s*")
 
 
@@ -59,18 +63,23 @@ def limits_of(features: Any) -> dict[str, Json]:
             held = parameter.get("message", parameter)
             if held.get("isNull"):
                 continue
-            parameters[held.get("parameterId", "")] = held.get("expression", held.get("value"))
+            parameters[held.get("parameterId", "")] = held.get("expression", held.get("value", CHOSEN))
         found[feature.get("featureId", "")] = parameters
     return found
 
 
+Limits = dict[str, dict[str, Json]]
+"""Parameters of the mates by id, of each assembly by its question; of the root by none."""
+
+
 class Mates:
-    """features: parameters of each mate of the root; values: what it shows, by id.  joints: id of each made joint by the
+    """features: parameters of each mate; values: what those of the root show, by id.  joints: id of each made joint by the
     owner's path and its feature."""
 
-    def __init__(self, definition: Definition, features: dict[str, Json], values: dict[str, Json]) -> None:
+    def __init__(self, definition: Definition, features: Limits, values: dict[str, Json]) -> None:
         self.definition, self.features, self.values = definition, features, values
         self.draft: Draft = definition.draft
+        self.assemblies = dict(definition.owners)
         self.joints: dict[tuple[tuple[str, ...], str], tuple[str, str]] = {}
 
     def read(self) -> None:
@@ -88,6 +97,7 @@ class Mates:
 
     def _mate(self, path: tuple[str, ...], feature: Json, data: Json) -> None:
         """The first entity moves against the second: it is b."""
+        assembly = self.assemblies[path]
         name, kind = str(data.get("name", feature["id"])), data["mateType"]
         own = self._id(path, name)
         sides = [self._side(path, entity) for entity in data["matedEntities"]]
@@ -108,7 +118,7 @@ class Mates:
             "frameA": frame_a,
             "frameB": frame_b,
         }
-        stated = {} if path else self.features.get(feature["id"], {})
+        stated = self.features.get(limits_question(assembly) if path else "", {}).get(feature["id"], {})
         shown = {} if path else self.values.get(feature["id"], {})
         dofs: list[Record] = []
         for coordinate, shown_as in coordinates.items():
@@ -117,6 +127,10 @@ class Mates:
             if sign < 0.0:
                 value, low, high = (None if v is None else -v for v in (value, high, low))
             dofs.append(freedom(coordinate, value, low, high))
+        if kind == "BALL" and stated.get("limitsEnabled") and stated.get(CONE) is not None:
+            self.draft.report.approximated(
+                f"range of mate {own}", "CAPTURE_KIND_RAW", kind="range of a ball", program=self.draft.program
+            )
         if dofs:
             record["dof"] = dofs
         if feature.get("suppressed"):

@@ -24,8 +24,8 @@ def _pattern(definition: Definition, path: tuple[str, ...], pattern: dict[str, A
     lost: list[str] = []
     for seed, copies in pattern["seedToPatternInstances"].items():
         known = definition.ids.get((*path, seed))
-        for copy in copies:
-            own = definition.ids.get((*path, copy))
+        for copy in copies:  # an id, or ids down to the instance
+            own = definition.ids.get((*path, *([copy] if isinstance(copy, str) else copy)))
             if own is not None and known is not None:
                 ties[own] = known
             elif own is not None:

@@ -113,6 +113,11 @@ class MateEntity(Protocol):
     EntityParams: Sequence[float]  # m: point, vector, two radii | owning assembly | IMateEntity2.EntityParams Property
     ReferenceType: int  # swMateEntity2ReferenceType_e | - | IMateEntity2.ReferenceType Property
     ReferenceComponent: Component | None  # - | - | IMateEntity2.ReferenceComponent Property
+    Reference: Entity | None  # - | - | IMateEntity2.Reference Property
+
+
+class Entity(Protocol):
+    def GetComponent(self) -> Component | None: ...  # - | - | IEntity.GetComponent Method
 
 
 class PatternData(Protocol):

@@ -195,13 +195,16 @@ def _painted(body: api.Body) -> int:
 
 
 def _mates(owner: Owner, model: Model) -> None:
+    read: set[str] = set()
     for feature in features(model):
         with owner.draft.safely(f"a feature of {owner.id}"):
             kind = feature.GetTypeName2()
             if kind == "MateGroup":
                 for mate in _below(feature):
                     with owner.draft.safely(f"a mate of {owner.id}"):
-                        read_mate(owner, mate)
+                        if (name := mate.Name) not in read:
+                            read.add(name)
+                            read_mate(owner, mate)
             elif kind in SHAPING:
                 _shaping(owner, feature, kind)
 
@@ -214,7 +217,7 @@ def _shaping(owner: Owner, feature: Feature, kind: str) -> None:
 
 
 def _below(group: Feature) -> Iterator[Feature]:
-    """The mates of a group and of its folders."""
+    """The mates of a group and of its folders; what lies in a folder may be listed behind it too."""
     for feature in features_below(group):
         kind = feature.GetTypeName2()
         if kind == "FtrFolder":

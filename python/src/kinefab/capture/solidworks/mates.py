@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 
 from ..channel import MemberFailed
 from ..draft import Draft, Record, frame, freedom, three
-from .api import Component, Feature, Mate, MateData, MateEntity
+from .api import Component, Entity, Feature, Mate, MateData, MateEntity
 
 TYPES = (
     "coincident", "concentric", "perpendicular", "parallel", "tangent", "distance", "angle", "unknown", "symmetric",
@@ -29,6 +31,8 @@ UNIT = {
 }  # fmt: skip
 """swLengthUnit_e, metres; of feet and inches together the inch."""
 PARALLEL = 1e-9
+INSTANCE = re.compile(r"-\d+$")
+"""How the name of every component ends; that of an assembly's own root does not."""
 
 
 @dataclass(slots=True)
@@ -44,9 +48,24 @@ class Owner:
     def component(self, found: Component | None, own: str) -> str:
         """Id of an entity's component; none, or the assembly itself, is the owner: its planes and origin."""
         name = "" if found is None else found.Name2
-        if not name or name == own:
-            return "ground" if self.frame == "world" else self.id
-        return f"{self.id}/{name}"
+        known = f"{self.id}/{name}"
+        itself = not name or name == own or (known not in self.draft.parts and not INSTANCE.search(name))
+        return self.itself if itself else known
+
+    @property
+    def itself(self) -> str:
+        return "ground" if self.frame == "world" else self.id
+
+    def holder(self, entity: MateEntity) -> str:
+        """Id of what a mate's entity is on.  One of a component inside may be said to be the assembly's own: its face knows better."""
+        found = self.component(entity.ReferenceComponent, self.id)
+        if found == self.itself:
+            with suppress(MemberFailed, AttributeError):  # a plane of the assembly has no component
+                face: Entity | None = entity.Reference
+                component = None if face is None else face.GetComponent()
+                if component is not None:
+                    return self.component(component, self.id)
+        return found
 
 
 def read_mate(owner: Owner, feature: Feature) -> None:
@@ -111,7 +130,7 @@ class Given:
 def _side(owner: Owner, entity: MateEntity) -> Record:
     numbers = [float(v) for v in entity.EntityParams]
     word = SHAPES.get(entity.ReferenceType, "body")
-    side: Record = {"component": owner.component(entity.ReferenceComponent, owner.id), "geometry": word}
+    side: Record = {"component": owner.holder(entity), "geometry": word}
     side |= {"in": owner.frame, "p": three(numbers[:3])}
     if word == "cone":  # its angle is not stated: its axis is what all mates but a tangency use
         side["geometry"] = "line"

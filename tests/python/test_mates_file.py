@@ -66,6 +66,27 @@ def test_a_mate_that_is_switched_off_is_not_used(lever: Scene, file: Path):
     assert "FEATURE_SUPPRESSED" in [d.code for d in report.diagnostics]
 
 
+def test_what_does_not_say_whether_it_is_on_is_judged_by_the_threshold(lever: Scene, file: Path):
+    def unsaid(values):
+        slide = next(c for c in values["constraints"] if c["joint"] == "prismatic")
+        del slide["enabled"]
+        slide["confidence"] = 0.4
+
+    assert mobility(lever, changed(file, unsaid)) > mobility(lever, "auto")
+    assert mobility(lever, changed(file, lambda v: v.update(threshold=0.3))) == mobility(lever, "auto")
+
+
+def test_the_field_that_is_wrong_is_named(lever: Scene, file: Path):
+    def words(values):
+        values["constraints"][0]["enabled"] = "no"
+        values["constraints"][1]["confidence"] = "high"
+
+    with pytest.raises(KinefabError) as raised:
+        mobility(lever, changed(file, words))
+    places = [d.where.partition("#")[2] for d in raised.value.diagnostics]
+    assert places == ["/constraints/0/enabled", "/constraints/1/confidence"]
+
+
 def test_every_mate_is_reported_as_found(lever: Scene, file: Path):
     report = Report()
     mated(lever, {"mates": "auto"}, report)
@@ -125,6 +146,12 @@ def test_a_wrong_file_is_refused(lever: Scene, file: Path, change, code: str):
     with pytest.raises(KinefabError):
         mated(lever, {"mates": str(changed(file, change))}, report)
     assert code in [d.code for d in report.diagnostics]
+
+
+def test_a_file_without_its_list_is_refused(lever: Scene, file: Path):
+    with pytest.raises(KinefabError) as raised:
+        mobility(lever, changed(file, lambda values: values.pop("constraints")))
+    assert [d.code for d in raised.value.diagnostics] == ["BUNDLE_FIELD_MISSING"]
 
 
 def test_mates_of_another_version_are_told(lever: Scene, file: Path):

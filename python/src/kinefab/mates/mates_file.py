@@ -118,9 +118,11 @@ def with_file(scene: Scene, path: Path, report: Report) -> Scene:
         log.add("MATES_OF_OTHER_SOURCE", "/sha256", source=record.text("source", ""))
     components = _components(scene)
     ground = components.find(record, "ground", "the ground") if record.has("ground") else -1
-    bundle = Record(
-        {"constraints": _plain(record.values.get("constraints", []))}, "", log, frozenset({"constraints"})
-    )
+    if not record.has("constraints"):
+        record.fault("BUNDLE_FIELD_MISSING", field="constraints")
+    threshold = record.number("threshold", AUTO)
+    constraints = _plain(record.values.get("constraints", []), threshold, log)
+    bundle = Record({"constraints": constraints}, "", log, frozenset({"constraints"}))
     constraints = read_constraints(bundle, components, SourceFrame(), log)
     report.raise_for_errors()
     for constraint in constraints:
@@ -136,16 +138,20 @@ def with_file(scene: Scene, path: Path, report: Report) -> Scene:
     return grounded(scene, None if ground < 0 else ground, (), report, "named in the mates")
 
 
-def _plain(constraints: object) -> object:
-    """The constraints without the fields that a bundle does not know; what is not enabled is suppressed."""
+def _plain(constraints: object, threshold: float, log: Log) -> object:
+    """The constraints without the fields that a bundle does not know; what is not enabled is suppressed, and where that is not
+    said, what is less sure than the threshold."""
     if not is_array(constraints):
         return constraints
     found: list[object] = []
-    for entry in constraints:
+    for number, entry in enumerate(constraints):
         if is_object(entry):
-            enabled = entry.get("enabled", True)
+            own = {key: value for key, value in entry.items() if key in OWN}
+            record = Record(own, f"/constraints/{number}", log, frozenset(OWN))
+            confidence = record.number("confidence", 1.0)
+            enabled = record.flag("enabled", confidence >= threshold)
             kept = {key: value for key, value in entry.items() if key not in OWN}
-            entry = kept if enabled is True else {**kept, "suppressed": enabled is False or enabled}
+            entry = kept if enabled else {**kept, "suppressed": True}
         found.append(entry)
     return found
 

@@ -19,7 +19,8 @@ SOLIDWORKS = (
     f"SolidWorks: open the assembly and run: kinefab capture solidworks -o NAME.bundle.json; or {STEP_ROAD}."
 )
 FUSION = f"Fusion: install the add-in that kinefab capture fusion --help tells of, open the design; or {STEP_ROAD}."
-NX_OR_CREO = f"NX, Creo or Solid Edge: {STEP_ROAD}."
+CREO_ROAD = "Creo with Simscape Multibody Link (free; needs MATLAB) writes NAME.xml, joints and all: kinefab export NAME.xml"
+NX_OR_CREO = f"NX, Creo or Solid Edge: {STEP_ROAD}. {CREO_ROAD}."
 CATIA = f"CATIA: {STEP_ROAD}."
 MESH_ONLY = f"It holds no joints that can be read: {MESH_ROAD}."
 
@@ -35,11 +36,17 @@ ROADS = {
     **dict.fromkeys((".iam", ".ipt", ".idw", ".ipn"), INVENTOR),
     **dict.fromkeys((".sldasm", ".sldprt", ".slddrw"), SOLIDWORKS),
     **dict.fromkeys((".f3d", ".f3z"), FUSION),
-    ".asm": f"Creo or Solid Edge: {STEP_ROAD}.",
+    ".asm": f"Creo or Solid Edge: {STEP_ROAD}. {CREO_ROAD}.",
     **dict.fromkeys((".prt", ".par", ".psm"), NX_OR_CREO),
-    **dict.fromkeys((".catproduct", ".catpart", ".cgr"), CATIA),
+    **dict.fromkeys((".catproduct", ".catpart", ".cgr", ".model", ".exp", ".session"), CATIA),
+    **dict.fromkeys((".smt", ".smb"), f"The kernel's own file of Inventor or Fusion; there: {STEP_ROAD}."),
+    **dict.fromkeys((".fcstd1", ".fcbak"), "A copy that FreeCAD keeps: give it the ending .FCStd."),
+    **dict.fromkeys((".stpz", ".gz", ".zip", ".7z", ".rar"), "Packed: unpack it, and give the file inside."),
+    **dict.fromkeys((".stpx", ".stpxz"), f"AP242 as XML; export it as Part 21 (.step) instead: {STEP_ROAD}."),
+    **dict.fromkeys((".ifc", ".rvt"), f"A building; of its parts: {MESH_ROAD}."),
     **dict.fromkeys(
-        (".jt", ".x_t", ".x_b", ".xmt_txt", ".sat", ".sab"), f"Open it in a CAD program: {STEP_ROAD}."
+        (".jt", ".x_t", ".x_b", ".xmt_txt", ".sat", ".sab", ".neu", ".wire", ".vda"),
+        f"Open it in a CAD program: {STEP_ROAD}.",
     ),
     ".3dxml": f"CATIA or 3DEXPERIENCE: {STEP_ROAD}.",
     ".3dm": f"Rhino: {STEP_ROAD}; or {MESH_ROAD}.",

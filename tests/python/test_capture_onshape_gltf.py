@@ -13,13 +13,15 @@ import pytest
 import trimesh
 from cad.captures import capture
 from cad.described import described
+from cad.documented import untagged
 from cad.gltf import exported
 from cad.onshape import answers, boxed, masses, of_each_part, stl, weighed
 from cad.tetrahedron import FACES, POINTS
 from kinefab.capture.draft import WRONG_ANSWER
 from kinefab.capture.looks import linear
-from kinefab.capture.onshape.answers import Rest
+from kinefab.capture.onshape.answers import Answers, Rest
 from kinefab.capture.onshape.gltf import read_gltf
+from kinefab.capture.run import drafted
 from kinefab.diagnostics import Report
 from test_capture_attack import WHERE, Server
 from test_capture_matter import LINEAR, LOOK, machine, tetrahedron
@@ -140,7 +142,6 @@ def test_the_box_is_asked_for_only_then(tmp_path):
     capture("onshape", sound, tmp_path, "Z")
     asked: list[str] = []
     from kinefab.capture.draft import Draft
-    from kinefab.capture.onshape.answers import Answers
     from kinefab.capture.onshape.capture import capture as run
 
     def fetch(question: str):
@@ -278,3 +279,32 @@ def test_what_is_asked_of_the_server():
     assert gltf.startswith("/api/parts/d/d/m/m/e/e/partid/p/gltf?") and "outputFaceAppearances=true" in gltf
     assert "configuration=List_A%3DB%3Bc%3D1" in gltf and "chordTolerance=0.0001" in gltf
     assert box.startswith("/api/parts/d/d/v/x/e/e/partid/p/boundingboxes?")
+
+
+@pytest.mark.parametrize("binary", [True, False])
+def test_a_blanked_record_has_no_names_in_its_files(binary, tmp_path):
+    content = exported(POINTS, FACES, TWO, binary, node={"name": "Secret lever"})
+    held = answered(content)
+    for key in held:
+        if key.startswith("parts "):
+            held[key] = [
+                {**held[key][0], "partNumber": "Secret number", "customProperties": {"a": "Secret value"}}
+            ]
+    sound = capture_onshape_record(held, tmp_path, False)
+    assert "Secret number" in sound.read_text("utf-8")
+    blank = json.loads(capture_onshape_record(held, tmp_path, True).read_text("utf-8"))
+    files = b"".join(
+        base64.b64decode(v["base64"]) for k, v in blank["answers"].items() if k.startswith("gltf ")
+    )
+    assert b"baseColorFactor" in files and b"Secret" not in files and b"Part 1" not in files
+    assert "Secret" not in json.dumps(blank)
+    again = capture("onshape", blank["answers"], tmp_path, "Z")
+    (mesh,) = again.draft.meshes.values()
+    assert [count for count, _ in mesh[0].runs] == [2, 2] and mesh[0].normals
+
+
+def capture_onshape_record(held: dict, folder, blank: bool):
+    """What a capture over the network would record of these answers."""
+    path = folder / f"{blank}.record.json"
+    drafted("onshape", Answers(untagged(held)), Report(), "Z", path, blank)
+    return path

@@ -133,7 +133,8 @@ def drafted(
         detail = f"{type(error).__name__}: {error}"
         report.add("CAPTURE_STOPPED", program=entry.name, member="an answer", detail=detail)
     if record_to is not None:  # of a capture that failed too: it is what shows why
-        text = json.dumps(record(program, channel.answers, blank), ensure_ascii=True, separators=(",", ":"))
+        answers = module.unnamed(channel.answers) if blank and hasattr(module, "unnamed") else channel.answers
+        text = json.dumps(record(program, answers, blank), ensure_ascii=True, separators=(",", ":"))
         write_whole(record_to, text.encode("ascii") + b"\n")
     report.raise_for_errors()
     draft.settle()

@@ -22,6 +22,7 @@ from urllib.parse import quote, urlencode, urlsplit
 from ...diagnostics import KinefabError, Report
 from ...geometry.references import read_regular
 from ..channel import MemberFailed, RecordBroken
+from .gltf import nameless
 
 ADDRESS = re.compile(
     r"/documents/(?P<did>[0-9a-zA-Z]+)/(?P<wvm>[wvm])/(?P<wid>[0-9a-zA-Z]+)/e/(?P<eid>[0-9a-zA-Z]+)"
@@ -294,6 +295,22 @@ def _question(kind: str, instance: Mapping[str, Any], part: str) -> str:
     return " ".join([kind, *where, part, str(instance.get("configuration", "default"))])
 
 
+def unnamed(answers: Mapping[str, Any]) -> dict[str, Any]:
+    """The answers of a record without what names are in beside the fields of that kind: in files, and in what was not asked for."""
+    found: dict[str, Any] = {}
+    for question, answer in answers.items():
+        if question.startswith("gltf ") and isinstance(answer, dict):
+            content = base64.b64decode(cast("dict[str, Any]", answer).get("base64", ""))
+            answer = {"base64": base64.b64encode(nameless(content)).decode()}
+        elif question.startswith("parts ") and isinstance(answer, list):
+            parts = [cast("dict[str, Any]", entry) for entry in answer if isinstance(entry, dict)]  # pyright: ignore[reportUnknownVariableType]
+            answer = [{key: part[key] for key in sorted(LOOKED_AT & part.keys())} for part in parts]
+        found[question] = answer
+    return found
+
+
+LOOKED_AT = frozenset({"partId", "appearance", "material"})
+"""Of a listed part, what is read."""
 MESHES: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
     ".glb": gltf_question, ".gltf": gltf_question, ".stl": stl_question,
 }  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from ..draft import Draft, pose
-from .answers import Answers, limits_question, replayed
+from .answers import Answers, limits_question, replayed, unnamed
 from .definition import Definition
 from .mates import Limits, Mates, limits_of
 from .parts import Parts
@@ -50,4 +50,4 @@ def _inner_limits(root: Answers, definition: Definition, features: Limits) -> No
                 features[question] = limits_of(root.ask(question))
 
 
-__all__ = ["METHODS", "NAME", "capture", "replayed"]
+__all__ = ["METHODS", "NAME", "capture", "replayed", "unnamed"]

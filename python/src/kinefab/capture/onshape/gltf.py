@@ -22,6 +22,7 @@ TRIANGLES = 4
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 FLOAT = 5126
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+NAMING = frozenset({"name", "extras", "extensions", "generator", "copyright"})
 WHITE = (1.0, 1.0, 1.0, 1.0)
 Json = dict[str, Any]
 
@@ -89,6 +90,29 @@ def read_gltf(content: bytes) -> Shape:
         np.concatenate([faces for listed in by_paint.values() for faces in listed]),
         [(sum(map(len, listed)), paint) for paint, listed in by_paint.items()],
     )
+
+
+def nameless(content: bytes) -> bytes:
+    """The same file with nothing in it that somebody named; nothing of one that cannot be opened."""
+    try:
+        document, binary = _opened(content)
+        kept: Json = {key: _unnamed(value) for key, value in document.items() if key not in NAMING}
+    except (ValueError, KeyError, TypeError, AttributeError, struct.error, RecursionError):
+        return b""
+    text = json.dumps(kept).encode("ascii")
+    if content[:4] != MAGIC:
+        return text
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
+    chunks += struct.pack("<II", len(binary), BINARY_CHUNK) + binary
+    return MAGIC + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def _unnamed(value: Any) -> Any:
+    if isinstance(value, dict):
+        held = cast(Json, value)
+        return {key: _unnamed(entry) for key, entry in held.items() if key not in NAMING}
+    return [_unnamed(entry) for entry in cast("list[Any]", value)] if isinstance(value, list) else value
 
 
 def _opened(content: bytes) -> tuple[Json, bytes]:

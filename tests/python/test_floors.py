@@ -48,7 +48,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "unity": [
         {"frames", "scene"},
         {"bodies", "assets", "joints", "constraints", "mobility", "back"},
-        {"mapping", "overlaps"},
+        {"mapping", "overlaps", "sums"},
         {"__init__"},
     ],
     "targets": [

@@ -404,6 +404,19 @@ def test_plug_ins_are_left_out_by_number(tmp_path):
     assert "plugin 0" in {o.feature for o in report.outcomes if o.code == "MJCF_LEFT_OUT"}
 
 
+@pytest.mark.parametrize("ending", [".mjcf", ".XML"])
+def test_a_model_by_another_ending_is_read_with_what_it_includes(tmp_path, ending):
+    """MuJoCo 4 opens what ends in ``.xml`` alone; what stands beside under that name is not taken for it."""
+    (tmp_path / "part.xml").write_text(
+        f"<mujoco><worldbody><body name='p'><joint name='j'/>{BALL}</body></worldbody></mujoco>",
+        encoding="utf-8",
+    )
+    (tmp_path / "m.xml").write_text("<mujoco/>", encoding="utf-8")
+    path = tmp_path / f"m{ending}"
+    path.write_text("<mujoco><include file='part.xml'/></mujoco>", encoding="utf-8")
+    assert [j.id for j in read(path, Report()).joints] == ["j"]
+
+
 def test_nothing_of_the_model_is_random(tmp_path):
     path = FIXTURES / "mjcf" / "zoo.xml"
     for name in "ab":

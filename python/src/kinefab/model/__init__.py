@@ -29,7 +29,7 @@ from .freedoms import (
     Passive,
     SphericalDrive,
 )
-from .joints import UNLOCKED, Joint, JointKind, freedoms_of, kind_of, unlocked_of
+from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
 from .scene import EARTH, Physics, Scene, Source, SourceFile
@@ -90,6 +90,7 @@ __all__ = [
     "Track",
     "UNLOCKED",
     "Wrap",
+    "alike_from_both_sides",
     "freedoms_of",
     "kind_of",
     "unlocked_of",

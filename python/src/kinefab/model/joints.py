@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -73,6 +73,13 @@ def kind_of(free: tuple[int, ...]) -> JointKind:
 def unlocked_of(freedoms: tuple[Freedom, ...]) -> tuple[int, ...]:
     """Indices of the freedoms that may move."""
     return tuple(i for i, f in enumerate(freedoms) if f.motion is not Motion.LOCKED)
+
+
+def alike_from_both_sides(unlocked: Sequence[int]) -> bool:
+    """Whether either body counts the other's motion along the same axes: slides alone, or a turn about the one that slides."""
+    slides = {i for i in unlocked if i < RX}
+    turns = {i - RX for i in unlocked if i >= RX}
+    return bool(slides) and (not turns or slides == turns and len(turns) == 1)
 
 
 def freedoms_of(kind: JointKind, **given: Freedom) -> tuple[Freedom, ...]:

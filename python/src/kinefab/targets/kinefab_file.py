@@ -25,6 +25,7 @@ from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
 from ..unity.scene import Coupling, Joint, Mesh, UnityScene
+from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
 from .numbers import plain_value, significant
@@ -63,7 +64,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     The report gets what the format has no place for.  Raises OSError as the file system does; then the old files stand
     as they were.
     """
-    scene, report = content.unity(), content.report
+    report = content.report
+    scene = with_one_term_each(content.unity(), report)
     _tell_losses(scene, report)
     _tell_mesh_losses(content.scene.meshes, report)
     content.refuse_losses()
@@ -107,7 +109,7 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
     tail: dict[str, Any] = {
         "materials": [entry(material) for material in scene.materials],
         "gameObjects": [entry(game_object) for game_object in scene.gameObjects],
-        "couplings": [_coupling(coupling) for coupling in scene.couplings if len(coupling.terms) == 1],
+        "couplings": [_coupling(coupling) for coupling in scene.couplings],
         "animations": [entry(clip) for clip in scene.animations],
         "constraints": [entry(constraint) for constraint in scene.constraints],
         "analysis": None if scene.analysis is None else entry(scene.analysis),
@@ -160,16 +162,6 @@ def _tell_losses(scene: UnityScene, report: Report) -> None:
         for component in game_object.components:
             if not isinstance(component, Joint):
                 told(f"{type(component).__name__} of {game_object.id}", component)
-    for coupling in scene.couplings:
-        if len(coupling.terms) != 1:
-            terms = len(coupling.terms)
-            report.dropped(
-                f"coupling {coupling.id}",
-                "COUPLING_TERMS_DROPPED",
-                coupling=coupling.id,
-                terms=terms,
-                target=".kinefab",
-            )
 
 
 def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:

@@ -91,6 +91,11 @@ def joint_basis(r: Array) -> Array:
     return np.column_stack([x, y, cross(x, y)])
 
 
+COUNTS_CONNECTED = {"counts": "connected"}
+"""In ``extras`` of a component that the own body carries only because the other has no Rigidbody: the source counts the
+connected body's motion against the own one, which none of Unity's fields tells."""
+
+
 @dataclass(frozen=True, slots=True)
 class Senses:
     """F1, F8. How a joint's CAD coordinates q read along and about the axes of ``joint_basis``: as sign * q.

@@ -87,7 +87,7 @@ class _Library:
     textures: dict[str, Path | None] = field(default_factory=dict[str, "Path | None"])
 
     def compiled(self) -> Any:
-        spec = self._tried(lambda: self.mujoco.MjSpec.from_file(str(self.files.path)))
+        spec = self._tried(self._opened)
         # What memory a simulation reserves is no matter here, and could be asked for without end.
         for size in ("memory", "nstack", "njmax", "nconmax"):
             setattr(spec, size, -1)
@@ -98,6 +98,15 @@ class _Library:
         self._tell_masses(spec)
         self._check_numbers(model)
         return model
+
+    def _opened(self) -> Any:
+        path, open_ = self.files.path, self.mujoco.MjSpec.from_file
+        if path.suffix == ".xml":
+            return open_(str(path))
+        named = path.with_suffix(
+            ".xml"
+        )  # MuJoCo 4 chooses what decodes a file by its ending, in small letters
+        return open_(str(named), include={named.name: path.read_bytes()})
 
     def _tried(self, call: Any) -> Any:
         found: Any = None

@@ -27,13 +27,13 @@ from ...model import (
     Scene,
     Source,
     Term,
+    alike_from_both_sides,
     freedoms_of,
     kind_of,
     unlocked_of,
 )
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
-from ..joints.placement import COUNTS_CONNECTED, alike_from_both_sides
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
@@ -159,7 +159,7 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     if hinge or component.get("swapBodies", False):
         sides.reverse()
     elif alike_from_both_sides(unlocked):
-        if not COUNTS_CONNECTED.items() <= extras.items():
+        if not frames.COUNTS_CONNECTED.items() <= extras.items():
             freedoms = tuple(map(_turned_round, freedoms))
             sides.reverse()
         (first, at_first), (_, at_second) = sides

@@ -20,7 +20,7 @@ from typing import Any
 
 from ...diagnostics import Report
 from ...findings import JointFinding
-from ...model import RX, Joint, Motion, Scene
+from ...model import RX, Joint, Motion, Scene, alike_from_both_sides
 from ...rigid import RigidGroups
 from ...spatial import Array, Pose
 from .. import frames
@@ -29,7 +29,7 @@ from ..scene.vectors import vector3
 from .configurable import MOTION_TITLES, configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from .hinge import fits_hinge, hinge_fields
-from .placement import COUNTS_CONNECTED, Placement, alike_from_both_sides, place
+from .placement import Placement, place
 
 GAP_LENGTH = 1e-5
 """Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
@@ -131,7 +131,7 @@ def map_joint(
             report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i))
     common = _common_fields(joint, found)
     if placement.on_a and not fits_hinge(shape) and alike_from_both_sides(joint.unlocked):
-        common["extras"] |= COUNTS_CONNECTED
+        common["extras"] |= frames.COUNTS_CONNECTED
     if not (shape.rotations or shape.translations):
         component: MappedJoint = FixedJoint(**common)
     elif fits_hinge(shape):

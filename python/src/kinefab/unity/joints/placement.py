@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...model import RX
@@ -39,18 +38,6 @@ def place(joint: CanonicalJoint, a_is_ground: bool, b_is_ground: bool) -> Placem
     if not order_matters(joint):
         return Placement(on_a=False, swap=False)
     return Placement(on_a=False, swap=True) if a_is_ground else Placement(on_a=True, swap=False)
-
-
-COUNTS_CONNECTED = {"counts": "connected"}
-"""In ``extras`` of a component that the own body carries only because the other has no Rigidbody: the source counts the
-connected body's motion against the own one, which none of Unity's fields tells."""
-
-
-def alike_from_both_sides(unlocked: Sequence[int]) -> bool:
-    """Whether either body counts the other's motion along the same axes: slides alone, or a turn about the one that slides."""
-    slides = {i for i in unlocked if i < RX}
-    turns = {i - RX for i in unlocked if i >= RX}
-    return bool(slides) and (not turns or slides == turns and len(turns) == 1)
 
 
 def order_matters(joint: CanonicalJoint) -> bool:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from binascii import hexlify
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 
 from ....unity.scene import Mesh
 from ..text.documents import HEAD
-from ..text.yaml import HEADER, Fields, Plain, document, vector
+from ..text.forms import BLANK, Form
+from ..text.yaml import HEADER, Fields, Plain, text, vector
 
 MESH_ID = 4300000
 """The fileID of the object in its file: the class's number and five zeros."""
@@ -49,13 +51,47 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
     columns += [(FIRST_UV + i, uv) for i, uv in enumerate(mesh.uvs[:MOST_UVS])]
     short = len(vertices) <= UINT16_VERTICES
     indices = np.ascontiguousarray(mesh.triangles, dtype="<u2" if short else "<u4")
-    channels, width = _channels(columns)
-    bounds = _bounds(vertices)
+    width = 4 * sum(values.shape[1] for _, values in columns)
+    submeshes = _submeshes(mesh, vertices, indices)
+    form = _form(tuple((channel, values.shape[1]) for channel, values in columns), len(submeshes))
+    told = form.filled(
+        MESH_ID,
+        text(name),
+        *(value for values in submeshes for value in values),
+        0 if short else 1,
+        _SPLIT,
+        len(vertices),
+        width * len(vertices),
+        _SPLIT,
+        *_bounds(vertices),
+    )
+    head, middle, tail = (HEADER + told).encode("ascii").split(_SPLIT.encode())
+    yield head
+    yield hexlify(indices.data)
+    yield middle
+    yield from _interleaved(columns, width)
+    yield tail
+
+
+@lru_cache(maxsize=64)
+def _form(layout: tuple[tuple[int, int], ...], submeshes: int) -> Form:
+    """The document of a mesh with these channels, each with its width in floats, and so many submeshes."""
+    bounds: Fields = {"m_Center": BLANK, "m_Extent": BLANK}
+    submesh: Fields = {
+        "serializedVersion": 2,
+        "firstByte": BLANK,
+        "indexCount": BLANK,
+        "topology": 0,
+        "baseVertex": 0,
+        "firstVertex": BLANK,
+        "vertexCount": BLANK,
+        "localAABB": bounds,
+    }
     fields: Fields = {
         **HEAD,
-        "m_Name": name,
+        "m_Name": BLANK,
         "serializedVersion": VERSION,
-        "m_SubMeshes": _submeshes(mesh, vertices, indices),
+        "m_SubMeshes": [submesh] * submeshes,
         "m_Shapes": {"vertices": [], "shapes": [], "channels": [], "fullWeights": []},
         "m_BindPose": [],
         "m_BoneNameHashes": "",
@@ -66,14 +102,14 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
         "m_IsReadable": 1,
         "m_KeepVertices": 1,
         "m_KeepIndices": 1,
-        "m_IndexFormat": 0 if short else 1,
-        "m_IndexBuffer": Plain(_SPLIT),
+        "m_IndexFormat": BLANK,
+        "m_IndexBuffer": BLANK,
         "m_VertexData": {
             "serializedVersion": 3,
-            "m_VertexCount": len(vertices),
-            "m_Channels": channels,
-            "m_DataSize": width * len(vertices),
-            "_typelessdata": Plain(_SPLIT),
+            "m_VertexCount": BLANK,
+            "m_Channels": _channels(layout),
+            "m_DataSize": BLANK,
+            "_typelessdata": BLANK,
         },
         "m_CompressedMesh": _UNCOMPRESSED,
         "m_LocalAABB": bounds,
@@ -85,14 +121,7 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
         "m_MeshOptimizationFlags": 1,
         "m_StreamData": {"serializedVersion": 2, "offset": 0, "size": 0, "path": ""},
     }
-    head, middle, tail = (
-        (HEADER + document(43, "Mesh", MESH_ID, fields)).encode("ascii").split(_SPLIT.encode())
-    )
-    yield head
-    yield hexlify(indices.data)
-    yield middle
-    yield from _interleaved(columns, width)
-    yield tail
+    return Form(43, "Mesh", fields)
 
 
 _SPLIT = "\x7f"
@@ -101,15 +130,15 @@ _ROWS = 65536
 """Vertices of one piece."""
 
 
-def _channels(columns: list[tuple[int, np.ndarray]]) -> tuple[list[Fields], int]:
-    """The layout of a vertex, and its bytes."""
+def _channels(layout: tuple[tuple[int, int], ...]) -> list[Fields]:
+    """Where each attribute stands in a vertex."""
     unused: Fields = {"stream": 0, "offset": 0, "format": 0, "dimension": 0}
     channels: list[Fields] = [unused] * CHANNELS
     offset = 0
-    for channel, values in columns:
-        channels[channel] = {"stream": 0, "offset": offset, "format": 0, "dimension": values.shape[1]}
-        offset += 4 * values.shape[1]
-    return channels, offset
+    for channel, size in layout:
+        channels[channel] = {"stream": 0, "offset": offset, "format": 0, "dimension": size}
+        offset += 4 * size
+    return channels
 
 
 def _interleaved(columns: list[tuple[int, np.ndarray]], width: int) -> Iterator[bytes]:
@@ -123,33 +152,22 @@ def _interleaved(columns: list[tuple[int, np.ndarray]], width: int) -> Iterator[
         yield hexlify(rows.data)
 
 
-def _submeshes(mesh: Mesh, vertices: np.ndarray, indices: np.ndarray) -> list[Fields]:
-    found: list[Fields] = []
+def _submeshes(mesh: Mesh, vertices: np.ndarray, indices: np.ndarray) -> list[tuple[int | Plain, ...]]:
+    """Of each its first byte, how many indices, its first vertex, how many vertices, centre and extent."""
+    found: list[tuple[int | Plain, ...]] = []
     start = 0
     for count in mesh.submeshes or (len(indices),):
         used = indices[start : start + count]
         first, last = (int(used.min()), int(used.max())) if count else (0, -1)
-        found.append(
-            {
-                "serializedVersion": 2,
-                "firstByte": 3 * start * indices.itemsize,
-                "indexCount": 3 * count,
-                "topology": 0,
-                "baseVertex": 0,
-                "firstVertex": first,
-                "vertexCount": last - first + 1,
-                "localAABB": _bounds(vertices[first : last + 1] if len(mesh.submeshes) > 1 else vertices),
-            }
-        )
+        bounds = _bounds(vertices[first : last + 1] if len(mesh.submeshes) > 1 else vertices)
+        found.append((3 * start * indices.itemsize, 3 * count, first, last - first + 1, *bounds))
         start += count
     return found
 
 
-def _bounds(vertices: np.ndarray) -> Fields:
+def _bounds(vertices: np.ndarray) -> tuple[Plain, Plain]:
+    """Centre and extent."""
     if not len(vertices):
-        return {"m_Center": vector((0, 0, 0)), "m_Extent": vector((0, 0, 0))}
+        return vector((0, 0, 0)), vector((0, 0, 0))
     low, high = vertices.min(axis=0).astype(np.float64), vertices.max(axis=0).astype(np.float64)
-    return {
-        "m_Center": vector((0.5 * (low + high)).tolist()),
-        "m_Extent": vector((0.5 * (high - low)).tolist()),
-    }
+    return vector((0.5 * (low + high)).tolist()), vector((0.5 * (high - low)).tolist())

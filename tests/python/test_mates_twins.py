@@ -155,6 +155,7 @@ DOUBTFUL = {
     "copied_covers": "fixed",
     "copied_slots": "pin_slot",
     "copied_plungers": "cylindrical",
+    "copied_gears": "revolute",
 }
 """The joint that a copy takes from its twin: its own is not found, or another, where its twin's is sure."""
 

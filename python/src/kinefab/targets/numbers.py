@@ -18,7 +18,12 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, float):
         return None if math.isinf(value) else _plain(round(value, DECIMALS))
     if isinstance(value, (list, tuple)):
-        return [plain_value(item) for item in cast(Sequence[Any], value)]
+        return [  # most are finite floats
+            _plain(near)
+            if type(item) is float and (near := round(item, DECIMALS)) - near == 0.0
+            else plain_value(item)
+            for item in cast(Sequence[Any], value)
+        ]
     if isinstance(value, (str, int)):
         return value
     if isinstance(value, Mapping):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...spatial import Array, Pose
 from ..reading.source_frame import SourceFrame
-from .api import Usd, UsdGeom
+from .api import Gf, Usd, UsdGeom, Vt
 from .stage import matrix
 
 SQUARE = 1e-6
@@ -97,12 +97,26 @@ def _plain(lengths: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Local:
-    """A prim's matrix in its parent's, whether it ignores the parent, and whether it has several time samples."""
+    """A prim's matrix in its parent's, whether it ignores the parent, and whether it has several time samples.
+
+    mistyped: name of an attribute that is no part of it, as its type is another than the operation's; "" for none.
+    """
 
     matrix: Array
     resets: bool
     moves: bool = False
+    mistyped: str = ""
 
+
+_TYPES: dict[str, Any] = {
+    **dict.fromkeys(("transform",), (Gf.Matrix4d, Gf.Matrix4f)),
+    **dict.fromkeys(("orient",), (Gf.Quatd, Gf.Quatf, Gf.Quath)),
+    **dict.fromkeys(
+        ("translate", "scale", *(f"rotate{order}" for order in ("XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"))),
+        (Gf.Vec3d, Gf.Vec3f, Gf.Vec3h),
+    ),
+}
+"""Of the values of operations on all three axes; of those on one, they are numbers."""
 
 IDENTITY = Local(np.eye(4), False)
 
@@ -112,13 +126,24 @@ def local_of(prim: Any, time: Any = None) -> Local:
     xform = UsdGeom.Xformable(prim)
     if not xform or not prim.GetAttribute("xformOpOrder").HasAuthoredValue():
         return IDENTITY
-    ops = xform.GetOrderedXformOps()
+    mistyped = "" if isinstance(prim.GetAttribute("xformOpOrder").Get(), Vt.TokenArray) else "xformOpOrder"
+    ops: list[Any] = [] if mistyped else xform.GetOrderedXformOps()
     moves = any(op.MightBeTimeVarying() for op in ops)
     if time is None:
         time = Usd.TimeCode.Default()
         if any(op.GetNumTimeSamples() and op.GetAttr().Get(time) is None for op in ops):
             time = Usd.TimeCode.EarliestTime()
+    mistyped = mistyped or next((op.GetAttr().GetName() for op in ops if not _is_typed(op, time)), "")
+    if mistyped:
+        return Local(np.eye(4), False, mistyped=mistyped)
     return Local(matrix(xform.GetLocalTransformation(ops, time)), xform.GetResetXformStack(), moves)
+
+
+def _is_typed(op: Any, time: Any) -> bool:
+    """Whether an operation's value is of the type that its name says, or there is none; pxr raises, or passes it over."""
+    attribute = op.GetAttr()  # an inverse operation has the attribute of the one that it undoes
+    value = attribute.Get(time)
+    return value is None or isinstance(value, _TYPES.get(attribute.GetName().split(":")[1], float))
 
 
 def placed(parent: Array, local: Local) -> Array:

@@ -14,22 +14,33 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array, matrix_from_quaternion
-from .api import Usd
+from .api import Usd, UsdGeom, UsdPhysics
 from .stage import OpenStage
 
 UNBOUNDED = 0.5e38
 """USD's sentinel: from here on a bound is none (physics:lowerLimit and the like, FLT_MAX in files)."""
 
 
+RANKS: dict[str, Any] = {
+    "Scene": UsdPhysics.Scene,
+    "CollisionGroup": UsdPhysics.CollisionGroup,
+    "Joint": UsdPhysics.Joint,
+    "Gprim": UsdGeom.Gprim,
+    "Xformable": UsdGeom.Xformable,
+}
+"""Schemas that many a type is a kind of: asking pxr for each prim would be a tenth of reading a large stage."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Traits:
     """What is asked of prims again and again; prims that agree in it share it.
 
-    kind: name of the type.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
+    kind: name of the type.  ranks: what it is a kind of, of ``RANKS``.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
     fallbacks: what other properties give, by name: that of the type and its schemas.
     """
 
     kind: str
+    ranks: frozenset[str]
     schemas: tuple[str, ...]
     names: frozenset[str]
     fallbacks: dict[str, Any]
@@ -58,7 +69,8 @@ class Values:
             found = self._traits.get((kind, applied, names))
             if found is None:
                 fallbacks = self._fallbacks.setdefault((kind, applied), {})
-                found = Traits(kind, applied, frozenset(names), fallbacks)
+                ranks = frozenset(rank for rank, schema in RANKS.items() if prim.IsA(schema))
+                found = Traits(kind, ranks, applied, frozenset(names), fallbacks)
                 self._traits[kind, applied, names] = found
             self._of_prim[prim] = found
         return found
@@ -80,11 +92,10 @@ class Values:
         value = self.get(prim, name)
         if value is None:
             return default
-        try:
-            found = float(value)
-        except (TypeError, ValueError):
+        if isinstance(value, bool) or not isinstance(value, (float, int)):
             self.wrong(prim, name, value)
             return default
+        found = float(value)
         if open_ended and abs(found) >= UNBOUNDED:
             return math.copysign(math.inf, found)
         if not math.isfinite(found):
@@ -94,11 +105,21 @@ class Values:
 
     def flag(self, prim: Any, name: str, default: bool) -> bool:
         value = self.get(prim, name)
-        return default if value is None else bool(value)
+        if value is None:
+            return default
+        if not isinstance(value, int) or value not in (0, 1):  # a bool is an int; old files have ints
+            self.wrong(prim, name, value)
+            return default
+        return bool(value)
 
     def word(self, prim: Any, name: str, default: str) -> str:
         value = self.get(prim, name)
-        return default if value is None else str(value)
+        if value is None:
+            return default
+        if not isinstance(value, str):
+            self.wrong(prim, name, value)
+            return default
+        return value
 
     def vector(self, prim: Any, name: str, default: Sequence[float]) -> Array:
         """Three finite numbers."""
@@ -150,13 +171,18 @@ class Values:
         return list(relationship.GetForwardedTargets()) if relationship else []
 
     def wrong(self, prim: Any, name: str, value: object) -> None:
-        shown = str(value)
         self.report.add(
             "USD_VALUE_IMPOSSIBLE",
             self.opened.place(prim, name),
             field=name,
-            value=shown if len(shown) <= 60 else shown[:57] + "...",
+            value=shown(value),
         )
+
+
+def shown(value: object) -> str:
+    """A value as findings have it: what is long is cut."""
+    text = str(value)
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _value(prim: Any, name: str) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array
-from .api import Sdf, Usd, UsdGeom, UsdPhysics
+from .api import Sdf, Usd, UsdGeom
 from .instancer import instances
 from .stage import OpenStage
 from .transforms import IDENTITY, Local, local_of, placed
@@ -107,7 +107,10 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
     root = opened.root
     above = np.eye(4)
     for prim in reversed(list(_ancestors(root))):
-        above = placed(above, local_of(prim))
+        local = local_of(prim)
+        if local.mistyped:
+            values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
+        above = placed(above, local)
     start = _Context(above, (), -1, -1, True, "default", "")
     chosen = [root] if not root.IsPseudoRoot() else list(root.GetFilteredChildren(PREDICATE))
     pending = [(prim, start) for prim in reversed(chosen)]
@@ -149,17 +152,18 @@ def _look(
     kind, applied = traits.kind, traits.schemas
     if kind in LOOKS or kind in SKIPPED:
         return None
-    if prim.IsA(UsdPhysics.Scene):
+    ranks = traits.ranks
+    if "Scene" in ranks:
         found.scenes.append(prim)
         return None
-    if prim.IsA(UsdPhysics.CollisionGroup):
+    if "CollisionGroup" in ranks:
         found.collision_groups.append(prim)
         return None
     if "PhysicsFilteredPairsAPI" in applied:
         found.filtered.append(prim)
     if "PhysicsArticulationRootAPI" in applied:
         found.articulations.append(prim)
-    if prim.IsA(UsdPhysics.Joint) or kind.endswith("Joint") or "PhysicsJoint" in kind:
+    if "Joint" in ranks or kind.endswith("Joint") or "PhysicsJoint" in kind:
         found.joints.append(prim)
         return context
     if kind in LIGHTS:
@@ -174,6 +178,8 @@ def _look(
         found.vendor.append(prim)
         return None
     local = local_of(prim) if "xformOpOrder" in traits.names else IDENTITY
+    if local.mistyped:
+        values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
     if local is not IDENTITY and not np.isfinite(local.matrix).all():
         values.wrong(prim, "xformOpOrder", "a transform that is not finite")
         local = Local(np.eye(4), local.resets, local.moves)
@@ -188,7 +194,7 @@ def _look(
     part = context.part
     below = _Context(world, context.pending, context.group, part, visible, purpose, own if context.id else "")
     collides = "PhysicsCollisionAPI" in applied
-    if "PhysicsRigidBodyAPI" in applied and prim.IsA(UsdGeom.Xformable):
+    if "PhysicsRigidBodyAPI" in applied and "Xformable" in ranks:
         enabled = values.flag(prim, "physics:rigidBodyEnabled", True)
         group = _outer_group(context, found, groups_of)
         found.parts.append(Part(prim, own, world, group, True, enabled, visible))
@@ -196,7 +202,7 @@ def _look(
         below = _Context(world, (), group, part, visible, purpose, below.id)
     if part >= 0:
         found.body_of.setdefault(path, part)
-    if prim.IsA(UsdGeom.Gprim):
+    if "Gprim" in ranks:
         if part < 0:
             group = _outer_group(context, found, groups_of)
             found.parts.append(Part(prim, own, world, group, False, True, visible))
@@ -212,7 +218,7 @@ def _look(
             f"collider {path}", "USD_FEATURE_DROPPED", opened.place(prim),
             detail="a CollisionAPI stands on a prim without geometry of its own",
         )  # fmt: skip
-    if part >= 0 and prim.IsA(UsdGeom.Xformable) and prim != found.parts[part].prim:
+    if part >= 0 and "Xformable" in ranks and prim != found.parts[part].prim:
         if not prim.GetFilteredChildren(PREDICATE) and kind != "PointInstancer":
             found.parts[part].sites.append((prim, world))
         return below

@@ -9,8 +9,9 @@ import numpy as np
 
 from ....diagnostics import Report
 from ....spatial import Array
-from ..api import Usd, UsdGeom
+from ..api import Usd, UsdGeom, Vt
 from ..stage import OpenStage
+from ..values import shown
 from .triangulate import triangles
 
 MAX_UVS = 8
@@ -61,6 +62,7 @@ def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
         return None
     assert points is not None
     tri, owner = triangles(points, counts, corners)
+    _tell_mistyped(prim, _TYPES, time, opened, report)
     holes = _integers(mesh.GetHoleIndicesAttr().Get(time))
     if len(holes):
         keep = ~np.isin(owner, holes)
@@ -76,6 +78,33 @@ def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
     return _indexed(
         prim, mesh, points, corners, len(counts), tri, owner, face_counts, subsets, time, opened, report
     )
+
+
+_TYPES: dict[str, tuple[Any, ...]] = {
+    "holeIndices": (Vt.IntArray, Vt.UIntArray, Vt.Int64Array),
+    "normals": (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray),
+    "orientation": (str,),
+    "subdivisionScheme": (str,),
+}
+_SUBSET_TYPES: dict[str, tuple[Any, ...]] = {
+    "elementType": (str,),
+    "familyName": (str,),
+    "indices": (Vt.IntArray, Vt.UIntArray, Vt.Int64Array),
+}
+"""Of values that would be passed over, were they of another type; what a mesh cannot do without is told anyway."""
+
+
+def _tell_mistyped(
+    prim: Any, types: dict[str, tuple[Any, ...]], time: Any, opened: OpenStage, report: Report
+) -> None:
+    for name, kinds in types.items():
+        attribute = prim.GetAttribute(name)
+        value = attribute.Get(time) if attribute and attribute.HasAuthoredValue() else None
+        if value is not None and not isinstance(value, kinds):
+            report.dropped(
+                f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
+                detail=f"it cannot be {shown(value)}",
+            )  # fmt: skip
 
 
 def _time(mesh: Any, opened: OpenStage, report: Report) -> Any:
@@ -124,6 +153,8 @@ def _submeshes(
     mesh: Any, tri: np.ndarray, owner: np.ndarray, count: int, opened: OpenStage, report: Report
 ) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[Any, ...]]:
     """Triangles ordered by the material subsets; what is in none comes last."""
+    for subset in UsdGeom.Subset.GetAllGeomSubsets(mesh):
+        _tell_mistyped(subset.GetPrim(), _SUBSET_TYPES, Usd.TimeCode.Default(), opened, report)
     subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
     if not subsets:
         return tri, owner, (), (None,)
@@ -248,6 +279,8 @@ def _primvars(
             kind in ("float2[]", "double2[]", "half2[]") and name.startswith(("st", "uv", "UV"))
         ):
             coordinates.append((name != "st", name, primvar))
+        elif name == "st":
+            _report_primvar(name, opened, prim, report)
         elif name in ("displayColor", "displayOpacity") and primvar.GetInterpolation() != "constant":
             found += _primvar(name, primvar, 3 if name == "displayColor" else 1, sizes, time, opened, report)
     for number, (_, name, primvar) in enumerate(sorted(coordinates, key=lambda entry: entry[:2])):

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
 from ..stage import OpenStage
-from ..values import Values, title
+from ..values import Values, shown, title
 from .library import source_path
 from .textures import Sampler, read_sampler
+
+T = TypeVar("T")
 
 DISPLAYED = (0.5, 0.5, 0.5)
 """Colour of a prim that states none, as UsdGeom's fallback has it in viewers."""
@@ -118,9 +120,13 @@ class Surfaces:
         found: dict[str, Any] = {}
         for prim in [shader.GetPrim()] if shader else material.GetChildren():
             for source, wanted in names.items():
-                value = self.values.get(prim, f"inputs:{source}")
-                if value is not None:
-                    found[wanted] = value
+                name = f"inputs:{source}"
+                if self.values.get(prim, name) is None:
+                    continue
+                if wanted == "color":
+                    found[wanted] = self.values.vector(prim, name, (0.8, 0.8, 0.8))
+                else:
+                    found[wanted] = self.values.number(prim, name, 0.5)
         self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind or "none")
         color = found.get("color", (0.8, 0.8, 0.8))
         return Surface(
@@ -206,10 +212,11 @@ class _Inputs:
 
     def number(self, name: str, default: float) -> float:
         value = self._value(name)
-        try:
-            return default if value is None or not math.isfinite(float(value)) else float(value)
-        except (TypeError, ValueError):
+        if value is None:
             return default
+        if isinstance(value, bool) or not isinstance(value, (float, int)) or not math.isfinite(value):
+            return self._wrong(name, value, default)
+        return float(value)
 
     def color(self, name: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
         value = self._value(name)
@@ -217,13 +224,16 @@ class _Inputs:
             return default
         try:
             numbers = [float(c) for c in value]
-        except TypeError:
-            return default
-        return (
-            (numbers[0], numbers[1], numbers[2])
-            if len(numbers) == 3 and all(map(math.isfinite, numbers))
-            else default
-        )
+        except (TypeError, ValueError):
+            numbers = []
+        if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
+            return self._wrong(name, value, default)
+        return numbers[0], numbers[1], numbers[2]
+
+    def _wrong(self, name: str, value: object, default: T) -> T:
+        """The default; that the value cannot be used is told."""
+        self.lost(name, f"it cannot be {shown(value)}")
+        return default
 
     def sampler(self, name: str) -> Sampler | None:
         given = self.shader.GetInput(name)

@@ -9,8 +9,9 @@ from typing import Any
 
 from ....diagnostics import Report
 from ....model import Texture, Wrap
-from ..api import Ar, UsdShade
+from ..api import Ar, Sdf, UsdShade
 from ..stage import OpenStage
+from ..values import shown
 
 MEDIA = {
     ".png": ("image/png", b"\x89PNG"),
@@ -49,6 +50,9 @@ def read_sampler(
     if given is None:
         report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
         return None
+    if not isinstance(given, Sdf.AssetPath):
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=shown(given), detail="it names no asset")
+        return None
     image, detail = _image(str(given.path), str(given.resolvedPath), opened)
     if image is None:
         report.dropped(feature, "USD_TEXTURE_MISSING", where, path=given.path, detail=detail)
@@ -64,8 +68,8 @@ def read_sampler(
             where,
             detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
         )
-    *tint, alpha = _floats(_input(shader, "scale"), (1.0, 1.0, 1.0, 1.0))
-    bias = _floats(_input(shader, "bias"), (0.0, 0.0, 0.0, 0.0))[:3]
+    *tint, alpha = _floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), opened, report)
+    bias = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), opened, report)[:3]
     normal_map = tint == [2.0, 2.0, 2.0] and bias == (-1.0, -1.0, -1.0)
     if any(bias) and not normal_map:
         report.approximated(
@@ -85,13 +89,28 @@ def _input(shader: Any, name: str) -> Any:
     return producing[0].Get() if producing else None
 
 
-def _floats(value: Any, default: tuple[float, ...]) -> tuple[float, ...]:
-    """As many finite numbers as the default has, the default where there are none."""
-    try:
-        found = tuple(float(c) for c in value)
-    except TypeError:
+def _floats(
+    shader: Any, name: str, default: tuple[float, ...], opened: OpenStage, report: Report
+) -> tuple[float, ...]:
+    """As many finite numbers as the default has; the default where nothing is said, or, told, something else."""
+    value = _input(shader, name)
+    if value is None:
         return default
-    return found if len(found) == len(default) and all(map(math.isfinite, found)) else default
+    try:
+        found = tuple(float(c) for c in ([value] if len(default) == 1 else value))
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) == len(default) and all(map(math.isfinite, found)):
+        return found
+    prim = shader.GetPrim()
+    detail = f"it cannot be {shown(value)}"
+    report.dropped(
+        f"{name} of {prim.GetPath()}",
+        "USD_FEATURE_DROPPED",
+        opened.place(prim, f"inputs:{name}"),
+        detail=detail,
+    )
+    return default
 
 
 def _image(
@@ -99,14 +118,14 @@ def _image(
 ) -> tuple[tuple[str, Path | None, bytes | None, str] | None, str]:
     """(name, path, data, media type), or None and what is wrong."""
     inner = resolved.rpartition("[")[2].rstrip("]") if resolved.endswith("]") else ""
-    shown = Path(inner or named)
-    if shown.suffix.lower() not in MEDIA:
+    given = Path(inner or named)
+    if given.suffix.lower() not in MEDIA:
         return None, "it is no image that Unity reads"
     if not inner and Path(named).is_absolute():
         return None, "it is named by an absolute path"
     if not resolved:
         return None, "the file is not there"
-    media, magic = MEDIA[shown.suffix.lower()]
+    media, magic = MEDIA[given.suffix.lower()]
     try:
         if inner:
             asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(resolved))
@@ -148,9 +167,12 @@ def _coordinates(
         source: Any = UsdShade.Shader(producing[0].GetPrim()) if producing else None
         kind = "" if not source else str(source.GetIdAttr().Get() or "")
         if kind == "UsdTransform2d":
-            s, t = _floats(_input(source, "scale"), scale), _floats(_input(source, "translation"), offset)
+            s, t = (
+                _floats(source, key, before, opened, report)
+                for key, before in (("scale", scale), ("translation", offset))
+            )
             scale, offset = (s[0], s[1]), (t[0], t[1])
-            rotation = math.radians(_floats([_input(source, "rotation") or 0.0], (0.0,))[0])
+            rotation = math.radians(_floats(source, "rotation", (0.0,), opened, report)[0])
             given = source.GetInput("in")
             continue
         if kind.startswith("UsdPrimvarReader"):

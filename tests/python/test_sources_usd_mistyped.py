@@ -62,6 +62,17 @@ def Xform "World"
             }
         }
     }
+    def PointInstancer "Copies"
+    {
+        rel prototypes = </World/Copies/Block>
+        int[] protoIndices = [0, 0]
+        point3f[] positions = [(5, 0, 0), (6, 0, 0)]
+        quath[] orientations = [(1, 0, 0, 0), (1, 0, 0, 0)]
+        def Cube "Block"
+        {
+            double size = 0.3
+        }
+    }
 }
 """
 
@@ -94,6 +105,8 @@ MISTYPED = [
     ('uniform token subdivisionScheme = "none"', "bool subdivisionScheme = 0"),
     ('uniform token familyName = "materialBind"', "float familyName = 1"),
     ("int[] indices = [0, 1]", 'string indices = "all"'),
+    ("int[] protoIndices = [0, 0]", "float protoIndices = 1"),
+    ("quath[] orientations = [(1, 0, 0, 0), (1, 0, 0, 0)]", "float[] orientations = [1, 2]"),
 ]
 
 

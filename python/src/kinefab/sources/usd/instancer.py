@@ -9,10 +9,19 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array
-from .api import Tf, Usd, UsdGeom
+from .api import Tf, Usd, UsdGeom, Vt
 from .stage import OpenStage, matrix
+from .values import shown
 
 MAX_INSTANCES = 1_000_000
+_VECTORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
+_TYPES: dict[str, Any] = {
+    "protoIndices": Vt.IntArray,
+    "positions": _VECTORS,
+    "orientations": (Vt.QuathArray, Vt.QuatfArray, Vt.QuatdArray),
+    "scales": _VECTORS,
+}
+"""Of an instancer's arrays; pxr passes over some of another type, and stumbles over others."""
 
 
 def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[int, Any, Array]]:
@@ -25,6 +34,14 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
     indices = instancer.GetProtoIndicesAttr().Get(time)
     targets = instancer.GetPrototypesRel().GetForwardedTargets()
     where = opened.place(prim)
+    for name, kinds in _TYPES.items():
+        value = prim.GetAttribute(name).Get(time)
+        if value is not None and not isinstance(value, kinds):
+            detail = f"{name} cannot be {shown(value)}"
+            report.dropped(
+                f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name), detail=detail
+            )
+            return
     if not indices or not targets:
         return
     if len(indices) > MAX_INSTANCES:
@@ -45,8 +62,8 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
         report.dropped(f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=detail)
         return
     mask = instancer.ComputeMaskAtTime(time) or [True] * len(indices)
-    for number, (index, shown) in enumerate(zip(indices, mask)):
-        if not shown:
+    for number, (index, visible) in enumerate(zip(indices, mask)):
+        if not visible:
             continue
         prototype = prim.GetStage().GetPrimAtPath(targets[index]) if 0 <= index < len(targets) else None
         placing = matrix(found[number])

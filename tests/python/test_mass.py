@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -120,3 +121,23 @@ def test_hull_is_wound_outwards():
     expected = trimesh.convex.convex_hull(points).volume
     assert solid_properties(vertices, faces, 1.0).mass == pytest.approx(expected)
     assert isinstance(solid_properties(vertices, faces, 1.0), MassProperties)
+
+
+@pytest.mark.skipif(find_spec("manifold3d") is None, reason="manifold3d is not installed")
+def test_a_fine_tube_without_ends_is_weighed_as_its_hull():
+    """Thirty thousand points stand on each of its two flat faces: qhull alone would take minutes."""
+    around = np.linspace(0.0, 2.0 * np.pi, 30_000, endpoint=False)
+    rim = np.column_stack([0.1 * np.cos(around), 0.1 * np.sin(around)])
+    vertices = np.vstack([np.column_stack([rim, np.full(len(rim), z)]) for z in (0.0, 0.4)])
+    here = np.arange(len(rim))
+    there = np.roll(here, -1)
+    wall = [
+        np.column_stack([here, there, here + len(rim)]),
+        np.column_stack([there, there + len(rim), here + len(rim)]),
+    ]
+    scene, report = weighed(vertices, np.vstack(wall))
+    mass = scene.nodes[0].mass
+    area = 0.5 * len(rim) * 0.01 * math.sin(2.0 * math.pi / len(rim))
+    assert mass.mass == pytest.approx(1000.0 * area * 0.4, rel=1e-6)
+    assert np.allclose(mass.center, (0.0, 0.0, 0.2), atol=1e-6)
+    assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]

@@ -61,10 +61,14 @@ def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Rep
 
 
 def hull_of_points(points: Array) -> Hull | None:
-    """Convex hull of points, shape (n, 3): vertices and outward wound faces; None for a flat cloud."""
+    """Convex hull of points, shape (n, 3): vertices and outward wound faces; None for a flat cloud.
+
+    Of many points by Manifold where it can: qhull takes the square of what stands on one face, minutes for a fine cylinder.
+    """
     if len(points) < 4 or not _is_solid(points):
         return None
-    found = _wrapped(points)
+    found = _wrapped_fast(points) if len(points) > EXACT else None
+    found = _wrapped(points) if found is None else found
     return None if found is None else found[0]
 
 

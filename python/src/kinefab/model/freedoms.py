@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from ..spatial import Array
@@ -127,6 +127,24 @@ class Freedom:
         (0.25,)
         """
         return tuple(value + 2.0 * math.pi * self.turns for value in values)
+
+    def counted_from(self, zero: float) -> Freedom:
+        """The same freedom whose coordinate is zero where it was ``zero``, metres or radians.
+
+        >>> kinefab.Freedom(kinefab.Motion.LIMITED, lower=-1.0, upper=2.0).counted_from(0.5).upper
+        1.5
+        """
+        if zero == 0.0:
+            return self
+        drive, passive = self.drive, self.passive
+        return replace(
+            self,
+            lower=self.lower - zero,
+            upper=self.upper - zero,
+            drive=None if drive is None else replace(drive, target=drive.target - zero),
+            passive=None if passive is None else replace(passive, rest=passive.rest - zero),
+            at=None if self.at is None else self.at - zero,
+        )
 
     def nearest_turn(self, value: float) -> float:
         """The angle, radians, that ``value`` stands for where it is known up to whole turns.

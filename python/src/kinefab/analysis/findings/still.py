@@ -10,8 +10,9 @@ from ...model import Constraint, ConstraintKind, Joint, JointKind, NodeKind, Sce
 from ...rigid import active_nodes
 from ..assembly.assemble import Assembly, assemble
 
-MOST = 60
-"""Joints or constraints that are left out one by one, at most, to see which of them holds the rest."""
+MOST, WORK = 60, 10_000
+"""Joints or constraints that are left out one by one, at most, to see which of them holds the rest; and statements that are
+assembled for it in all, at most: it says why, and must not take longer than what it is about."""
 NAMED = 6
 HOLDING = frozenset({ConstraintKind.LOCK, ConstraintKind.GROUND})
 
@@ -31,11 +32,18 @@ def report_still(scene: Scene, assembly: Assembly, mobility: int, report: Report
     if all(_is_fixed(statement) for statement in stated):
         report.add("ALL_FIXED", where, parts=parts, names=_listed([s.id for s in stated]))
         return
+    most = min(MOST, WORK // len(stated))
+    left: dict[int, list[Joint | Constraint]] = {}
+    all_tried = True
     for fixed in (True, False):
-        left = _left_without(scene, [s for s in stated if _is_fixed(s) is fixed][:MOST])
+        tried = [s for s in stated if _is_fixed(s) is fixed]
+        all_tried = all_tried and len(tried) <= most
+        left = _left_without(scene, assembly.floating, tried[:most])
         if left:
             break
     reason = "no single one of them holds it, so more than one is too many"
+    if not all_tried:
+        reason = "which of them hold it is not looked for among so many"
     if left:
         fewest, found = min(left.items())
         names = [f"{statement.id} ({statement.kind.value})" for statement in found]
@@ -69,15 +77,17 @@ def _without(scene: Scene, statement: Joint | Constraint) -> Scene:
 
 
 def _left_without(
-    scene: Scene, statements: Sequence[Joint | Constraint]
+    scene: Scene, floating: int, statements: Sequence[Joint | Constraint]
 ) -> dict[int, list[Joint | Constraint]]:
-    """The statements by how many freedoms are left without one; not those that leave none, nor a part that nothing holds."""
+    """The statements by how many freedoms are left without one; not those that leave none, nor a part that nothing holds.
+
+    floating: the scene's own islands that nothing joins to ground.
+    """
     found: dict[int, list[Joint | Constraint]] = {}
-    held = assemble(scene, Report()).floating
     for statement in statements:
         assembly = assemble(_without(scene, statement), Report())
         count = sum(finite.mobility for finite in assembly.finite)
-        if count and assembly.floating == held:
+        if count and assembly.floating == floating:
             found.setdefault(count, []).append(statement)
     return found
 

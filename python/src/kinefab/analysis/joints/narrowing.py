@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...model import LOCKED, RX, TX, Freedom, Joint, JointKind, Motion, freedoms_of
+from ...model import LOCKED, RX, TX, Joint, JointKind, freedoms_of
 from ...spatial import Array, Pose
 from ..freedom.finite import Candidate
 
@@ -53,7 +53,7 @@ def narrowed(joint: Joint, found: Candidate, a: Pose, b: Pose) -> Joint | None:
     turn = joint.freedoms[RX + axis] if turns else LOCKED
     if found.kind is JointKind.SCREW:
         start = _beginning(found.lead, along[1] - along[0], _angle(turn_a, turn_b))
-        at_a, slide = at_a + start * x, _counted_from(slide, start)
+        at_a, slide = at_a + start * x, slide.counted_from(start)
     return replace(
         joint,
         kind=found.kind,
@@ -73,20 +73,3 @@ def _angle(a: Array, b: Array) -> float:
 def _beginning(lead: float, slide: float, angle: float) -> float:
     """Where a slide stands when its screw's angle is zero, metres: half a lead to either side at the most."""
     return math.remainder(slide - lead * angle / (2.0 * math.pi), lead) if lead else 0.0
-
-
-def _counted_from(freedom: Freedom, start: float) -> Freedom:
-    """The same slide with its zero at ``start``, metres."""
-    if start == 0.0:
-        return freedom
-    moved = replace(
-        freedom,
-        drive=None if freedom.drive is None else replace(freedom.drive, target=freedom.drive.target - start),
-        passive=None
-        if freedom.passive is None
-        else replace(freedom.passive, rest=freedom.passive.rest - start),
-        at=None if freedom.at is None else freedom.at - start,
-    )
-    if freedom.motion is not Motion.LIMITED:
-        return moved
-    return replace(moved, lower=freedom.lower - start, upper=freedom.upper - start)

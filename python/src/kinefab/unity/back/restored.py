@@ -164,7 +164,7 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
             sides.reverse()
         (first, at_first), (_, at_second) = sides
         gap = np.where([i in unlocked for i in range(RX)], world.T @ (at_second - at_first), 0.0)
-        freedoms = _counted_from(freedoms, gap)
+        freedoms = (*map(Freedom.counted_from, freedoms, gap.tolist()), *freedoms[RX:])
         sides[0] = (first, at_first + world @ gap)
     (a, at_a), (b, at_b) = sides
     kind = JointKind.REVOLUTE if hinge else kind_of(unlocked)
@@ -179,14 +179,6 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
 def _turned_round(own: Freedom) -> Freedom:
     """Of a against b what is given of b against a."""
     return replace(own, lower=-own.upper, upper=-own.lower) if own.motion is Motion.LIMITED else own
-
-
-def _counted_from(freedoms: tuple[Freedom, ...], zeros: Array) -> tuple[Freedom, ...]:
-    """The same slides with their zeros elsewhere.  zeros: metres, shape (3,)."""
-    return tuple(
-        replace(own, lower=own.lower - zero, upper=own.upper - zero) if own.motion is Motion.LIMITED else own
-        for own, zero in zip(freedoms, (*zeros.tolist(), 0.0, 0.0, 0.0))
-    )
 
 
 def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:

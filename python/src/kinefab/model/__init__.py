@@ -29,6 +29,7 @@ from .freedoms import (
     Passive,
     SphericalDrive,
 )
+from .ids import free_id
 from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
@@ -91,6 +92,7 @@ __all__ = [
     "UNLOCKED",
     "Wrap",
     "alike_from_both_sides",
+    "free_id",
     "freedoms_of",
     "kind_of",
     "unlocked_of",

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import Body, Collider, PhysicsMaterial, Scene, Surface
+from ..model import Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes
 from ..spatial import Pose, quaternion_from_matrix
@@ -142,7 +142,7 @@ class _Builder:
             self._add_bodies(i, index)
             self._add_colliders(i, index)
             for site in node.sites:
-                self._object(self._free_id(f"{node.id}/site:{site.name}"), site.name, index, site.pose)
+                self._object(free_id(f"{node.id}/site:{site.name}", self.taken), site.name, index, site.pose)
 
     def _object(self, id: str, name: str, parent: int | None, local: Pose, scale: Vector3 = ONE) -> int:
         """The index of a new GameObject."""
@@ -152,15 +152,6 @@ class _Builder:
         self.objects.append(GameObject(id, name, parent, transform=transform))
         self.components.append([])
         return len(self.objects) - 1
-
-    def _free_id(self, wanted: str) -> str:
-        """The id, with the first number that makes it one of its own among those of the node's objects."""
-        id, count = wanted, 1
-        while id in self.taken:
-            count += 1
-            id = f"{wanted}#{count}"
-        self.taken.add(id)
-        return id
 
     def _dynamic(self, index: int) -> bool:
         """Whether a node's body is moved by forces."""
@@ -178,7 +169,7 @@ class _Builder:
             assert body.mesh is not None
             holder = parent
             if len(bodies) > 1 or not _at_home(body):
-                id = self._free_id(f"{node.id}/body:{body.name}")
+                id = free_id(f"{node.id}/body:{body.name}", self.taken)
                 holder = self._object(id, body.name, parent, body.pose, body.scale)
             mesh = self.scene.meshes[body.mesh]
             materials = tuple(body.surfaces) or (self._plain(),) * max(1, len(mesh.face_counts))
@@ -200,7 +191,7 @@ class _Builder:
                 holder = parent
                 if placed.pose is not None:
                     name = collider.name or collider.kind.value
-                    id = self._free_id(f"{node.id}/collider:{name}")
+                    id = free_id(f"{node.id}/collider:{name}", self.taken)
                     holder = self._object(id, name, parent, placed.pose, placed.scale)
                 self.components[holder].append(placed.component)
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ..diagnostics import Report
+from ..model import free_id
 from .scene import (
     ConfigurableJoint,
     Coupling,
@@ -62,7 +63,7 @@ def _chain(coupling: Coupling, objects: list[GameObject], taken: set[str]) -> li
     ties: list[Coupling] = []
     last = base
     for number, term in enumerate(coupling.terms, 1):
-        name = _unused(f"{coupling.id}:{number}", taken)
+        name = free_id(f"{coupling.id}:{number}", taken)
         on = replace(kind, connectedBody=last, because=(coupling.id,))
         last = len(objects)
         objects.append(GameObject(name, name, owner.parent, True, stand, (body, on)))
@@ -86,11 +87,3 @@ def _light(components: Sequence[object]) -> Rigidbody:
     beside = next((c for c in components if isinstance(c, Rigidbody)), Rigidbody())
     x, y, z = (SHARE * moment for moment in beside.inertiaTensor)
     return Rigidbody(SHARE * beside.mass, inertiaTensor=(x, y, z), angularDamping=0.0, useGravity=False)
-
-
-def _unused(name: str, taken: set[str]) -> str:
-    chosen, count = name, 2
-    while chosen in taken:
-        chosen, count = f"{name}#{count}", count + 1
-    taken.add(chosen)
-    return chosen

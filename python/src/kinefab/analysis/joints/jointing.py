@@ -10,7 +10,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...findings import JointFinding
-from ...model import RX, TY, TZ, Constraint, Coupling, Joint, MassProperties, Node
+from ...model import RX, TY, TZ, Constraint, Coupling, Joint, MassProperties, Node, free_id
 from ...spatial import Array, Pose
 from ..assembly.assemble import Assembly
 from ..freedom.finite import Candidate
@@ -188,7 +188,7 @@ class _Jointing:
         weight = MassProperties(mass, np.zeros(3), 0.4 * mass * radius * radius * np.eye(3))
         self.nodes.append(
             Node(
-                self._unique(f"middle:{name}"),
+                free_id(f"middle:{name}", self.names),
                 f"middle {name}",
                 pose=Pose(np.eye(3), 0.5 * (near + far)),
                 mass=weight,
@@ -196,13 +196,6 @@ class _Jointing:
             )
         )
         return self.assembly.system.bodies + len(self.nodes) - 1
-
-    def _unique(self, name: str) -> str:
-        candidate, count = name, 2
-        while candidate in self.names:
-            candidate, count = f"{name}#{count}", count + 1
-        self.names.add(candidate)
-        return candidate
 
     def _add(
         self, first: int, second: int, candidate: Candidate, relation: Relation, names: list[str]
@@ -214,7 +207,7 @@ class _Jointing:
             first_is_a = self._rank(first) <= self._rank(second)
         a, b = bodies if first_is_a else bodies[::-1]
         node_a, node_b = self._node(a, relation), self._node(b, relation)
-        id = self._unique(f"{self._label_of(node_a)} - {self._label_of(node_b)}")
+        id = free_id(f"{self._label_of(node_a)} - {self._label_of(node_b)}", self.names)
         where = self.where.get(names[0], "")
         self.found.append(Draft(id, a, b, node_a, node_b, candidate, relation, names, where))
 

@@ -13,12 +13,14 @@ import trimesh
 from golden import FIXTURES
 from kinefab.diagnostics import Report
 from kinefab.geometry import hulls
-from kinefab.geometry.contact import decomposition
-from kinefab.geometry.contact.nearness import close_pairs, extents
+from kinefab.geometry.contact import decomposition, nearness
+from kinefab.geometry.contact.nearness import close_pairs, extents, placed_extents
 from kinefab.geometry.hulls import UNITY_TRIANGLES, collision_hulls, hull_of_points
 from kinefab.geometry.mass import solid_volume
 from kinefab.model import Mesh, Scene
 from kinefab.spatial import matrix_from_quaternion
+from kinefab.unity.scene import BoxCollider, GameObject, SphereCollider, Transform, UnityScene
+from kinefab.unity.standing import standing_colliders
 
 MANIFOLD = pytest.mark.skipif(find_spec("manifold3d") is None, reason="manifold3d is not installed")
 COAL = pytest.mark.skipif(find_spec("coal") is None, reason="coal is not installed")
@@ -127,7 +129,9 @@ def test_joined_parts_do_not_count_as_near(tmp_path):
     assert f"R{number}" in told.message
 
 
-def test_close_pairs_are_those_of_every_pair():
+@pytest.mark.parametrize("at_once", [1, nearness.AT_ONCE])
+def test_close_pairs_are_those_of_every_pair(at_once, monkeypatch):
+    monkeypatch.setattr(nearness, "AT_ONCE", at_once)
     rng = np.random.default_rng(4)
     shapes = [rng.normal(size=(6, 3)) * 0.3 + rng.uniform(-2, 2, 3) for _ in range(60)]
     low, high = (np.array(ends) for ends in zip(*map(extents, shapes)))
@@ -137,6 +141,38 @@ def test_close_pairs_are_those_of_every_pair():
         if (low[a] <= high[b]).all() and (low[b] <= high[a]).all()
     ]
     assert len(expected) > 10 and [tuple(pair) for pair in close_pairs(low, high).tolist()] == expected
+
+
+@pytest.mark.parametrize("at_once", [1, nearness.AT_ONCE])
+def test_a_shape_in_many_places_reaches_as_far_as_its_points(at_once, monkeypatch):
+    monkeypatch.setattr(nearness, "AT_ONCE", at_once)
+    rng = np.random.default_rng(5)
+    points, linear, at = rng.normal(size=(20, 3)), rng.normal(size=(7, 3, 3)), rng.normal(size=(7, 3))
+    low, high = placed_extents(points, linear, at)
+    for k in range(7):
+        expected = extents(points @ linear[k].T + at[k])
+        assert np.allclose(low[k], expected[0]) and np.allclose(high[k], expected[1])
+
+
+def test_colliders_stand_where_the_objects_above_put_them():
+    """A box in a turned and stretched object, in one that is moved; one in an object that is switched off is not there."""
+    half = np.sqrt(0.5)
+    boxed = (BoxCollider(center=(1.0, 0.0, 0.0), size=(2.0, 4.0, 6.0)), SphereCollider(radius=0.0))
+    objects = [
+        GameObject(
+            "A", "A", None, True, Transform((0.0, 10.0, 0.0), (0.0, 0.0, half, half), (1.0, 1.0, 2.0))
+        ),
+        GameObject("B", "B", 0, True, Transform((5.0, 0.0, 0.0)), boxed),
+        GameObject("C", "C", 0, False),
+        GameObject("D", "D", 2, True, components=boxed),
+        GameObject("E", "E", None, True, Transform((0.0, 0.0, 9.0)), boxed),
+    ]
+    found = standing_colliders(UnityScene(gameObjects=tuple(objects)))
+    assert found.owners == [1, 4]
+    assert np.allclose(found.low, [(-2, 15, -6), (0, -2, 6)]) and np.allclose(
+        found.high, [(2, 17, 6), (2, 2, 12)]
+    )
+    assert np.allclose(found.solid(0).vertices.max(axis=0), found.high[0])
 
 
 @pytest.mark.parametrize(

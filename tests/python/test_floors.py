@@ -47,7 +47,7 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "unity": [
         {"frames", "scene"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "back"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing"},
         {"mapping", "overlaps", "sums"},
         {"__init__"},
     ],

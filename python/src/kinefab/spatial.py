@@ -174,3 +174,14 @@ def matrix_from_quaternion(q: Array) -> Array:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def matrices_from_quaternions(q: Array) -> Array:
+    """Rotation matrices of quaternions (x, y, z, w) of any length above zero, shape (n, 4) to (n, 3, 3)."""
+    x, y, z, w = (q / np.sqrt((q * q).sum(axis=1, keepdims=True))).T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.array(rows).transpose(2, 0, 1)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..diagnostics import Report
-from ..geometry.contact.depth import Depths, Solid, is_available
+from ..geometry.contact.depth import Depths, is_available
 from ..geometry.contact.nearness import close_pairs
-from ..geometry.primitives import box, sphere
-from ..spatial import Array, IntArray, bounds, matrix_from_quaternion
-from .scene import BoxCollider, CapsuleCollider, Joint, MeshCollider, Rigidbody, SphereCollider, UnityScene
+from ..spatial import Array
+from .scene import Joint, Rigidbody, UnityScene
+from .standing import standing_colliders
 
 CONTACT_OFFSET = 0.01
 """Metres: Unity's default, within which touching shapes are held apart softly."""
@@ -22,37 +20,27 @@ MOST_PAIRS = 20_000
 MOST_TRIANGLES = 100_000
 """Of a mesh that is not convex; finer ones take minutes to prepare."""
 
-_Collider = BoxCollider | SphereCollider | CapsuleCollider | MeshCollider
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Placed:
-    """A collider in the world.  body: index of the object whose Rigidbody moves it, None for a static one."""
-
-    owner: int
-    body: int | None
-    solid: Solid
-    low: Array
-    high: Array
-
 
 def check_overlaps(scene: UnityScene, report: Report) -> None:
     """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first."""
-    moved = _bodies(scene)
+    bodies = _bodies(scene)
     dynamic = {
         i
         for i, entry in enumerate(scene.gameObjects)
         for c in entry.components
         if isinstance(c, Rigidbody) and not c.isKinematic
     }
-    placed = _placed(scene, moved) if dynamic else []
-    joined = _joined(scene, moved)
+    if not dynamic:
+        return
+    joined = _joined(scene, bodies)
+    standing = standing_colliders(scene)
+    moved = [bodies[owner] for owner in standing.owners]
     free = [
-        (first, second)
-        for first, second in _close(placed)
-        if first.body != second.body
-        and dynamic & {first.body, second.body}
-        and frozenset((first.body, second.body)) not in joined
+        (first, second, tolerated)
+        for first, second, tolerated in _close(standing.low, standing.high)
+        if moved[first] != moved[second]
+        and dynamic & {moved[first], moved[second]}
+        and frozenset((moved[first], moved[second])) not in joined
     ]
     if not free:
         return
@@ -63,13 +51,14 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
         report.add("OVERLAPS_NOT_CHECKED", detail=f"more than {MOST_PAIRS} pairs of shapes are close")
     depths, found = Depths(), dict[tuple[int, int], float]()
     fine: set[int] = set()
-    for first, second in free[:MOST_PAIRS]:
-        if max(len(first.solid.faces), len(second.solid.faces)) > MOST_TRIANGLES:
-            fine.add(max(first, second, key=lambda p: len(p.solid.faces)).owner)
+    for first, second, tolerated in free[:MOST_PAIRS]:
+        finest = max(first, second, key=standing.triangles)
+        if standing.triangles(finest) > MOST_TRIANGLES:
+            fine.add(standing.owners[finest])
             continue
-        depth = depths.between(first.solid, second.solid)
-        if depth > _tolerated(first, second):
-            pair = (first.owner, second.owner)
+        depth = depths.between(standing.solid(first), standing.solid(second))
+        if depth > tolerated:
+            pair = (standing.owners[first], standing.owners[second])
             found[pair] = max(depth, found.get(pair, 0.0))
     for owner in sorted(fine):
         detail = f"{scene.gameObjects[owner].id} has more than {MOST_TRIANGLES} triangles"
@@ -98,76 +87,13 @@ def _joined(scene: UnityScene, moved: list[int | None]) -> set[frozenset[int | N
     }
 
 
-def _placed(scene: UnityScene, moved: list[int | None]) -> list[_Placed]:
-    world: list[tuple[Array, Array]] = []  # linear part and translation of each object
-    active: list[bool] = []
-    found: list[_Placed] = []
-    shapes: dict[int, tuple[Array, IntArray]] = {}  # of meshes, many of which stand in several places
-    for i, entry in enumerate(scene.gameObjects):
-        t = entry.transform
-        linear = matrix_from_quaternion(np.array(t.localRotation)) * np.array(t.localScale)
-        position = np.array(t.localPosition)
-        above = (np.eye(3), np.zeros(3)) if entry.parent is None else world[entry.parent]
-        world.append((above[0] @ linear, above[0] @ position + above[1]))
-        active.append(entry.active and (entry.parent is None or active[entry.parent]))
-        for component in entry.components:
-            if not isinstance(component, _Collider) or not active[i]:
-                continue
-            if not component.enabled or component.isTrigger or _is_nothing(component):
-                continue
-            vertices, faces, convex = _shape(scene, component, shapes)
-            points = vertices @ world[i][0].T + world[i][1]
-            solid = Solid(points, faces, convex)
-            found.append(_Placed(i, moved[i], solid, *bounds(points)))
-    return found
+def _close(low: Array, high: Array) -> list[tuple[int, int, float]]:
+    """Pairs whose boxes overlap by more than is tolerated, each with the depth, metres, up to which that is.
 
-
-def _is_nothing(collider: _Collider) -> bool:
-    """Whether a shape has no extent at all, as a target will say."""
-    if isinstance(collider, MeshCollider):
-        return False
-    return max(collider.size) <= 0.0 if isinstance(collider, BoxCollider) else collider.radius <= 0.0
-
-
-def _shape(
-    scene: UnityScene, collider: _Collider, shapes: dict[int, tuple[Array, IntArray]]
-) -> tuple[Array, IntArray, bool]:
-    """Vertices in the object's frame, triangles, and whether the shape is convex.  shapes: gets those of meshes."""
-    if isinstance(collider, MeshCollider):
-        if collider.mesh not in shapes:
-            mesh = scene.meshes[collider.mesh]
-            own = (np.asarray(mesh.vertices, np.float64), np.asarray(mesh.triangles, np.int64))
-            shapes[collider.mesh] = own
-        return *shapes[collider.mesh], collider.convex
-    center = np.array(collider.center)
-    if isinstance(collider, BoxCollider):
-        made = box(collider.size)
-        return made.vertices + center, made.faces, True
-    made = sphere(collider.radius)
-    vertices = made.vertices
-    if isinstance(collider, CapsuleCollider):
-        axis = np.eye(3)["XYZ".index(str(collider.direction))]
-        half = max(0.0, 0.5 * collider.height - collider.radius)
-        vertices = vertices + half * np.sign(np.round(vertices @ axis, 12))[:, None] * axis
-    return vertices + center, made.faces, True
-
-
-def _tolerated(first: _Placed, second: _Placed) -> float:
-    """The depth, metres, up to which two shapes may stand in each other."""
-    size = min(float((p.high - p.low).max()) for p in (first, second))
-    return min(CONTACT_OFFSET, SHARE * size)
-
-
-def _close(placed: list[_Placed]) -> list[tuple[_Placed, _Placed]]:
-    """Pairs whose boxes overlap by more than is tolerated."""
-    if not placed:
-        return []
-    near = close_pairs(np.array([p.low for p in placed]), np.array([p.high for p in placed]))
-    numbers: list[list[int]] = near.tolist()
-    pairs = [(placed[i], placed[j]) for i, j in numbers]
-    return [(a, b) for a, b in pairs if _box_depth(a, b) > _tolerated(a, b)]
-
-
-def _box_depth(first: _Placed, second: _Placed) -> float:
-    """Metres that one box must move to be free of the other; what stands in a box moves no further."""
-    return float(np.minimum(first.high - second.low, second.high - first.low).min())
+    low, high: of the boxes, shape (n, 3).  What stands in a box moves no further to be free of another than the box itself.
+    """
+    first, second = close_pairs(low, high).T
+    size = (high - low).max(axis=1, initial=0.0)
+    tolerated = np.minimum(CONTACT_OFFSET, SHARE * np.minimum(size[first], size[second]))
+    deep = np.minimum(high[first] - low[second], high[second] - low[first]).min(axis=1) > tolerated
+    return list(zip(first[deep].tolist(), second[deep].tolist(), tolerated[deep].tolist()))

@@ -62,22 +62,27 @@ class Depths:
             if not extent:
                 self._prepared[id(solid)] = None
                 return None
-            coal = self._coal
-            model = coal.BVHModelOBBRSS()
-            model.beginModel(len(solid.faces), len(solid.vertices))
-            model.addSubModel(
-                _listed(coal.StdVec_Vec3s(), np.asarray(solid.vertices, dtype=np.float64)),
-                _listed(coal.StdVec_Triangle(), [coal.Triangle(*map(int, face)) for face in solid.faces]),
-            )
-            model.endModel()
-            if solid.convex and extent == 3:  # qhull ends the whole process over a flat one
-                model.buildConvexHull(True, "Qt")
-                model = model.convex
-                if solid.radius > 0.0:
-                    model.setSweptSphereRadius(solid.radius)
-            model.computeLocalAABB()
-            self._prepared[id(solid)] = model
+            self._prepared[id(solid)] = self._made(solid, extent == 3)
         return self._prepared[id(solid)]
+
+    def _made(self, solid: Solid, spatial: bool) -> Any:
+        """spatial: whether it is wide in three directions; qhull ends the whole process over a flat shape."""
+        coal = self._coal
+        vertices = np.asarray(solid.vertices, dtype=np.float64)
+        if solid.convex and spatial:
+            made = coal.Convex.convexHull(_listed(coal.StdVec_Vec3s(), vertices), True, "Qt")
+            if solid.radius > 0.0:
+                made.setSweptSphereRadius(solid.radius)
+        else:
+            made = coal.BVHModelOBBRSS()
+            made.beginModel(len(solid.faces), len(vertices))
+            triangles = [coal.Triangle(*face) for face in solid.faces.tolist()]
+            made.addSubModel(
+                _listed(coal.StdVec_Vec3s(), vertices), _listed(coal.StdVec_Triangle(), triangles)
+            )
+            made.endModel()
+        made.computeLocalAABB()
+        return made
 
 
 def _extent(solid: Solid) -> int:

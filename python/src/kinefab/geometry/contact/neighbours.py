@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...model import Collider, ColliderKind, Mesh, Scene
+from ...model import Body, Collider, ColliderKind, Mesh, Scene
 from ...options import Ground
 from ...rigid import RigidGroups
 from ...spatial import Array, Pose
-from .nearness import close_pairs, extents
+from .nearness import DIRECTIONS, close_pairs, extents, placed_extents
 
 _GROUND = -1
 _CORNERS: Array = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
@@ -24,41 +24,64 @@ def meshes_near_others(
     A joint keeps its two groups from colliding, unless it lets them; the ground only where it is a body.
     hulls: by mesh, what stands for it.
     """
-    owners: list[int] = []
-    meshes: list[int | None] = []
-    low: list[Array] = []
-    high: list[Array] = []
+    shapes = _Shapes()
     for i, node in enumerate(scene.nodes):
         group = groups.group_of[i]
         if group is None:
             continue
         owner = _GROUND if groups.grounded[group] else group
-        shapes: list[tuple[int | None, Array]] = []
         if node.colliders is None:
             for body in node.bodies:
                 if body.mesh is not None:
-                    points = hulls.get(body.mesh, scene.meshes[body.mesh]).vertices * body.scale
-                    shapes.append((body.mesh, body.pose.point(points)))
+                    shapes.add_body(owner, node.pose, body, body.mesh)
         for collider in node.colliders or ():
-            shapes.append((None, _corners(collider, scene)))
-        for mesh, points in shapes:
-            lowest, highest = extents(node.pose.point(points))
-            owners.append(owner)
-            meshes.append(mesh)
-            low.append(lowest)
-            high.append(highest)
-    if not owners:
-        return frozenset()
+            shapes.add_points(owner, node.pose.point(_corners(collider, scene)))
+    low, high = shapes.extents({m: hulls.get(m, scene.meshes[m]).vertices for m in shapes.placed})
+    owners, meshes = shapes.owners, shapes.meshes
     joined = [
         {_owner(groups, joint.a), _owner(groups, joint.b)} for joint in scene.joints if not joint.collide
     ]
     apart = {frozenset(pair) for pair in joined if ground is Ground.BODY or _GROUND not in pair}
     found: set[int | None] = set()
-    pairs: list[list[int]] = close_pairs(np.array(low), np.array(high)).tolist()
+    pairs: list[list[int]] = close_pairs(low, high).tolist()
     for a, b in pairs:
         if owners[a] != owners[b] and frozenset((owners[a], owners[b])) not in apart:
             found |= {meshes[a], meshes[b]}
     return frozenset(mesh for mesh in found if mesh is not None)
+
+
+class _Shapes:
+    """What stands in the world.  owners: of each shape who moves it.  meshes: of each its mesh, None of a collider that is stated.
+    placed: by mesh the shapes that are bodies of it, each with what takes the mesh into the world."""
+
+    def __init__(self) -> None:
+        self.owners: list[int] = []
+        self.meshes: list[int | None] = []
+        self.placed: dict[int, list[tuple[int, Array, Array]]] = {}
+        self._points: list[tuple[int, Array]] = []
+
+    def add_body(self, owner: int, node: Pose, body: Body, mesh: int) -> None:
+        stands = node @ body.pose
+        place = (len(self.owners), stands.rotation * body.scale, stands.translation)
+        self.placed.setdefault(mesh, []).append(place)
+        self.owners.append(owner)
+        self.meshes.append(mesh)
+
+    def add_points(self, owner: int, points: Array) -> None:
+        self._points.append((len(self.owners), points))
+        self.owners.append(owner)
+        self.meshes.append(None)
+
+    def extents(self, vertices: Mapping[int, Array]) -> tuple[Array, Array]:
+        """Of every shape, each of shape (n, 13).  vertices: of each mesh that is placed."""
+        low, high = (np.empty((len(self.owners), len(DIRECTIONS))) for _ in range(2))
+        for mesh, places in self.placed.items():
+            numbers, linear, translations = zip(*places)
+            at = list(numbers)
+            low[at], high[at] = placed_extents(vertices[mesh], np.array(linear), np.array(translations))
+        for number, points in self._points:
+            low[number], high[number] = extents(points)
+        return low, high
 
 
 def _owner(groups: RigidGroups, node: int | None) -> int | None:

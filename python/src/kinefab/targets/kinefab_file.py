@@ -14,7 +14,6 @@ import re
 import unicodedata
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import fields
 from pathlib import Path
 from typing import Any, BinaryIO, cast
 
@@ -148,20 +147,18 @@ def report_entries(report: Report) -> list[dict[str, Any]]:
 def _tell_losses(scene: UnityScene, report: Report) -> None:
     """What the nouns hold and the format 1.0 has no field for."""
 
-    def told(feature: str, noun: Noun) -> None:
-        for name in unsaid(type(noun)):
-            value = getattr(noun, name)
-            plain = next(field.default for field in fields(noun) if field.name == name)
-            if name != "id" and value != plain:
-                report.dropped(feature, "TARGET_FIELD_DROPPED", field=name, target=".kinefab")
+    def told(kind: str, name: str, noun: Noun) -> None:
+        for field, usual in unsaid(type(noun)).items():
+            if getattr(noun, field) != usual:
+                report.dropped(f"{kind} {name}", "TARGET_FIELD_DROPPED", field=field, target=".kinefab")
 
     for material in scene.materials:
-        told(f"material {material.name}", material)
+        told("material", material.name, material)
     for game_object in scene.gameObjects:
-        told(f"object {game_object.id}", game_object)
+        told("object", game_object.id, game_object)
         for component in game_object.components:
             if not isinstance(component, Joint):
-                told(f"{type(component).__name__} of {game_object.id}", component)
+                told(f"{type(component).__name__} of", game_object.id, component)
 
 
 def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:
@@ -238,10 +235,10 @@ def canonical_json(content: dict[str, Any]) -> str:
         return "[\n" + ",\n".join(indent + line for line in lines) + "\n" + indent[:-2] + "]"
 
     def game_object(entry: dict[str, Any]) -> str:
-        fields = [f"{flat(k)}: {flat(v)}" for k, v in entry.items() if k != "components"]
-        if components := entry.get("components"):
-            fields.append('"components": ' + block([flat(c) for c in components], "      "))
-        return "{" + ", ".join(fields) + "}"
+        head = flat({k: v for k, v in entry.items() if k != "components"})
+        if not (components := entry.get("components")):
+            return head
+        return head[:-1] + ', "components": ' + block([flat(c) for c in components], "      ") + "}"
 
     lines: list[str] = []
     for key, value in content.items():

@@ -81,10 +81,10 @@ def _defaults(noun: type[Noun]) -> Mapping[str, Any]:
 
 
 @cache
-def unsaid(noun: type[Noun]) -> tuple[str, ...]:
-    """Fields of a noun that the format has no place for."""
-    known = {rule.key for rule in _properties(definition_of(noun))}
-    return tuple(field.name for field in fields(noun) if field.name not in known)
+def unsaid(noun: type[Noun]) -> Mapping[str, Any]:
+    """Fields of a noun that the format has no place for, each with the value that says nothing; its id is not one."""
+    known = {"id", *(rule.key for rule in _properties(definition_of(noun)))}
+    return {field.name: field.default for field in fields(noun) if field.name not in known}
 
 
 @cache

@@ -9,6 +9,9 @@ from typing import Any, cast
 DECIMALS = 12
 """Decimals kept of lengths, directions and angles: a picometre, and what is left of sin(pi) is 0."""
 
+WHOLE = 1e15
+"""Below it a whole number is written without a decimal point."""
+
 
 def plain_value(value: Any) -> Any:
     """Lengths, directions, quaternions and angles as plain JSON values, rounded to ``DECIMALS`` decimals.
@@ -16,12 +19,10 @@ def plain_value(value: Any) -> Any:
     Takes a number or sequences and mappings of them; an infinite number is None, anything else passes through.
     """
     if isinstance(value, float):
-        return None if math.isinf(value) else _plain(round(value, DECIMALS))
+        return _rounded(value)
     if isinstance(value, (list, tuple)):
-        return [  # most are finite floats
-            _plain(near)
-            if type(item) is float and (near := round(item, DECIMALS)) - near == 0.0
-            else plain_value(item)
+        return [
+            _rounded(item) if type(item) is float else plain_value(item)
             for item in cast(Sequence[Any], value)
         ]
     if isinstance(value, (str, int)):
@@ -38,6 +39,13 @@ def significant(value: Any) -> Any:
     return _plain(float(f"{value:.{DECIMALS}g}"))
 
 
+def _rounded(x: float) -> float | int | None:
+    """Whole numbers, of which there are many, need no rounding."""
+    if x.is_integer():
+        return int(x) if -WHOLE < x < WHOLE else x
+    return None if math.isinf(x) else _plain(round(x, DECIMALS))
+
+
 def _plain(x: float) -> float | int:
     """Whole numbers without a decimal point, so that -0.0 and 0.0 are both 0."""
-    return int(x) if x.is_integer() and abs(x) < 1e15 else x
+    return int(x) if x.is_integer() and -WHOLE < x < WHOLE else x

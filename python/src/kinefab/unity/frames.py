@@ -18,6 +18,7 @@ from ..spatial import Array, Pose, cross
 _POLAR = np.array([-1.0, 1.0, 1.0])
 _AXIAL = np.array([1.0, -1.0, -1.0])
 _QUATERNION = np.array([1.0, -1.0, -1.0, 1.0])
+_BOTH_SIDES = np.outer(_POLAR, _POLAR)
 _JOINT_AXES = np.array([1.0, 1.0, -1.0])
 """The axes of ``joint_basis`` against the mirrored CAD axes: M X, M Y and -M Z."""
 
@@ -40,7 +41,7 @@ def axial(w: ArrayLike) -> Array:
 
 def rotation(r: ArrayLike) -> Array:
     """F4. Rotation matrices, shape (..., 3, 3): M R M."""
-    return np.asarray(r, dtype=np.float64) * np.outer(_POLAR, _POLAR)
+    return np.asarray(r, dtype=np.float64) * _BOTH_SIDES
 
 
 def quaternion(q: ArrayLike) -> Array:

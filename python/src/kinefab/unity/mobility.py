@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..spatial import Array
 from . import frames
 from .scene import BodyFreedom, ClosureGap, Island, Mobility
-from .scene.vectors import vector3
+from .scene.vectors import vectors3
 
 
 def map_mobility(found: Mapping[str, Any], object_of: Sequence[int]) -> Mobility:
@@ -35,12 +34,5 @@ def _island(found: Mapping[str, Any], object_of: Sequence[int]) -> Island:
 
 def _body(found: Mapping[str, Any], object_of: Sequence[int]) -> BodyFreedom:
     node: int = found["node"]
-    directions: Sequence[Array] = found["directions"]
-    axes: Sequence[Array] = found["axes"]
-    return BodyFreedom(
-        object_of[node],
-        len(directions),
-        len(axes),
-        tuple(vector3(frames.direction(v)) for v in directions),
-        tuple(vector3(frames.axial(v)) for v in axes),
-    )
+    directions, axes = frames.direction(found["directions"]), frames.axial(found["axes"])
+    return BodyFreedom(object_of[node], len(directions), len(axes), vectors3(directions), vectors3(axes))

@@ -28,8 +28,7 @@ def scene_entry(analysis: Analysis) -> dict[str, Any]:
             for i in analysis.islands
         ],
         "bodies": [
-            {"node": f.node, "directions": list(f.translations), "axes": list(f.rotations)}
-            for f in analysis.freedoms
+            {"node": f.node, "directions": f.translations, "axes": f.rotations} for f in analysis.freedoms
         ],
     }
 

@@ -18,11 +18,17 @@ from .physics.colliders import Colliders
 from .physics.held import held_parts
 from .physics.mass import ROUND, Weighed, body_mass
 from .stage import OpenStage
-from .transforms import Stand, Stretch, all_taken_apart, rotation_of, stands
-from .values import Values, title
+from .transforms import Fit, Stand, fits, rotation_of, stands
+from .values import Traits, Values, title
 from .walk import Found, Part, Piece
 
 DEFAULT_PURPOSES = ("default", "render")
+STILL = Dynamics()
+DYNAMICS = frozenset((
+    "physics:startsAsleep", "physics:velocity", "physics:angularVelocity", "physxRigidBody:disableGravity",
+    "physxRigidBody:linearDamping", "physxRigidBody:angularDamping", "physxRigidBody:maxAngularVelocity",
+))  # fmt: skip
+"""Attributes that say how a body moves."""
 COMBINE = {
     "average": Combine.AVERAGE,
     "min": Combine.MINIMUM,
@@ -51,6 +57,7 @@ class Parts:
         self._colliders = Colliders(opened, values, self.library, report)
         self._materials: dict[str, tuple[PhysicsMaterial | None, float]] = {}
         self._bound: dict[str, Any] = {}
+        self._usual: dict[tuple[Traits, bool], Dynamics] = {}
         self._held = held_parts(found, values)
         self.stands: dict[int, Stand] = {}
         self.nodes: list[int] = [len(found.groups) + i for i in range(len(found.parts))]
@@ -70,35 +77,30 @@ class Parts:
                 )
             )  # fmt: skip
         self._resolve()
-        stretches = self._stretches()
+        pieces = [(piece.world, i) for i, part in zip(self.nodes, found.parts) for piece in part.pieces]
+        fitting = iter(fits(np.array([world for world, _ in pieces]), [self.stands[i] for _, i in pieces]))
         for number, part in enumerate(found.parts):
             at, pose = standing[self.nodes[number]]
-            nodes.append(self._node(number, part, at, pose, stretches))
+            nodes.append(self._node(number, part, at, pose, fitting))
         return nodes
-
-    def _stretches(self) -> Iterator[Stretch | None]:
-        """Of all pieces in their order, as their parts see them."""
-        pieces = [(piece.world, i) for i, part in zip(self.nodes, self._found.parts) for piece in part.pieces]
-        worlds = np.array([world[:3, :3] for world, _ in pieces]).reshape(-1, 3, 3)
-        turned = np.array([self.stands[i].rotation.T for _, i in pieces]).reshape(-1, 3, 3)
-        return iter(all_taken_apart(turned @ worlds))
 
     def _resolve(self) -> None:
         """Materials of everything at once."""
         pieces = [piece for part in self._found.parts for piece in part.pieces]
-        self.looks.resolve({str(p.prim.GetPath()): p.prim for p in pieces if self._drawn(p)}.values())
-        colliding = list({str(p.prim.GetPath()): p.prim for p in pieces if p.collides}.values())
+        self.looks.resolve({p.path: p.prim for p in pieces if p.dressed and self._drawn(p)})
+        colliding = {p.path: p.prim for p in pieces if p.collides}
         if colliding:
-            materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(colliding, "physics")
-            for prim, material in zip(colliding, materials):
-                self._bound[str(prim.GetPath())] = material.GetPrim() if material else None
+            materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(
+                list(colliding.values()), "physics"
+            )
+            for path, material in zip(colliding, materials):
+                self._bound[path] = material.GetPrim() if material else None
 
     def _drawn(self, piece: Piece) -> bool:
         return piece.purpose in self._purposes
 
-    def _node(
-        self, number: int, part: Part, at: Stand, pose: Pose, stretches: Iterator[Stretch | None]
-    ) -> Node:
+    def _node(self, number: int, part: Part, at: Stand, pose: Pose, fitting: Iterator[Fit | None]) -> Node:
+        """fitting: of all pieces from this part's first one on."""
         opened, values, prim = self._opened, self._values, part.prim
         moves = part.body and part.enabled
         kinematic = moves and values.flag(prim, "physics:kinematicEnabled", False)
@@ -107,14 +109,14 @@ class Parts:
         colliders: list[Collider] = []
         weighed: list[Weighed] = []
         for piece in part.pieces:
-            stretch = next(stretches)
-            if self._drawn(piece) and (body := self._body(piece, at, stretch)) is not None:
+            fit = next(fitting)
+            if self._drawn(piece) and (body := self._body(piece, fit)) is not None:
                 bodies.append(body)
             if not piece.collides:
                 continue
-            material, density = self._material(piece.prim)
-            group = self._groups.get(str(piece.prim.GetPath()), "")
-            made = self._colliders.of(piece, at, stretch, pushed, material, group)
+            material, density = self._material(piece.path)
+            group = self._groups.get(piece.path, "")
+            made = self._colliders.of(piece, at, fit, pushed, material, group)
             colliders += made
             kind = values.traits(piece.prim).kind
             solid = values.word(piece.prim, "physics:approximation", "none") if kind == "Mesh" else ""
@@ -127,40 +129,39 @@ class Parts:
         return Node(
             part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
             bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),
-            dynamics=self._dynamics(prim, at, kinematic) if moves else Dynamics(),
+            dynamics=self._dynamics(prim, at, kinematic) if moves else STILL,
             sites=tuple(
                 Site(title(p), Pose(at.axes(rotation_of(w[:3, :3]) @ opened.frame.turn.T), at.point(w[:3, 3])), opened.place(p))
                 for p, w in part.sites
             ),
-            where=opened.place(prim),
+            where=opened.place(part.path),
         )  # fmt: skip
 
-    def _body(self, piece: Piece, at: Stand, stretch: Stretch | None) -> Body | None:
-        feature, where = f"body {piece.id}", self._opened.place(piece.prim)
-        if stretch is None:
+    def _body(self, piece: Piece, fit: Fit | None) -> Body | None:
+        feature, where = f"body {piece.id}", self._opened.place(piece.path)
+        if fit is None:
             self._report.dropped(feature, "USD_SCALE_ZERO", where)
             return None
+        stretch = fit.stretch
         shared = self.library.shared(piece.prim, stretch.bake)
         if shared is None:
             return None
         if stretch.bake is not None:
             self._report.kept(feature, where, "USD_SHEAR_BAKED" if stretch.sheared else "USD_MIRROR_BAKED")
         colored = self.library.meshes[shared.mesh].colors is not None
-        turn = self._opened.frame.turn
-        scale = np.abs(turn) @ stretch.scale
         return Body(
             title(piece.prim) if "[" not in piece.id else piece.id.rpartition("/")[2],
             shared.mesh,
-            self.looks.of(piece.prim, shared.subsets, shared.uv_names, colored),
-            pose=Pose(at.turned(stretch.rotation), at.point(piece.world[:3, 3])),
-            scale=(float(scale[0]), float(scale[1]), float(scale[2])),
+            self.looks.of(piece, shared.subsets, shared.uv_names, colored),
+            pose=fit.pose,
+            scale=fit.scale,
             visible=piece.visible,
             weighed=False,
         )
 
-    def _material(self, prim: Any) -> tuple[PhysicsMaterial | None, float]:
+    def _material(self, path: str) -> tuple[PhysicsMaterial | None, float]:
         """The physics material bound to a prim, and its density in the stage's units, 0 for none."""
-        material = self._bound.get(str(prim.GetPath()))
+        material = self._bound.get(path)
         if material is None or "PhysicsMaterialAPI" not in self._values.traits(material).schemas:
             return None, 0.0
         key = str(material.GetPath())
@@ -202,6 +203,15 @@ class Parts:
         return material, max(0.0, found["density"])
 
     def _dynamics(self, prim: Any, at: Stand, kinematic: bool) -> Dynamics:
+        """Worked out once for all prims that state nothing of it."""
+        alike = self._values.alike(prim, DYNAMICS)
+        if alike is None:
+            return self._read_dynamics(prim, at, kinematic)
+        if (alike, kinematic) not in self._usual:
+            self._usual[alike, kinematic] = self._read_dynamics(prim, at, kinematic)
+        return self._usual[alike, kinematic]
+
+    def _read_dynamics(self, prim: Any, at: Stand, kinematic: bool) -> Dynamics:
         values, frame = self._values, self._opened.frame
 
         def moving(name: str, unit: float) -> Array | None:

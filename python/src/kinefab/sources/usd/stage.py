@@ -24,6 +24,8 @@ FORWARD = {"Y": "Z", "Z": "X"}
 MAX_OFFERS = 1000
 """Most variants that are listed."""
 CHUNK = 2**22
+ADDRESS = re.compile(r" \([^()]*<0x[0-9a-f]+>\)\s*$")
+"""What pxr says at the end of a message of the stage in memory: another at each run."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,9 +123,10 @@ def tell(heard: Any, opened: OpenStage, report: Report) -> None:
     told: set[str] = set()
     for entry in heard.TakeUncoalescedDiagnostics():
         try:
-            text = " ".join(str(entry.commentary).split())
+            text = " ".join(ADDRESS.sub("", str(entry.commentary)).split())
         except UnicodeDecodeError:
             text = "what is named there holds bytes that are no UTF-8."
+        text = text.replace(f"{opened.folder}{os.sep}", "")
         if text and text not in told:
             told.add(text)
             report.dropped("composition arc", "USD_COMPOSITION", opened.name, detail=text)

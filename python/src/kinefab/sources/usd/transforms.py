@@ -5,6 +5,7 @@ A prim's matrix is A v + t.  A node takes the rotation of A alone; what is left 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -90,6 +91,33 @@ def all_taken_apart(linears: Array) -> list[Stretch | None]:
     ]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Fit:
+    """A prim as its node sees it.  pose: of its shape in the node's frame.  scale: along the shape's axes, scene axes."""
+
+    stretch: Stretch
+    pose: Pose
+    scale: tuple[float, float, float]
+
+
+def fits(worlds: Array, stands: Sequence[Stand]) -> list[Fit | None]:
+    """Of prims by their matrices, shape (n, 4, 4), each in its node's frame; None where it is flat."""
+    if not stands:
+        return []
+    frame = stands[0].frame
+    turn, back = frame.turn, np.array([at.rotation for at in stands]).transpose(0, 2, 1)
+    apart = all_taken_apart(back @ worlds[:, :3, :3])
+    away = worlds[:, :3, 3] - np.array([at.origin for at in stands])
+    points = (back @ away[..., None])[..., 0] @ turn.T * frame.length
+    flat = Stretch(np.eye(3), np.zeros(3), None, False)
+    rotations = turn @ np.array([(s or flat).rotation for s in apart]) @ turn.T
+    scales: list[list[float]] = (np.array([(s or flat).scale for s in apart]) @ np.abs(turn.T)).tolist()
+    return [
+        None if s is None else Fit(s, Pose(rotation, point), (x, y, z))
+        for s, rotation, point, (x, y, z) in zip(apart, rotations, points, scales)
+    ]
+
+
 def _plain(lengths: Array) -> Array:
     """Scales that are one but for rounding are one."""
     return np.where(np.abs(lengths - 1.0) <= 1e-9, 1.0, lengths)
@@ -124,25 +152,27 @@ IDENTITY = Local(np.eye(4), False)
 def local_of(prim: Any, time: Any = None) -> Local:
     """time: None for the exported pose: default values, and the first sample of what has samples only."""
     xform = UsdGeom.Xformable(prim)
-    if not xform or not prim.GetAttribute("xformOpOrder").HasAuthoredValue():
+    if not xform:
         return IDENTITY
-    mistyped = "" if isinstance(prim.GetAttribute("xformOpOrder").Get(), Vt.TokenArray) else "xformOpOrder"
-    ops: list[Any] = [] if mistyped else xform.GetOrderedXformOps()
-    moves = any(op.MightBeTimeVarying() for op in ops)
-    if time is None:
-        time = Usd.TimeCode.Default()
-        if any(op.GetNumTimeSamples() and op.GetAttr().Get(time) is None for op in ops):
-            time = Usd.TimeCode.EarliestTime()
-    mistyped = mistyped or next((op.GetAttr().GetName() for op in ops if not _is_typed(op, time)), "")
-    if mistyped:
-        return Local(np.eye(4), False, mistyped=mistyped)
-    return Local(matrix(xform.GetLocalTransformation(ops, time)), xform.GetResetXformStack(), moves)
+    order = xform.GetXformOpOrderAttr()
+    if not isinstance(order.Get(), Vt.TokenArray):
+        return Local(np.eye(4), False, mistyped="xformOpOrder") if order.HasAuthoredValue() else IDENTITY
+    ops = xform.GetOrderedXformOps()
+    attributes = [op.GetAttr() for op in ops]  # an inverse operation has that of the one that it undoes
+    asked = Usd.TimeCode.Default() if time is None else time
+    values = [attribute.Get(asked) for attribute in attributes]
+    if time is None and any(v is None and a.GetNumTimeSamples() for v, a in zip(values, attributes)):
+        asked = Usd.TimeCode.EarliestTime()
+        values = [attribute.Get(asked) for attribute in attributes]
+    for attribute, value in zip(attributes, values):
+        if not _is_typed(attribute, value):
+            return Local(np.eye(4), False, mistyped=attribute.GetName())
+    moves = any(attribute.ValueMightBeTimeVarying() for attribute in attributes)
+    return Local(matrix(xform.GetLocalTransformation(ops, asked)), xform.GetResetXformStack(), moves)
 
 
-def _is_typed(op: Any, time: Any) -> bool:
+def _is_typed(attribute: Any, value: Any) -> bool:
     """Whether an operation's value is of the type that its name says, or there is none; pxr raises, or passes it over."""
-    attribute = op.GetAttr()  # an inverse operation has the attribute of the one that it undoes
-    value = attribute.Get(time)
     return value is None or isinstance(value, _TYPES.get(attribute.GetName().split(":")[1], float))
 
 

@@ -29,6 +29,8 @@ RANKS: dict[str, Any] = {
     "Xformable": UsdGeom.Xformable,
 }
 """Schemas that many a type is a kind of: asking pxr for each prim would be a tenth of reading a large stage."""
+DRESSING = ("material:binding", "primvars:displayColor", "primvars:displayOpacity")
+"""Beginnings of the names by which a prim says how it looks."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,6 +39,7 @@ class Traits:
 
     kind: name of the type.  ranks: what it is a kind of, of ``RANKS``.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
     fallbacks: what other properties give, by name: that of the type and its schemas.
+    dressed: it states a material or colours, which what lies below inherits.
     """
 
     kind: str
@@ -44,6 +47,7 @@ class Traits:
     schemas: tuple[str, ...]
     names: frozenset[str]
     fallbacks: dict[str, Any]
+    dressed: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,10 +74,16 @@ class Values:
             if found is None:
                 fallbacks = self._fallbacks.setdefault((kind, applied), {})
                 ranks = frozenset(rank for rank, schema in RANKS.items() if prim.IsA(schema))
-                found = Traits(kind, ranks, applied, frozenset(names), fallbacks)
+                dressed = any(name.startswith(DRESSING) for name in names)
+                found = Traits(kind, ranks, applied, frozenset(names), fallbacks, dressed)
                 self._traits[kind, applied, names] = found
             self._of_prim[prim] = found
         return found
+
+    def alike(self, prim: Any, names: frozenset[str]) -> Traits | None:
+        """What it shares with all prims that these attributes tell the same of; None where it states one of them itself."""
+        traits = self.traits(prim)
+        return traits if traits.names.isdisjoint(names) else None
 
     def get(self, prim: Any, name: str) -> Any:
         """The raw value at the exported time, None where the attribute is missing, blocked or empty."""
@@ -130,7 +140,7 @@ class Values:
             found = np.array(value, dtype=np.float64)
         except (TypeError, ValueError):
             found = np.array([math.nan])
-        if found.shape != (3,) or not np.isfinite(found).all():
+        if found.shape != (3,) or not all(map(math.isfinite, found.tolist())):
             self.wrong(prim, name, value)
             return np.array(default, dtype=np.float64)
         return found
@@ -156,7 +166,8 @@ class Values:
         if value is None:
             return None
         try:
-            parts = (*(float(v) for v in value.GetImaginary()), float(value.GetReal()))
+            turning = value.GetImaginary()  # by number: pxr's vectors are slow to iterate
+            parts = (float(turning[0]), float(turning[1]), float(turning[2]), float(value.GetReal()))
         except AttributeError:
             self.wrong(prim, name, value)
             return None
@@ -189,7 +200,7 @@ def _value(prim: Any, name: str) -> Any:
     attribute = prim.GetAttribute(name)
     if not attribute:
         return None
-    value = attribute.Get(Usd.TimeCode.Default())
+    value = attribute.Get()  # at the default time
     return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
 
 

@@ -28,25 +28,29 @@ LIGHTS = frozenset(
 
 @dataclass(slots=True, eq=False)
 class Piece:
-    """A drawn or colliding prim.  world: its matrix.  copy: which instance of a PointInstancer, -1 for none.
-    visible: whether it and all above it are shown.  purpose: default, render, proxy or guide."""
+    """A drawn or colliding prim.  path: its own, which instances of a PointInstancer share.  world: its matrix.
+    visible: whether it and all above it are shown.  purpose: default, render, proxy or guide.
+    dressed: it, or a prim above, states a material or colours."""
 
     prim: Any
+    path: str
     id: str
     world: Array
     visible: bool
     purpose: str
     collides: bool
+    dressed: bool
 
 
 @dataclass(slots=True, eq=False)
 class Part:
     """What becomes one node: a rigid body with all below it, or a static prim.
 
-    body: it has a RigidBodyAPI.  enabled: the API is switched on.  parent: of the assemblies, -1 for none.
+    path: the prim's.  body: it has a RigidBodyAPI.  enabled: the API is switched on.  parent: of the assemblies, -1 for none.
     """
 
     prim: Any
+    path: str
     id: str
     world: Array
     parent: int
@@ -89,8 +93,8 @@ class Found:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Context:
-    """What a prim inherits.  group: pending prims above without a group yet, from the outermost; chain: number of the
-    innermost group that exists."""
+    """What a prim inherits.  pending: prims above without a group yet, from the outermost.  group: number of the
+    innermost group that exists.  dressed: see ``Piece``; of a prototype's copies always, as its own place is elsewhere."""
 
     world: Array
     pending: tuple[tuple[Any, str, Array], ...]
@@ -98,6 +102,7 @@ class _Context:
     part: int
     visible: bool
     purpose: str
+    dressed: bool
     id: str
 
 
@@ -105,13 +110,14 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
     """Look at every prim below the root that is asked for.  Raises KinefabError when there are too many."""
     found = Found()
     root = opened.root
-    above = np.eye(4)
+    above, dressed = np.eye(4), False
     for prim in reversed(list(_ancestors(root))):
+        dressed |= values.traits(prim).dressed
         local = local_of(prim)
         if local.mistyped:
             values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
         above = placed(above, local)
-    start = _Context(above, (), -1, -1, True, "default", "")
+    start = _Context(above, (), -1, -1, True, "default", dressed, "")
     chosen = [root] if not root.IsPseudoRoot() else list(root.GetFilteredChildren(PREDICATE))
     pending = [(prim, start) for prim in reversed(chosen)]
     count = 0
@@ -191,42 +197,34 @@ def _look(
     if local.moves:
         found.animated[path] = prim
     visible, purpose = _shown(prim, traits, context)
-    part = context.part
-    below = _Context(world, context.pending, context.group, part, visible, purpose, own if context.id else "")
+    dressed = context.dressed or traits.dressed
+    part, pending, group = context.part, context.pending, context.group
     collides = "PhysicsCollisionAPI" in applied
     if "PhysicsRigidBodyAPI" in applied and "Xformable" in ranks:
         enabled = values.flag(prim, "physics:rigidBodyEnabled", True)
-        group = _outer_group(context, found, groups_of)
-        found.parts.append(Part(prim, own, world, group, True, enabled, visible))
+        group, pending = _outer_group(context, found, groups_of), ()
+        found.parts.append(Part(prim, path, own, world, group, True, enabled, visible))
         part = len(found.parts) - 1
-        below = _Context(world, (), group, part, visible, purpose, below.id)
     if part >= 0:
         found.body_of.setdefault(path, part)
     if "Gprim" in ranks:
         if part < 0:
-            group = _outer_group(context, found, groups_of)
-            found.parts.append(Part(prim, own, world, group, False, True, visible))
-            holder = found.parts[-1]
-            part_below = -1
-        else:
-            holder = found.parts[part]
-            part_below = part
-        holder.pieces.append(Piece(prim, own, world, visible, purpose, collides))
-        return _Context(world, below.pending, below.group, part_below, visible, purpose, below.id)
-    if collides and kind != "PointInstancer":
+            outer = _outer_group(context, found, groups_of)
+            found.parts.append(Part(prim, path, own, world, outer, False, True, visible))
+        holder = found.parts[part]  # the last, if it is no body's
+        holder.pieces.append(Piece(prim, path, own, world, visible, purpose, collides, dressed))
+    elif collides and kind != "PointInstancer":
         report.dropped(
             f"collider {path}", "USD_FEATURE_DROPPED", opened.place(prim),
             detail="a CollisionAPI stands on a prim without geometry of its own",
         )  # fmt: skip
-    if part >= 0 and "Xformable" in ranks and prim != found.parts[part].prim:
-        if not prim.GetFilteredChildren(PREDICATE) and kind != "PointInstancer":
-            found.parts[part].sites.append((prim, world))
-        return below
-    if part < 0:
-        return _Context(
-            world, (*context.pending, (prim, own, world)), context.group, -1, visible, purpose, below.id
-        )
-    return below
+    if "Gprim" not in ranks:
+        if part < 0:
+            pending = (*pending, (prim, own, world))
+        elif part == context.part and "Xformable" in ranks and kind != "PointInstancer":
+            if not prim.GetFilteredChildren(PREDICATE):
+                found.parts[part].sites.append((prim, world))
+    return _Context(world, pending, group, part, visible, purpose, dressed, own if context.id else "")
 
 
 def _shown(prim: Any, traits: Traits, context: _Context) -> tuple[bool, str]:
@@ -259,7 +257,7 @@ def _instanced(prim: Any, context: _Context, opened: OpenStage, report: Report) 
         world = context.world @ placing
         own = f"{prim.GetPath()}"[1:] + f"[{number}]"
         below = _Context(
-            world, context.pending, context.group, context.part, context.visible, context.purpose, own
+            world, context.pending, context.group, context.part, context.visible, context.purpose, True, own
         )
         copies.append((prototype, below))
     return copies[::-1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ...rigid import RigidGroups
 from ...spatial import quaternion_from_matrix
 from .. import frames
 from ..scene import Rigidbody
-from ..scene.vectors import quaternion4, vector3
+from ..scene.vectors import Quaternion, Vector3, quaternion4, vector3
 
 UNITY_ANGULAR_DAMPING = 0.05
 """1/s: a Rigidbody's before anyone sets it."""
@@ -85,7 +86,7 @@ def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: 
 def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> Rigidbody:
     """Mass, centre of mass and principal inertia of everything a carrier moves, in the carrier's frame."""
     own, total = scene.nodes[carrier], body_mass(scene, carrier, moved_nodes, report)
-    moments, axes = principal(total.inertia)
+    moments, axes = _principal(np.ascontiguousarray(total.inertia).tobytes())
     dynamics = body_dynamics(scene, carrier, moved_nodes)
     if dynamics.velocity is not None or dynamics.angular_velocity is not None:
         report.dropped(f"velocity {own.id}", "BODY_VELOCITY_DROPPED", own.where, node=own.id)
@@ -95,12 +96,19 @@ def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], repo
         linearDamping=0.0 if damping[0] is None else damping[0],
         angularDamping=UNITY_ANGULAR_DAMPING if damping[1] is None else damping[1],
         centerOfMass=vector3(frames.point(total.center)),
-        inertiaTensor=vector3(moments),
-        inertiaTensorRotation=quaternion4(frames.quaternion(quaternion_from_matrix(axes))),
+        inertiaTensor=moments,
+        inertiaTensorRotation=axes,
         useGravity=dynamics.gravity,
         isKinematic=dynamics.kinematic,
         maxAngularVelocity=dynamics.max_angular_velocity,
     )
+
+
+@lru_cache(maxsize=4096)
+def _principal(inertia_bytes: bytes) -> tuple[Vector3, Quaternion]:
+    """Unity's moments and their axes, of an inertia that copies of a part share."""
+    moments, axes = principal(np.frombuffer(inertia_bytes).reshape(3, 3))
+    return vector3(moments), quaternion4(frames.quaternion(quaternion_from_matrix(axes)))
 
 
 def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
@@ -110,6 +118,8 @@ def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
 
 def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> Dynamics:
     """What the body's nodes say of how it moves: the carrier first, then whoever says something."""
+    if moved_nodes == (carrier,):
+        return scene.nodes[carrier].dynamics
     stated = [scene.nodes[i].dynamics for i in (carrier, *moved_nodes)]
 
     def first(name: str):

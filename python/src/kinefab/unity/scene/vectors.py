@@ -22,6 +22,11 @@ def vector3(values: Array) -> Vector3:
     return (x, y, z)
 
 
+def vectors3(values: Array) -> tuple[Vector3, ...]:
+    """values: shape (n, 3)."""
+    return tuple((x, y, z) for x, y, z in values.tolist())
+
+
 def quaternion4(values: Array) -> Quaternion:
     """values: x y z w, shape (4,)."""
     x, y, z, w = values.tolist()

@@ -77,17 +77,10 @@ class Library:
         if bake is not None and np.linalg.det(bake) < 0.0:
             faces = faces[:, ::-1]
         faces = np.ascontiguousarray(faces)
-        content = (
-            len(vertices),
-            len(faces),
-            p.face_counts,
-            len(p.uvs),
-            zlib.crc32(faces.tobytes()),
-            zlib.crc32(vertices.tobytes()),
-        )
+        content = (len(faces), p.face_counts, zlib.crc32(np.ascontiguousarray(vertices).data))
         alike = self._by_content.setdefault(content, [])
         for index in alike:
-            if _same(self.meshes[index], vertices, normals, p):
+            if _same(self.meshes[index], vertices, faces, normals, p):
                 return index
         self.meshes.append(Mesh(name, vertices, faces, normals, p.uvs, None, p.colors, p.face_counts))
         alike.append(len(self.meshes) - 1)
@@ -118,9 +111,10 @@ def source_path(prim: Any) -> str:
     return str(prim.GetPath())
 
 
-def _same(mesh: Mesh, vertices: Array, normals: Array | None, p: Polygons) -> bool:
+def _same(mesh: Mesh, vertices: Array, faces: np.ndarray, normals: Array | None, p: Polygons) -> bool:
     return (
         np.array_equal(mesh.vertices, vertices)
+        and np.array_equal(mesh.faces, faces)
         and (mesh.normals is None) == (normals is None)
         and (normals is None or mesh.normals is not None and np.array_equal(mesh.normals, normals))
         and len(mesh.uvs) == len(p.uvs)

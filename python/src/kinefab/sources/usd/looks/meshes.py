@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....diagnostics import Report
-from ....spatial import Array
+from ....spatial import Array, lengths_of
 from ..api import Usd, UsdGeom, Vt
 from ..stage import OpenStage
 from ..values import shown
@@ -40,12 +40,16 @@ class Polygons:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Primvar:
-    """values: shape (k, d).  indices: into values for each element of ``interpolation``."""
+    """values: shape (k, d).  indices: into values for each element of ``interpolation``, None where each has its own."""
 
     name: str
     values: Array
-    indices: np.ndarray
+    indices: np.ndarray | None
     interpolation: str
+
+    def numbers(self, elements: np.ndarray | slice) -> np.ndarray | slice:
+        """Which of ``values`` these elements have."""
+        return elements if self.indices is None else self.indices[elements]
 
 
 def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
@@ -190,44 +194,49 @@ def _indexed(
         "faceVarying": len(corners),
     }
     primvars = _primvars(prim, mesh, sizes, time, opened, report)
-    element = {
-        "constant": np.zeros(tri.size, dtype=np.int64),
-        "uniform": np.repeat(owner, 3),
-        "vertex": corners[tri].ravel(),
-        "varying": corners[tri].ravel(),
-        "faceVarying": tri.ravel(),
-    }
+    used = corners[tri].ravel()
+
+    def elements(interpolation: str, chosen: np.ndarray | slice) -> np.ndarray:
+        """Of these corners of the triangles, the elements that a primvar counts."""
+        if interpolation == "faceVarying":
+            return tri.ravel()[chosen]
+        if interpolation == "uniform":
+            return np.repeat(owner, 3)[chosen]
+        return used[chosen] if interpolation != "constant" else np.zeros_like(used[chosen])
+
     split = [p for p in primvars if p.interpolation in ("faceVarying", "uniform")]
+    first, inverse = None, used
     if not split:
-        used = element["vertex"]
-        first, inverse, chosen = None, used, np.arange(len(points))
+        chosen = slice(None)
         named = np.zeros(len(points), dtype=bool)
         named[used] = True
         if not named.all():
             chosen, inverse = np.flatnonzero(named), (np.cumsum(named) - 1)[used]
     else:
-        keys = element["vertex"].astype(np.uint64)
+        keys = used.astype(np.uint64)
         for p in split:
-            keys = keys * np.uint64(0x9E3779B97F4A7C15) + _identities(p)[p.indices[element[p.interpolation]]]
+            keys *= np.uint64(0x9E3779B97F4A7C15)
+            keys += _identities(p)[p.numbers(elements(p.interpolation, slice(None)))]
             keys ^= keys >> np.uint64(29)
         _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
         # In the order of their first use, so that equal meshes have equal vertices.
         rank = np.argsort(np.argsort(first, kind="stable"), kind="stable")
         first, inverse = np.sort(first), rank[inverse]
-        chosen = element["vertex"][first]
+        chosen = used[first]
     found = Polygons(points[chosen], inverse.reshape(-1, 3), face_counts=face_counts, subsets=subsets)
+    count = len(found.vertices)
     colours: dict[str, Array] = {}
     for p in primvars:
         at = (
-            element[p.interpolation][first]
+            elements(p.interpolation, first)
             if first is not None
             else chosen
             if p.interpolation in ("vertex", "varying")
-            else np.zeros(len(chosen), dtype=np.int64)
+            else np.zeros(count, dtype=np.int64)
         )
-        values = p.values[p.indices[at]]
+        values = p.values[p.numbers(at)]
         if p.name == "normals":
-            lengths = np.linalg.norm(values, axis=1)
+            lengths = lengths_of(values)
             if (lengths > 0.0).all():
                 found.normals = values / lengths[:, None]
         elif p.name in ("displayColor", "displayOpacity"):
@@ -236,8 +245,8 @@ def _indexed(
             found.uvs += (values,)
             found.uv_names += (p.name,)
     if colours:
-        rgb = colours.get("displayColor", np.ones((len(chosen), 3)))
-        alpha = colours.get("displayOpacity", np.ones((len(chosen), 1)))
+        rgb = colours.get("displayColor", np.ones((count, 3)))
+        alpha = colours.get("displayOpacity", np.ones((count, 1)))
         found.colors = np.clip(np.column_stack([rgb, alpha]), 0.0, 1.0)
     return found
 
@@ -269,7 +278,7 @@ def _primvars(
         values = _array(mesh.GetNormalsAttr().Get(time), 3)
         interpolation = str(mesh.GetNormalsInterpolation())
         if values is not None and len(values) == sizes.get(interpolation) and np.isfinite(values).all():
-            found.append(_Primvar("normals", values, np.arange(len(values)), interpolation))
+            found.append(_Primvar("normals", values, None, interpolation))
         elif values is not None and len(values):
             _report_primvar("normals", opened, prim, report)
     coordinates: list[tuple[bool, str, Any]] = []
@@ -305,9 +314,12 @@ def _primvar(
     values = _array(raw if raw is not None else primvar.Get(Usd.TimeCode.EarliestTime()), width)
     if values is None or not len(values):
         return []
-    indices = _integers(primvar.GetIndices(time)) if primvar.IsIndexed() else np.arange(len(values))
-    sound = len(indices) == sizes.get(interpolation) and np.isfinite(values).all()
-    if not sound or (len(indices) and (indices.min() < 0 or indices.max() >= len(values))):
+    indices = _integers(primvar.GetIndices(time)) if primvar.IsIndexed() else None
+    count = len(values) if indices is None else len(indices)
+    sound = count == sizes.get(interpolation) and np.isfinite(values).all()
+    if not sound or (
+        indices is not None and len(indices) and (indices.min() < 0 or indices.max() >= len(values))
+    ):
         _report_primvar(name, opened, primvar.GetAttr().GetPrim(), report)
         return []
     return [_Primvar(name, values, indices, interpolation)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -12,6 +12,7 @@ from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
 from ..stage import OpenStage
 from ..values import Values, shown, title
+from ..walk import Piece
 from .library import source_path
 from .textures import Sampler, read_sampler
 
@@ -34,30 +35,32 @@ class Surfaces:
     _bound: dict[str, Any] = field(default_factory=dict[str, Any])
     _names: set[str] = field(default_factory=set[str])
 
-    def resolve(self, prims: Iterable[Any]) -> None:
-        """Find the materials of many prims in one go, which is far cheaper than one by one."""
-        fresh = [prim for prim in prims if str(prim.GetPath()) not in self._bound]
+    def resolve(self, prims: Mapping[str, Any]) -> None:
+        """Find the materials of many prims, by their paths, in one go, which is far cheaper than one by one."""
+        fresh = [path for path in prims if path not in self._bound]
         if not fresh:
             return
-        materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(fresh, UsdShade.Tokens.full)
-        for prim, material in zip(fresh, materials):
-            self._bound[str(prim.GetPath())] = material.GetPrim() if material else None
+        asked = [prims[path] for path in fresh]
+        materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(asked, UsdShade.Tokens.full)
+        for path, material in zip(fresh, materials):
+            self._bound[path] = material.GetPrim() if material else None
 
     def of(
-        self, prim: Any, subsets: tuple[Any, ...], uv_names: tuple[str, ...], colored: bool
+        self, piece: Piece, subsets: tuple[Any, ...], uv_names: tuple[str, ...], colored: bool
     ) -> tuple[int, ...]:
-        """Index of a surface for each submesh of a prim; () where the prim says nothing of its looks.
+        """Index of a surface for each submesh of a piece; () where it says nothing of its looks.
 
         subsets: see ``Polygons``.  colored: its vertices have colours of their own, so the surface is white.
         """
-        self.resolve([prim, *(s for s in subsets if s is not None)])
+        if not piece.dressed and not colored and subsets == (None,):
+            return ()
+        paths = ["" if subset is None else str(subset.GetPath()) for subset in subsets]
+        self.resolve({piece.path: piece.prim, **{p: s for p, s in zip(paths, subsets) if p}})
         found: list[int | None] = []
-        for subset in subsets:
-            material = self._bound.get(str(subset.GetPath())) if subset is not None else None
-            if material is None:
-                material = self._bound.get(str(prim.GetPath()))
+        for path in paths:
+            material = self._bound.get(path) or self._bound[piece.path]
             index = None if material is None else self._of_material(material, uv_names)
-            found.append(self._displayed(prim, colored) if index is None else index)
+            found.append(self._displayed(piece.prim, colored) if index is None else index)
         return tuple(i for i in found if i is not None) if None not in found else ()
 
     def _displayed(self, prim: Any, colored: bool) -> int | None:

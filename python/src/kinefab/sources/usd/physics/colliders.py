@@ -13,7 +13,7 @@ from ....spatial import Array, Pose
 from ..looks.gprims import axis_turn
 from ..looks.library import Library
 from ..stage import OpenStage
-from ..transforms import Stand, Stretch
+from ..transforms import Fit, Stand, Stretch
 from ..values import Values, identity
 from ..walk import Piece
 
@@ -32,17 +32,18 @@ class Colliders:
         self._opened, self._values, self._library, self._report = opened, values, library, report
 
     def of(
-        self, piece: Piece, stand: Stand, stretch: Stretch | None, dynamic: bool,
+        self, piece: Piece, stand: Stand, fit: Fit | None, dynamic: bool,
         material: PhysicsMaterial | None, group: str,
     ) -> list[Collider]:  # fmt: skip
-        """stretch: of the piece as its part sees it, None for a flat one.  dynamic: the body moves, so that a mesh must be
+        """fit: of the piece as its part sees it, None for a flat one.  dynamic: the body moves, so that a mesh must be
         convex."""
         prim = piece.prim
         kind = self._values.traits(prim).kind
-        where = self._opened.place(prim)
-        if stretch is None:
-            self._report.dropped(f"collider {prim.GetPath()}", "USD_SCALE_ZERO", where)
+        where = self._opened.place(piece.path)
+        if fit is None:
+            self._report.dropped(f"collider {piece.path}", "USD_SCALE_ZERO", where)
             return []
+        stretch, at = fit.stretch, fit.pose
         common = Collider(
             ColliderKind.BOX,
             name=piece.id,
@@ -52,13 +53,12 @@ class Colliders:
             group=group,
             where=where,
         )
-        at = Pose(stand.turned(stretch.rotation), stand.point(piece.world[:3, 3]))
         if kind == "Mesh":
-            return self._mesh(piece, common, at, stretch, dynamic)
+            return self._mesh(piece, common, fit, dynamic)
         if kind == "Points":
             return self._points(piece, common, stand, stretch)
         if stretch.sheared or kind in ("Cone", "Capsule_1", "Cylinder_1"):
-            return self._hull(prim, common, at, stretch)
+            return self._hull(prim, common, fit)
         found = self._shape(kind, prim, common, at, stretch)
         if found is None:
             self._dropped(prim, f"a {kind or 'prim without type'} has no shape")
@@ -129,23 +129,18 @@ class Colliders:
             for i, (p, r) in enumerate(zip(world, radii))
         ]  # fmt: skip
 
-    def _hull(self, prim: Any, common: Collider, at: Pose, stretch: Stretch) -> list[Collider]:
-        shared = self._library.shared(prim, stretch.bake)
+    def _hull(self, prim: Any, common: Collider, fit: Fit) -> list[Collider]:
+        shared = self._library.shared(prim, fit.stretch.bake)
         if shared is None:
             return []
-        return [
-            replace(common, kind=ColliderKind.HULL, pose=at, mesh=shared.mesh, scale=self._scale(stretch))
-        ]
+        return [replace(common, kind=ColliderKind.HULL, pose=fit.pose, mesh=shared.mesh, scale=fit.scale)]
 
-    def _mesh(
-        self, piece: Piece, common: Collider, at: Pose, stretch: Stretch, dynamic: bool
-    ) -> list[Collider]:
-        prim = piece.prim
-        shared = self._library.shared(prim, stretch.bake)
+    def _mesh(self, piece: Piece, common: Collider, fit: Fit, dynamic: bool) -> list[Collider]:
+        prim, at, scale = piece.prim, fit.pose, fit.scale
+        shared = self._library.shared(prim, fit.stretch.bake)
         if shared is None:
             return []
         wanted = self._values.word(prim, "physics:approximation", "none")
-        scale = self._scale(stretch)
         if wanted not in KNOWN:
             self._approximated(prim, f"the unknown approximation '{wanted}' was taken for none")
             wanted = "none"
@@ -172,9 +167,6 @@ class Colliders:
         if wanted in PIECES and dynamic:
             kind = ColliderKind.PIECES
         return [replace(common, kind=kind, pose=at, mesh=shared.mesh, scale=scale)]
-
-    def _scale(self, stretch: Stretch) -> tuple[float, float, float]:
-        return _triple(np.abs(self._opened.frame.turn) @ stretch.scale)
 
     def _size(self, prim: Any, name: str, default: float) -> float:
         return abs(self._values.number(prim, name, default))

@@ -5,6 +5,7 @@ Precedence: mass before density; a collider's own before the body's, before its 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -103,16 +104,17 @@ def _stated(
     mass = values.number(prim, "physics:mass", 0.0)
     density = values.number(prim, "physics:density", 0.0)
     moments = values.vector(prim, "physics:diagonalInertia", (0.0, 0.0, 0.0))
+    least, *_, largest = sorted(moments.tolist())
     for name, found in (
         ("physics:mass", mass),
         ("physics:density", density),
-        ("physics:diagonalInertia", moments.min()),
+        ("physics:diagonalInertia", least),
     ):
         if found < 0.0:
             values.wrong(prim, name, f"{found:g}")
     center = None
     raw = values.array(prim, "physics:centerOfMass")
-    if raw is not None and len(raw) == 3 and np.isfinite(raw).all():
+    if raw is not None and len(raw) == 3 and all(map(math.isfinite, raw.tolist())):
         # In the prim's own space, its scale too.
         linear = world[:3, :3]
         scale = (rotation_of(linear) if rotation is None else rotation).T @ linear
@@ -121,7 +123,7 @@ def _stated(
         values.wrong(prim, "physics:centerOfMass", raw)
     axes = values.rotation(prim, "physics:principalAxes")
     inertia = None
-    if moments.max() > 0.0:  # pxr takes what is below 1e-5 for unset, which small bodies in metres are
+    if largest > 0.0:  # pxr takes what is below 1e-5 for unset, which small bodies in metres are
         inertia = moments * frame.mass * frame.length**2
     tensor = values.array(prim, "newton:inertia")
     if tensor is not None and len(tensor) == 6 and np.isfinite(tensor).all():

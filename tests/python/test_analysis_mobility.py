@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import kinefab
 import pytest
 from kinefab.analysis import analyse
 from linkages import flat_ladder
@@ -66,6 +67,22 @@ def test_idle_freedoms_of_a_single_loop_are_those_of_bodies_that_turn_as_one():
 def test_a_leg_that_only_seems_to_buckle_is_not_idle():
     """M45: four velocities, no motion, so none that moves nothing else."""
     assert analysed("M45").idle == []
+
+
+def test_what_stands_between_coupled_joints_is_not_idle():
+    """An arm whose elbow is driven from the base by a belt, a tool hanging on it: its shoulder carries elbow and tool,
+    and no freedom moves nothing else.  The motor's shaft that also slides has that one."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", grounded=True)
+    arm, fore, tool, motor = (scene.add_part(name) for name in ("Arm", "Fore", "Tool", "Motor"))
+    scene.add_hinge(base, arm, point=(0, 0, 0), axis=(0, 1, 0), name="Shoulder")
+    elbow = scene.add_hinge(arm, fore, point=(0.5, 0, 0), axis=(0, 1, 0), name="Elbow")
+    scene.add_hinge(fore, tool, point=(1, 0, 0), axis=(0, 1, 0), name="Wrist")
+    shaft = scene.add_joint("cylindrical", base, motor, point=(0, 0, 0.2), axis=(0, 1, 0), name="Shaft")
+    scene.add_coupling((shaft, "rx"), elbow, ratio=0.5)
+    found = analyse(scene)
+    assert found.mobility == 4
+    assert [([found.source.nodes[n].name for n in i.nodes], i.count) for i in found.idle] == [(["Motor"], 1)]
 
 
 @pytest.mark.parametrize(

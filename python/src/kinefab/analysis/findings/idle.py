@@ -12,6 +12,7 @@ from ..equations.solve import Solver
 from ..freedom.first_order import BlockFreedom, block_freedoms
 from ..freedom.motion import walked
 from ..freedom.rank import spans
+from .tied import TiedPart, tied_parts
 
 ALONE = 1e-12
 """Share of a motion, squared, that all other bodies may have in it; of a shared twist, that is not the other joint's."""
@@ -48,19 +49,27 @@ def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
         freedom = _moving(assembly, part)
         if freedom is None:
             continue
-        legs = _legs(freedom.bodies.tolist(), neighbours)
-        if len(legs) > 1:
-            counted = [(leg, _alone(freedom, leg)) for leg in legs]
-        elif (assembly.pairs.row_pair[freedom.rows] < 0).any():
-            continue  # a coupling between joints of the loop
-        else:
-            root = int(assembly.blocks.root[assembly.blocks.block[freedom.bodies[0]]])
-            counted = _turning_in_a_loop(assembly, freedom, _ring(root, neighbours, legs[0]))
-        for bodies, count in counted:
-            if count:
+        for tied in tied_parts(assembly, freedom):
+            for bodies, count in _idle_in(assembly, tied, neighbours):
                 nodes = sorted(n for body in bodies for n in assembly.nodes[body])
                 found.append(IdleFreedom(tuple(nodes), count))
     return found
+
+
+def _idle_in(
+    assembly: Assembly, tied: TiedPart, neighbours: dict[int, set[int]]
+) -> list[tuple[list[int], int]]:
+    """Bodies of one part that move alone, and in how many ways."""
+    freedom = tied.freedom
+    if freedom.mobility < 2 or len(freedom.bodies) < 2:
+        return []
+    legs = _legs(freedom.bodies.tolist(), neighbours)
+    if len(legs) > 1:
+        counted = [(leg, _alone(freedom, leg)) for leg in legs]
+        return [(leg, count) for leg, count in counted if count]
+    if tied.coupled:
+        return []  # a coupling between joints of the loop
+    return _turning_in_a_loop(assembly, freedom, _ring(tied.root, neighbours, legs[0]))
 
 
 def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:

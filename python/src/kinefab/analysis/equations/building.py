@@ -9,10 +9,13 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Constraint, ConstraintKind, FeatureKind
 from ...spatial import IntArray
+from .bounded import is_bounded
 from .constraints import Context, build, build_stack, pair_of, stack_of
 from .features import Sides, UnknownPairing
 from .rows import Rows
 
+MEASURES = (ConstraintKind.DISTANCE, ConstraintKind.ANGLE)
+"""Constraints that state nothing but a measure, so that nothing is left where it is only bounded."""
 AXIS_MAKERS = (ConstraintKind.COINCIDENT, ConstraintKind.CONCENTRIC, ConstraintKind.INSERT)
 
 
@@ -51,6 +54,14 @@ def constraint_rows(
             build_stack(rows, [constraints[i] for i in members], stacked, context)
         except UnknownPairing:
             unknown += members
+    noted = {own.constraint.id for own in context.ranges}
+    for i in single:
+        constraint = constraints[i]
+        if is_bounded(constraint) and constraint.id not in noted:
+            tell = report.dropped if constraint.kind in MEASURES else report.approximated
+            tell(
+                f"constraint {constraint.id}", "CONSTRAINT_RANGE_DROPPED", constraint.where, id=constraint.id
+            )
     for constraint in (constraints[i] for i in sorted(unknown)):
         report.dropped(
             f"constraint {constraint.id}",

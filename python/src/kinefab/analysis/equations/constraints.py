@@ -19,6 +19,7 @@ import numpy as np
 from ...model import Constraint, ConstraintKind, FeatureKind
 from ...spatial import Array, cross
 from .atoms import Atom
+from .bounded import RangedCoordinate, bounded, is_bounded
 from .coupled import COUPLED, coupled, screw
 from .distances import PARALLEL_SINE, apart, lines_apart, off_line
 from .features import UnknownPairing, need_directions, plain_family
@@ -27,21 +28,6 @@ from .tangency import tangent
 
 STRAIGHT = 1e-9
 """Sine or cosine of a stated angle below which it asks for parallel directions."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RangedCoordinate:
-    """A length along or an angle about ``axis`` (WORLD, fixed on a) that the source bounds, not fixes.
-
-    measured: its value at the exported pose.
-    """
-
-    constraint: Constraint
-    body_a: int
-    body_b: int
-    axis: Array
-    is_angle: bool
-    measured: float
 
 
 @dataclass(slots=True)
@@ -70,7 +56,7 @@ def stack_of(constraint: Constraint, sides: tuple[tuple[FeatureKind, bool], ...]
 
     sides: kind and ``framed`` of each of its features.
     """
-    if constraint.kind in _BY_GEOMETRY or _ranged(constraint):
+    if constraint.kind in _BY_GEOMETRY or is_bounded(constraint):
         return None
     if constraint.kind is ConstraintKind.DISTANCE and FeatureKind.PLANE not in (kind for kind, _ in sides):
         return None  # a distance of nothing has other equations
@@ -97,10 +83,6 @@ def pair_of(a: Side, b: Side) -> tuple[int, int]:
     return low, high
 
 
-def _ranged(c: Constraint) -> bool:
-    return c.lower is not None or c.upper is not None
-
-
 def _nearest_sign(value: float | Array, measured: Array) -> Array:
     return np.where(np.abs(measured - value) <= np.abs(measured + value), value, np.negative(value))
 
@@ -113,12 +95,13 @@ def _nearest_turn(value: float, measured: float) -> float:
 def _offset(rows: Rows, c: Constraint, plane: Side, other: Side, context: Context) -> None:
     """A signed distance along the plane's normal: an equation, or a range that is only noted."""
     measured = np.sum(plane.z * (other.p - plane.p), axis=-1)
-    if _ranged(c):
+    signed = c.reading.get("offset") == "along_normal"
+    if is_bounded(c):
         bodies = int(plane.body), int(other.body)
-        context.ranges.append(RangedCoordinate(c, *bodies, plane.z, False, float(measured)))
+        context.ranges.append(bounded(c, bodies, plane.z, float(measured), False, signed))
         return
     value = context.value
-    if c.reading.get("offset") != "along_normal":
+    if not signed:
         value = _nearest_sign(value, measured)
     rows.plane(plane, plane.z, other, value)
 
@@ -174,7 +157,9 @@ def _angle(
     if "point" in pair:
         raise UnknownPairing
     if pair == ("plane", "line"):
-        if abs(math.cos(c.value)) < STRAIGHT:
+        if is_bounded(c):
+            _tilt_range(c, first, second, reference, context)
+        elif abs(math.cos(c.value)) < STRAIGHT:
             rows.parallel(first, second)  # a.b = +-1 has no gradient
         else:
             rows.dot(first, first.z, second, second.z, math.sin(c.value))
@@ -182,20 +167,33 @@ def _angle(
     about = _angle_axis(c, a, b, reference, context)
     if about is not None:
         measured = math.atan2(about @ cross(a.z, b.z), a.z @ b.z)
-        if _ranged(c):
-            context.ranges.append(RangedCoordinate(c, int(a.body), int(b.body), about, True, measured))
+        signed = reference is not None or c.reading.get("angle") == "directed"
+        if is_bounded(c):
+            bodies = int(a.body), int(b.body)
+            context.ranges.append(bounded(c, bodies, about, measured, True, signed))
             return
         value = _nearest_turn(c.value, measured)
-        if reference is None and c.reading.get("angle") != "directed":
+        if not signed:
             other = _nearest_turn(-c.value, measured)
             value = value if abs(measured - value) <= abs(measured - other) else other
         rows.angle(a, a.z, about, b, b.z, value)
-    elif _ranged(c):
-        raise UnknownPairing
+    elif is_bounded(c):
+        return  # about no axis that the bodies share
     elif abs(math.sin(c.value)) < STRAIGHT:
         rows.parallel(a, b)  # a.b = +-1 has no gradient
     else:
         rows.dot(a, a.z, b, b.z, math.cos(c.value))
+
+
+def _tilt_range(c: Constraint, plane: Side, line: Side, reference: Side | None, context: Context) -> None:
+    """How far a line may be tilted out of a plane, about an axis that lies in the plane and across the line."""
+    about = _angle_axis(c, plane, line, reference, context)
+    if about is not None:
+        within = cross(about, plane.z)
+        within = within if within @ line.z >= 0.0 else -within
+        measured = math.atan2(about @ cross(within, line.z), within @ line.z)
+        bodies = int(plane.body), int(line.body)
+        context.ranges.append(bounded(c, bodies, about, measured, True, reference is not None))
 
 
 def _angle_axis(c: Constraint, a: Side, b: Side, reference: Side | None, context: Context) -> Array | None:
@@ -215,8 +213,8 @@ def _distance(rows: Rows, c: Constraint, a: Side, b: Side, *, context: Context) 
     first, second, pair = _ordered(a, b, "plane", "line", "point")
     if first.kind is FeatureKind.PLANE:
         _coincident(rows, c, first, second, context=context)
-    elif _ranged(c):
-        raise UnknownPairing
+    elif is_bounded(c):
+        return  # no coordinate of a joint
     elif pair == ("point", "point"):
         apart(rows, first, second, abs(c.value))
     elif pair == ("line", "point"):

@@ -25,8 +25,9 @@ from ...model import (
 )
 from ...spatial import Array
 from .atoms import Atom
+from .bounded import RangedCoordinate
 from .building import constraint_rows
-from .constraints import Context, RangedCoordinate
+from .constraints import Context
 from .features import LEAST_LENGTH, Numbers, Sides, numbers_of, sides_of
 from .rows import Rows, Side, has_direction
 from .system import System

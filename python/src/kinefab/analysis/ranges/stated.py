@@ -8,7 +8,7 @@ from dataclasses import replace
 from ...diagnostics import Report
 from ...model import RX, TX, Motion, Scene
 from ..assembly.assemble import Assembly
-from ..equations.constraints import RangedCoordinate
+from ..equations.bounded import RangedCoordinate
 from ..joints.links import Link
 
 ALONG = 1.0 - 1e-6

@@ -229,8 +229,7 @@ class _Loading:
 def _to_node(reference: MeshReference, file: MeshFile) -> Array:
     """The map into the node's frame, by the file's own unit where it states one."""
     matrix = np.array(reference.to_node, dtype=np.float64)
-    said = abs(float(np.linalg.det(matrix[:3, :3]))) ** (1.0 / 3.0)
-    if file.metres is not None and said > 0.0:
+    if file.metres is not None and (said := abs(float(np.linalg.det(matrix[:3, :3]))) ** (1.0 / 3.0)) > 0.0:
         matrix[:3, :3] *= file.metres / said
     return matrix
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -21,7 +22,7 @@ Materials = Mapping[str, tuple[int, float | None]]
 """By name: index in the scene, and density in kg/m^3 or None."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class MeshSource:
     """What a bundle says of its mesh files.
 
@@ -35,6 +36,11 @@ class MeshSource:
     layout: str = "single"
     in_world: bool = True
     keyed_by: MeshKey = MeshKey.OBJECT
+
+    @cached_property
+    def shared(self) -> Path | None:
+        """The file that every body is in which names none."""
+        return self.folder / PurePosixPath(self.files[0]) if self.layout == "single" and self.files else None
 
 
 def read_bodies(
@@ -84,16 +90,16 @@ def _mesh(
     body: Record, label: str, part_file: PurePosixPath | None, siblings: int, meshes: MeshSource
 ) -> tuple[Path | None, str | None]:
     """File and name of a body's mesh; no file, after a report, where the bundle states none."""
-    shared = PurePosixPath(meshes.files[0]) if meshes.layout == "single" and meshes.files else None
     own_file = relative_path(body, "file", body.text("file", ""))
     # In a file of its own a body needs no name; everywhere else its name is the best key.
     alone = own_file is not None or (part_file is not None and siblings == 1)
     key = body.text("meshKey", None if alone else label or None)
-    path = own_file or part_file or shared
+    stated = own_file or part_file
+    path = meshes.shared if stated is None else meshes.folder / stated
     if path is None:
         body.fault("BODY_WITHOUT_MESH", "", body=label)
         return None, None
-    return meshes.folder / path, key
+    return path, key
 
 
 def _mesh_to_node(placement: Placement, node: int, frame: SourceFrame, meshes: MeshSource) -> Array:
@@ -108,10 +114,12 @@ def _mesh_to_node(placement: Placement, node: int, frame: SourceFrame, meshes: M
 
 def relative_path(record: Record, key: str, file: str) -> PurePosixPath | None:
     """A mesh file's path; one that is bound to a machine (``C:\\...``, ``/home/...``) is reported."""
+    if not file:
+        return None
     path = PurePosixPath(file.replace("\\", "/"))
     if path.is_absolute() or file[1:2] == ":":
         record.fault("MESH_PATH_ABSOLUTE", key, file=file)
-    return path if file else None
+    return path
 
 
 def read_mass(

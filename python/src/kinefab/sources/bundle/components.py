@@ -9,7 +9,7 @@ import numpy as np
 from ...model import Node, NodeKind
 from ...spatial import Array
 from ..reading.placement import ROUNDED, SKEWED, Placement, place
-from ..reading.record import REQUIRED, Log, Record, shown
+from ..reading.record import REQUIRED, Log, Record, Vector, shown
 from ..reading.source_frame import SourceFrame
 from .bodies import Materials, MeshSource, read_bodies, read_mass
 
@@ -19,6 +19,8 @@ COMPONENT = frozenset(
 POSE = frozenset("o x y z".split())
 KINDS = {"part": NodeKind.PART, "assembly": NodeKind.ASSEMBLY}
 
+UNTURNED = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""Axes of a component whose own cannot be read."""
 MOST_NAMES = 12
 """Components of a cycle that a message lists."""
 GROUND = "ground"
@@ -130,16 +132,15 @@ def _path(names: list[str]) -> str:
 
 
 def _axes_and_origins(records: list[Record]) -> tuple[Array, Array]:
-    axes, origins = np.empty((len(records), 3, 3)), np.empty((len(records), 3))
-    for i, record in enumerate(records):
+    triads: list[tuple[Vector, ...]] = []
+    origins: list[Vector] = []
+    for record in records:
         pose = record.record("pose", POSE, REQUIRED)
-        if pose is None:
-            axes[i], origins[i] = np.eye(3), 0.0
-            continue
-        origins[i] = pose.vector("o")
-        columns = [pose.vector(axis) for axis in "xyz"]
-        axes[i] = np.transpose(columns) if pose.sound else np.eye(3)
-    return axes, origins
+        origins.append((0.0, 0.0, 0.0) if pose is None else pose.vector("o"))
+        triad = UNTURNED if pose is None else tuple(pose.vector(axis) for axis in "xyz")
+        triads.append(triad if pose is None or pose.sound else UNTURNED)
+    axes = np.reshape(np.array(triads, dtype=np.float64), (-1, 3, 3)).transpose(0, 2, 1)
+    return np.ascontiguousarray(axes), np.reshape(np.array(origins, dtype=np.float64), (-1, 3))
 
 
 def _check_axes(record: Record, name: str, placement: Placement, i: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
+from itertools import islice
 
 from ...unity.scene import (
     AnimationClip,
@@ -36,6 +37,8 @@ from .text.yaml import HEADER, Plain, external
 
 NATIVE = 2
 """The type of a reference to an asset in Unity's own YAML."""
+TOGETHER = 1024
+"""Documents of one piece of the prefab: about a megabyte."""
 MESHES, MATERIALS, TEXTURES, PHYSICS, ANIMATIONS = (
     "Meshes",
     "Materials",
@@ -202,8 +205,9 @@ def _bytes_of(name: str) -> list[bytes]:
 
 def _prefab(hierarchy: Hierarchy) -> Iterator[bytes]:
     yield HEADER.encode()
-    for document in hierarchy.documents():
-        yield document.encode("ascii")
+    documents = hierarchy.documents()
+    while together := list(islice(documents, TOGETHER)):
+        yield "".join(together).encode("ascii")
 
 
 def _normal_mapped(scene: UnityScene) -> set[int]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
 from ....unity.scene import BoxCollider, CapsuleCollider, Collider, MeshCollider, Rigidbody, SphereCollider
+from ....unity.scene.vectors import Quaternion, Vector3
 from ..text.dialects import Dialect
 from ..text.documents import COMPONENT, layers, version
 from ..text.forms import BLANK, Form
@@ -61,8 +62,7 @@ def rigidbody(body: Rigidbody, file_id: int, owner: int, dialect: Dialect) -> st
     """The document.  owner: fileID of the GameObject."""
     mass: tuple[Plain, ...] = ()
     if dialect.mass_properties:
-        moments = [moment if moment > 0.0 else LEAST_INERTIA for moment in body.inertiaTensor]
-        mass = (placed(body.centerOfMass), vector(moments), placed(body.inertiaTensorRotation))
+        mass = _mass(body.centerOfMass, body.inertiaTensor, body.inertiaTensorRotation)
     frozen = 0
     for word in body.constraints:
         frozen |= CONSTRAINTS[word]
@@ -79,6 +79,13 @@ def rigidbody(body: Rigidbody, file_id: int, owner: int, dialect: Dialect) -> st
         frozen,
         DETECTION[body.collisionDetectionMode],
     )
+
+
+@lru_cache(maxsize=4096)
+def _mass(center: Vector3, inertia: Vector3, turn: Quaternion) -> tuple[Plain, ...]:
+    """As it is written: the parts of a definition have it in common."""
+    moments = [moment if moment > 0.0 else LEAST_INERTIA for moment in inertia]
+    return placed(center), vector(moments), placed(turn)
 
 
 @cache

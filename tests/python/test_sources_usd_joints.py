@@ -263,3 +263,22 @@ def test_a_rack_rolls_on_its_pinion(tmp_path):
     (found,) = scene.couplings
     # z x (0, -2, 0) = (2, 0, 0): the pinion's lowest point runs along +X as it turns by the right hand.
     assert (found.joint, found.terms[0].ratio) == ("J1", pytest.approx(30 * DEGREE / 0.01))
+
+
+def test_a_coordinate_that_is_stated_is_counted_as_its_range_is(tmp_path):
+    """Two slides of body 0 against the world, of which PhysX's JointStateAPI says where one stands; the scene counts them
+    the other way round, as the world goes first there."""
+    locked = "".join(
+        f" float limit:{name}:physics:low = 1\n float limit:{name}:physics:high = -1\n"
+        for name in ("transZ", "rotX", "rotY", "rotZ")
+    )
+    inside = (
+        f"{locked} float limit:transX:physics:low = -0.1\n float limit:transX:physics:high = 0.8\n"
+        " float state:transX:physics:position = 0.2\n"
+    )
+    schemas = ", ".join(f'"PhysicsLimitAPI:{n}"' for n in ("transX", "transZ", "rotX", "rotY", "rotZ"))
+    text = stage(body("B", at=(-0.2, 0, 0)) + joint("PhysicsJoint", "J", inside, "/B", "", schemas))
+    scene, _ = scene_of(tmp_path, text)
+    assert scene is not None
+    (freedom,) = (f for f in scene.joints[0].freedoms if f.at is not None)
+    assert (freedom.lower, freedom.upper, freedom.at) == pytest.approx((-0.8, 0.1, -0.2))

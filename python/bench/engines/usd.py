@@ -53,7 +53,12 @@ class Stage:
         self.kilograms = float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
         self.turn = TURNS[str(UsdGeom.GetStageUpAxis(self.stage))]
         cache = UsdGeom.XformCache()
-        prims = list(Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()))
+        prims, walked = [], iter(Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()))
+        for prim in walked:
+            prims.append(prim)
+            if prim.IsA(UsdGeom.PointInstancer):  # below it are prototypes, no bodies that stand anywhere
+                walked.PruneChildren()
+        instanced = any(p.IsA(UsdGeom.PointInstancer) for p in prims)
         self.bodies = {}
         for prim in prims:
             api = UsdPhysics.RigidBodyAPI(prim)
@@ -67,7 +72,7 @@ class Stage:
             for body in joint.bodies:
                 self.at[body].append(joint)
         self.joints = [found for joint in self._bridges() for found in self._coordinates(joint)]
-        self.mobility = self._mobility()
+        self.mobility = None if instanced else self._mobility()
         self.slack = self._slack()
 
     def _stacks(self) -> int:

@@ -22,6 +22,7 @@ _TYPES: dict[str, Any] = {
     "scales": _VECTORS,
 }
 """Of an instancer's arrays; pxr passes over some of another type, and stumbles over others."""
+_MOVING = (*_TYPES, "invisibleIds")
 
 
 def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[int, Any, Array]]:
@@ -49,6 +50,10 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
             f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=f"{len(indices)} instances"
         )
         return
+    moving = [name for name in _MOVING if prim.GetAttribute(name).GetNumTimeSamples() > 1]
+    if moving:
+        detail = f"its {', '.join(moving)} change over time; its instances stay as at the exported time"
+        report.dropped(f"animation of {str(prim.GetPath())[1:]}", "USD_FEATURE_DROPPED", where, detail=detail)
     detail = ""
     found: Any = None
     try:

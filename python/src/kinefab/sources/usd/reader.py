@@ -59,13 +59,15 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     scene.meshes, scene.surfaces = parts.library.meshes, parts.looks.surfaces
     moving = [parts.nodes[i] if part.body and part.enabled else -1 for i, part in enumerate(found.parts)]
     joints = Joints(opened, values, found, moving, parts.stands, report)
-    made = [(prim, joint) for prim in found.joints if (joint := joints.read(prim)) is not None]
+    made = [(entry.prim, joint) for entry in found.joints if (joint := joints.read(entry)) is not None]
     scene.joints = stacked(scene.nodes, made, joints.readings, report)
     scene.animations = read_clips(found, scene.nodes, opened, report)
     couplings = Couplings(opened, values, scene, joints.readings, report)
     scene.couplings = couplings.read(found.joints)
     scene.joints = couplings.screwed()
-    tell_vendors([*found.joints, *(part.prim for part in found.parts)], opened, report)
+    tell_vendors(
+        [*(entry.prim for entry in found.joints), *(part.prim for part in found.parts)], opened, report
+    )
     tell_prims(found.vendor, opened, report)
     scene.extras = filters(found, opened, values, report)
     report.raise_for_errors()

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array
-from .api import Sdf, Usd, UsdGeom
+from .api import Usd, UsdGeom
 from .instancer import instances
 from .stage import OpenStage
 from .transforms import IDENTITY, Local, local_of, placed
@@ -71,16 +71,45 @@ class Group:
     parent: int
 
 
+@dataclass(frozen=True, slots=True)
+class Copy:
+    """An instance of a PointInstancer.  prototype: path of its prototype.  path: what stands for it, ``/World/I[3]/Proto``."""
+
+    prototype: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointPrim:
+    """A joint as often as it is there: once for each instance of the prototype that it lies in.
+
+    id: as nodes have them.  copies: the instances that it lies in, from the outermost.
+    """
+
+    prim: Any
+    id: str
+    copies: tuple[Copy, ...] = ()
+
+    def meant(self, path: str) -> str:
+        """What a path of the joint names: within its own instance where it leads into the prototype."""
+        for copy in reversed(self.copies):
+            if path == copy.prototype or path.startswith(f"{copy.prototype}/"):
+                return copy.path + path[len(copy.prototype) :]
+        return path
+
+
 @dataclass(slots=True, eq=False)
 class Found:
     """Everything of interest, in the order of the stage.
 
-    animated: prims whose transform has several time samples, by path.  worlds: matrix of each prim by its path.  body_of: for each path below or at a body the part's number.
+    animated: prims whose transform has several time samples, by path.  worlds: matrix of each prim by its path, that of
+    each instance by ``Copy.path``.  body_of: for each path below or at a body the part's number.  Of a prototype itself
+    both have its first instance.
     """
 
     groups: list[Group] = field(default_factory=list[Group])
     parts: list[Part] = field(default_factory=list[Part])
-    joints: list[Any] = field(default_factory=list[Any])
+    joints: list[JointPrim] = field(default_factory=list[JointPrim])
     scenes: list[Any] = field(default_factory=list[Any])
     collision_groups: list[Any] = field(default_factory=list[Any])
     filtered: list[Any] = field(default_factory=list[Any])
@@ -104,6 +133,7 @@ class _Context:
     purpose: str
     dressed: bool
     id: str
+    copies: tuple[Copy, ...] = ()
 
 
 def walk(opened: OpenStage, values: Values, report: Report) -> Found:
@@ -170,7 +200,9 @@ def _look(
     if "PhysicsArticulationRootAPI" in applied:
         found.articulations.append(prim)
     if "Joint" in ranks or kind.endswith("Joint") or "PhysicsJoint" in kind:
-        found.joints.append(prim)
+        name = str(prim.GetName())
+        ident = f"{context.id}/{name}" if context.id else str(prim.GetPath())[1:]
+        found.joints.append(JointPrim(prim, ident, context.copies))
         return context
     if kind in LIGHTS:
         report.dropped(
@@ -194,6 +226,8 @@ def _look(
     path = str(prim.GetPath())
     own = f"{context.id}/{prim.GetName()}" if context.id else path[1:]
     found.worlds.setdefault(path, world)
+    if context.id:
+        found.worlds[f"/{own}"] = world
     if local.moves:
         found.animated[path] = prim
     visible, purpose = _shown(prim, traits, context)
@@ -207,6 +241,8 @@ def _look(
         part = len(found.parts) - 1
     if part >= 0:
         found.body_of.setdefault(path, part)
+        if context.id:
+            found.body_of[f"/{own}"] = part
     if "Gprim" in ranks:
         if part < 0:
             outer = _outer_group(context, found, groups_of)
@@ -224,7 +260,8 @@ def _look(
         elif part == context.part and "Xformable" in ranks and kind != "PointInstancer":
             if not prim.GetFilteredChildren(PREDICATE):
                 found.parts[part].sites.append((prim, world))
-    return _Context(world, pending, group, part, visible, purpose, dressed, own if context.id else "")
+    ident = own if context.id else ""
+    return _Context(world, pending, group, part, visible, purpose, dressed, ident, context.copies)
 
 
 def _shown(prim: Any, traits: Traits, context: _Context) -> tuple[bool, str]:
@@ -255,18 +292,17 @@ def _instanced(prim: Any, context: _Context, opened: OpenStage, report: Report) 
     copies: list[tuple[Any, _Context]] = []
     for number, prototype, placing in instances(prim, opened, report):
         world = context.world @ placing
-        own = f"{prim.GetPath()}"[1:] + f"[{number}]"
-        below = _Context(
-            world, context.pending, context.group, context.part, context.visible, context.purpose, True, own
-        )
+        own = f"{context.id or str(prim.GetPath())[1:]}[{number}]"
+        copy = Copy(str(prototype.GetPath()), f"/{own}/{prototype.GetName()}")
+        below = replace(context, world=world, dressed=True, id=own, copies=(*context.copies, copy))
         copies.append((prototype, below))
     return copies[::-1]
 
 
-def body_above(path: Any, found: Found) -> int:
+def body_above(path: str, found: Found) -> int:
     """The part of the nearest body at or above a path, -1 for none."""
-    while path and path != Sdf.Path.absoluteRootPath:
-        if (part := found.body_of.get(str(path))) is not None:
+    while len(path) > 1:
+        if (part := found.body_of.get(path)) is not None:
             return part
-        path = path.GetParentPath()
+        path = path.rpartition("/")[0]
     return -1

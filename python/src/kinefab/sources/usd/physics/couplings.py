@@ -14,6 +14,7 @@ from ....diagnostics import Report
 from ....model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Scene, Term, unlocked_of
 from ..stage import OpenStage
 from ..values import Values, identity, schemas
+from ..walk import JointPrim
 from .freedoms import DOFS
 from .joints import COUPLINGS, Readings
 
@@ -41,56 +42,58 @@ class Couplings:
             for joint in self._scene.joints
         ]
 
-    def read(self, prims: Sequence[Any]) -> list[Coupling]:
-        """prims: the joint prims, gears and racks among them."""
+    def read(self, entries: Sequence[JointPrim]) -> list[Coupling]:
+        """entries: the joint prims, gears and racks among them."""
         found: list[Coupling | None] = []
-        for prim in prims:
-            kind = str(prim.GetTypeName())
+        for entry in entries:
+            kind = str(entry.prim.GetTypeName())
             if kind == GEAR:
-                found.append(self._gear(prim))
+                found.append(self._gear(entry))
             elif kind == RACK:
-                found.append(self._rack(prim))
-            applied = schemas(prim)
+                found.append(self._rack(entry))
+            applied = schemas(entry.prim)
             if "NewtonMimicAPI" in applied:
-                found.append(self._newton(prim))
+                found.append(self._newton(entry))
             else:
                 found += [
-                    self._physx(prim, s.partition(":")[2])
+                    self._physx(entry, s.partition(":")[2])
                     for s in applied
                     if s.startswith("PhysxMimicJointAPI:")
                 ]
         return [coupling for coupling in found if coupling is not None]
 
-    def _newton(self, prim: Any) -> Coupling | None:
+    def _newton(self, entry: JointPrim) -> Coupling | None:
         """q = coef0 + coef1 q_leader, in the follower's and the leader's units."""
+        prim = entry.prim
         if not self._values.flag(prim, "newton:mimicEnabled", True):
-            self._report.dropped(f"mimic of {identity(prim)}", "FEATURE_SUPPRESSED", self._opened.place(prim))
+            self._report.dropped(f"mimic of {entry.id}", "FEATURE_SUPPRESSED", self._opened.place(prim))
             return None
         if any(self._values.number(prim, name, 0.0) for name in POLYNOMIAL):
             self._report.approximated(
-                f"mimic of {identity(prim)}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim),
+                f"mimic of {entry.id}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim),
                 detail="its terms of higher order were left out",
             )  # fmt: skip
         coefficients = [self._values.number(prim, f"newton:mimicCoef{i}", float(i)) for i in (0, 1)]
-        return self._mimic(prim, "newton:mimicJoint", "", "", coefficients[1], coefficients[0])
+        return self._mimic(entry, "newton:mimicJoint", "", "", coefficients[1], coefficients[0])
 
-    def _physx(self, prim: Any, instance: str) -> Coupling | None:
+    def _physx(self, entry: JointPrim, instance: str) -> Coupling | None:
         """q + gearing q_leader + offset = 0."""
+        prim = entry.prim
         prefix = f"physxMimicJoint:{instance}:"
         gearing = self._values.number(prim, prefix + "gearing", 1.0)
         offset = self._values.number(prim, prefix + "offset", 0.0)
         leader = self._values.word(prim, prefix + "referenceJointAxis", "")
-        return self._mimic(prim, prefix + "referenceJoint", instance, leader, -gearing, -offset)
+        return self._mimic(entry, prefix + "referenceJoint", instance, leader, -gearing, -offset)
 
     def _mimic(
-        self, prim: Any, relation: str, own: str, other: str, ratio: float, offset: float
+        self, entry: JointPrim, relation: str, own: str, other: str, ratio: float, offset: float
     ) -> Coupling | None:
-        feature, where = f"mimic of {identity(prim)}", self._opened.place(prim, relation)
-        targets = self._values.targets(prim, relation)
-        follower = self._coordinate(identity(prim), own)
-        leader = self._coordinate(str(targets[0])[1:], other) if targets else None
+        feature, where = f"mimic of {entry.id}", self._opened.place(entry.prim, relation)
+        targets = self._values.targets(entry.prim, relation)
+        follower = self._coordinate(entry.id, own)
+        leader = self._coordinate(entry.meant(str(targets[0]))[1:], other) if targets else None
         if follower is None or leader is None:
-            missing = str(targets[0]) if targets and follower is not None else identity(prim)
+            missing = str(targets[0]) if targets and follower is not None else entry.id
             self._lost(feature, where, f"joint {missing} has no free coordinate for it")
             return None
         (joint, freedom, sense), (led, led_freedom, led_sense) = follower, leader
@@ -103,36 +106,36 @@ class Couplings:
             self._leads[joint.id] = 2.0 * math.pi * factor
             return None
         return Coupling(
-            f"mimic:{identity(prim)}" + (f":{own}" if own else ""),
+            f"mimic:{entry.id}" + (f":{own}" if own else ""),
             CouplingKind.LINEAR, joint.id, freedom, (Term(led.id, led_freedom, factor),),
             offset * unit * sense, where,
         )  # fmt: skip
 
-    def _gear(self, prim: Any) -> Coupling | None:
+    def _gear(self, entry: JointPrim) -> Coupling | None:
         """As PhysX solves it: R w0 + w1 = 0 along the hinges' axes, whichever bodies of the hinges the gear names."""
-        ratio = self._values.number(prim, "physics:gearRatio", 1.0)
-        ends = [self._end(prim, f"physics:hinge{i}", f"physics:body{i}") for i in (0, 1)]
+        ratio = self._values.number(entry.prim, "physics:gearRatio", 1.0)
+        ends = [self._end(entry, f"physics:hinge{i}", f"physics:body{i}") for i in (0, 1)]
         first, second = ends
         if first is None or second is None or ratio == 0.0:
             self._lost(
-                f"gear {identity(prim)}", self._opened.place(prim), "it names no two hinges with a free turn"
+                f"gear {entry.id}", self._opened.place(entry.prim), "it names no two hinges with a free turn"
             )
             return None
-        return self._tied(prim, CouplingKind.GEAR, first, second, -ratio)
+        return self._tied(entry, CouplingKind.GEAR, first, second, -ratio)
 
-    def _rack(self, prim: Any) -> Coupling | None:
+    def _rack(self, entry: JointPrim) -> Coupling | None:
         """As PhysX solves it: w = R v along the axes, with the sign that rolling without slip has where the pinion lies
         beside the rack.  R in degrees for a unit of length."""
-        ratio = self._values.number(prim, "physics:ratio", 1.0)
-        pinion = self._end(prim, "physics:hinge", "physics:body0")
-        rack = self._end(prim, "physics:prismatic", "physics:body1")
+        ratio = self._values.number(entry.prim, "physics:ratio", 1.0)
+        pinion = self._end(entry, "physics:hinge", "physics:body0")
+        rack = self._end(entry, "physics:prismatic", "physics:body1")
         if pinion is None or rack is None or ratio == 0.0:
             self._lost(
-                f"rack {identity(prim)}", self._opened.place(prim), "it names no hinge and slide that move"
+                f"rack {entry.id}", self._opened.place(entry.prim), "it names no hinge and slide that move"
             )
             return None
         ratio *= self._opened.degree / self._opened.frame.length
-        return self._tied(prim, CouplingKind.RACK, rack, pinion, ratio * self._rolling(pinion[0], rack[0]))
+        return self._tied(entry, CouplingKind.RACK, rack, pinion, ratio * self._rolling(pinion[0], rack[0]))
 
     def _rolling(self, pinion: Joint, rack: Joint) -> float:
         frames = [self._scene.pose(j.a) @ j.frame_a for j in (pinion, rack)]
@@ -141,28 +144,28 @@ class Couplings:
         along = float(np.cross(frames[0].rotation[:, 0], apart) @ frames[1].rotation[:, 0])
         return -1.0 if along < -1e-3 * self._opened.frame.length else 1.0
 
-    def _end(self, prim: Any, relation: str, body: str) -> tuple[Joint, int, float] | None:
+    def _end(self, entry: JointPrim, relation: str, body: str) -> tuple[Joint, int, float] | None:
         """The coordinate of a hinge or slide, counted as the body that the gear names moves."""
-        targets = self._values.targets(prim, relation)
-        end = self._coordinate(str(targets[0])[1:], "") if targets else None
+        targets = self._values.targets(entry.prim, relation)
+        end = self._coordinate(entry.meant(str(targets[0]))[1:], "") if targets else None
         if end is None:
             return None
         joint, freedom, sense = end
         hinge = self._opened.stage.GetPrimAtPath(targets[0])
-        named = self._values.targets(prim, body)
+        named = self._values.targets(entry.prim, body)
         if named and named[:1] == self._values.targets(hinge, "physics:body0")[:1]:
             sense = -sense
         return joint, freedom, sense
 
     def _tied(
-        self, prim: Any, kind: CouplingKind, first: tuple[Joint, int, float], second: tuple[Joint, int, float], ratio: float
+        self, entry: JointPrim, kind: CouplingKind, first: tuple[Joint, int, float], second: tuple[Joint, int, float], ratio: float
     ) -> Coupling:  # fmt: skip
         """second = ratio * first, both as they stand at the exported pose: gears count speeds, not angles."""
         ratio = ratio * first[2] * second[2]
         offset = self._now(*second[:2]) - ratio * self._now(*first[:2])
         term = Term(first[0].id, first[1], ratio)
         return Coupling(
-            identity(prim), kind, second[0].id, second[1], (term,), offset, self._opened.place(prim)
+            entry.id, kind, second[0].id, second[1], (term,), offset, self._opened.place(entry.prim)
         )
 
     def _now(self, joint: Joint, freedom: int) -> float:

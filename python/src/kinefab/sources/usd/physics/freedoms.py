@@ -133,4 +133,5 @@ def turned_round(freedom: Freedom) -> Freedom:
     passive = freedom.passive
     if passive is not None:
         passive = replace(passive, rest=-passive.rest)
-    return replace(freedom, lower=-freedom.upper, upper=-freedom.lower, drive=drive, passive=passive)
+    at = None if freedom.at is None else -freedom.at
+    return replace(freedom, lower=-freedom.upper, upper=-freedom.lower, drive=drive, passive=passive, at=at)

@@ -12,7 +12,8 @@ WORLD = -1
 def held_parts(found: Found, values: Values) -> frozenset[int]:
     """Numbers of the parts that fixed joints hold to what stands still, one by way of another."""
     beside: dict[int, list[int]] = {}
-    for prim in found.joints:
+    for entry in found.joints:
+        prim = entry.prim
         if not prim.IsA(UsdPhysics.FixedJoint) or not values.flag(prim, "physics:jointEnabled", True):
             continue
         if values.authored(prim, "physics:breakForce") or values.authored(prim, "physics:breakTorque"):
@@ -20,7 +21,7 @@ def held_parts(found: Found, values: Values) -> frozenset[int]:
         ends: list[int] = []
         for side in (0, 1):
             targets = values.targets(prim, f"physics:body{side}")
-            part = body_above(targets[0].GetPrimPath(), found) if targets else WORLD
+            part = body_above(entry.meant(str(targets[0].GetPrimPath())), found) if targets else WORLD
             ends.append(part if part >= 0 and found.parts[part].body and found.parts[part].enabled else WORLD)
         beside.setdefault(ends[0], []).append(ends[1])
         beside.setdefault(ends[1], []).append(ends[0])

@@ -30,8 +30,8 @@ from ....spatial import Array, Pose, rotation_about, rotation_exp
 from ..api import Sdf, UsdPhysics
 from ..stage import OpenStage
 from ..transforms import Stand, local_of, placed, rotation_of
-from ..values import Values, identity, schemas, title
-from ..walk import Found, body_above
+from ..values import Values, schemas, title
+from ..walk import Found, JointPrim, body_above
 from .freedoms import DOFS, Freedoms, turned_round
 from .vendor import passive_of
 
@@ -99,22 +99,23 @@ class Joints:
         self._freedoms = Freedoms(opened, values, report)
         self.readings = Readings()
 
-    def read(self, prim: Any) -> Joint | None:
+    def read(self, entry: JointPrim) -> Joint | None:
         """None, with its reason in the report, where there is no joint to make."""
-        feature, where = f"joint {identity(prim)}", self._opened.place(prim)
+        prim = entry.prim
+        feature, where = f"joint {entry.id}", self._opened.place(prim)
         if str(prim.GetTypeName()) in COUPLINGS:
             return None  # no joint between bodies: read apart
         if not prim.IsA(UsdPhysics.Joint):
             self._report.dropped(feature, "USD_JOINT_UNKNOWN", where, kind=prim.GetTypeName())
             return None
-        first, second = self._side(prim, 0), self._side(prim, 1)
+        first, second = self._side(entry, 0), self._side(entry, 1)
         if first is None or second is None:
             return None
         if first.node == second.node:
             what = "the world" if first.node == GROUND else "one body"
             self._report.dropped(feature, "USD_JOINT_ENDS_EQUAL", where, what=what)
             return None
-        draft = self._draft(prim)
+        draft = self._draft(entry)
         if draft is None:
             return None
         freedoms, order = draft.freedoms, draft.order
@@ -123,12 +124,12 @@ class Joints:
         freedoms, first = _held(freedoms, first, self._opened.frame.length)
         freedoms, slerp = self._slerp(prim, freedoms) if second.node != GROUND else (freedoms, None)
         if second.node == GROUND:
-            freedoms, first, second = self._swapped(prim, freedoms, first, second)
+            freedoms, first, second = self._swapped(entry, freedoms, first, second)
         kind = kind_of(unlocked_of(freedoms))
         if kind is JointKind.FIXED and _meet(first, second):
             first = replace(first, axes=second.axes, origin=second.origin)
         if tuple(i for i in unlocked_of(freedoms) if i >= RX) == (RY, RZ):
-            self._approximated(prim, "its two swings without twist became the two axes of a universal joint")
+            self._approximated(entry, "its two swings without twist became the two axes of a universal joint")
         breaks = [
             self._values.number(prim, f"physics:break{what}", math.inf, open_ended=True) * self._freedoms.units.force(turns)
             for what, turns in (("Force", False), ("Torque", True))
@@ -137,7 +138,7 @@ class Joints:
         if self._values.flag(prim, "physics:excludeFromArticulation", False):
             extras["excludeFromArticulation"] = True
         return Joint(
-            identity(prim), kind,
+            entry.id, kind,
             None if first.node == GROUND else first.node, second.node,
             self._frame(first), self._frame(second), freedoms,
             name=title(prim),
@@ -166,8 +167,9 @@ class Joints:
         )
         return (*freedoms[:RX], *(replace(f, drive=None) for f in freedoms[RX:])), slerp
 
-    def _side(self, prim: Any, number: int) -> Side | None:
+    def _side(self, entry: JointPrim, number: int) -> Side | None:
         """None, and the joint is lost, where what it names is not there."""
+        prim = entry.prim
         name = f"physics:body{number}"
         targets = self._values.targets(prim, name)
         position = self._values.vector(prim, f"physics:localPos{number}", (0.0, 0.0, 0.0))
@@ -180,21 +182,31 @@ class Joints:
             turn = whole_turn
         rotation = np.eye(3) if turn is None else turn
         if len(targets) > 1:
-            self._approximated(prim, f"{name} names {len(targets)} prims; the first was taken")
+            self._approximated(entry, f"{name} names {len(targets)} prims; the first was taken")
         if not targets:
             return Side(GROUND, rotation, position)
         path = targets[0].GetPrimPath()
         target = self._opened.stage.GetPrimAtPath(path)
         if not target:
             self._report.dropped(
-                f"joint {identity(prim)}",
+                f"joint {entry.id}",
                 "USD_TARGET_MISSING",
                 self._opened.place(prim, name),
                 path=str(path),
             )
             return None
-        world = self._world_of(path)
-        part = body_above(path, self._found)
+        meant = entry.meant(str(path))
+        world = self._found.worlds.get(meant)
+        if world is None:
+            world = self._world_of(path)
+        part = body_above(meant, self._found)
+        if (
+            meant == str(path)
+            and part >= 0
+            and self._found.parts[part].path[1:] != self._found.parts[part].id
+        ):
+            detail = f"{name} names the prototype of a PointInstancer; its first instance was taken"
+            self._approximated(entry, detail)
         node = GROUND if part < 0 else self._nodes[part]
         return Side(node, rotation_of(world[:3, :3]) @ rotation, world[:3, :3] @ position + world[:3, 3])
 
@@ -212,7 +224,8 @@ class Joints:
         stand = self._world if side.node == GROUND else self._stands[side.node]
         return Pose(stand.axes(side.axes), stand.point(side.origin))
 
-    def _draft(self, prim: Any) -> _Draft | None:
+    def _draft(self, entry: JointPrim) -> _Draft | None:
+        prim = entry.prim
         axis = self._values.word(prim, "physics:axis", "X")
         order = MAIN.get(axis, MAIN["X"])
         extras: dict[str, object] = {}
@@ -229,48 +242,50 @@ class Joints:
                 freedom = self._freedoms.with_drive(freedom, prim, instance, turns)
                 freedom = self._freedoms.standing(freedom, prim, instance, turns)
                 freedom = passive_of(freedom, prim, turns, instance, self._values, self._freedoms.units)
-                self._other_instances(prim, {instance})
+                self._other_instances(entry, {instance})
                 return _Draft(tuple(freedom if i == main else LOCKED for i in range(6)), order, extras)
         if prim.IsA(UsdPhysics.SphericalJoint):
-            return _Draft(self._spherical(prim), order, extras)
+            return _Draft(self._spherical(entry), order, extras)
         if prim.IsA(UsdPhysics.DistanceJoint):
-            return _Draft(self._distance(prim), MAIN["X"], extras)
+            return _Draft(self._distance(entry), MAIN["X"], extras)
         if prim.GetTypeName() != "PhysicsJoint":
             self._report.dropped(
-                f"joint {identity(prim)}",
+                f"joint {entry.id}",
                 "USD_JOINT_UNKNOWN",
                 self._opened.place(prim),
                 kind=prim.GetTypeName(),
             )
             return None
-        return _Draft(self._generic(prim), MAIN["X"], extras)
+        return _Draft(self._generic(entry), MAIN["X"], extras)
 
-    def _spherical(self, prim: Any) -> tuple[Freedom, ...]:
+    def _spherical(self, entry: JointPrim) -> tuple[Freedom, ...]:
         """Cones as PhysX has them: angle 0 bounds the turn about the axis after the main one, angle 1 the next."""
+        prim = entry.prim
         angles = [
             self._values.number(prim, f"physics:coneAngle{i}Limit", -1.0, open_ended=True) for i in (0, 1)
         ]
         if angles[0] < 0.0 or angles[1] < 0.0 or math.isinf(angles[0]) or math.isinf(angles[1]):
             if max(angles) >= 0.0 and min(angles) < 0.0:
                 self._approximated(
-                    prim, "only one cone angle is stated, which limits nothing in PhysX either"
+                    entry, "only one cone angle is stated, which limits nothing in PhysX either"
                 )
             return freedoms_of(JointKind.SPHERICAL)
         if angles[0] != angles[1]:
             self._approximated(
-                prim,
+                entry,
                 "its cone has two angles, which the schema and PhysX name the other way round; PhysX was followed",
             )
         swings = [self._freedoms.limited(prim, -angle, angle, True, "cone") for angle in angles]
         return freedoms_of(JointKind.SPHERICAL, ry=swings[0], rz=swings[1])
 
-    def _distance(self, prim: Any) -> tuple[Freedom, ...]:
+    def _distance(self, entry: JointPrim) -> tuple[Freedom, ...]:
         """At most so far apart: a ball for the slides.  Nothing of Unity's joints keeps bodies apart."""
+        prim = entry.prim
         least = self._values.number(prim, "physics:minDistance", -1.0, open_ended=True)
         most = self._values.number(prim, "physics:maxDistance", -1.0, open_ended=True)
         if least > 0.0:
-            self._approximated(prim, f"its least distance {least:g} was left out")
-        return self._ball(prim, most)
+            self._approximated(entry, f"its least distance {least:g} was left out")
+        return self._ball(entry.prim, most)
 
     def _ball(self, prim: Any, most: float) -> tuple[Freedom, ...]:
         if most < 0.0 or math.isinf(most):
@@ -285,7 +300,8 @@ class Joints:
             slide = replace(slide, stiffness=stiffness * gain, damping=damping * gain)
         return (slide,) * 3 + (FREE,) * 3
 
-    def _generic(self, prim: Any) -> tuple[Freedom, ...]:
+    def _generic(self, entry: JointPrim) -> tuple[Freedom, ...]:
+        prim = entry.prim
         found: list[Freedom] = []
         for i, name in enumerate(DOFS):
             freedom = self._freedoms.with_drive(self._freedoms.of_limit(prim, i), prim, name, i >= RX)
@@ -295,23 +311,24 @@ class Joints:
         if "PhysicsLimitAPI:distance" in schemas(prim):
             most = self._values.number(prim, "limit:distance:physics:high", math.inf, open_ended=True)
             if self._values.number(prim, "limit:distance:physics:low", -math.inf, open_ended=True) > 0.0:
-                self._approximated(prim, "its least distance was left out")
-            ball = self._ball(prim, most if most >= 0.0 else math.inf)
+                self._approximated(entry, "its least distance was left out")
+            ball = self._ball(entry.prim, most if most >= 0.0 else math.inf)
             found[:3] = [b if f.motion is Motion.FREE else f for f, b in zip(found, ball)]
-        self._other_instances(prim, known)
+        self._other_instances(entry, known)
         return tuple(found)
 
-    def _other_instances(self, prim: Any, known: set[str]) -> None:
+    def _other_instances(self, entry: JointPrim, known: set[str]) -> None:
+        prim = entry.prim
         for schema in schemas(prim):
             name, _, instance = schema.partition(":")
             if name in ("PhysicsLimitAPI", "PhysicsDriveAPI") and instance not in known:
                 self._report.dropped(
-                    f"{schema} of {identity(prim)}", "USD_FEATURE_DROPPED", self._opened.place(prim),
+                    f"{schema} of {entry.id}", "USD_FEATURE_DROPPED", self._opened.place(prim),
                     detail=f"a {prim.GetTypeName()} has no freedom of that name",
                 )  # fmt: skip
 
     def _swapped(
-        self, prim: Any, freedoms: tuple[Freedom, ...], first: Side, second: Side
+        self, entry: JointPrim, freedoms: tuple[Freedom, ...], first: Side, second: Side
     ) -> tuple[tuple[Freedom, ...], Side, Side]:
         """The world as the first side.  Axes are turned so that coordinates keep their sense where they can.
 
@@ -332,11 +349,11 @@ class Joints:
             axes, names = -np.eye(3), (0, 1, 2)
             axes[across, across] = 1.0
             senses = tuple(-1 if k == across else 1 for k in range(3))
-        self.readings.turned[identity(prim)] = (names, senses)
+        self.readings.turned[entry.id] = (names, senses)
         other = [i for i in slides if [i + RX] != turns]
         if turns and any(freedoms[i].motion is Motion.LIMITED or freedoms[i].drive for i in other):
             self._approximated(
-                prim, "its second body is the world; its slides were taken along the other body's axes"
+                entry, "its second body is the world; its slides were taken along the other body's axes"
             )
         found: list[Freedom] = []
         for i in range(6):
@@ -344,9 +361,9 @@ class Joints:
             found.append(turned_round(freedom) if senses[i % 3] < 0 else freedom)
         return tuple(found), replace(second, axes=second.axes @ axes), replace(first, axes=first.axes @ axes)
 
-    def _approximated(self, prim: Any, detail: str) -> None:
+    def _approximated(self, entry: JointPrim, detail: str) -> None:
         self._report.approximated(
-            f"joint {identity(prim)}", "USD_FEATURE_APPROXIMATED", self._opened.place(prim), detail=detail
+            f"joint {entry.id}", "USD_FEATURE_APPROXIMATED", self._opened.place(entry.prim), detail=detail
         )
 
 

@@ -18,8 +18,10 @@ extras: # libraries of single formats, so that their tests run; where the index 
 	@[ -f .venv/extras.stamp ] || { [ -x .venv/bin/pip ] && .venv/bin/pip install --quiet --disable-pip-version-check \
 		--retries 1 --timeout 15 -e 'python[dev,dev-s3,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || true
 
+# A package that pip installs is compiled by pip; a checkout would be compiled by every call where Python writes no bytecode.
 setup: ## .venv with everything Python needs
 	@bash python/bootstrap.sh
+	@$(PYTHON) -m compileall -q python/src || true
 
 tool: ## build the command line tool, so that `dotnet kinefab` works in the recipes here
 	@dotnet build csharp/src/Kinefab.Cli -c Release -v quiet --nologo

@@ -60,6 +60,20 @@ def test_setup_leaves_a_foreign_environment_alone(tmp_path):
     assert "was not made here" in done.stderr and "Move it away" in done.stderr
 
 
+@pytest.mark.skipif(shutil.which("make") is None, reason="no make on the PATH")
+def test_setup_compiles_the_checkout_where_python_itself_writes_no_bytecode(tmp_path):
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    (tmp_path / "python" / "src").mkdir(parents=True)
+    (tmp_path / "python" / "bootstrap.sh").write_text("")
+    (tmp_path / "python" / "src" / "module.py").write_text("x = 1\n")
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    environment.pop("PYTHONPYCACHEPREFIX", None)
+    command = ["make", "setup", f"PYTHON={sys.executable}"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert list((tmp_path / "python" / "src").glob("__pycache__/module.*.pyc"))
+
+
 def demo(tmp_path: Path, *tools: str, **stubs: str) -> subprocess.CompletedProcess[str]:
     """``make demo`` with this interpreter, into ``tmp_path/out``, where the PATH holds these tools and stubs alone."""
     programs = tmp_path / "programs"

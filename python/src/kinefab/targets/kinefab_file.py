@@ -50,7 +50,7 @@ class _Buffer:
         """The accessor of ``values``, written little-endian and tightly packed as ``dtype``."""
         data = np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<")).data.cast("B")
         offset = self.length
-        for piece in (data, bytes(-len(data) % 4)):
+        for piece in filter(len, (data, bytes(-len(data) % 4))):
             self._file.write(piece)
             self.hash.update(piece)
             self.length += len(piece)

@@ -13,7 +13,7 @@ import trimesh
 from golden import FIXTURES
 from kinefab.diagnostics import Report
 from kinefab.geometry import hulls
-from kinefab.geometry.contact import decomposition, nearness
+from kinefab.geometry.contact import cuts, decomposition, nearness
 from kinefab.geometry.contact.nearness import close_pairs, extents, placed_extents
 from kinefab.geometry.hulls import UNITY_TRIANGLES, collision_hulls, hull_of_points
 from kinefab.geometry.mass import solid_volume
@@ -83,6 +83,17 @@ def test_a_stepped_shaft_falls_into_its_cylinders(monkeypatch):
     shaft = trimesh.boolean.union([thick, thin], engine="manifold")
     pieces = decomposition._decomposed(mesh_of(shaft))
     assert sum(solid_volume(p.vertices, p.faces) for p in pieces) == pytest.approx(shaft.volume, rel=0.04)
+
+
+@MANIFOLD
+def test_the_first_plane_that_opens_a_ring_is_taken(monkeypatch):
+    """Seven cuts make eight pieces; only the first needs a look at the next one, in the two halves of one plane."""
+    searches = []
+    best = cuts._best
+    monkeypatch.setattr(cuts, "_best", lambda *given: searches.append(1) or best(*given))
+    shape = trimesh.creation.annulus(0.1, 0.2, 0.1, sections=16)
+    pieces = cuts.nearly_convex_parts(np.array(shape.vertices) / 0.4, np.array(shape.faces), 16)
+    assert len(pieces) == 8 and len(searches) == 7 + 2
 
 
 @MANIFOLD

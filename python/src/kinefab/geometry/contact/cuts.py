@@ -1,8 +1,8 @@
 """Cuts a solid by planes until its parts are nearly convex, in Manifold's exact Booleans.
 
 The part with the most air in its hull is cut by the plane, of a few, that leaves the least air in the hulls of its halves.
-Where none helps at once (half a ring fills its hull no better than the ring), it is cut by the plane whose halves gain
-the most by one cut more.
+Where none helps at once (half a ring fills its hull no better than the ring), it is cut by the first plane whose halves gain
+much by one cut more, else by the one whose halves gain the most.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ AIR = 0.04
 """Of all hulls together, as a share of the solid: enough."""
 HELPS = 0.05
 """Share of a part's air that a cut takes away at once, below which the next cut is looked at too."""
+ENOUGH = 0.2
+"""Share of a part's air that goes by two cuts, from which on no other first cut is looked for."""
 SAME = 1e-6
 """Relative difference of volumes that is rounding."""
 ALONG = (0.3, 0.7)
@@ -89,6 +91,8 @@ def _cut(part: _Part, reflex: list[_Plane], library: Any) -> list[_Part]:
         after = sum(min(piece.filled, _best(piece, _middles(piece.points), library)[0]) for piece in pieces)
         if after < filled * (1.0 - SAME):
             filled, halves = after, pieces
+        if part.filled - filled > ENOUGH * part.air:
+            break
     return halves
 
 

@@ -42,6 +42,7 @@ def test_strict_refuses_what_would_be_approximated(tmp_path):
             "JOINT_LIMIT_SPRING_SHARED",
         ),
         (JointKind.SPHERICAL, {"ry": Freedom(Motion.LIMITED, -0.2, 0.2)}, "JOINT_LIMIT_ELEVATION"),
+        (JointKind.SPHERICAL, {"ry": Freedom(Motion.LIMITED, upper=0.2)}, "JOINT_LIMIT_BEYOND_TURN"),  # and is free
         (JointKind.PLANAR, {n: Freedom(Motion.LIMITED, -0.2, 0.2) for n in ("ty", "tz")}, "JOINT_LIMITS_SHARED"),
         (JointKind.SPHERICAL, {"ry": Freedom(Motion.FREE, drive=Drive(stiffness=2.0))}, "JOINT_DRIVE_SHARED"),
         (JointKind.PRISMATIC, {"tx": Freedom(Motion.FREE, drive=Drive(target_velocity=1.0, motor=True))}, "JOINT_MOTOR_AS_DRIVE"),

@@ -18,6 +18,7 @@ from kinefab.model import (
     TX,
     Collider,
     ColliderKind,
+    Drive,
     Freedom,
     Joint,
     Motion,
@@ -114,6 +115,19 @@ def test_one_drive_about_all_three_rotations_is_one_again(tmp_path):
     )
     numbers = (found.slerp.stiffness, found.slerp.damping, found.slerp.max_force)
     assert numbers == pytest.approx((9.0, 0.5, 4.0), rel=1e-6)
+
+
+def test_a_slide_is_driven_beside_one_drive_about_all_three_rotations(tmp_path):
+    scene = pair("point_on_line", tx=Freedom(Motion.FREE, drive=Drive(0.3, 0.1, 20.0, 2.0, 50.0)))
+    scene.joints[0] = replace(
+        scene.joints[0], slerp=SphericalDrive(rotation_exp(TURN), np.zeros(3), 9.0, 0.5)
+    )
+    path, _ = written(scene, tmp_path)
+    found = back(path)
+    assert found.slerp is not None and found.freedoms[TX].drive is not None
+    driven = found.freedoms[TX].drive
+    told = (driven.target, driven.target_velocity, driven.stiffness, driven.damping, driven.max_force)
+    assert told == pytest.approx((0.3, 0.1, 20.0, 2.0, 50.0), rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -156,7 +156,7 @@ def _twist_limits(w: _Writing, motions: list[Motion]) -> None:
 def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
     """``angularYLimit`` and ``angularZLimit``: half angles of a cone about X, the same to either side."""
     limited = [i for i in (1, 2) if w.shape.freedoms[RX + i].motion is Motion.LIMITED]
-    half = 0.0
+    halves: dict[int, float] = {}
     # The cone has one bounce for both swings, which may be either's: Unity's choice is not documented.
     bounce = max((w.shape.freedoms[RX + i].restitution for i in limited), default=0.0)
     if limited and bounce > 0.0:
@@ -165,7 +165,7 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
     for i in limited:
         freedom = w.shape.freedoms[RX + i]
         lower, upper = (math.degrees(x - w.zeros[RX + i]) for x in (freedom.lower, freedom.upper))
-        half = max(-lower, upper)
+        halves[i] = half = max(-lower, upper)
         if half >= 180.0:
             w.approximated("JOINT_LIMIT_BEYOND_TURN", low=f"{lower:g}", high=f"{upper:g}")
             motions[RX + i] = Motion.FREE
@@ -180,10 +180,12 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
             )
         key = "angularYLimit" if i == 1 else "angularZLimit"
         w.fields[key] = SoftJointLimit(half, bounce)
-    if len(limited) == 1 and motions[RX + 3 - limited[0]] is Motion.FREE:
-        w.approximated("JOINT_LIMIT_ELEVATION", freedom=w.name(RX + limited[0]), half=f"{half:g}")
-    if limited:
-        w.fields["angularYZLimitSpring"] = _limit_spring(_stiffest(w, [RX + i for i in limited]))
+    kept = {i: half for i, half in halves.items() if motions[RX + i] is Motion.LIMITED}
+    if len(kept) == 1 and any(motions[RX + 3 - i] is Motion.FREE for i in kept):
+        for i, half in kept.items():
+            w.approximated("JOINT_LIMIT_ELEVATION", freedom=w.name(RX + i), half=f"{half:g}")
+    if kept:
+        w.fields["angularYZLimitSpring"] = _limit_spring(_stiffest(w, [RX + i for i in kept]))
 
 
 def _stiffest(w: _Writing, limited: list[int]) -> Freedom:

@@ -137,7 +137,7 @@ class Joints:
                 continue
             write_soft_limit(prim, DOFS[i], freedom, i >= RX)
             write_state(prim, DOFS[i], values[i], i >= RX)
-            if freedom.drive is not None and joint.slerp is None:
+            if freedom.drive is not None and (i < RX or joint.slerp is None):
                 write_drive(prim, DOFS[i], freedom.drive, i >= RX)
             passive = passives.get(shape.name_of[i])
             if passive is not None:

@@ -9,7 +9,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.diagnostics import KinefabError
-from kinefab.model import Drive, Freedom, JointKind, Motion
+from kinefab.model import Drive, Freedom, JointKind, Motion, Passive
 from kinefab.spatial import Pose, rotation_about
 from scenes import BOX, components, exported, lid_scene
 
@@ -61,6 +61,20 @@ def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp
         return
     assert [o.code for o in result.report.outcomes] == [code]
     assert joint["exact"] is False
+
+
+def test_a_joint_that_loses_something_is_not_told_as_kept_too(tmp_path):
+    """In the file's own report as well."""
+    scene = kinefab.Scene()
+    weak = Freedom(Motion.FREE, passive=Passive(effort=5.0))
+    scene.add_joint(
+        "revolute", None, scene.add_part("P", BOX), point=(0, 0, 0), axis=(1, 0, 0), name="J", rx=weak
+    )
+    content, result = exported(scene, tmp_path)
+    assert [(o.outcome.value, o.code) for o in result.report.outcomes] == [
+        ("dropped", "JOINT_EFFORT_DROPPED")
+    ]
+    assert [(e["feature"], e["outcome"]) for e in content["report"]] == [("joint J", "dropped")]
 
 
 def test_reversed_limits_are_an_error(tmp_path):

@@ -37,6 +37,18 @@ def properties(fields: dict, kind: str) -> dict:
     return {k: v for entry in fields["m_SavedProperties"][kind] for k, v in entry.items()}
 
 
+@pytest.mark.parametrize("writing", [{}, {"unity": "2021"}, {"physics": "articulation"}])
+def test_what_is_told_as_lost_is_not_told_as_kept_too(tmp_path, writing):
+    """Couplings without a script, and fields of joints that only an earlier stage kept."""
+    scene = rich_scene(tmp_path)
+    scene.joints = [j for j in scene.joints if j.id != "Snap"]  # which no articulation has
+    result = exported(scene, tmp_path, **writing)
+    outcomes = result.report.outcomes
+    lost = {o.feature for o in outcomes if o.outcome.value != "kept"}
+    assert "coupling Gear" in lost
+    assert not lost & {o.feature for o in outcomes if o.outcome.value == "kept" and not o.code}
+
+
 def test_layers_tags_and_what_2021_has_no_place_for(tmp_path):
     found = told(exported(rich_scene(tmp_path), tmp_path, unity="2021"))
     assert ("layer Scenery of Top/Base", "TARGET_FIELD_DROPPED") in found

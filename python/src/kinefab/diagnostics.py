@@ -263,6 +263,22 @@ class Report:
         self.outcomes = [o for o in self.outcomes if (o.feature, o.code) != (feature, code)]
         self.diagnostics = [d for d in self.diagnostics if d.code != code or d.message not in told]
 
+    def settle(self) -> None:
+        """Leave out that a feature was kept, where nothing else is said of that and a loss of it was told as well: one stage
+        lost what another one kept.
+
+        >>> report = kinefab.Report()
+        >>> report.kept("spring Return")
+        >>> report.dropped("spring Return", "JOINT_REST_DROPPED")
+        >>> report.settle()
+        >>> [outcome.outcome.value for outcome in report.outcomes]
+        ['dropped']
+        """
+        lost = {o.feature for o in self.outcomes if o.outcome is not Outcome.KEPT}
+        self.outcomes = [
+            o for o in self.outcomes if o.outcome is not Outcome.KEPT or o.code or o.feature not in lost
+        ]
+
     def extend(self, other: Report) -> None:
         """Append what another run found.
 

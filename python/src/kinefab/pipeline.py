@@ -216,6 +216,7 @@ def export(
     except KinefabError as error:
         error.report = report
         raise
+    report.settle()
     return ExportResult(files[0], files, found, content, report)
 
 
@@ -264,4 +265,5 @@ def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnitySce
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     check_overlaps(mapped, report)
+    report.settle()
     return mapped

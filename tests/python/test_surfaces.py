@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import trimesh
 from kinefab.diagnostics import Outcome, Report
 from kinefab.geometry.files import read_mesh_file
 from kinefab.geometry.looks.shading import shaded
+from kinefab.geometry.looks.visuals import surface_of
 from kinefab.model import AlphaMode, Mesh
 from trimesh.visual.material import PBRMaterial
 
@@ -223,6 +225,25 @@ def test_a_pbr_material_arrives_whole(through_file, tmp_path):
     assert result.unity.meshes[0].uvs[0].shape == (len(result.unity.meshes[0].vertices), 2)
     told = {o.message for o in result.report.outcomes if o.outcome is Outcome.DROPPED}
     assert sum("Texture of" in message for message in told) == 5
+
+
+@pytest.mark.parametrize("kind, mode", [("PNG", "RGBA"), ("JPEG", "RGB"), ("JPEG", "CMYK"), ("BMP", "RGB")])
+def test_an_image_that_is_read_stays_the_file_that_it_was(kind, mode):
+    """PNG and JPEG byte for byte; what not every target takes, or what a script has changed, is packed as PNG."""
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    written = io.BytesIO()
+    image.effect_noise((16, 8), 40).convert(mode).save(written, format=kind)
+    opened = [image.open(io.BytesIO(written.getvalue())) for _ in range(2)]
+    opened[1].putpixel((3, 3), tuple(range(len(mode))))
+    found = [surface_of(PBRMaterial(baseColorTexture=each)).color_texture for each in opened]
+    kept = kind != "BMP" and mode != "CMYK"
+    assert (found[0].data == written.getvalue()) == kept
+    ending, media = ("jpg", "image/jpeg") if kept and kind == "JPEG" else ("png", "image/png")
+    assert found[0].name.endswith(f".{ending}") and found[0].media_type == media
+    for texture in found:
+        with image.open(io.BytesIO(texture.data)) as again:
+            assert again.size == (16, 8)
+    assert found[1].data.startswith(b"\x89PNG") and found[1].data != found[0].data
 
 
 def test_an_obj_s_textures_are_named_or_told(tmp_path):

@@ -46,6 +46,7 @@ class MujocoModel:
         mujoco.mj_comPos(self.model, self.data)
         self.joints = [j for i in range(self.model.njnt) if (j := self._coordinate(i)) is not None]
         self.bent = self._bent()
+        self.adrift = self._adrift()
         self.mobility = self._mobility()
 
     def _coordinate(self, i: int) -> EngineJoint | None:
@@ -104,6 +105,15 @@ class MujocoModel:
             if int(m.body_parentid[i]) in moved:
                 moved.add(i)
         return moved
+
+    def _adrift(self) -> set[int]:
+        """Bodies of free trees that an equality holds to another: the scene carries them along where that one is moved,
+        while MuJoCo's kinematics leave them where their coordinates say."""
+        m, free = self.model, int(self.mujoco.mjtJoint.mjJNT_FREE)
+        held = {
+            root for root in self._held() if m.body_jntnum[root] and m.jnt_type[m.body_jntadr[root]] == free
+        }
+        return {i for i in range(1, m.nbody) if int(m.body_rootid[i]) in held}
 
     def residual(self) -> float:
         """Largest violation of an equality at the data's pose, metres or radians."""
@@ -176,7 +186,7 @@ class MujocoModel:
         return {
             name: (np.array(d.xmat[i]).reshape(3, 3), np.array(d.xpos[i]))
             for i, name in enumerate(self.body_names)
-            if i and not (values and i in self.bent)
+            if i and not (values and (i in self.bent or i in self.adrift))
         }
 
     def masses(self) -> dict[str, Mass]:

@@ -18,6 +18,10 @@ MOST_SURFACES = 32
 """Colours of one mesh's faces that become surfaces, a draw call each; more of them become colours of vertices."""
 WHITE = Surface("Vertex colors", (1.0, 1.0, 1.0, 1.0))
 """What colours of vertices are multiplied with."""
+FILES = {"PNG": (b"\x89PNG\r\n\x1a\n", "png"), "JPEG": (b"\xff\xd8\xff", "jpg")}
+"""Beginning and ending of the files that every target takes, by PIL's name of them."""
+PLAIN = ("1", "L", "LA", "P", "RGB", "RGBA", "I;16")
+"""PIL's names of the pixels that both have."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,15 +128,35 @@ def _of_pbr(name: str, m: Any, color: tuple[float, float, float, float], gltf: b
 
 
 def _texture(image: Any, material: str, role: str) -> Texture | None:
-    """An image in memory (PIL) as PNG, named by what it holds so that different ones never share a name."""
+    """A PIL image, named by what it holds so that different ones never share a name."""
     if image is None or not hasattr(image, "save"):
         return None
-    written = io.BytesIO()
-    plain = image if image.mode in ("1", "L", "LA", "P", "RGB", "RGBA", "I;16") else image.convert("RGBA")
-    plain.save(written, format="PNG")
-    data = written.getvalue()
+    data, ending = _file_of(image) or (_as_png(image), "png")
     stem = PurePosixPath(str(image.info.get("file_path", "")).replace("\\", "/")).stem or f"{material} {role}"
-    return Texture(f"{stem}-{hashlib.sha256(data).hexdigest()[:8]}.png", data=data, media_type="image/png")
+    name = f"{stem}-{hashlib.sha256(data).hexdigest()[:8]}.{ending}"
+    return Texture(name, data=data, media_type=f"image/{ending.replace('jpg', 'jpeg')}")
+
+
+def _file_of(image: Any) -> tuple[bytes, str] | None:
+    """Bytes and ending of the file that an image was opened from, as long as nobody has asked for its pixels.
+
+    Packing pixels anew takes a hundred times as long as reading a robot, and loses what a JPEG has gained.
+    """
+    stream, (magic, ending) = getattr(image, "fp", None), FILES.get(str(image.format), (b"", ""))
+    if stream is None or not ending or image.mode not in PLAIN:
+        return None
+    at = stream.tell()
+    stream.seek(0)
+    data = bytes(stream.read())
+    stream.seek(at)
+    return (data, ending) if data.startswith(magic) else None
+
+
+def _as_png(image: Any) -> bytes:
+    written = io.BytesIO()
+    plain = image if image.mode in PLAIN else image.convert("RGBA")
+    plain.save(written, format="PNG")
+    return written.getvalue()
 
 
 def _of_faces(colors: Array, mesh: Any) -> Look:

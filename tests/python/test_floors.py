@@ -47,7 +47,7 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "unity": [
         {"frames", "scene"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
         {"__init__"},
     ],

@@ -95,6 +95,25 @@ def test_principal_axes_are_a_proper_rotation_near_the_part_frame():
         assert np.allclose(moments, [5, 1, 3]) and np.allclose(axes, r)
 
 
+def test_impossible_masses_among_sound_ones_are_told_each():
+    """Sound ones are seen in one stack, the others one by one."""
+    sound, inertia = np.diag([3.0, 4.0, 5.0]), np.diag([1.0, 1.0, 2.1])
+    given = [
+        (2.0, sound),
+        (0.0, sound),
+        (2.0, inertia),
+        (np.nan, sound),
+        (1e-39, sound),
+        (2.0, sound * 1e-39),
+    ]
+    nodes = [Node(f"N{i}", f"N{i}", mass=MassProperties(m, np.zeros(3), t)) for i, (m, t) in enumerate(given)]
+    report = Report()
+    weigh(Scene(nodes=nodes), 1000.0, report)
+    named = [d.message.split(" for ")[1].split(":")[0] for d in report.diagnostics]
+    assert named == [f"N{i}" for i in range(1, 6)]
+    assert {d.code for d in report.diagnostics} == {"MASS_IMPOSSIBLE"}
+
+
 def test_inertia_that_no_body_has_is_known():
     """The largest moment may not exceed the sum of the others, and none may be zero or less."""
     assert is_possible(np.diag([3.0, 4.0, 5.0])) and is_possible(np.diag([1.0, 1.0, 2.0]))

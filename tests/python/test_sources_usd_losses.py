@@ -65,6 +65,16 @@ def test_what_is_not_kept_is_told(code, tmp_path):
     assert found.where.startswith("stage.usda")
 
 
+def test_what_pxr_says_is_the_same_wherever_the_stage_lies(tmp_path):
+    """Its own words end with an address in memory, and name the folder."""
+    said: set[str] = set()
+    for folder in (tmp_path / "first", tmp_path / "second"):
+        folder.mkdir()
+        _, report = scene_of(folder, stage(TOLD["USD_COMPOSITION"]))
+        said |= {outcome.message for outcome in report.outcomes if outcome.code == "USD_COMPOSITION"}
+    assert len(said) == 1 and "@missing.usda@" in said.pop()
+
+
 def test_a_layer_in_other_units_is_told(tmp_path):
     (tmp_path / "part.usda").write_text(stage('def Xform "P" { def Sphere "S" {}\n }', metres=0.01), "utf-8")
     scene, report = scene_of(tmp_path, stage(body("B") + 'def Xform "R" (references = @part.usda@</P>) {}'))

@@ -136,7 +136,12 @@ def frame_from_axes(primary: Array, secondary: Array | None = None) -> Array:
 
 def quaternion_from_matrix(r: Array) -> Array:
     """Unit quaternion (x, y, z, w) of a rotation matrix, w >= 0, shape (4,) (Shepperd's method)."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r.tolist()
+    return np.array(quaternion_from_rows(r.tolist()))
+
+
+def quaternion_from_rows(rows: list[list[float]]) -> tuple[float, float, float, float]:
+    """As ``quaternion_from_matrix``, of three rows of three numbers."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rows
     trace = xx + yy + zz
     largest = max(xx, yy, zz, trace)
     if xx == largest:
@@ -147,8 +152,8 @@ def quaternion_from_matrix(r: Array) -> Array:
         q = (xz + zx, yz + zy, 1.0 - trace + 2.0 * zz, yx - xy)
     else:
         q = (zy - yz, xz - zx, yx - xy, 1.0 + trace)
-    size = math.hypot(*q)
-    return np.array(q) / (-size if q[3] < 0.0 else size)
+    size = math.hypot(*q) * (-1.0 if q[3] < 0.0 else 1.0)
+    return q[0] / size, q[1] / size, q[2] / size, q[3] / size
 
 
 def quaternions_from_matrices(r: Array) -> Array:

@@ -9,7 +9,7 @@ from itertools import permutations
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, IntArray, Pose, bounds
+from ..spatial import Array, BoolArray, IntArray, Pose, bounds
 
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
@@ -115,6 +115,17 @@ def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
 
 
 def is_possible(inertia: Array, tolerance: float = 1e-6) -> bool:
-    """Whether a body can have this inertia: moments positive, none above the sum of the other two."""
-    moments = np.linalg.eigvalsh(0.5 * (inertia + inertia.T))
-    return bool(moments[0] > 0.0 and moments[2] <= (moments[0] + moments[1]) * (1.0 + tolerance))
+    """Whether a body can have this inertia."""
+    return bool(are_possible(principal_moments(inertia), tolerance))
+
+
+def principal_moments(inertia: Array) -> Array:
+    """Ascending, of tensors of shape (..., 3, 3): (..., 3)."""
+    symmetric = 0.5 * (inertia + np.swapaxes(inertia, -1, -2))
+    return np.linalg.eigvalsh(symmetric).astype(np.float64, copy=False)
+
+
+def are_possible(moments: Array, tolerance: float = 1e-6) -> BoolArray:
+    """Whether bodies can have these principal moments, ascending, shape (..., 3): positive, none above the sum of the others."""
+    low, middle, high = moments[..., 0], moments[..., 1], moments[..., 2]
+    return (low > 0.0) & (high <= (low + middle) * (1.0 + tolerance))

@@ -80,8 +80,11 @@ def _size(box: Box) -> float:
 
 
 def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
-    large = [(float((b[1] - b[0]).max()), i) for i, b in boxes.items()]
-    large = [(size, i) for size, i in large if size > LARGE]
+    if not boxes:
+        return
+    extents = np.array([high - low for low, high in boxes.values()])
+    longest: list[float] = extents.max(axis=1).tolist()
+    large = [(size, i) for size, i in zip(longest, boxes) if size > LARGE]
     if large:
         size, worst = max(large, key=lambda found: found[0])
         node = scene.nodes[worst]
@@ -91,7 +94,7 @@ def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
             likely=f"{size / 1000.0:.4g}", count=len(large), unit="millimetres", taken="metres",
         )  # fmt: skip
         return
-    if boxes and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
+    if 0.0 < max(longest) < TINY and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
         worst = max(boxes, key=lambda i: _size(boxes[i]))
         report.add(
             "SIZE_IMPLAUSIBLE", scene.nodes[worst].where, node=scene.nodes[worst].id, size=f"{whole:.4g}", weight="",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from ..model import MassProperties, Mesh, Node, Scene
 from ..spatial import Array, bounds
 from .closure import is_skin
 from .hulls import hull_of_points
-from .mass import combined, is_possible, moved, solid_properties, stretched
+from .mass import are_possible, combined, is_possible, moved, principal_moments, solid_properties, stretched
 
 LEAST = 1.1754944e-38
 """Least normal number of a 32-bit float: a mass or moment below it would be written and read as nothing."""
@@ -28,9 +28,11 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
     unit: dict[int, MassProperties | None] = {}  # of each mesh at density 1, so that copies are weighed once
     nodes = list(scene.nodes)
     turned: dict[int, Mesh] = {}
+    sound = _sound(nodes)
     for i, node in enumerate(nodes):
         if node.mass is not None:
-            _check_given(node, node.mass, report)
+            if i not in sound:
+                _check_given(node, node.mass, report)
             continue
         known: list[MassProperties] = []
         for body in node.bodies:
@@ -72,6 +74,19 @@ def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassP
 def _inside_out(mesh: Mesh) -> Mesh:
     normals = None if mesh.normals is None else -mesh.normals
     return replace(mesh, faces=mesh.faces[:, ::-1], normals=normals)
+
+
+def _sound(nodes: Sequence[Node]) -> frozenset[int]:
+    """Numbers of nodes with a mass of their own that is plainly a body's: nearly all that have one, seen in one stack."""
+    given = [(i, node.mass) for i, node in enumerate(nodes) if node.mass is not None]
+    masses = np.array([mass.mass for _, mass in given])
+    centers = np.array([mass.center for _, mass in given]).reshape(-1, 3)
+    inertias = np.array([mass.inertia for _, mass in given]).reshape(-1, 3, 3)
+    sound = np.isfinite(centers).all(axis=1) & np.isfinite(inertias).all(axis=(1, 2))
+    sound &= np.isfinite(masses) & (masses > 2.0 * LEAST)
+    moments = principal_moments(np.where(sound[:, None, None], inertias, np.eye(3)))
+    sound &= are_possible(moments) & (moments[:, 0] > 2.0 * LEAST)
+    return frozenset(i for (i, _), good in zip(given, sound.tolist()) if good)
 
 
 def _check_given(node: Node, given: MassProperties, report: Report) -> None:

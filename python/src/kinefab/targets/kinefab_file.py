@@ -12,7 +12,7 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, BinaryIO, cast
@@ -23,7 +23,7 @@ from .. import __version__, model
 from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
-from ..unity.scene import Coupling, Joint, Mesh, UnityScene
+from ..unity.scene import Component, Coupling, GameObject, Joint, Mesh, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
@@ -107,7 +107,7 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
     """Everything after the meshes, in the file's order."""
     tail: dict[str, Any] = {
         "materials": [entry(material) for material in scene.materials],
-        "gameObjects": [entry(game_object) for game_object in scene.gameObjects],
+        "gameObjects": _game_objects(scene.gameObjects),
         "couplings": [_coupling(coupling) for coupling in scene.couplings],
         "animations": [entry(clip) for clip in scene.animations],
         "constraints": [entry(constraint) for constraint in scene.constraints],
@@ -116,6 +116,20 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
         "extras": dict(scene.extras),
     }
     return {key: value for key, value in tail.items() if value or key == "gameObjects"}
+
+
+def _game_objects(objects: Iterable[GameObject]) -> list[dict[str, Any]]:
+    """Copies of a part have equal components, which share one entry."""
+    known: dict[Component, dict[str, Any]] = {}
+
+    def component(own: Component) -> dict[str, Any]:
+        if isinstance(own, Joint):  # one of a kind
+            return entry(own)
+        if own not in known:
+            known[own] = entry(own)
+        return known[own]
+
+    return [entry(game_object, component) for game_object in objects]
 
 
 def _coupling(coupling: Coupling) -> dict[str, Any]:
@@ -230,15 +244,21 @@ def canonical_json(content: dict[str, Any]) -> str:
     """
 
     flat = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(", ", ": ")).encode
+    texts: dict[int, str] = {}  # of components, by identity: many objects share one
 
     def block(lines: list[str], indent: str) -> str:
         return "[\n" + ",\n".join(indent + line for line in lines) + "\n" + indent[:-2] + "]"
+
+    def component(entry: dict[str, Any]) -> str:
+        if id(entry) not in texts:
+            texts[id(entry)] = flat(entry)
+        return texts[id(entry)]
 
     def game_object(entry: dict[str, Any]) -> str:
         head = flat({k: v for k, v in entry.items() if k != "components"})
         if not (components := entry.get("components")):
             return head
-        return head[:-1] + ', "components": ' + block([flat(c) for c in components], "      ") + "}"
+        return head[:-1] + ', "components": ' + block([component(c) for c in components], "      ") + "}"
 
     lines: list[str] = []
     for key, value in content.items():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
 from typing import Any, ClassVar, Protocol, cast
@@ -88,36 +88,34 @@ def unsaid(noun: type[Noun]) -> Mapping[str, Any]:
 
 
 @cache
-def _said(noun: type[Noun]) -> tuple[tuple[_Property, Any], ...]:
+def _said(noun: type[Noun]) -> tuple[tuple[str, Any, _Property], ...]:
     """What is written of a noun, each with the noun's own default where it may be left out, in the schema's order."""
     names, usual = {field.name for field in fields(noun)}, _defaults(noun)
-    return tuple(
-        (rule, usual.get(rule.key, _NONE)) for rule in _properties(definition_of(noun)) if rule.key in names
-    )
+    rules = [rule for rule in _properties(definition_of(noun)) if rule.key in names]
+    return tuple((rule.key, usual.get(rule.key, _NONE), rule) for rule in rules)
 
 
-def entry(noun: Noun) -> dict[str, Any]:
-    """A noun in the order of its definition, less the fields at the default that the definition states."""
+def entry(noun: Noun, of_item: Callable[[Any], dict[str, Any]] | None = None) -> dict[str, Any]:
+    """A noun in the order of its definition, less the fields at the default that the definition states.
+
+    of_item: makes the entries of the nouns in its lists; None for this function itself.
+    """
     definition = definition_of(type(noun))
     if definition not in _definitions():  # stated where it is used, without defaults
         return {field.name: _written(field.name, getattr(noun, field.name)) for field in fields(noun)}
     found: dict[str, Any] = {"type": definition} if definition[0].isupper() else {}
-    for rule, usual in _said(type(noun)):
-        value = getattr(noun, rule.key)
+    for key, usual, rule in _said(type(noun)):
+        value = getattr(noun, key)
         if value is None or value is usual:
             continue
-        if (
-            not value
-            and not rule.required
-            and (isinstance(value, (str, Mapping)) or rule.key in LEFT_OUT_EMPTY)
-        ):
+        if not value and not rule.required and (isinstance(value, (str, Mapping)) or key in LEFT_OUT_EMPTY):
             continue
-        value = _written(rule.key, value)
+        value = _written(key, value, of_item or entry)
         if value is None or (rule.nested and not value):
             continue
         if rule.default is not _NONE and value == rule.default:
             continue
-        found[rule.key] = value
+        found[key] = value
     return found
 
 
@@ -126,13 +124,13 @@ def _is_noun(kind: Any) -> bool:
     return is_dataclass(kind)
 
 
-def _written(key: str, value: Any) -> Any:
+def _written(key: str, value: Any, of_item: Callable[[Any], dict[str, Any]] = entry) -> Any:
     if key == "extras" or isinstance(value, (str, bool)):
         return value
-    if _is_noun(value.__class__):
-        return entry(cast(Noun, value))
-    if isinstance(value, tuple) and value:
+    if isinstance(value, tuple):
         items = cast(tuple[Any, ...], value)
-        if _is_noun(items[0].__class__):
-            return [entry(item) for item in items]
+        if items and _is_noun(items[0].__class__):
+            return [of_item(item) for item in items]
+    elif _is_noun(value.__class__):
+        return entry(cast(Noun, value))
     return significant(value) if key in SIGNIFICANT else plain_value(value)

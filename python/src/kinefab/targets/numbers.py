@@ -21,8 +21,12 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, float):
         return _rounded(value)
     if isinstance(value, (list, tuple)):
-        return [
-            _rounded(item) if type(item) is float else plain_value(item)
+        return [  # most are floats, and many of them whole numbers, which need no rounding
+            plain_value(item)
+            if type(item) is not float
+            else int(item)
+            if item.is_integer() and -WHOLE < item < WHOLE
+            else _rounded(item)
             for item in cast(Sequence[Any], value)
         ]
     if isinstance(value, (str, int)):
@@ -40,9 +44,6 @@ def significant(value: Any) -> Any:
 
 
 def _rounded(x: float) -> float | int | None:
-    """Whole numbers, of which there are many, need no rounding."""
-    if x.is_integer():
-        return int(x) if -WHOLE < x < WHOLE else x
     return None if math.isinf(x) else _plain(round(x, DECIMALS))
 
 

@@ -12,7 +12,7 @@ from ..findings import JointFinding
 from ..model import Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes
-from ..spatial import Pose, quaternion_from_matrix
+from ..spatial import Pose
 from . import frames
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
@@ -24,6 +24,7 @@ from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
 from .joints.passive import with_passive_drives
 from .mobility import map_mobility
+from .placing import local_transforms, transform_of
 from .scene import (
     ONE,
     Component,
@@ -35,11 +36,9 @@ from .scene import (
     Physics,
     Rigidbody,
     Source,
-    Transform,
     UnityScene,
-    Vector3,
 )
-from .scene.vectors import quaternion4, vector3
+from .scene.vectors import vector3
 
 PLAIN = Surface("Default")
 """Stands in where the source names no surface."""
@@ -90,7 +89,7 @@ def map_scene(
 
 @dataclass(slots=True, eq=False)
 class _Builder:
-    """Fills the list of GameObjects.  components: of each object.  ground: index of the one that stands for the ground.  object_of: for each node the index of its GameObject."""
+    """Fills the list of GameObjects.  objects: without their components, which are in ``components``.  ground: index of the one that stands for the ground.  object_of: for each node the index of its GameObject."""
 
     scene: Scene
     groups: RigidGroups
@@ -110,46 +109,41 @@ class _Builder:
 
     def finished(self) -> list[GameObject]:
         return [
-            replace(entry, components=tuple(components))
-            for entry, components in zip(self.objects, self.components)
+            GameObject(
+                o.id, o.name, o.parent, o.active, o.transform, tuple(components), o.layer, o.tag, o.extras
+            )
+            for o, components in zip(self.objects, self.components)
         ]
 
     def add_ground(self) -> None:
         """The body that stands for the ground, above everything, where something stands on it."""
         joined = any(joint.a is None or joint.b is None for joint in self.scene.joints)
         if self.colliders.ground is Ground.BODY and (joined or any(self.groups.grounded)):
-            self.ground = self._object(GROUND_ID, "Ground", None, Pose())
+            self.ground = self._object(GameObject(GROUND_ID, "Ground"))
             self.components[self.ground].append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_objects(self) -> None:
         self.surfaces = list(self.scene.surfaces)
-        active = active_nodes(self.scene)
+        active, placed = active_nodes(self.scene), local_transforms(self.scene)
         for i, node in enumerate(self.scene.nodes):
-            parent = node.parent
-            local = self.scene.pose(parent).inverse() @ node.pose
+            above = self.ground if node.parent is None else self.object_of[node.parent]
             index = self._object(
-                node.id, node.name, self.ground if parent is None else self.object_of[parent], local
-            )
+                GameObject(
+                    node.id, node.name, above, active[i], placed[i],
+                    layer=node.layer, tag=node.tag, extras=dict(node.extras),
+                )
+            )  # fmt: skip
             self.object_of.append(index)
             self.taken.clear()
-            self.objects[index] = replace(
-                self.objects[index],
-                active=active[i],
-                layer=node.layer,
-                tag=node.tag,
-                extras=dict(node.extras),
-            )
             self._add_bodies(i, index)
             self._add_colliders(i, index)
             for site in node.sites:
-                self._object(free_id(f"{node.id}/site:{site.name}", self.taken), site.name, index, site.pose)
+                id = free_id(f"{node.id}/site:{site.name}", self.taken)
+                self._object(GameObject(id, site.name, index, transform=transform_of(site.pose)))
 
-    def _object(self, id: str, name: str, parent: int | None, local: Pose, scale: Vector3 = ONE) -> int:
+    def _object(self, made: GameObject) -> int:
         """The index of a new GameObject."""
-        placed = frames.pose(local)
-        rotation = quaternion4(quaternion_from_matrix(placed.rotation))
-        transform = Transform(vector3(placed.translation), rotation, scale)
-        self.objects.append(GameObject(id, name, parent, transform=transform))
+        self.objects.append(made)
         self.components.append([])
         return len(self.objects) - 1
 
@@ -170,7 +164,8 @@ class _Builder:
             holder = parent
             if len(bodies) > 1 or not _at_home(body):
                 id = free_id(f"{node.id}/body:{body.name}", self.taken)
-                holder = self._object(id, body.name, parent, body.pose, body.scale)
+                placed = transform_of(body.pose, body.scale)
+                holder = self._object(GameObject(id, body.name, parent, transform=placed))
             mesh = self.scene.meshes[body.mesh]
             materials = tuple(body.surfaces) or (self._plain(),) * max(1, len(mesh.face_counts))
             self.components[holder] += [
@@ -192,7 +187,8 @@ class _Builder:
                 if placed.pose is not None:
                     name = collider.name or collider.kind.value
                     id = free_id(f"{node.id}/collider:{name}", self.taken)
-                    holder = self._object(id, name, parent, placed.pose, placed.scale)
+                    transform = transform_of(placed.pose, placed.scale)
+                    holder = self._object(GameObject(id, name, parent, transform=transform))
                 self.components[holder].append(placed.component)
 
     def _physics_material(self, collider: Collider) -> int | None:

@@ -65,9 +65,8 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     couplings = Couplings(opened, values, scene, joints.readings, report)
     scene.couplings = couplings.read(found.joints)
     scene.joints = couplings.screwed()
-    tell_vendors(
-        [*(entry.prim for entry in found.joints), *(part.prim for part in found.parts)], opened, report
-    )
+    moving_prims = [*(entry.prim for entry in found.joints), *(part.prim for part in found.parts)]
+    tell_vendors(moving_prims, values, opened, report)
     tell_prims(found.vendor, opened, report)
     scene.extras = filters(found, opened, values, report)
     report.raise_for_errors()

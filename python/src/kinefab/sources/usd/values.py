@@ -65,19 +65,21 @@ class Values:
     def traits(self, prim: Any) -> Traits:
         found = self._of_prim.get(prim)
         if found is None:
-            kind, applied, names = (
-                str(prim.GetTypeName()),
-                schemas(prim),
-                tuple(prim.GetAuthoredPropertyNames()),
-            )
-            found = self._traits.get((kind, applied, names))
-            if found is None:
-                fallbacks = self._fallbacks.setdefault((kind, applied), {})
-                ranks = frozenset(rank for rank, schema in RANKS.items() if prim.IsA(schema))
-                dressed = any(name.startswith(DRESSING) for name in names)
-                found = Traits(kind, ranks, applied, frozenset(names), fallbacks, dressed)
-                self._traits[kind, applied, names] = found
+            shared = prim.IsInstanceProxy()
+            found = self.traits(prim.GetPrimInPrototype()) if shared else self._traits_of(prim)
             self._of_prim[prim] = found
+        return found
+
+    def _traits_of(self, prim: Any) -> Traits:
+        kind, applied = str(prim.GetTypeName()), schemas(prim)
+        names = tuple(prim.GetAuthoredPropertyNames())
+        found = self._traits.get((kind, applied, names))
+        if found is None:
+            fallbacks = self._fallbacks.setdefault((kind, applied), {})
+            ranks = frozenset(rank for rank, schema in RANKS.items() if prim.IsA(schema))
+            dressed = any(name.startswith(DRESSING) for name in names)
+            found = Traits(kind, ranks, applied, frozenset(names), fallbacks, dressed)
+            self._traits[kind, applied, names] = found
         return found
 
     def alike(self, prim: Any, names: frozenset[str]) -> Traits | None:
@@ -87,7 +89,7 @@ class Values:
 
     def get(self, prim: Any, name: str) -> Any:
         """The raw value at the exported time, None where the attribute is missing, blocked or empty."""
-        traits = self.traits(prim)
+        traits = self._of_prim.get(prim) or self.traits(prim)
         if name in traits.names:
             return _value(prim, name)
         if name not in traits.fallbacks:

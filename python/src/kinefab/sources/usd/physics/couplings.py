@@ -197,10 +197,10 @@ class Couplings:
         self._report.dropped(feature, "USD_FEATURE_DROPPED", where, detail=detail)
 
 
-def tell_vendors(prims: Sequence[Any], opened: OpenStage, report: Report) -> None:
+def tell_vendors(prims: Sequence[Any], values: Values, opened: OpenStage, report: Report) -> None:
     """What vendors state about motion and nothing of the scene can hold."""
     for prim in prims:
-        for schema in schemas(prim):
+        for schema in values.traits(prim).schemas:
             if schema.startswith(TOLD):
                 report.dropped(
                     f"{schema} of {identity(prim)}", "USD_FEATURE_DROPPED", opened.place(prim),

@@ -20,9 +20,10 @@ from ....model import Collider, ColliderKind, MassProperties, Mesh
 from ....spatial import Array, Pose
 from ..looks.gprims import axis_turn
 from ..stage import OpenStage
-from ..transforms import Stand, rotation_of
+from ..transforms import EXACT, Stand, rotation_of
 from ..values import Values, identity
 
+UNIT = np.eye(3)
 WATER = 1000.0
 """kg/m^3 of what states nothing."""
 POINT = 0.1
@@ -118,7 +119,9 @@ def _stated(
         # In the prim's own space, its scale too.
         linear = world[:3, :3]
         scale = (rotation_of(linear) if rotation is None else rotation).T @ linear
-        center = frame.turn @ (scale @ raw) * frame.length
+        if np.abs(scale - UNIT).max() > EXACT:  # else copies of a part differ in their last digits
+            raw = scale @ raw
+        center = frame.turn @ raw * frame.length
     elif raw is not None and (len(raw) != 3 or np.isnan(raw).any()):
         values.wrong(prim, "physics:centerOfMass", raw)
     axes = values.rotation(prim, "physics:principalAxes")

@@ -1,0 +1,35 @@
+"""Where GameObjects stand against those above them, as Unity's Transforms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Scene
+from ..spatial import Pose, quaternion_from_rows
+from . import frames
+from .scene import ONE, Transform, Vector3
+from .scene.vectors import vector3, vectors3
+
+
+def transform_of(local: Pose, scale: Vector3 = ONE) -> Transform:
+    """local: in the frame of the object above."""
+    placed = frames.pose(local)
+    return Transform(vector3(placed.translation), quaternion_from_rows(placed.rotation.tolist()), scale)
+
+
+def local_transforms(scene: Scene) -> list[Transform]:
+    """Of each node against its parent, the world's nodes in one stack."""
+    poses = [node.pose for node in scene.nodes]
+    rotations = np.array([pose.rotation for pose in poses]).reshape(-1, 3, 3)
+    places = np.array([pose.translation for pose in poses]).reshape(-1, 3, 1)
+    above = [(i, node.parent) for i, node in enumerate(scene.nodes) if node.parent is not None]
+    if above:
+        below, parents = map(list, zip(*above))
+        back = rotations[parents].transpose(0, 2, 1)
+        moved = back @ places[below] - back @ places[parents]
+        rotations[below], places[below] = back @ rotations[below], moved
+    turned = frames.rotation(rotations).tolist()
+    return [
+        Transform(place, quaternion_from_rows(rows))
+        for place, rows in zip(vectors3(frames.point(places[:, :, 0])), turned)
+    ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -32,6 +33,20 @@ def test_help_imports_nothing_heavy(arguments):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert done.stdout.strip().endswith("[]"), done.stdout + done.stderr
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="threads are counted as Linux lists them")
+def test_a_call_starts_no_threads_of_blas_and_does_not_search_its_imports_for_cycles():
+    """Both would be paid for by every call, however small."""
+    code = (
+        "import gc, os, sys\nfrom kinefab.cli import main\n"
+        f"sys.argv = ['kinefab', 'analyse', {str(LEVER)!r}]\n"
+        "try: main()\nexcept SystemExit as end: assert not end.code\n"
+        "print(len(os.listdir('/proc/self/task')), gc.get_stats()[2]['collections'], file=sys.stderr)"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert done.stderr.split()[-2:] == ["1", "0"], done.stderr
 
 
 @pytest.mark.parametrize("arguments", [["nonsense"], ["export"], ["export", "a.json"], ["export", "a", "-o", "b.kinefab", "--colliders", "egg"],

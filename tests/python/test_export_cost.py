@@ -12,7 +12,7 @@ import trimesh
 from kinefab import pipeline
 from kinefab.collector import collector_paused
 from kinefab.diagnostics import Report
-from kinefab.geometry import closure, hulls, loading
+from kinefab.geometry import closure, hulls, loading, mass, weighing
 from kinefab.geometry.contact import cuts
 from kinefab.geometry.looks import shading
 from kinefab.model import Mesh
@@ -59,6 +59,25 @@ def test_a_mesh_is_found_again_within_its_tolerance(tmp_path, noise):
     stretched = size * (1 + noise * loading.SAME_SHAPE)
     result = kinefab.export(plates_in_one_file(tmp_path, [size, stretched]), tmp_path / "a.kinefab")
     assert len(result.analysed.scene.meshes) == 1
+
+
+def test_copies_are_weighed_together(tmp_path, monkeypatch):
+    """Twelve plates of three lengths: three masses, which their copies have too; what stands elsewhere in its part has its own."""
+    combined = []
+    monkeypatch.setattr(weighing, "combined", lambda known: combined.append(1) or mass.combined(known))
+    lengths = [0.3 + 0.1 * (i % 3) for i in range(12)]
+    result = kinefab.export(plates_in_one_file(tmp_path, lengths), tmp_path / "a.kinefab")
+    found = [node.mass.mass for node in result.analysed.scene.nodes if node.mass is not None]
+    assert found == pytest.approx([1000.0 * length * 0.2 * 0.05 for length in lengths])
+    assert len(combined) == 3
+    scene = kinefab.Scene()
+    for i in range(2):
+        plate = trimesh.creation.box((0.3, 0.2, 0.05)).apply_translation((0.1 * i, 0, 0))
+        scene.add_part(f"P{i}", plate)
+    centers = [
+        node.mass.center[0] for node in kinefab.export(scene, tmp_path / "b.kinefab").analysed.scene.nodes
+    ]
+    assert centers == pytest.approx([0.0, 0.1])
 
 
 @pytest.mark.parametrize("fails", [False, True])

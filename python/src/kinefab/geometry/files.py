@@ -21,6 +21,7 @@ from .references import FolderResolver, UnsafeReference, demand_honest_archive, 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 ARCHIVES = (".3mf",)
 GLTF = (".glb", ".gltf")
+UNMOVED = np.eye(4)
 _STEP, _MESH = (
     "Open it in its own program and export STEP or STL.",
     "Open it in its own program and export glTF or OBJ.",
@@ -108,7 +109,7 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
         if name not in own:
             own[name] = _piece(mesh, gltf, surfaces)
         placed = np.asarray(transform)
-        pieces.append(own[name] if np.array_equal(placed, np.eye(4)) else transformed(own[name], placed))
+        pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))
         by_geometry.setdefault(str(name), []).append((number,))
         above = parents.get(node)

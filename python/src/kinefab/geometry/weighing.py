@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import MassProperties, Mesh, Node, Scene
+from ..model import Body, MassProperties, Mesh, Node, Scene
 from ..spatial import Array, bounds
 from .closure import is_skin
 from .hulls import hull_of_points
@@ -19,6 +19,9 @@ LEAST = 1.1754944e-38
 THIN = 1e-9
 """A volume below this share of the cube of the mesh's size is none."""
 
+_Kind = tuple[object, ...]
+"""What tells parts of different mass apart."""
+
 
 def weigh(scene: Scene, density: float, report: Report) -> Scene:
     """The scene with ``Node.mass`` filled in from meshes; given masses are checked and kept.
@@ -28,13 +31,14 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
     unit: dict[int, MassProperties | None] = {}  # of each mesh at density 1, so that copies are weighed once
     nodes = list(scene.nodes)
     turned: dict[int, Mesh] = {}
+    alike: dict[_Kind, tuple[MassProperties, bool]] = {}  # of copies together, and whether it vanishes
     sound = _sound(nodes)
     for i, node in enumerate(nodes):
         if node.mass is not None:
             if i not in sound:
                 _check_given(node, node.mass, report)
             continue
-        known: list[MassProperties] = []
+        solids: list[Body] = []
         for body in node.bodies:
             if body.mesh is None or not body.weighed:
                 continue
@@ -45,15 +49,34 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
                     report.add("MESH_INSIDE_OUT", node.where, body=f"{node.id}/{body.name}")
                     turned[body.mesh] = _inside_out(mesh)
                     unit[body.mesh] = MassProperties(-found.mass, found.center, -found.inertia)
-            if (found := unit[body.mesh]) is not None:
-                factor = density if body.density is None else body.density
-                shape = moved(stretched(found, body.scale), body.pose)
-                known.append(MassProperties(shape.mass * factor, shape.center, shape.inertia * factor))
-        if known:
-            nodes[i] = replace(node, mass=combined(known))
-            _check_size(node, combined(known), report)
+            if unit[body.mesh] is not None:
+                solids.append(body)
+        if solids:
+            kind = tuple(map(_told_apart, solids))
+            if kind not in alike:
+                mass = combined([_placed(body, unit, density) for body in solids])
+                alike[kind] = mass, _vanishes(mass)
+            mass, vanishes = alike[kind]
+            nodes[i] = replace(node, mass=mass)
+            if vanishes:
+                _tell_size(node, mass, report)
     meshes = [turned.get(i, mesh) for i, mesh in enumerate(scene.meshes)]
     return replace(scene, nodes=nodes, meshes=meshes)
+
+
+def _told_apart(body: Body) -> _Kind:
+    """What the mass of a body depends on."""
+    pose = body.pose
+    return body.mesh, body.density, body.scale, pose.rotation.tobytes(), pose.translation.tobytes()
+
+
+def _placed(body: Body, unit: Mapping[int, MassProperties | None], density: float) -> MassProperties:
+    """Of a body in its node's frame.  unit: of its mesh at density 1, which is there.  density: where it states none."""
+    found = None if body.mesh is None else unit[body.mesh]
+    assert found is not None
+    factor = density if body.density is None else body.density
+    shape = moved(stretched(found, body.scale), body.pose)
+    return MassProperties(shape.mass * factor, shape.center, shape.inertia * factor)
 
 
 def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassProperties | None:
@@ -96,11 +119,15 @@ def _check_given(node: Node, given: MassProperties, report: Report) -> None:
     elif not is_possible(given.inertia):
         detail = "a principal moment is not positive, or above the sum of the other two"
         report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)
-    else:
-        _check_size(node, given, report)
+    elif _vanishes(given):
+        _tell_size(node, given, report)
 
 
-def _check_size(node: Node, mass: MassProperties, report: Report) -> None:
-    if mass.mass < LEAST or 0.0 < float(np.linalg.eigvalsh(mass.inertia)[0]) < LEAST:
-        detail = f"{mass.mass:g} kg, or a moment of it, is nothing in Unity's 32-bit floats"
-        report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)
+def _vanishes(mass: MassProperties) -> bool:
+    """Whether it, or a moment of it, would be written and read as nothing."""
+    return mass.mass < LEAST or 0.0 < float(np.linalg.eigvalsh(mass.inertia)[0]) < LEAST
+
+
+def _tell_size(node: Node, mass: MassProperties, report: Report) -> None:
+    detail = f"{mass.mass:g} kg, or a moment of it, is nothing in Unity's 32-bit floats"
+    report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)

@@ -40,8 +40,15 @@ def Xform "World"
     {
         bool physics:kinematicEnabled = 0
         float physics:mass = 2
+        point3f physics:centerOfMass = (0, 0, 0)
+        float3 physics:diagonalInertia = (1, 1, 1)
         double3 xformOp:translate = (0, 1, 0)
         uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Points "Points" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+        {
+            point3f[] points = [(0, 0, 0), (0, 1, 0)]
+            float[] widths = [0.1, 0.2]
+        }
         def Mesh "Mesh" (prepend apiSchemas = ["PhysicsCollisionAPI", "PhysicsMeshCollisionAPI", "MaterialBindingAPI"])
         {
             rel material:binding = </World/Looks/Red>
@@ -77,6 +84,14 @@ def Xform "World"
 """
 
 MISTYPED = [
+    ("float[] widths = [0.1, 0.2]", 'string widths = "2"'),
+    ("float[] widths = [0.1, 0.2]", 'string[] widths = ["1", "2"]'),
+    ("float[] widths = [0.1, 0.2]", "float3[] widths = [(1, 2, 3)]"),
+    ("float[] widths = [0.1, 0.2]", "float widths = 0.3"),
+    ("float[] widths = [0.1, 0.2]", "float[] widths = [0.1, nan]"),
+    ("float[] widths = [0.1, 0.2]", "float[] widths = [0.1, 0.2, 0.3]"),
+    ("float3 physics:diagonalInertia = (1, 1, 1)", 'string[] physics:diagonalInertia = ["1", "1", "1"]'),
+    ("point3f physics:centerOfMass = (0, 0, 0)", 'token[] physics:centerOfMass = ["0", "0", "0"]'),
     ("double3 xformOp:translate = (0, 1, 0)", 'string xformOp:translate = "up"'),
     ("double3 xformOp:translate = (0, 1, 0)", "quatf xformOp:translate = (1, 0, 0, 0)"),
     (

@@ -23,6 +23,7 @@ from .. import __version__, model
 from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
+from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.scene import Component, Coupling, GameObject, Joint, Mesh, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
@@ -64,7 +65,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     as they were.
     """
     report = content.report
-    scene = with_one_term_each(content.unity(), report)
+    scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(), report))
     _tell_losses(scene, report)
     _tell_mesh_losses(content.scene.meshes, report)
     content.refuse_losses()

@@ -57,7 +57,7 @@ def _chain(coupling: Coupling, objects: list[GameObject], taken: set[str]) -> li
     joint = owner.components[coupling.coordinate.component]
     assert isinstance(joint, Joint)
     slides = coupling.coordinate.coordinate in ("x", "y", "z")
-    base, body = joint.connectedBody, _light(owner.components)
+    base, body = joint.connectedBody, light_body(owner.components)
     kind, counted = (_SLIDE, "x") if slides else (_TURN, "angularX")
     stand = replace(owner.transform, localScale=ONE)
     ties: list[Coupling] = []
@@ -82,7 +82,7 @@ def _with_loop(analysis: Mobility, body: int) -> Mobility:
     return replace(analysis, islands=tuple(islands))
 
 
-def _light(components: Sequence[object]) -> Rigidbody:
+def light_body(components: Sequence[object]) -> Rigidbody:
     """What neither falls nor weighs much beside the body with these components."""
     beside = next((c for c in components if isinstance(c, Rigidbody)), Rigidbody())
     x, y, z = (SHARE * moment for moment in beside.inertiaTensor)

@@ -138,10 +138,7 @@ class Values:
         value = self.get(prim, name)
         if value is None:
             return np.array(default, dtype=np.float64)
-        try:
-            found = np.array(value, dtype=np.float64)
-        except (TypeError, ValueError):
-            found = np.array([math.nan])
+        found = _numbers(value)
         if found.shape != (3,) or not all(map(math.isfinite, found.tolist())):
             self.wrong(prim, name, value)
             return np.array(default, dtype=np.float64)
@@ -152,12 +149,9 @@ class Values:
         value = self.get(prim, name)
         if value is None:
             return None
-        try:
-            found = np.array(value, dtype=np.float64)
-        except (TypeError, ValueError):
-            found = np.zeros(0)
+        found = _numbers(value)
         if found.size == 0 or found.size % width:
-            if found.size or len(str(value)) > 2:  # an empty array is none
+            if found.size or isinstance(value, str) or len(str(value)) > 2:  # an empty array is none
                 self.wrong(prim, name, value)
             return None
         return found.reshape(-1, width) if width > 1 else found.ravel()
@@ -196,6 +190,15 @@ def shown(value: object) -> str:
     """A value as findings have it: what is long is cut."""
     text = str(value)
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _numbers(value: Any) -> Array:
+    """Of an array or vector; empty where it is none of numbers: numpy would read texts as such."""
+    try:
+        found = np.array(value)
+    except (TypeError, ValueError):
+        return np.zeros(0)
+    return found.astype(np.float64) if found.dtype.kind in "fiu" else np.zeros(0)
 
 
 def _value(prim: Any, name: str) -> Any:

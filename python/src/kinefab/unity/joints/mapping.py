@@ -20,7 +20,7 @@ from typing import Any
 
 from ...diagnostics import Report
 from ...findings import JointFinding
-from ...model import RX, Joint, Motion, Scene, alike_from_both_sides
+from ...model import FREE, RX, Joint, JointKind, Motion, Scene, alike_from_both_sides
 from ...rigid import RigidGroups
 from ...spatial import Array, Pose
 from .. import frames
@@ -90,13 +90,16 @@ def map_joint(
         return None
     if not _limits_in_order(joint, report):
         return None
+    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
+    idle = a != b and all(side is None or led(side) for side in (a, b))
+    counted = next((c for c in scene.couplings if joint.id in c.joints), None)
+    if idle and counted is not None:  # there to be counted by alone, however scripts move the two
+        joint = replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
     shape = canonical(joint)
     relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
     coordinates = read_coordinates(shape, relative)
     lossless = _report_gap(joint, coordinates, report)
-    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
-    # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
-    idle = a != b and all(side is None or led(side) for side in (a, b))
     if groups.together(joint.a, joint.b):
         if idle:
             report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
@@ -105,7 +108,6 @@ def map_joint(
         else:
             report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
         return None
-    counted = next((c for c in scene.couplings if joint.id in c.joints), None)
     free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
     apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
     # between two bodies it still keeps Unity from letting them collide

@@ -10,17 +10,19 @@ import numpy as np
 from ....diagnostics import Report
 from ....model import Collider, ColliderKind, PhysicsMaterial
 from ....spatial import Array, Pose
+from ..api import Vt
 from ..looks.gprims import axis_turn
 from ..looks.library import Library
 from ..stage import OpenStage
 from ..transforms import Fit, Stand, Stretch
-from ..values import Values, identity
+from ..values import Values, identity, shown
 from ..walk import Piece
 
 THICKNESS = 0.01
 """Metres of the box that stands for a plane."""
 EVEN = 1e-6
 """Scales closer than this share are one."""
+_WIDTHS = (Vt.FloatArray, Vt.DoubleArray, Vt.HalfArray)
 PIECES = frozenset(("convexDecomposition", "sdf", "sphereFill"))
 KNOWN = frozenset(("none", "convexHull", "meshSimplification", "boundingSphere", "boundingCube")) | PIECES
 
@@ -115,19 +117,30 @@ class Colliders:
         return replace(common, kind=ColliderKind.BOX, pose=pose, size=_triple(np.abs(turn) @ extents))
 
     def _points(self, piece: Piece, common: Collider, stand: Stand, stretch: Stretch) -> list[Collider]:
-        points, widths = self._values.array(piece.prim, "points", 3), self._values.array(piece.prim, "widths")
+        points = self._values.array(piece.prim, "points", 3)
         if points is None or not np.isfinite(points).all():
             self._dropped(piece.prim, "it has no points")
             return []
         world = points @ piece.world[:3, :3].T + piece.world[:3, 3]
-        radii = 0.5 * (np.ones(1) if widths is None or not np.isfinite(widths).all() else np.abs(widths))
-        if len(radii) != len(world):
-            radii = np.full(len(world), radii[0])
-        radii = radii * stretch.scale.max() * self._opened.frame.length
+        radii = 0.5 * self._widths(piece.prim, len(world)) * stretch.scale.max() * self._opened.frame.length
         return [
             replace(common, kind=ColliderKind.SPHERE, pose=Pose(np.eye(3), stand.point(p)), radius=float(r), name=f"{common.name}[{i}]")
             for i, (p, r) in enumerate(zip(world, radii))
         ]  # fmt: skip
+
+    def _widths(self, prim: Any, count: int) -> Array:
+        """Of that many points; what cannot be theirs is told, and they are 1 wide as without."""
+        value = self._values.get(prim, "widths")
+        if value is None or (isinstance(value, _WIDTHS) and not len(value)):
+            return np.ones(count)
+        found = np.array(value, dtype=np.float64) if isinstance(value, _WIDTHS) else np.zeros(0)
+        if len(found) not in (1, count) or not np.isfinite(found).all():
+            self._report.dropped(
+                f"widths of {identity(prim)}", "USD_FEATURE_DROPPED", self._opened.place(prim, "widths"),
+                detail=f"they cannot be {shown(value)}",
+            )  # fmt: skip
+            return np.ones(count)
+        return np.abs(np.broadcast_to(found, (count,)))
 
     def _hull(self, prim: Any, common: Collider, fit: Fit) -> list[Collider]:
         shared = self._library.shared(prim, fit.stretch.bake)

@@ -1,0 +1,64 @@
+"""Joints that couplings count by between bodies that scripts alone move, for a format in which such a joint is a fault.
+
+Nothing that the solver moves hangs on such a joint.  A light body that is fixed to the led one carries it instead: its own
+motions are all free, so what it counts stays the led body's motion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..model import free_id
+from .scene import Coupling, FixedJoint, GameObject, Joint, JointCoordinate, Rigidbody, UnityScene
+from .scene.vectors import ONE
+from .sums import light_body
+
+
+def with_led_joints_on_light_bodies(scene: UnityScene) -> UnityScene:
+    """The scene with a light body for each joint that a coupling counts by and whose two sides are led, or stand."""
+    objects = list(scene.gameObjects)
+    moved = {
+        (at.gameObject, at.component): -1
+        for coupling in scene.couplings
+        for at in (coupling.coordinate, *(term.coordinate for term in coupling.terms))
+        if _holds_nothing(objects, at)
+    }
+    if not moved:
+        return scene
+    taken = {own.id for own in objects}
+    for owner, number in moved:
+        led = scene.gameObjects[owner]
+        joint = led.components[number]
+        id = free_id(f"{led.id}/counted:{number}", taken)
+        carried = (light_body(led.components), FixedJoint(connectedBody=owner), joint)
+        moved[owner, number] = len(objects)
+        stand = replace(led.transform, localScale=ONE)
+        objects.append(GameObject(id, id, led.parent, led.active, stand, carried))
+    for owner in {owner for owner, _ in moved}:
+        left = [c for i, c in enumerate(objects[owner].components) if (owner, i) not in moved]
+        objects[owner] = replace(objects[owner], components=tuple(left))
+
+    def now(at: JointCoordinate) -> JointCoordinate:
+        if (place := (at.gameObject, at.component)) in moved:
+            return replace(at, gameObject=moved[place], component=2)
+        gone = sum(owner == at.gameObject and number < at.component for owner, number in moved)
+        return replace(at, component=at.component - gone)
+
+    def counting(coupling: Coupling) -> Coupling:
+        terms = tuple(replace(term, coordinate=now(term.coordinate)) for term in coupling.terms)
+        return replace(coupling, coordinate=now(coupling.coordinate), terms=terms)
+
+    couplings = tuple(counting(coupling) for coupling in scene.couplings)
+    return replace(scene, gameObjects=tuple(objects), couplings=couplings)
+
+
+def _holds_nothing(objects: list[GameObject], at: JointCoordinate) -> bool:
+    """Whether the solver moves neither side of a joint."""
+    joint = objects[at.gameObject].components[at.component]
+    assert isinstance(joint, Joint), "couplings count by joints"
+    return not any(
+        isinstance(c, Rigidbody) and not c.isKinematic
+        for side in (at.gameObject, joint.connectedBody)
+        if side is not None
+        for c in objects[side].components
+    )

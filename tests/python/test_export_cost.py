@@ -19,8 +19,11 @@ from kinefab.model import Mesh
 from kinefab.targets.prefab.text import ids, yaml
 
 
-def plates_in_one_file(tmp_path, lengths):
-    """A bundle of plates with one corner at the origin: all of one topology, told apart by their length alone."""
+def plates_in_one_file(tmp_path, lengths, **stated):
+    """A bundle of plates with one corner at the origin: all of one topology, told apart by their length alone.
+
+    stated: of every part.
+    """
     scene = trimesh.Scene()
     for i, length in enumerate(lengths):
         plate = trimesh.creation.box((length, 0.2, 0.05))
@@ -29,7 +32,7 @@ def plates_in_one_file(tmp_path, lengths):
     scene.export(tmp_path / "a.glb")
     parts = [
         {"id": f"P{i}", "name": f"P{i}", "kind": "part", "bodies": [{"id": "b", "meshKey": f"P{i}"}]}
-        | {"pose": {"o": [10.0 * i, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}}
+        | {"pose": {"o": [10.0 * i, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}, **stated}
         for i in range(len(lengths))
     ]
     mesh = {"files": ["a.glb"], "layout": "single", "coordinates": "part", "key": "object", "units": "m"}
@@ -50,6 +53,23 @@ def test_parts_of_one_topology_are_compared_with_those_alone_that_may_be_equal(t
     assert len(result.analysed.scene.meshes) == 30
     assert [n.bodies[0].mesh for n in result.analysed.scene.nodes if n.bodies] == [*range(30), *range(30)]
     assert len(compared) == 30
+
+
+def test_a_copy_of_a_definition_is_held_against_its_first_part_alone(tmp_path, monkeypatch):
+    """Of twelve parts of one definition ten are its shape; the two that are not are looked for among all, and told."""
+    searched = []
+    share = loading._Loading._share
+    monkeypatch.setattr(
+        loading._Loading, "_share", lambda self, *given: searched.append(1) or share(self, *given)
+    )
+    lengths = [0.3] * 6 + [0.4] + [0.3] * 4 + [0.4]
+    source = plates_in_one_file(tmp_path, lengths, definition="plate.ipt")
+    result = kinefab.export(source, tmp_path / "a.kinefab")
+    assert [n.bodies[0].mesh for n in result.analysed.scene.nodes if n.bodies] == [
+        *map(int, np.array(lengths) > 0.35)
+    ]
+    assert len(searched) == 3
+    assert [d.code for d in result.report.diagnostics].count("BODY_SHAPE_DIFFERS") == 2
 
 
 @pytest.mark.parametrize("noise", [0.9, -0.9])

@@ -127,6 +127,7 @@ class _Loading:
         self._bodies = [list(node.bodies) for node in scene.nodes]
         self._by_origin: dict[tuple[Path, tuple[int, ...], bytes], tuple[int, Piece]] = {}
         self._by_shape: dict[tuple[int, tuple[int, ...], tuple[bool, ...], int], list[_Known]] = {}
+        self._known: dict[int, _Known] = {}
         self._first_of: dict[tuple[str, int], tuple[int, str]] = {}
 
     def place(self, place: _Place, wanted: Wanted, file: MeshFile, numbers: tuple[int, ...]) -> None:
@@ -138,10 +139,11 @@ class _Loading:
         if origin not in self._by_origin:
             with np.errstate(over="ignore", invalid="ignore"):  # checked right below
                 piece = transformed(joined([file.pieces[n] for n in numbers]), matrix)
-            if not (np.abs(piece.vertices) <= FARTHEST).all():
+            found = self._mesh_of_definition(place, piece)
+            if found is None and not (np.abs(piece.vertices) <= FARTHEST).all():
                 self._report.add("GEOMETRY_NOT_FINITE", wanted.reference.where, body=wanted.label)
                 return
-            self._by_origin[origin] = (self._share(body.name, piece), piece)
+            self._by_origin[origin] = (self._share(body.name, piece) if found is None else found, piece)
         mesh, piece = self._by_origin[origin]
         surfaces = self._body_surfaces(body, piece, file) if k < self._drawn[i] else ()
         self._bodies[i][k] = replace(body, mesh=mesh, surfaces=surfaces, reference=None)
@@ -154,11 +156,36 @@ class _Loading:
         ]
         return replace(self._scene, nodes=nodes, meshes=self._meshes, surfaces=self._surfaces)
 
+    def _mesh_of_definition(self, place: _Place, piece: Piece) -> int | None:
+        """The mesh of the first occurrence of a body's definition where this is its shape too, as it nearly always is: a search
+        among all shapes takes twice the time."""
+        i, k = place
+        definition = self._scene.nodes[i].definition
+        first = None if definition is None else self._first_of.get((definition, k))
+        known = None if first is None else self._known.get(first[0])
+        if known is None:
+            return None
+        mesh = self._meshes[known.mesh]
+        alike = (
+            mesh.vertices.shape == piece.vertices.shape
+            and (mesh.face_counts, _stated(mesh)) == (piece.face_counts, _stated(piece))
+            and np.array_equal(mesh.faces, piece.faces)
+        )
+        return known.mesh if alike and self._is_shape(known, piece) else None
+
+    def _is_shape(self, known: _Known, piece: Piece) -> bool:
+        """Whether a mesh with the same faces has this shape."""
+        mesh = self._meshes[known.mesh]
+        return (
+            _deviation(mesh.vertices, piece.vertices) <= known.tolerance
+            and (piece.uv is None or np.allclose(mesh.uvs[0], piece.uv, atol=SAME_SHAPE))
+            and (piece.colors is None or np.array_equal(mesh.colors, piece.colors))  # type: ignore[arg-type]
+        )
+
     def _share(self, name: str, piece: Piece) -> int:
         """The index of a mesh of this shape: one that is there already, or a new one."""
         faces = np.ascontiguousarray(piece.faces)
-        stated = (piece.uv is None, piece.normals is None, piece.colors is None)
-        key = (len(piece.vertices), piece.face_counts, stated, zlib.crc32(faces.data))
+        key = (len(piece.vertices), piece.face_counts, _stated(piece), zlib.crc32(faces.data))
         alike = self._by_shape.setdefault(key, [])
         spread = float(np.abs(piece.vertices).mean())
         low, high = bounds(piece.vertices)
@@ -169,19 +196,15 @@ class _Loading:
         first = bisect_left(alike, spread - reach, key=_spread)
         last = bisect_right(alike, spread + reach, key=_spread)
         for known in sorted(alike[first:last], key=lambda known: known.mesh):
-            mesh = self._meshes[known.mesh]
-            if (
-                _deviation(mesh.vertices, piece.vertices) <= known.tolerance
-                and (piece.uv is None or np.allclose(mesh.uvs[0], piece.uv, atol=SAME_SHAPE))
-                and (piece.colors is None or np.array_equal(mesh.colors, piece.colors))  # type: ignore[arg-type]
-            ):
+            if self._is_shape(known, piece):
                 return known.mesh
         uvs = () if piece.uv is None else (piece.uv,)
         self._meshes.append(
             Mesh(name, piece.vertices, faces, piece.normals, uvs, None, piece.colors, piece.face_counts)
         )
-        insort(alike, _Known(spread, len(self._meshes) - 1, tolerance), key=_spread)
-        return len(self._meshes) - 1
+        known = self._known[len(self._meshes) - 1] = _Known(spread, len(self._meshes) - 1, tolerance)
+        insort(alike, known, key=_spread)
+        return known.mesh
 
     def _compare_with_definition(self, place: _Place, wanted: Wanted, mesh: int) -> None:
         """Occurrences of one definition look alike in the part's frame, unless a pose or unit is wrong."""
@@ -224,6 +247,12 @@ class _Loading:
         if found not in self._surfaces[self._stated :]:  # two files may call different looks by one name
             self._surfaces.append(found)
         return self._surfaces.index(found, self._stated)
+
+
+def _stated(shape: Mesh | Piece) -> tuple[bool, bool, bool]:
+    """Whether it has texture coordinates, normals, colours."""
+    uv = shape.uv is not None if isinstance(shape, Piece) else bool(shape.uvs)
+    return uv, shape.normals is not None, shape.colors is not None
 
 
 def _to_node(reference: MeshReference, file: MeshFile) -> Array:

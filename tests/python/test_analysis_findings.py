@@ -11,7 +11,21 @@ import numpy as np
 import pytest
 from kinefab.analysis import AnalysisOptions, Closures, analyse
 from kinefab.diagnostics import diagnostic_table
-from kinefab.model import Constraint, DofRecord, Feature, Joint, JointKind, Node, Scene, freedoms_of
+from kinefab.model import (
+    RX,
+    TX,
+    Constraint,
+    Coupling,
+    CouplingKind,
+    DofRecord,
+    Feature,
+    Joint,
+    JointKind,
+    Node,
+    Scene,
+    Term,
+    freedoms_of,
+)
 from kinefab.model import ConstraintKind as C
 from kinefab.model import FeatureKind as F
 from kinefab.spatial import Pose
@@ -48,6 +62,14 @@ def tube() -> Joint:
     return Joint(
         "tube", JointKind.CYLINDRICAL, 0, 1, Pose(axes, at), frame_b, freedoms_of(JointKind.CYLINDRICAL)
     )
+
+
+def bolted_screw() -> Scene:
+    """Bolted parts, and between them a rod whose slide follows its turn."""
+    rod = Joint("rod", JointKind.CYLINDRICAL, 0, 1, Pose(), Pose(), freedoms_of(JointKind.CYLINDRICAL))
+    pitch = Coupling("pitch", CouplingKind.SCREW, "rod", TX, (Term("rod", RX, 0.01),))
+    bolts = joining("bolts", C.LOCK, (F.BODY, O), (F.BODY, O))
+    return replace(parts(bolts), joints=[rod], couplings=[pitch])
 
 
 def ungrounded(source: Scene) -> Scene:
@@ -140,6 +162,7 @@ CASES = {
     "DOF_DIRECTION_DIFFERS": lambda: listed([X, Z], [Z]),
     "CONSTRAINT_RANGE_KEPT": lambda: bounded(SLIDE),
     "CONSTRAINT_RANGE_DROPPED": lambda: bounded(BALL),
+    "COUPLING_HELD": bolted_screw,
     "COUPLING_UNPLACED": lambda: parts(joining("gear", C.GEAR, *LINES, value=2.0)),
     "LIMITS_FOUND": lambda: scene("M03"),
     "LIMITS_NOT_SWEPT": lambda: scene("M05"),

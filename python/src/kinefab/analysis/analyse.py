@@ -15,6 +15,7 @@ from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
 from .couplings.rehanging import rehung
+from .couplings.standing import without_standing
 from .couplings.stated import couplings_of
 from .couplings.symmetry import symmetric_couplings
 from .findings.freedoms import check_records, singular_joints
@@ -85,6 +86,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
     couplings = couplings_of(assembly, links, closed, report)
+    couplings = without_standing(assembly, links, couplings, closed, report)
     couplings += symmetric_couplings(assembly, tree, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)

@@ -58,6 +58,7 @@ def tied_parts(assembly: Assembly, freedom: BlockFreedom) -> list[TiedPart]:
         joined = {
             (min(place[a], place[b]), max(place[a], place[b]))
             for a, b in zip(system.body_a[atoms].tolist(), system.body_b[atoms].tolist())
+            if a != b
         }
         if not joined <= block_of.keys():
             return whole  # it measures two bodies that nothing else joins

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from enum import IntEnum
 from typing import cast
 
 import numpy as np
@@ -106,6 +107,14 @@ def world_motions(
     return rotation, shift
 
 
+class Moves(IntEnum):
+    """Which side of an atom is on the body that is displaced."""
+
+    A = 0
+    B = 1
+    NEITHER = 2
+
+
 def chain_misfit(
     system: System, second: int, near: Candidate, far: Candidate, length: float, samples: int = SAMPLES
 ) -> float:
@@ -130,8 +139,8 @@ def misfits(
 ) -> Array:
     """Largest violation of each pair's rows over its candidate's motions, shape (pairs,).
 
-    system: its atoms all join ``second[p]`` of the pair p = ``atom_pair[atom]`` with the pair's other body, and
-    its rows hold atoms of one pair each.  lengths: metres, by which each pair's lengths are measured.
+    system: its atoms all join ``second[p]`` of the pair p = ``atom_pair[atom]`` with the pair's other body, or lie within one
+    of the two, and its rows hold atoms of one pair each.  lengths: metres, by which each pair's lengths are measured.
     """
     rotation, shift = world_motions(candidates, lengths, samples)
     origin = np.array([c.origin for c in candidates])
@@ -153,10 +162,11 @@ def _violations(
     """
     samples = rotation.shape[1]
     value = np.zeros((len(system.kind), samples))
-    b_moves = system.body_b == second[atom_pair]
+    moves = np.where(system.body_b == second[atom_pair], Moves.B, Moves.A)
+    moves[system.body_a == system.body_b] = Moves.NEITHER
     for kind in Atom:
-        for b_side in (True, False):
-            atoms = np.flatnonzero((system.kind == kind) & (b_moves == b_side))
+        for side in Moves:
+            atoms = np.flatnonzero((system.kind == kind) & (moves == side))
             if not len(atoms):
                 continue
             p, used = atom_pair[atoms], USED[kind].split()
@@ -171,8 +181,8 @@ def _violations(
             def move(points: Array, p: IntArray = p, turn: Callable[[Array], Array] = turn) -> Array:
                 return turn(points - origin[p]) + origin[p][:, None] + shift[p]
 
-            on_a, on_b = (stay, turn) if b_side else (turn, stay)
-            at_a, at_b = (stay, move) if b_side else (move, stay)
+            on_a, at_a = (turn, move) if side is Moves.A else (stay, stay)
+            on_b, at_b = (turn, move) if side is Moves.B else (stay, stay)
             d = np.broadcast_to(system.d[atoms][:, None], (len(atoms), samples))
             ways = {"p_a": at_a, "a": on_a, "k": on_a, "p_b": at_b, "b": on_b}
             p_a, a, k, p_b, b = (

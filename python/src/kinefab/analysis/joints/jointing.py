@@ -99,10 +99,12 @@ class _Jointing:
     def _kept_explicit(self, relation: Relation, found: Candidate, names: list[str]) -> bool:
         """Of several statements about a pair, an explicit joint of the found kind, or else one that has the found
         freedoms among its own, stands for all of them, so that its name, limits and drives are kept; another is given
-        up, and reported.  One beside couplings of its own alone stays as it is: they count from its freedoms."""
+        up, and reported.  One beside couplings of its own freedoms alone stays as it is: they count from these."""
         stated = [self.assembly.equations.statements[o] for o in relation.owners]
         explicit = [s for s in stated if isinstance(s, Joint)]
-        coupled = len(explicit) == 1 and all(isinstance(s, Joint | Coupling) for s in stated)
+        coupled = len(explicit) == 1 and all(
+            isinstance(s, Joint) or (isinstance(s, Coupling) and s.joints == {explicit[0].id}) for s in stated
+        )
         standing = next(
             ((j, j) for j in explicit if coupled or j.kind is found.kind),
             next(((j, own) for j in explicit if (own := self._narrowed(j, found)) is not None), None),

@@ -79,15 +79,17 @@ def pairs_of(system: System) -> Pairs:
     high = np.maximum(system.body_a, system.body_b)
     n = system.bodies
     key = low * n + high
-    key[low == high] = -2
+    inside = low == high
+    key[inside] = -2
     row_key = np.full(system.rows, -3, dtype=np.int64)
-    row_key[system.row] = key
+    np.maximum.at(row_key, system.row, key)
     mixed = np.zeros(system.rows, dtype=bool)
-    np.logical_or.at(mixed, system.row, row_key[system.row] != key)
+    # a coordinate inside one body stands still: a coupling with it is of the other one's pair
+    np.logical_or.at(mixed, system.row, (row_key[system.row] != key) & ~inside)
     row_key[mixed] = -1
     keys = np.unique(row_key[row_key >= 0])
     row_pair = np.where(row_key >= 0, np.searchsorted(keys, row_key), row_key)
-    return Pairs(keys // n, keys % n, row_pair, row_pair[system.row])
+    return Pairs(keys // n, keys % n, row_pair, np.where(inside, -2, row_pair[system.row]))
 
 
 def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Array, Array]:

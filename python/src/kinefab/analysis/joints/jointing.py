@@ -103,7 +103,7 @@ class _Jointing:
         stated = [self.assembly.equations.statements[o] for o in relation.owners]
         explicit = [s for s in stated if isinstance(s, Joint)]
         coupled = len(explicit) == 1 and all(
-            isinstance(s, Joint) or (isinstance(s, Coupling) and s.joints == {explicit[0].id}) for s in stated
+            isinstance(s, Joint) or (isinstance(s, Coupling) and s.joints <= {explicit[0].id}) for s in stated
         )
         standing = next(
             ((j, j) for j in explicit if coupled or j.kind is found.kind),

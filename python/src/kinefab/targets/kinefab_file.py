@@ -12,7 +12,7 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, BinaryIO, cast
@@ -81,7 +81,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
             buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
             head |= {"buffers": [buffer], "meshes": meshes}
         with replacing(target, "scene") as file:
-            file.write(canonical_json(head | _tail(scene, report)).encode("utf-8"))
+            for piece in _canonical_pieces(head | _tail(scene, report)):
+                file.write(piece.encode("utf-8"))
             if (
                 buffer_path is not None and temporary is not None
             ):  # last, so that what fails before leaves no buffer behind
@@ -243,12 +244,13 @@ def canonical_json(content: dict[str, Any]) -> str:
 
     Floats are written in their shortest form that reads back the same; NaN and Infinity raise ValueError.
     """
+    return "".join(_canonical_pieces(content))
 
+
+def _canonical_pieces(content: dict[str, Any]) -> Iterator[str]:
+    """``canonical_json`` piece by piece: the text of a large scene is never there as a whole."""
     flat = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(", ", ": ")).encode
     texts: dict[int, str] = {}  # of components, by identity: many objects share one
-
-    def block(lines: list[str], indent: str) -> str:
-        return "[\n" + ",\n".join(indent + line for line in lines) + "\n" + indent[:-2] + "]"
 
     def component(entry: dict[str, Any]) -> str:
         if id(entry) not in texts:
@@ -259,17 +261,22 @@ def canonical_json(content: dict[str, Any]) -> str:
         head = flat({k: v for k, v in entry.items() if k != "components"})
         if not (components := entry.get("components")):
             return head
-        return head[:-1] + ', "components": ' + block([component(c) for c in components], "      ") + "}"
+        lines = ",\n      ".join(component(c) for c in components)
+        return f'{head[:-1]}, "components": [\n      {lines}\n    ]}}'
 
-    lines: list[str] = []
+    before = "{\n"
     for key, value in content.items():
         if isinstance(value, list) and value:
             one = game_object if key == "gameObjects" else flat
-            entries = [one(v) for v in cast(list[Any], value)]
-            lines.append(f"  {flat(key)}: " + block(entries, "    "))
+            opening = f"{before}  {flat(key)}: [\n    "
+            for entry in cast(list[Any], value):
+                yield opening + one(entry)
+                opening = ",\n    "
+            yield "\n  ]"
         else:
-            lines.append(f"  {flat(key)}: {flat(value)}")
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+            yield f"{before}  {flat(key)}: {flat(value)}"
+        before = ",\n"
+    yield "\n}\n" if content else "{\n\n}\n"
 
 
 def _remove_old_buffers(target: Path, keep: Path | None) -> None:

@@ -89,7 +89,12 @@ def unsaid(noun: type[Noun]) -> Mapping[str, Any]:
 
 @cache
 def _said(noun: type[Noun]) -> tuple[tuple[str, Any, _Property], ...]:
-    """What is written of a noun, each with the noun's own default where it may be left out, in the schema's order."""
+    """What is written of a noun, each with the noun's own default where it may be left out, in the schema's order.
+
+    Of one that the schema states where it is used: all its fields, which are always written.
+    """
+    if definition_of(noun) not in _definitions():
+        return tuple((f.name, _NONE, _Property(f.name, _NONE, True, False)) for f in fields(noun))
     names, usual = {field.name for field in fields(noun)}, _defaults(noun)
     rules = [rule for rule in _properties(definition_of(noun)) if rule.key in names]
     return tuple((rule.key, usual.get(rule.key, _NONE), rule) for rule in rules)
@@ -101,8 +106,6 @@ def entry(noun: Noun, of_item: Callable[[Any], dict[str, Any]] | None = None) ->
     of_item: makes the entries of the nouns in its lists; None for this function itself.
     """
     definition = definition_of(type(noun))
-    if definition not in _definitions():  # stated where it is used, without defaults
-        return {field.name: _written(field.name, getattr(noun, field.name)) for field in fields(noun)}
     found: dict[str, Any] = {"type": definition} if definition[0].isupper() else {}
     for key, usual, rule in _said(type(noun)):
         value = getattr(noun, key)

@@ -154,9 +154,10 @@ def local_of(prim: Any, time: Any = None) -> Local:
     xform = UsdGeom.Xformable(prim)
     if not xform:
         return IDENTITY
-    order = xform.GetXformOpOrderAttr()
-    if not isinstance(order.Get(), Vt.TokenArray):
-        return Local(np.eye(4), False, mistyped="xformOpOrder") if order.HasAuthoredValue() else IDENTITY
+    attribute = xform.GetXformOpOrderAttr()
+    order = attribute.Get()
+    if not isinstance(order, Vt.TokenArray):
+        return Local(np.eye(4), False, mistyped="xformOpOrder") if attribute.HasAuthoredValue() else IDENTITY
     ops = xform.GetOrderedXformOps()
     attributes = [op.GetAttr() for op in ops]  # an inverse operation has that of the one that it undoes
     asked = Usd.TimeCode.Default() if time is None else time
@@ -168,7 +169,8 @@ def local_of(prim: Any, time: Any = None) -> Local:
         if not _is_typed(attribute, value):
             return Local(np.eye(4), False, mistyped=attribute.GetName())
     moves = any(attribute.ValueMightBeTimeVarying() for attribute in attributes)
-    return Local(matrix(xform.GetLocalTransformation(ops, asked)), xform.GetResetXformStack(), moves)
+    resets = len(ops) < len(order) and xform.GetResetXformStack()
+    return Local(matrix(xform.GetLocalTransformation(ops, asked)), resets, moves)
 
 
 def _is_typed(attribute: Any, value: Any) -> bool:

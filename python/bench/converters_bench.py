@@ -1,6 +1,6 @@
-"""Seconds a robot, beside those of urdf-usd-converter and mujoco-usd-converter, in one run.
+"""Seconds a robot, by the clock and of the processor, beside those of urdf-usd-converter and mujoco-usd-converter, in one run.
 
-    python python/bench/converters_bench.py FOLDER... [--converters PYTHON] [--format URDF|MJCF] [--most 200] [--limit 60]
+    python python/bench/converters_bench.py FOLDER... [--converters PYTHON] [--format URDF|MJCF] [--most 200] [--limit 60] [--each]
 
 PYTHON: the interpreter of an environment that has the two converters (they bring a USD of their own, which usd-core cannot
 stand beside).  Each file is converted in a process of its own on either side, with the libraries loaded; only files that
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,20 +40,20 @@ def theirs(path: Path, folder: Path) -> None:
 
 def _timed(convert: Callable[[Path, Path], None], path: Path, connection: Any) -> None:
     with tempfile.TemporaryDirectory() as folder:
-        start = time.perf_counter()
+        start, spent = time.perf_counter(), time.process_time()
         convert(path, Path(folder))
-        connection.send(time.perf_counter() - start)
+        connection.send((time.perf_counter() - start, time.process_time() - spent))
 
 
-def seconds(convert: Callable[[Path, Path], None], path: Path, limit: float) -> float | None:
-    """Of one file; None where it is not converted within the limit."""
+def seconds(convert: Callable[[Path, Path], None], path: Path, limit: float) -> tuple[float, float] | None:
+    """Of one file, by the clock and of the processor; None where it is not converted within the limit."""
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else None)
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=_timed, args=(convert, path, there))
     process.start()
     there.close()
     try:
-        return float(here.recv()) if here.poll(limit) else None
+        return here.recv() if here.poll(limit) else None
     except EOFError:
         return None
     finally:
@@ -84,6 +84,7 @@ def main() -> None:
     parser.add_argument("--format", choices=[*MODULES], default="URDF")
     parser.add_argument("--most", type=int, default=200, help="files, spread evenly over those found")
     parser.add_argument("--limit", type=float, default=60.0, help="seconds a file may take")
+    parser.add_argument("--each", action="store_true", help="print the seconds of each file too")
     arguments = parser.parse_args()
     from kinefab.sources import format_of
 
@@ -105,7 +106,7 @@ def main() -> None:
         command = [arguments.converters, __file__, "--other-side"]
         other = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         print(f"{MODULES[arguments.format]} 0", file=other.stdin, flush=True)
-    both: list[tuple[float, ...]] = []
+    both: list[tuple[Sequence[float], ...]] = []
     for path in files:
         measured = [seconds(ours, path, arguments.limit)]
         if other is not None:
@@ -115,14 +116,20 @@ def main() -> None:
             while not line.startswith("seconds "):  # the converters speak on the same stream
                 line = other.stdout.readline()
             measured.append(json.loads(line.removeprefix("seconds ")))
+        if arguments.each:
+            print(path, *(v and f"{v[0]:.2f} {v[1]:.2f}" for v in measured))
         if None not in measured:
             both.append(tuple(v for v in measured if v is not None))
     if other is not None:
         other.kill()
     print(f"{arguments.format}: {len(files)} files, {len(both)} converted" + (" by both" if other else ""))
-    for name, column in zip(("kinefab", MODULES[arguments.format]), zip(*both)):
-        values = [f(column) for f in (statistics.mean, statistics.median, max)]
-        print(f"  {name:22} mean {values[0]:.3f} s, median {values[1]:.3f} s, worst {values[2]:.3f} s")
+    for number, measure in enumerate(("by the clock", "of the processor")):
+        for name, column in zip(("kinefab", MODULES[arguments.format]), zip(*both)):
+            taken = [pair[number] for pair in column]
+            values = [f(taken) for f in (statistics.mean, statistics.median, max)]
+            print(
+                f"  {name:22} mean {values[0]:.3f} s, median {values[1]:.3f} s, worst {values[2]:.3f} s {measure}"
+            )
 
 
 if __name__ == "__main__":

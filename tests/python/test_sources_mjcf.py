@@ -10,11 +10,15 @@ import sys
 from pathlib import Path
 
 import kinefab
+import numpy as np
 import pytest
 from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, Combine, JointKind, Motion
 from kinefab.sources import read
+from kinefab.sources.mjcf.engine import compile_model
+from kinefab.sources.mjcf.files import scan
+from kinefab.sources.robots.packages import Packages
 from scene_kinematics import ROS, SceneKinematics, unity_point
 
 mujoco = pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
@@ -460,3 +464,31 @@ def test_what_mujocos_parser_does_not_mind_is_read(tmp_path):
         tmp_path, "<!-- a -- b -->" + ONE.replace("<joint name='j'/>", "<joint name='j'axis='0 1 0'/>")
     )
     assert [j.id for j in scene.joints] == ["j"]
+
+
+@pytest.mark.parametrize("discarded", [False, True])
+def test_the_model_is_what_mujoco_compiles(tmp_path, discarded):
+    """But for its meshes' hulls, which are not asked for: numbers of every geom, also of what is attached and repeated."""
+    part = (
+        '<mujoco><default><geom contype="2" conaffinity="5"/></default><worldbody><body name="hand"><joint/>'
+        '<geom size="0.1"/><geom name="seen" size="0.2" contype="0" conaffinity="0"/></body></worldbody></mujoco>'
+    )
+    (tmp_path / "part.xml").write_text(part)
+    text = (
+        f'<mujoco><compiler discardvisual="{str(discarded).lower()}"/><asset><model name="part" file="part.xml"/>'
+        '<mesh name="wedge" vertex="0 0 0  1 0 0  0 2 0  0 0 3" face="0 2 1  0 1 3  0 3 2  1 2 3"/></asset><worldbody>'
+        '<geom name="floor" type="plane" size="1 1 1" conaffinity="0"/>'
+        '<body name="arm"><joint/><geom type="mesh" mesh="wedge" contype="4"/>'
+        '<frame pos="1 2 3"><attach model="part" body="hand" prefix="L_"/></frame></body>'
+        '<replicate count="3" offset="1 0 0"><body><joint/><geom type="mesh" mesh="wedge" conaffinity="6"/></body></replicate>'
+        "</worldbody></mujoco>"
+    )
+    path = tmp_path / "whole.xml"
+    path.write_text(text)
+    report, packages = Report(), Packages(tmp_path, ())
+    ours = compile_model(scan(path, packages, report), packages, "", report).model
+    theirs = mujoco.MjModel.from_xml_path(str(path))
+    assert ours.ngeom == theirs.ngeom == (6 if discarded else 7)
+    for name in ("geom_contype", "geom_conaffinity", "geom_pos", "geom_size", "body_mass", "body_inertia"):
+        assert np.array_equal(getattr(ours, name), getattr(theirs, name)), name
+    assert (ours.mesh_graphadr[0] < 0) == (not discarded)

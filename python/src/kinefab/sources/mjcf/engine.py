@@ -94,9 +94,22 @@ class _Library:
         self._mend_textures(spec)
         self._mend_meshes(spec)
         self._mend_heightfields(spec)
-        model = self._tried(spec.compile)
+        model = self._without_hulls(spec)
         self._tell_masses(spec)
         self._check_numbers(model)
+        return model
+
+    def _without_hulls(self, spec: Any) -> Any:
+        """The compiled model.  MuJoCo hulls every mesh that something may touch, a fifth of its time; the scene's hulls are
+        our own, so the contacts are stated afterwards."""
+        touched = [] if spec.compiler.discardvisual else [g for g in spec.geoms if g.contype or g.conaffinity]
+        stated = [(int(geom.contype), int(geom.conaffinity)) for geom in touched]
+        for geom in touched:
+            geom.contype = geom.conaffinity = 0
+        model = self._tried(spec.compile)
+        for geom, bits in zip(touched, stated):
+            geom.contype, geom.conaffinity = bits
+            model.geom_contype[geom.id], model.geom_conaffinity[geom.id] = bits
         return model
 
     def _opened(self) -> Any:

@@ -492,3 +492,11 @@ def test_the_model_is_what_mujoco_compiles(tmp_path, discarded):
     for name in ("geom_contype", "geom_conaffinity", "geom_pos", "geom_size", "body_mass", "body_inertia"):
         assert np.array_equal(getattr(ours, name), getattr(theirs, name)), name
     assert (ours.mesh_graphadr[0] < 0) == (not discarded)
+
+
+def test_a_ball_without_range_is_fixed(tmp_path):
+    """As of a default class that limits hinges: the analysis and the joints agree that nothing turns there."""
+    inner = '<body><joint type="ball" limited="true" range="0 0"/><geom size="0.1"/></body>'
+    scene, _ = loaded(tmp_path, inner)
+    (joint,) = scene.joints
+    assert joint.kind is JointKind.FIXED and analyse(scene).mobility == 0

@@ -105,8 +105,10 @@ def add_joint(
     if a is not None:
         frame_a = a.pose @ frame_a
     frame_b = b.pose @ shape_placed(step.frame_b)
-    slerp = None
-    if step.kind is JointKind.SPHERICAL:
+    slerp, kind = None, step.kind
+    if kind is JointKind.SPHERICAL and _never_turns(compiled, step.axes[0]):
+        kind, freedoms = JointKind.FIXED, freedoms_of(JointKind.FIXED)
+    elif kind is JointKind.SPHERICAL:
         freedoms, slerp = _ball(compiled, step.axes[0], name, where, report)
     else:
         given = list(freedoms_of(step.kind))
@@ -120,7 +122,7 @@ def add_joint(
     made.joints.append(
         Joint(
             name,
-            step.kind,
+            kind,
             None if a is None else a.node,
             b.node,
             frame_a,
@@ -204,6 +206,13 @@ def _passive(compiled: Compiled, j: int, effort: float, report: Report) -> Passi
             f"joint {name}", "MJCF_NONLINEAR", compiled.where("joint", name), detail="; ".join(bent)
         )
     return None if made == Passive() else made
+
+
+def _never_turns(compiled: Compiled, axis: Axis) -> bool:
+    """Whether a ball's range is zero, as of a default class that limits hinges, and it stands there."""
+    m = compiled.model
+    held = bool(m.jnt_limited[axis.index]) and float(m.jnt_range[axis.index][1]) <= 0.0
+    return held and axis.turn is not None and bool(np.abs(axis.turn - np.eye(3)).max() <= SAME)
 
 
 def _ball(

@@ -129,6 +129,25 @@ def test_a_locked_value_away_from_zero_moves_the_frame(tmp_path):
     assert found.unlocked == (RZ,)
 
 
+@pytest.mark.parametrize("world", [0, 1])
+@pytest.mark.parametrize("other", ["", "/A"])
+def test_a_fixed_joint_whose_frames_do_not_meet_holds_the_bodies_as_they_stand_and_says_so(
+    tmp_path, world, other
+):
+    """As Unity's does; an engine of USD would pull them together at the first step."""
+    bodies = {f"body{world}": other, f"body{1 - world}": "/B"}
+    text = turned("B", 30.0, at=(0, 3, 4)) + (body("A") if other else "")
+    found, scene, report = joint_of(tmp_path, text + joint("PhysicsFixedJoint", **bodies), metres=0.01)
+    here = (scene.pose(found.a) @ found.frame_a).inverse() @ (scene.pose(found.b) @ found.frame_b)
+    assert np.allclose(here.rotation, np.eye(3), atol=1e-12)
+    assert np.allclose(here.translation, 0.0, atol=1e-12)
+    apart = scene.pose(found.a).inverse() @ scene.pose(found.b)
+    assert np.linalg.norm(apart.translation) == pytest.approx(0.05)
+    (told,) = report.diagnostics
+    assert told.code == "USD_FEATURE_APPROXIMATED" and told.where.endswith("</J>")
+    assert "0.05 m and 30 degrees apart" in told.message
+
+
 @pytest.mark.parametrize(
     "kind, force",
     [

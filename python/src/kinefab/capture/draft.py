@@ -71,7 +71,8 @@ class Draft:
 
     definitions: of each name and identity that the program has for a part, what the bundle calls it.
     owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
-    may try.  meshes: of a definition, by its name.
+    may try.  meshes: of a definition, by its name.  ids: of joints and constraints, each with the number that its next namesake
+    may have.
     """
 
     program: str
@@ -91,7 +92,7 @@ class Draft:
     owners: dict[str, str] = field(default_factory=dict[str, str])
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
     patterns: list[Pattern] = field(default_factory=list[Pattern])
-    ids: set[str] = field(default_factory=set[str])
+    ids: dict[str, int] = field(default_factory=dict[str, int])
     parts: set[str] = field(default_factory=set[str])
     notes: Record = field(default_factory=dict[str, Any])
 
@@ -189,10 +190,10 @@ class Draft:
         """An id that no joint or constraint has yet."""
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
             raise TypeError("its name is no text")
-        found, number = name, 2
+        found = name
         while found in self.ids:
-            found, number = f"{name} ({number})", number + 1
-        self.ids.add(found)
+            found, self.ids[name] = f"{name} ({self.ids[name]})", self.ids[name] + 1
+        self.ids[found] = 2
         return found
 
     def values(self) -> Record:

@@ -26,7 +26,7 @@ from ....model import (
     kind_of,
     unlocked_of,
 )
-from ....spatial import Array, Pose, rotation_about, rotation_exp
+from ....spatial import Array, Pose, rotation_about, rotation_exp, rotation_log
 from ..api import Sdf, UsdPhysics
 from ..stage import OpenStage
 from ..transforms import Stand, local_of, placed, rotation_of
@@ -41,6 +41,8 @@ HALF_TURN = np.diag([-1.0, 1.0, -1.0])
 GROUND = -1
 ROUNDED = 1e-6
 """Share of a length, and radians, that the 32-bit numbers of frames and poses may be apart by."""
+APART = 1e-4
+"""Share of a length, and radians, that a text of few digits may put the frames of a fixed joint apart by."""
 TURNED = 1e-5
 """Radians, and radians a second, that 32 bits of a drive's target may differ from the same in 64."""
 COUPLINGS = ("PhysxPhysicsGearJoint", "PhysxPhysicsRackAndPinionJoint")
@@ -126,8 +128,8 @@ class Joints:
         if second.node == GROUND:
             freedoms, first, second = self._swapped(entry, freedoms, first, second)
         kind = kind_of(unlocked_of(freedoms))
-        if kind is JointKind.FIXED and _meet(first, second):
-            first = replace(first, axes=second.axes, origin=second.origin)
+        if kind is JointKind.FIXED:
+            first = self._met(entry, first, second)
         if tuple(i for i in unlocked_of(freedoms) if i >= RX) == (RY, RZ):
             self._approximated(entry, "its two swings without twist became the two axes of a universal joint")
         breaks = [
@@ -219,6 +221,17 @@ class Joints:
         prim = self._opened.stage.GetPrimAtPath(path)
         above = self._world_of(path.GetParentPath())
         return placed(above, local_of(prim)) if prim else above
+
+    def _met(self, entry: JointPrim, first: Side, second: Side) -> Side:
+        """The first side of a fixed joint, put on the second: Unity's fixed joint holds the bodies as it finds them."""
+        reach = max(float(np.abs(first.origin).max()), float(np.abs(second.origin).max()))
+        apart = float(np.linalg.norm(first.origin - second.origin))
+        turned = float(np.linalg.norm(rotation_log(first.axes.T @ second.axes)))
+        if apart > APART * reach or turned > APART:
+            metres, degrees = apart * self._opened.frame.length, math.degrees(turned)
+            detail = f"its frames are {metres:.3g} m and {degrees:.3g} degrees apart at the exported pose"
+            self._approximated(entry, f"{detail}; the bodies are fixed as they stand")
+        return replace(first, axes=second.axes, origin=second.origin)
 
     def _frame(self, side: Side) -> Pose:
         stand = self._world if side.node == GROUND else self._stands[side.node]
@@ -365,13 +378,6 @@ class Joints:
         self._report.approximated(
             f"joint {entry.id}", "USD_FEATURE_APPROXIMATED", self._opened.place(entry.prim), detail=detail
         )
-
-
-def _meet(first: Side, second: Side) -> bool:
-    """Whether two frames are one but for the rounding of the 32 bits that USD keeps them in."""
-    reach = max(float(np.abs(first.origin).max()), float(np.abs(second.origin).max()))
-    apart = float(np.abs(first.origin - second.origin).max())
-    return apart <= ROUNDED * reach and float(np.abs(first.axes - second.axes).max()) <= ROUNDED
 
 
 def _held(freedoms: tuple[Freedom, ...], first: Side, length: float) -> tuple[tuple[Freedom, ...], Side]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -177,22 +178,19 @@ def quaternions_from_matrices(r: Array) -> Array:
 
 def matrix_from_quaternion(q: Array) -> Array:
     """Rotation matrix of a quaternion (x, y, z, w) of any length above zero, shape (3, 3)."""
-    x, y, z, w = (q / math.hypot(*q)).tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return np.array(_turned_rows(*(q / math.hypot(*q)).tolist()))
 
 
 def matrices_from_quaternions(q: Array) -> Array:
     """Rotation matrices of quaternions (x, y, z, w) of any length above zero, shape (n, 4) to (n, 3, 3)."""
-    x, y, z, w = (q / np.sqrt((q * q).sum(axis=1, keepdims=True))).T
-    rows = [
+    unit = q / np.sqrt((q * q).sum(axis=1, keepdims=True))
+    return np.array(_turned_rows(*unit.T)).transpose(2, 0, 1)
+
+
+def _turned_rows(x: Any, y: Any, z: Any, w: Any) -> list[list[Any]]:
+    """Rows of the rotation matrix of a unit quaternion, or of many at once, one number or array an entry."""
+    return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
     ]
-    return np.array(rows).transpose(2, 0, 1)

@@ -94,7 +94,7 @@ def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
             likely=f"{size / 1000.0:.4g}", count=len(large), unit="millimetres", taken="metres",
         )  # fmt: skip
         return
-    if 0.0 < max(longest) < TINY and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
+    if max(longest) < TINY and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
         worst = max(boxes, key=lambda i: _size(boxes[i]))
         report.add(
             "SIZE_IMPLAUSIBLE", scene.nodes[worst].where, node=scene.nodes[worst].id, size=f"{whole:.4g}", weight="",

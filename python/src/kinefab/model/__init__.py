@@ -29,7 +29,7 @@ from .freedoms import (
     Passive,
     SphericalDrive,
 )
-from .ids import free_id
+from .ids import IN_BRACKETS, free_id
 from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
@@ -58,6 +58,7 @@ __all__ = [
     "Feature",
     "FeatureKind",
     "Freedom",
+    "IN_BRACKETS",
     "Joint",
     "JointKind",
     "LOCKED",

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostics import Report
-from ...model import Body, Scene
+from ...model import IN_BRACKETS, Body, Scene, free_id
 from ..bundle.reader import scene_from_values
 from ..reading.file import read_bytes
 from ..reading.json_text import parse_json, top_keys
@@ -82,10 +82,6 @@ def _joints(tree: Tree) -> tuple[list[Record], dict[str, str]]:
                 where = f"{tree.path.name}#{place}"
                 tree.report.dropped(feature, "GALLERY_LEFT_OUT", where, reason=str(error))
                 continue
-            name, number = record["name"], 2
-            while name in ids:
-                name, number = f"{record['name']} ({number})", number + 1
-            ids.add(name)
             places[f"/joints/{len(found)}"] = place
-            found.append({"id": name, **record})
+            found.append({"id": free_id(record["name"], ids, IN_BRACKETS), **record})
     return found, places

@@ -116,9 +116,8 @@ class _Library:
         path, open_ = self.files.path, self.mujoco.MjSpec.from_file
         if path.suffix == ".xml":
             return open_(str(path))
-        named = path.with_suffix(
-            ".xml"
-        )  # MuJoCo 4 chooses what decodes a file by its ending, in small letters
+        # MuJoCo 4 chooses what decodes a file by its ending, in small letters
+        named = path.with_suffix(".xml")
         return open_(str(named), include={named.name: path.read_bytes()})
 
     def _tried(self, call: Any) -> Any:

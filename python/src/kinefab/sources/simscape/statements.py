@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
+from ...model import IN_BRACKETS, free_id
 from ...spatial import Array
 from ..reading.record import MIN_DIRECTION, shown
 from ..robots.xml_elements import Element
@@ -73,11 +74,7 @@ class Statements:
 
     def _id(self, owner: tuple[str, ...], name: str) -> str:
         name = f"{self.tree.ids[owner]}/{name}" if owner else name
-        found, number = name, 2
-        while found in self._ids:
-            found, number = f"{name} ({number})", number + 1
-        self._ids.add(found)
-        return found
+        return free_id(name, self._ids, IN_BRACKETS)
 
     # Joints ...........................................................................................................
 

@@ -10,7 +10,18 @@ from dataclasses import replace
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import FREEDOM_NAMES, Freedom, Joint, JointKind, Motion, Scene, freedoms_of, kind_of
+from ...model import (
+    FREEDOM_NAMES,
+    IN_BRACKETS,
+    Freedom,
+    Joint,
+    JointKind,
+    Motion,
+    Scene,
+    free_id,
+    freedoms_of,
+    kind_of,
+)
 from ...spatial import Array, Pose
 from ..asmt.assembled import UNCARRIED, bodies_of
 from ..asmt.constant_velocity import add_constant_velocity
@@ -48,10 +59,7 @@ def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Re
         elif len(pair.free) == len(FREEDOMS):
             continue  # it holds nothing
         else:
-            name, count = _plain(pair.name), 2
-            while name in ids:
-                name, count = f"{_plain(pair.name)} ({count})", count + 1
-            ids.add(name)
+            name = free_id(_plain(pair.name), ids, IN_BRACKETS)
             where = f"{scene.source.uri}:#{pair.number}"
             if pair.kind in COUPLED:
                 coupled.append((pair, _tie(pair, name, a, b, turn, length, where)))

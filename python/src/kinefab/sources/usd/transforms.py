@@ -137,8 +137,8 @@ class Local:
 
 
 _TYPES: dict[str, Any] = {
-    **dict.fromkeys(("transform",), (Gf.Matrix4d, Gf.Matrix4f)),
-    **dict.fromkeys(("orient",), (Gf.Quatd, Gf.Quatf, Gf.Quath)),
+    "transform": (Gf.Matrix4d, Gf.Matrix4f),
+    "orient": (Gf.Quatd, Gf.Quatf, Gf.Quath),
     **dict.fromkeys(
         ("translate", "scale", *(f"rotate{order}" for order in ("XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"))),
         (Gf.Vec3d, Gf.Vec3f, Gf.Vec3h),
@@ -154,10 +154,10 @@ def local_of(prim: Any, time: Any = None) -> Local:
     xform = UsdGeom.Xformable(prim)
     if not xform:
         return IDENTITY
-    attribute = xform.GetXformOpOrderAttr()
-    order = attribute.Get()
+    stated = xform.GetXformOpOrderAttr()
+    order = stated.Get()
     if not isinstance(order, Vt.TokenArray):
-        return Local(np.eye(4), False, mistyped="xformOpOrder") if attribute.HasAuthoredValue() else IDENTITY
+        return Local(np.eye(4), False, mistyped="xformOpOrder") if stated.HasAuthoredValue() else IDENTITY
     ops = xform.GetOrderedXformOps()
     attributes = [op.GetAttr() for op in ops]  # an inverse operation has that of the one that it undoes
     asked = Usd.TimeCode.Default() if time is None else time

@@ -192,6 +192,13 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def tell_unusable(prim: Any, name: str, value: object, opened: OpenStage, report: Report) -> None:
+    """That a value is passed over which the rest can do without.  name: of the attribute."""
+    feature = f"{name.removeprefix('inputs:')} of {prim.GetPath()}"
+    detail = f"it cannot be {shown(value)}"
+    report.dropped(feature, "USD_FEATURE_DROPPED", opened.place(prim, name), detail=detail)
+
+
 def _numbers(value: Any) -> Array:
     """Of an array or vector; empty where it is none of numbers: numpy would read texts as such."""
     try:

@@ -11,7 +11,7 @@ from ....diagnostics import Report
 from ....spatial import Array, lengths_of
 from ..api import Usd, UsdGeom, Vt
 from ..stage import OpenStage
-from ..values import shown
+from ..values import tell_unusable
 from .triangulate import triangles
 
 MAX_UVS = 8
@@ -105,10 +105,7 @@ def _tell_mistyped(
         attribute = prim.GetAttribute(name)
         value = attribute.Get(time) if attribute and attribute.HasAuthoredValue() else None
         if value is not None and not isinstance(value, kinds):
-            report.dropped(
-                f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
-                detail=f"it cannot be {shown(value)}",
-            )  # fmt: skip
+            tell_unusable(prim, name, value, opened, report)
 
 
 def _time(mesh: Any, opened: OpenStage, report: Report) -> Any:

@@ -11,7 +11,7 @@ from ....diagnostics import Report
 from ....model import Texture, Wrap
 from ..api import Ar, Sdf, UsdShade
 from ..stage import OpenStage
-from ..values import shown
+from ..values import shown, tell_unusable
 
 MEDIA = {
     ".png": ("image/png", b"\x89PNG"),
@@ -102,14 +102,7 @@ def _floats(
         found = ()
     if len(found) == len(default) and all(map(math.isfinite, found)):
         return found
-    prim = shader.GetPrim()
-    detail = f"it cannot be {shown(value)}"
-    report.dropped(
-        f"{name} of {prim.GetPath()}",
-        "USD_FEATURE_DROPPED",
-        opened.place(prim, f"inputs:{name}"),
-        detail=detail,
-    )
+    tell_unusable(shader.GetPrim(), f"inputs:{name}", value, opened, report)
     return default
 
 

@@ -298,7 +298,7 @@ class Joints:
         most = self._values.number(prim, "physics:maxDistance", -1.0, open_ended=True)
         if least > 0.0:
             self._approximated(entry, f"its least distance {least:g} was left out")
-        return self._ball(entry.prim, most)
+        return self._ball(prim, most)
 
     def _ball(self, prim: Any, most: float) -> tuple[Freedom, ...]:
         if most < 0.0 or math.isinf(most):
@@ -325,7 +325,7 @@ class Joints:
             most = self._values.number(prim, "limit:distance:physics:high", math.inf, open_ended=True)
             if self._values.number(prim, "limit:distance:physics:low", -math.inf, open_ended=True) > 0.0:
                 self._approximated(entry, "its least distance was left out")
-            ball = self._ball(entry.prim, most if most >= 0.0 else math.inf)
+            ball = self._ball(prim, most if most >= 0.0 else math.inf)
             found[:3] = [b if f.motion is Motion.FREE else f for f, b in zip(found, ball)]
         self._other_instances(entry, known)
         return tuple(found)

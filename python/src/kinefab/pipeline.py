@@ -247,21 +247,7 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnityScene:
     scene, groups = with_normals(found.scene, options.smooth), found.groups
     made = collision_meshes(found.scene, groups, options.colliders, options.ground, report)
-    hulls, cylinders = list(made.hulls.items()), list(made.cylinders.items())
-    pieces = [(number, piece) for number, found in made.pieces.items() for piece in found]
-    after_hulls = len(scene.meshes) + len(hulls)
-    after_cylinders = after_hulls + len(cylinders)
-    pieces_of: dict[int, list[int]] = {}
-    for k, (number, _) in enumerate(pieces):
-        pieces_of.setdefault(number, []).append(after_cylinders + k)
-    colliders = Colliders(
-        options.colliders,
-        {number: len(scene.meshes) + k for k, (number, _) in enumerate(hulls)},
-        {size: after_hulls + k for k, (size, _) in enumerate(cylinders)},
-        tuple(mesh for _, mesh in [*hulls, *cylinders, *pieces]),
-        pieces_of,
-        options.ground,
-    )
+    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     check_overlaps(mapped, report)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
+from ...geometry.collision import CollisionMeshes
 from ...model import Collider, ColliderKind, Mesh
 from ...options import ColliderShape, Ground
 from ...spatial import Array, Pose
@@ -40,6 +42,17 @@ class Colliders:
     made: tuple[Mesh, ...] = ()
     pieces_of: Mapping[int, Sequence[int]] = field(default_factory=dict[int, Sequence[int]])
     ground: Ground = Ground.WORLD
+
+    @classmethod
+    def behind(cls, own: int, made: CollisionMeshes, shape: ColliderShape, ground: Ground) -> Colliders:
+        """Those of a scene with ``own`` meshes, behind which the made ones stand: hulls, cylinders, pieces."""
+        numbers = itertools.count(own)
+        hull_of = {mesh: next(numbers) for mesh in made.hulls}
+        cylinder_of = {size: next(numbers) for size in made.cylinders}
+        pieces_of = {mesh: [next(numbers) for _ in pieces] for mesh, pieces in made.pieces.items()}
+        pieces = itertools.chain.from_iterable(made.pieces.values())
+        meshes = (*made.hulls.values(), *made.cylinders.values(), *pieces)
+        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground)
 
 
 def chosen_colliders(

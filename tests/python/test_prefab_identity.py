@@ -8,6 +8,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from kinefab import model
 from kinefab.spatial import Pose
 from prefab_scenes import block, rich_scene
@@ -103,6 +104,77 @@ def test_a_part_with_a_definition_shares_its_mesh_s_guid(tmp_path):
     _, again, _ = numbers(tmp_path / "b", with_root(machine("B", "C")))
     assert guids["Rich/Meshes/Bolt.asset.meta"] == again["Rich/Meshes/Bolt.asset.meta"]
     assert sum("Bolt.asset" in path for path in guids) == 1
+
+
+LINK = (
+    '<link name="{0}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    '<visual><origin xyz="{2} 0 0"/><geometry>{1}</geometry></visual></link>'
+)
+JOINT = (
+    '<joint name="to {0}" type="revolute"><parent link="base"/><child link="{0}"/>'
+    '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+)
+BOX, FILE = '<box size="0.1 0.2 0.3"/>', '<mesh filename="wheel.stl" scale="1 {0} 1"/>'
+
+
+def mesh_guids(folder: Path, links: dict[str, tuple[str, float]]) -> dict[str, list[str]]:
+    """Guids of the meshes of a robot whose links have (geometry, offset)."""
+    folder.mkdir(exist_ok=True)
+    trimesh.creation.icosphere(1, 0.1).export(folder / "wheel.stl")
+    parts = [
+        LINK.format(name, *given) + ("" if name == "base" else JOINT.format(name))
+        for name, given in links.items()
+    ]
+    (folder / "robot.urdf").write_text(f'<robot name="r">{"".join(parts)}</robot>')
+    kinefab.export(folder / "robot.urdf", folder / "Robot.prefab")
+    return shown_guids(folder / "Robot.prefab")
+
+
+def shown_guids(prefab: Path) -> dict[str, list[str]]:
+    """Of the meshes, by the names of the objects that show or touch them."""
+    found = {d.file_id: d for d in documents(prefab.read_text("utf-8"))}
+    shown: dict[str, list[str]] = {}
+    for d in found.values():
+        if d.kind in ("MeshFilter", "MeshCollider"):
+            owner = found[int(d.fields["m_GameObject"]["fileID"])].fields["m_Name"]
+            shown.setdefault(f"{owner} {d.kind}", []).append(str(d.fields["m_Mesh"]["guid"]))
+    return shown
+
+
+def test_a_mesh_s_guid_does_not_hang_on_who_else_uses_it(tmp_path):
+    """Shared by a file, by a size, or mirrored; users come before and go."""
+    left, right = FILE.format("1"), FILE.format("-1")
+    links = {
+        n: (g, 0.0)
+        for n, g in (("base", BOX), ("b", left), ("c", left), ("d", BOX), ("e", right), ("f", right))
+    }
+    before = {guid for guids in mesh_guids(tmp_path / "a", links).values() for guid in guids}
+    assert len(before) == 3
+    for name, change in (
+        ("gone", {k: v for k, v in links.items() if k not in ("b", "e")}),
+        ("new", {"a": (left, 0.0), **links, "A": (BOX, 0.0), "a2": (right, 0.0)}),
+        ("moved within its link", {**links, "b": (left, 0.5)}),
+    ):
+        after = mesh_guids(tmp_path / name, change)
+        assert {guid for guids in after.values() for guid in guids} == before, name
+
+
+def test_a_mesh_s_guid_does_not_hang_on_colliders(tmp_path):
+    """Nor a hull's on whether all users of the mesh are hulls."""
+    ball = trimesh.creation.icosphere(1, 0.1)
+    found: list[dict[str, list[str]]] = []
+    for i, shape in enumerate(("auto", "box", "mesh", "auto")):
+        scene = kinefab.Scene()
+        base = scene.add_part("Base", ball, grounded=i < 3)
+        for name in ("Arm", "Leg"):
+            part = scene.add_part(name, ball, translation=(1, 0, 0))
+            scene.add_hinge(base, part, point=(0, 0, 0), axis=(0, 0, 1))
+        options = kinefab.ExportOptions(colliders=kinefab.ColliderShape(shape))
+        kinefab.export(scene, tmp_path / "Machine.prefab", options)
+        found.append(shown_guids(tmp_path / "Machine.prefab"))
+    drawn = [{k: v for k, v in guids.items() if "Filter" in k} for guids in found]
+    assert drawn[0] == drawn[1] == drawn[2] == drawn[3] and len(drawn[0]) == 3
+    assert found[0]["Arm MeshCollider"] == found[3]["Arm MeshCollider"]
 
 
 def with_root(scene: model.Scene) -> model.Scene:

@@ -87,4 +87,5 @@ def prism(radius: float, length: float) -> Mesh:
         np.column_stack([np.zeros_like(k), k + 1, k]),
         np.column_stack([np.zeros_like(k), k, k + 1]) + SIDES,
     ]
-    return Mesh("cylinder", np.vstack([low, high]), np.vstack([*sides, *caps]).astype(np.int64))
+    faces = np.vstack([*sides, *caps]).astype(np.int64)
+    return Mesh("cylinder", np.vstack([low, high]), faces, origin=f"prism {radius:.9g} {length:.9g}")

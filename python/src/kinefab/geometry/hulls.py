@@ -57,7 +57,7 @@ def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Rep
         if before:
             after = len(hull[1])
             report.add("HULL_SIMPLIFIED", body=body, before=before, after=after, deviation=f"{deviation:.3g}")
-        hulls[index] = Mesh(f"{mesh.name} hull", *hull)
+        hulls[index] = Mesh(f"{mesh.name} hull", *hull, origin=mesh.origin and f"{mesh.origin} hull")
     return hulls
 
 

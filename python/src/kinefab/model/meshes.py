@@ -19,6 +19,8 @@ class Mesh:
     tangents: shape (n, 4), unit x y z and the sense of the bitangent, +1 or -1 (right-handed), or None.
     colors: of the vertices, linear RGBA in 0..1, shape (n, 4), or None.
     face_counts: number of faces of each submesh, in order; they add up to m.
+    origin: what it is in the source, whoever uses it and whatever its shape: a file and a name in it, a prim; "" where
+        nobody says.  Several meshes may have one.
     """
 
     name: str
@@ -29,6 +31,7 @@ class Mesh:
     tangents: Array | None = None
     colors: Array | None = None
     face_counts: tuple[int, ...] = ()
+    origin: str = ""
 
 
 class MeshKey(str, Enum):

@@ -108,7 +108,9 @@ def _decomposed(mesh: Mesh) -> tuple[Mesh, ...]:
     for points in parts:
         hull = hull_of_points(points * size + middle)
         if hull is not None:
-            pieces.append(Mesh(f"{mesh.name} piece {len(pieces) + 1}", *within_unity(hull)[0]))
+            which = f"piece {len(pieces) + 1}"
+            origin = mesh.origin and f"{mesh.origin} {which}"
+            pieces.append(Mesh(f"{mesh.name} {which}", *within_unity(hull)[0], origin=origin))
     return tuple(pieces)
 
 

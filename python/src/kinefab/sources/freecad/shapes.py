@@ -126,7 +126,8 @@ class Shapes:
             )
             if key not in meshes:
                 meshes[key] = len(scene.meshes)
-                scene.meshes.append(mesh)
+                origin = f"{one.owner.document.path.name}#{one.owner.name}"
+                scene.meshes.append(replace(mesh, origin=origin))
             body = Body(one.name, meshes[key], tuple(order), looks.density(one), visible=one.visible)
             scene.nodes[one.node] = replace(node, bodies=(*node.bodies, body))
         if self._without:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -138,5 +138,6 @@ class Bodies:
         if (kind, index) not in self._meshes:
             make = compiled_mesh if kind == "mesh" else heightfield
             self._meshes[kind, index] = len(self.meshes)
-            self.meshes.append(make(self.compiled.model, index))
+            made = make(self.compiled.model, index)
+            self.meshes.append(replace(made, origin=f"{kind} {made.name}"))
         return self._meshes[kind, index]

@@ -93,7 +93,9 @@ class Shapes:
             make: Callable[..., Mesh] = getattr(primitives, shape.kind)
             whole = shape.kind in ("box", "ellipsoid")  # these take their sizes as one
             self._known[key] = len(self.meshes)
-            self.meshes.append(make(shape.size) if whole else make(*shape.size))
+            made = make(shape.size) if whole else make(*shape.size)
+            sizes = " ".join(f"{x:.9g}" for x in shape.size)
+            self.meshes.append(replace(made, origin=f"{shape.kind} {sizes}"))
         return self._known[key]
 
 

@@ -26,7 +26,7 @@ from .assets.tangents import with_tangents
 from .assets.textures import TextureFile, Textures, reference, shown
 from .files import AssetFile
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
-from .meshes import mesh_name
+from .meshes import mesh_name, mesh_origin
 from .names import file_name, folded, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
 from .objects.hierarchy import Hierarchy, References
@@ -130,7 +130,7 @@ class _Export:
 
     def _meshes(self) -> dict[int, Plain]:
         meshes = self.scene.meshes
-        identities = mesh_identities(self.scene, self.content.scene)
+        identities = mesh_identities(self.scene, self.content.scene, partial(mesh_origin, meshes))
         used = sorted(identities)
         names = [mesh_name(meshes, i) for i in used]
 

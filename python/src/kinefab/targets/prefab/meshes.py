@@ -12,6 +12,11 @@ def mesh_name(meshes: Sequence[Mesh], index: int) -> str:
     return meshes.name(index) if isinstance(meshes, MappedMeshes) else meshes[index].name
 
 
+def mesh_origin(meshes: Sequence[Mesh], index: int) -> str:
+    """What it is in the source, whoever uses it; "" where nobody says."""
+    return meshes.origin(index) if isinstance(meshes, MappedMeshes) else ""
+
+
 def is_colored(meshes: Sequence[Mesh], index: int) -> bool:
     """Whether its vertices have colours."""
     if isinstance(meshes, MappedMeshes):

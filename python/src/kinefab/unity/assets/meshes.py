@@ -51,6 +51,10 @@ class MappedMeshes(Sequence[Mesh]):
         """Without mapping it."""
         return self._meshes[index].name
 
+    def origin(self, index: int) -> str:
+        """What it is in the source; without mapping it."""
+        return self._meshes[index].origin
+
     def is_colored(self, index: int) -> bool:
         """Whether its vertices have colours; without mapping it."""
         return self._meshes[index].colors is not None

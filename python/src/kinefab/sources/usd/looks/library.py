@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import zlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -63,6 +64,9 @@ class Library:
         if polygons is None:
             return None
         index = self._added(title(prim), polygons, bake)
+        mesh, origin = self.meshes[index], _origin(prim)
+        if not mesh.origin or origin < mesh.origin:  # of prims alike, whichever is read first
+            self.meshes[index] = replace(mesh, origin=origin)
         return Shared(index, polygons.subsets, polygons.uv_names)
 
     def _added(self, name: str, p: Polygons, bake: Array | None) -> int:
@@ -109,6 +113,16 @@ def source_path(prim: Any) -> str:
     if prim.IsInstanceProxy():
         return str(prim.GetPrimInPrototype().GetPath())
     return str(prim.GetPath())
+
+
+def _origin(prim: Any) -> str:
+    """Where the prim is defined: in the file that all which refer to it have in common, if it comes from another."""
+    stack = prim.GetPrimStack()
+    if not stack:
+        return f"<{prim.GetPath()}>"
+    first = stack[-1]
+    local = first.layer == prim.GetStage().GetRootLayer()
+    return f"{'' if local else PurePath(first.layer.GetDisplayName()).name}<{first.path}>"
 
 
 def _same(mesh: Mesh, vertices: Array, faces: np.ndarray, normals: Array | None, p: Polygons) -> bool:

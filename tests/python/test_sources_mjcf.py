@@ -137,6 +137,38 @@ def test_actuators_are_drives_where_unitys_law_is_theirs(tmp_path, actuator, exp
     assert "MJCF_ACTUATOR" not in codes(report)
 
 
+def test_what_bounds_the_actuators_of_a_joint_bounds_its_drive(tmp_path):
+    """MuJoCo clips their sum; Unity's drive has a largest force, but none for a spring of the joint beside it."""
+    head = "<body><joint name='j' actuatorfrcrange='-5 5'{}/>" + BALL + "</body>"
+    tail = "<actuator><position joint='j' kp='10' forcerange='-8 8'/><motor joint='j' ctrlrange='-2 2'/></actuator>"
+
+    def written(more: str, ends: str):
+        (path := tmp_path / "e").mkdir(exist_ok=True)
+        result = kinefab.export(
+            model(path, head.format(more).replace("-5 5", ends), tail=tail), tmp_path / "e.kinefab"
+        )
+        content = json.loads(result.path.read_text(encoding="utf-8"))
+        parts = [c for entry in content["gameObjects"] for c in entry.get("components", ())]
+        (joint,) = (c for c in parts if c["type"] == "ConfigurableJoint")
+        return joint["angularXDrive"], {d.code for d in result.report.diagnostics}
+
+    drive, told = written("", "-5 5")
+    assert drive == {"positionSpring": 10, "maximumForce": 5}
+    assert "JOINT_EFFORT_DROPPED" not in told and "MJCF_EFFORT_UNEVEN" not in told
+    drive, told = written(" damping='1'", "-5 5")
+    assert drive["maximumForce"] == 8 and {"JOINT_EFFORT_DROPPED", "JOINT_PASSIVE_DROPPED"} <= told
+    drive, told = written("", "-5 6")
+    assert drive["maximumForce"] == 6 and "MJCF_EFFORT_UNEVEN" in told
+
+
+def test_two_clipped_actuators_of_a_joint_are_not_one_drive(tmp_path):
+    """clip(10 (u - q), 4) + clip(-2 qdot, 1) is no clip of the sum."""
+    position, velocity = "<position joint='j' kp='10'{}/>", "<velocity joint='j' kv='2'/>"
+    for bound, told in (("", False), (" forcerange='-4 4'", True)):
+        _, report = loaded(tmp_path, ONE, tail=f"<actuator>{position.format(bound)}{velocity}</actuator>")
+        assert ("MJCF_ACTUATOR" in codes(report)) is told
+
+
 @pytest.mark.parametrize(
     "actuator, word",
     [

@@ -207,6 +207,8 @@ def test_what_cannot_be_added_to_a_motor_is_told(tmp_path):
     motor = Drive(target_velocity=1.0, max_force=5.0, motor=True)
     freedom = Freedom(Motion.FREE, drive=motor, passive=Passive(damping=1.0))
     assert "JOINT_PASSIVE_DROPPED" in outcomes(written(arm(freedom), tmp_path)[1], Outcome.DROPPED)
+    limited = Freedom(Motion.FREE, drive=Drive(0.2, 0.0, 30.0), passive=Passive(speed=3.0))
+    assert "JOINT_EFFORT_DROPPED" in outcomes(written(arm(limited), tmp_path)[1], Outcome.DROPPED)
     limited = Freedom(Motion.FREE, passive=Passive(effort=20.0, speed=3.0))
     assert "JOINT_EFFORT_DROPPED" in outcomes(written(arm(limited), tmp_path)[1], Outcome.DROPPED)
 

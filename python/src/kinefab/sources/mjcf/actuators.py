@@ -34,9 +34,20 @@ class _Law:
     most: float
 
 
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """An actuator that became a drive.  reason: what of it the drive is not, "" for nothing."""
+
+    name: str
+    where: str
+    numbers: str
+    law: _Law
+    reason: str
+
+
 def read_actuators(compiled: Compiled, report: Report) -> Driven:
     m, enums = compiled.model, compiled.mujoco
-    laws: dict[int, list[_Law]] = {}
+    driving: dict[int, list[_Told]] = {}
     driven = Driven()
     count = int(getattr(m, "nactuator", m.nu))
     for i in range(count):
@@ -53,31 +64,31 @@ def read_actuators(compiled: Compiled, report: Report) -> Driven:
         law, most_control = _law(compiled, i)
         if law.stiffness == 0.0 and law.damping == 0.0:
             driven.efforts[joint] = driven.efforts.get(joint, 0.0) + min(law.most, most_control)
-            reason = "a force is no drive; its largest is kept as the joint's effort"
+            reason = "a force is no drive; without one beside it its largest is kept as the joint's effort"
             report.approximated(
                 f"actuator {name}", "MJCF_ACTUATOR", where, actuator=name, reason=reason, numbers=numbers
             )
-            if law.constant == 0.0:
-                continue
-        else:
-            asymmetric = (
-                bool(m.actuator_forcelimited[i]) and abs(float(np.sum(m.actuator_forcerange[i]))) > 1e-9
-            )
-            lag = int(m.actuator_dyntype[i]) != int(enums.mjtDyn.mjDYN_NONE)
-            if asymmetric or lag:
-                reason = (
-                    "its force range is not the same to both sides"
-                    if asymmetric
-                    else "Unity's drive has no lag"
-                )
+            continue
+        if bool(m.actuator_forcelimited[i]) and abs(float(np.sum(m.actuator_forcerange[i]))) > 1e-9:
+            reason = "its force range is not the same to both sides"
+        elif int(m.actuator_dyntype[i]) != int(enums.mjtDyn.mjDYN_NONE):
+            reason = "Unity's drive has no lag"
+        driving.setdefault(joint, []).append(_Told(name, where, numbers, law, reason))
+    for joint, several in driving.items():
+        laws = [one.law for one in several]
+        driven.drives[joint] = _together(laws)
+        clipped = len(laws) > 1 and any(math.isfinite(law.most) for law in laws)
+        for one in several:
+            reason = one.reason
+            if clipped and not reason:
+                reason = "each actuator of its joint has a largest force of its own; one drive has their sum"
+            if reason:
                 report.approximated(
-                    f"actuator {name}", "MJCF_ACTUATOR", where, actuator=name, reason=reason, numbers=numbers
-                )
+                    f"actuator {one.name}", "MJCF_ACTUATOR", one.where,
+                    actuator=one.name, reason=reason, numbers=one.numbers,
+                )  # fmt: skip
             else:
-                report.kept(f"actuator {name}", where)
-            laws.setdefault(joint, []).append(law)
-    for joint, several in laws.items():
-        driven.drives[joint] = _together(several)
+                report.kept(f"actuator {one.name}", one.where)
     return driven
 
 

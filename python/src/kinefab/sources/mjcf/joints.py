@@ -164,7 +164,9 @@ def _extras(compiled: Compiled, step: Step) -> dict[str, object]:
 def _freedom(compiled: Compiled, axis: Axis, driven: Driven, name: str, report: Report) -> Freedom:
     m, j = compiled.model, axis.index
     drive: Drive | None = driven.drives.get(j)
-    passive = _passive(compiled, j, driven.efforts.get(j, math.inf), report)
+    # Beside a drive a motor's largest force is not that of the drive.
+    effort = math.inf if drive is not None else driven.efforts.get(j, math.inf)
+    passive = _passive(compiled, j, effort, report)
     low, high = (float(v) for v in m.jnt_range[j]) if m.jnt_limited[j] else (-math.inf, math.inf)
     limited = bool(m.jnt_limited[j])
     return Freedom(
@@ -182,8 +184,15 @@ def _passive(compiled: Compiled, j: int, effort: float, report: Report) -> Passi
     m = compiled.model
     dof, at = int(m.jnt_dofadr[j]), int(m.jnt_qposadr[j])
     stiffness = float(m.jnt_stiffness[j])
+    name = compiled.joints[j]
     if bool(m.jnt_actfrclimited[j]):
-        effort = min(effort, float(np.abs(m.jnt_actfrcrange[j]).max()))
+        bounds = np.abs(m.jnt_actfrcrange[j])
+        effort = min(effort, float(bounds.max()))
+        if bounds.max() - bounds.min() > 1e-9:
+            report.approximated(
+                f"largest force of joint {name}", "MJCF_EFFORT_UNEVEN", compiled.where("joint", name),
+                joint=name, range=" ".join(f"{float(v):g}" for v in m.jnt_actfrcrange[j]),
+            )  # fmt: skip
     made = Passive(
         stiffness,
         float(m.qpos_spring[at]) if stiffness else 0.0,
@@ -201,7 +210,6 @@ def _passive(compiled: Compiled, j: int, effort: float, report: Report) -> Passi
         if np.any(values)
     ]
     if bent:
-        name = compiled.joints[j]
         report.approximated(
             f"joint {name}", "MJCF_NONLINEAR", compiled.where("joint", name), detail="; ".join(bent)
         )

@@ -32,18 +32,23 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
     ):
         if value > 0.0:
             report.dropped(f"joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
-    if freedom.drive is None and (math.isfinite(passive.effort) or math.isfinite(passive.speed)):
+    drive, effort = freedom.drive, passive.effort
+    alone = not (passive.stiffness or passive.damping)
+    if drive is not None and alone:  # what bounds the drive would bound a spring of the joint too
+        drive = replace(drive, max_force=min(drive.max_force, effort))
+    if drive is not None and drive.max_force <= effort:
+        effort = math.inf
+    if math.isfinite(effort) or math.isfinite(passive.speed):
         report.dropped(
             f"joint {joint.id}",
             "JOINT_EFFORT_DROPPED",
             joint.where,
-            effort=f"{passive.effort:g}",
+            effort=f"{effort:g}",
             speed=f"{passive.speed:g}",
             **names,
         )
-    if not (passive.stiffness or passive.damping):
-        return bare
-    drive = freedom.drive
+    if alone:
+        return replace(bare, drive=drive)
     if drive is None:
         return replace(bare, drive=Drive(passive.rest, 0.0, passive.stiffness, passive.damping))
     if drive.motor or drive.acceleration or math.isfinite(drive.max_force):

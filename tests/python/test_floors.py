@@ -53,7 +53,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "targets": [
-        {"numbers", "content"},
+        {"numbers", "content", "images"},
         {"noun_entry", "filtering", "packing"},
         {"kinefab_file", "prefab", "gltf", "usd"},
         {"unitypackage"},
@@ -102,7 +102,7 @@ NEIGHBOURS = {("mates_file", "apply"), ("geometry", "rigid"), ("diagnostics", "o
 HOMES = {
     "trimesh": {"geometry", "builder"},
     "scipy": {"analysis", "geometry", "mates"},
-    "PIL": {"views/raster", "targets/prefab/assets/images"},
+    "PIL": {"views/raster", "targets/images", "targets/prefab/assets/images"},
     "coacd": {"geometry/contact"},
     "coal": {"geometry/contact"},
     "manifold3d": {"geometry/contact"},

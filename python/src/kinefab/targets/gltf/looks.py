@@ -7,13 +7,12 @@ from typing import Any
 
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
+from ..images import ImageError, read_image
 from .binary import Binary
 
 WRAPS = {Wrap.REPEAT: 10497, Wrap.CLAMP: 33071, Wrap.MIRROR: 33648}
-SIGNATURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
-"""First bytes of the images that glTF holds."""
-MOST_BYTES = 256 * 2**20
-"""Of one image."""
+MEDIA_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
+"""Of the images that glTF holds, by their endings."""
 
 
 class Looks:
@@ -107,24 +106,19 @@ class Looks:
         return self._image_of[key]
 
     def _embedded(self, texture: Texture, surface: str) -> int | None:
-        data, why = texture.data, ""
-        if data is None and texture.path is not None:
-            try:
-                if not texture.path.is_file() or texture.path.stat().st_size > MOST_BYTES:
-                    raise OSError("it is no regular file of a bounded size")
-                data = texture.path.read_bytes()
-            except OSError as error:
-                why = error.strerror or str(error)
-        kind = next((m for head, m in SIGNATURES.items() if data is not None and data.startswith(head)), None)
-        if data is None or kind is None:
-            detail = why or "glTF holds PNG and JPEG only"
+        try:
+            image = read_image(texture, MEDIA_TYPES, "glTF holds PNG and JPEG only")
+        except ImageError as error:
             self._report.dropped(
                 f"texture {texture.name}",
                 "TEXTURE_DROPPED",
                 texture=texture.name,
                 surface=surface,
-                detail=detail,
+                detail=error,
             )
             return None
-        self.images.append({"name": texture.name, "mimeType": kind, "bufferView": self._binary.view(data)})
+        kind = MEDIA_TYPES[image.ending]
+        self.images.append(
+            {"name": texture.name, "mimeType": kind, "bufferView": self._binary.view(image.data)}
+        )
         return len(self.images) - 1

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ...replacing import one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..content import Content
-from .looks.textures import HASH_DIGITS, SIGNATURES, Textures
+from .looks.textures import ENDINGS, HASH_DIGITS, Textures
 from .stage import Stage
 
 ROLES = ("stage", "image")
@@ -83,8 +83,8 @@ def _entry(archive: zipfile.ZipFile, name: str) -> zipfile.ZipInfo:
 
 
 def _remove_old_images(target: Path, keep: set[Path]) -> None:
-    endings = "|".join(SIGNATURES.values())
-    pattern = re.compile(re.escape(target.name) + rf"\.[0-9a-f]{{{HASH_DIGITS}}}\.({endings})")
+    endings = "|".join(map(re.escape, ENDINGS))
+    pattern = re.compile(re.escape(target.name) + rf"\.[0-9a-f]{{{HASH_DIGITS}}}({endings})")
     for path in target.parent.iterdir():
         if path not in keep and pattern.fullmatch(path.name):
             path.unlink(missing_ok=True)

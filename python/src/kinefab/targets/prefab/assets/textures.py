@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 from ....diagnostics import Report
 from ....model import Texture, Wrap
 from ....unity.scene import Material
+from ...images import Image, ImageError
 from ..text.metas import texture_meta
 from ..text.yaml import Plain, external
-from .images import Image, ImageError, packed, read_image
+from .images import packed, read_image
 from .materials import Map, Maps
 
 TEXTURE_ID = 2800000

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 
 from ....diagnostics import Report
 from ....model import Texture
+from ...images import ImageError, read_image
 
-SIGNATURES = {b"\x89PNG\r\n\x1a\n": "png", b"\xff\xd8\xff": "jpg", b"v/1\x01": "exr"}
-"""First bytes of the images that packages may hold, and their endings."""
-MOST_BYTES = 256 * 2**20
-"""Of one image."""
+ENDINGS = (".png", ".jpg", ".exr")
+"""Of the images that packages may hold."""
 HASH_DIGITS = 16
 """Hexadecimal digits of an image's SHA-256 in its name."""
 
@@ -33,21 +32,14 @@ class Textures:
         return self._names[key]
 
     def _taken(self, texture: Texture, surface: str) -> str:
-        data, why = texture.data, ""
-        if data is None and texture.path is not None:
-            try:
-                if not texture.path.is_file() or texture.path.stat().st_size > MOST_BYTES:
-                    raise OSError("it is no regular file of a bounded size")
-                data = texture.path.read_bytes()
-            except OSError as error:
-                why = error.strerror or str(error)
-        ending = next((e for head, e in SIGNATURES.items() if data is not None and data.startswith(head)), "")
-        if data is None or not ending:
+        try:
+            image = read_image(texture, ENDINGS, "USD holds PNG, JPEG and OpenEXR only")
+        except ImageError as error:
             self.report.dropped(
                 f"texture {texture.name}", "TEXTURE_DROPPED",
-                texture=texture.name, surface=surface, detail=why or "USD holds PNG, JPEG and OpenEXR only",
+                texture=texture.name, surface=surface, detail=error,
             )  # fmt: skip
             return ""
-        name = f"{self.prefix}{hashlib.sha256(data).hexdigest()[:HASH_DIGITS]}.{ending}"
-        self.files[name] = data
+        name = f"{self.prefix}{hashlib.sha256(image.data).hexdigest()[:HASH_DIGITS]}{image.ending}"
+        self.files[name] = image.data
         return name

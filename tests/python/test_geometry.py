@@ -167,9 +167,46 @@ def test_obj_normals_and_texture_coordinates_stay_with_their_corners(tmp_path):
     assert mesh.uvs[0].shape == (6, 2)
 
 
+@pytest.mark.parametrize("named", ["v", "vt", "vn", "vt vn"])
+def test_an_obj_is_read_as_trimesh_reads_it(tmp_path, named):
+    """Corner by corner the same place, texture coordinates and normal, by another reader; colours beside places are no places."""
+    rng = np.random.default_rng(3)
+    rows = [f"v {x} {y} {z} 0.5 0.5 0.5" for x, y, z in rng.normal(size=(20, 3)).tolist()]
+    rows += [f"vt {u} {v}" for u, v in rng.uniform(size=(15, 2)).tolist()]
+    rows += [f"vn {x} {y} {z}" for x, y, z in rng.normal(size=(12, 3)).tolist()]
+    form = {"v": "{}", "vt": "{}/{}", "vn": "{0}//{2}", "vt vn": "{}/{}/{}"}[named]
+    corners = rng.integers(1, [21, 16, 13], size=(40, 3, 3)).tolist()
+    faces = ["f " + " ".join(form.format(*corner) for corner in face) for face in corners]
+    path = write(tmp_path / "a.obj", "o A", rows, faces)
+    (piece,) = read_mesh_file(path, Report(), "here").pieces
+    other = trimesh.load_mesh(path, process=False)
+    assert np.array_equal(piece.vertices[piece.faces], np.asarray(other.vertices)[other.faces])
+    assert (piece.uv is not None, piece.normals is not None) == ("vt" in named, "vn" in named)
+    if piece.uv is not None:
+        assert np.array_equal(piece.uv[piece.faces], other.visual.uv[other.faces])
+    if piece.normals is not None:
+        numbers = np.array(corners)[:, :, 2] - 1
+        stated = np.array([row.split()[1:] for row in rows if row.startswith("vn")], dtype=float)
+        assert np.array_equal(piece.normals[piece.faces], stated[numbers])
+
+
+def test_obj_corners_that_name_different_things_keep_their_places(tmp_path):
+    """Where only some corners have texture coordinates there are none; a coordinate of u alone has v = 0."""
+    v, _ = cube_lines(1)
+    mixed = write(tmp_path / "a.obj", "o A", v, "vt 0 0", "f 5/1 7 8/1", "f 3 4 8")
+    (piece,) = read_mesh_file(mixed, Report(), "here").pieces
+    places = np.array([row.split()[1:] for row in v], dtype=float)
+    assert piece.uv is None and np.array_equal(piece.vertices[piece.faces], places[[[4, 6, 7], [2, 3, 7]]])
+    alone = write(tmp_path / "b.obj", "o A", v, "vt 0.5", "vt 1 1", "f 5/1 7/2 8/1")
+    (piece,) = read_mesh_file(alone, Report(), "here").pieces
+    assert piece.uv[piece.faces[0]].tolist() == [[0.5, 0.0], [1.0, 1.0], [0.5, 0.0]]
+
+
 @pytest.mark.parametrize(
     "lines, code",
     [
+        (["o A", "v 0 0 0", "v ", "v 1 0 0", "v 0 1 0", "f 1 2 3"], "GEOMETRY_UNREADABLE"),
+        (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 99999999999999999999"], "GEOMETRY_UNREADABLE"),
         (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 9"], "GEOMETRY_UNREADABLE"),
         (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 99999999999"], "GEOMETRY_UNREADABLE"),
         (["o A", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 0 1 2"], "GEOMETRY_UNREADABLE"),

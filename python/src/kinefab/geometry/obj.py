@@ -1,26 +1,22 @@
 """Wavefront OBJ with its bodies kept apart.
 
-trimesh parses vertices and faces; which faces make a body is read here, because it merges objects that share
-a material or a name, passes a ``g`` on to the next ``o``, counts negative indices from the end of the file,
-and spends time on every vertex of the file for each object.  So it gets the file as one mesh of triangles
-with plain indices, and the mesh is cut up again by counting faces.
+The file is first written out as triangles with plain indices, so that numpy takes its numbers as tables; the whole is one mesh,
+which is cut up into bodies by counting faces.
 """
 
 from __future__ import annotations
 
-import inspect
-import io
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
 
 import numpy as np
 
 from ..diagnostics import Report
 from ..model import MeshKey, Surface
-from .looks.libraries import library_textures
+from ..spatial import Array, IntArray
+from .looks.libraries import library_statements, library_textures
 from .looks.visuals import phong_smoothness
 from .pieces import MeshFile, Piece, cut
 from .references import read_reference
@@ -32,6 +28,16 @@ _STATEMENTS = {
 _INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
 _CORNER = rb" +[1-9][0-9]*(?:/[0-9]*){0,2}"
 _UNUSUAL_FACE = re.compile(rb"^f(?!(?:" + _CORNER + rb"){3} *$)", re.MULTILINE)
+_ALIKE = {
+    named: re.compile(rb"^(?!(?:" + names + rb"(?: +|$)){3}$)", re.MULTILINE)
+    for named, names in {
+        (0,): rb"[0-9]+",
+        (0, 1): rb"[0-9]+/[0-9]+",
+        (0, 2): rb"[0-9]+//[0-9]+",
+        (0, 1, 2): rb"[0-9]+/[0-9]+/[0-9]+",
+    }.items()
+}
+"""What all corners of a file name, of vertex, texture coordinates and normal, and what finds a face of which one does not."""
 MOST_LIBRARY_BYTES = 16 * 2**20
 """Of one material library."""
 _LIBRARY = re.compile(rb"\nmtllib +([^\n]*?) *(?=\n)")
@@ -173,38 +179,70 @@ def _absolute(corner: bytes, counts: list[int]) -> bytes:
 
 
 def _parse(text: bytes) -> Piece:
-    """The whole text as one piece, by trimesh; face order is kept."""
-    from trimesh.exchange import obj
+    """The whole text as one piece; face order is kept.  A vertex is repeated for each texture coordinate and normal it is used with."""
+    corners = _corners(re.findall(rb"\nf +([^\n]*)", text))
+    vertices = _numbers(text, b"v", 3)
+    if corners[..., 0].max(initial=0) > len(vertices):
+        raise ObjError("its vertices and faces do not fit together; it may be cut short")
+    uv, normals = (
+        _whole(corners[..., k], _numbers(text, word, n)) for k, word, n in ((1, b"vt", 2), (2, b"vn", 3))
+    )
+    if uv is None and normals is None:
+        return Piece(vertices, corners[..., 0] - 1)
+    named = corners.reshape(-1, 3)[:, [True, uv is not None, normals is not None]] - 1
+    key = named[:, -1]
+    for column in named.T[-2::-1]:
+        _, key = np.unique(key, return_inverse=True)
+        key = np.reshape(key, -1) * (int(column.max()) + 1) + column
+    _, first, faces = np.unique(key, return_index=True, return_inverse=True)
+    vertex, texture, normal = corners.reshape(-1, 3)[first].T - 1
+    return Piece(
+        vertices[vertex],
+        np.reshape(faces, (-1, 3)),
+        None if normals is None else normals[normal],
+        None if uv is None else uv[texture],
+    )
 
-    load_obj = cast(Any, obj).load_obj  # trimesh states no types
-    wanted = {"skip_materials": True, "split_objects": False, "split_object": False, "split_groups": False}
-    known = inspect.signature(load_obj).parameters
-    options = {name: value for name, value in wanted.items() if name in known}
+
+def _corners(faces: Sequence[bytes]) -> IntArray:
+    """Vertex, texture coordinates and normal of each corner, counted from 1, 0 where it names none, shape (m, 3, 3)."""
+    found = np.zeros((len(faces), 3, 3), dtype=np.int64)
+    text = b"\n".join(faces)
+    for named, other in _ALIKE.items():
+        if other.search(text) is None:
+            rows = text.replace(b"/", b" ").split(b"\n")
+            found[:, :, named] = np.loadtxt(rows, np.int64, comments=None, ndmin=2).reshape(-1, 3, len(named))
+            return found
+    for face, corners in enumerate(faces):
+        for corner, names in enumerate(corners.split()):
+            for k, name in enumerate(names.split(b"/")):
+                found[face, corner, k] = int(name or 0)
+    return found
+
+
+def _numbers(text: bytes, word: bytes, columns: int) -> Array:
+    """The first numbers of each line of a kind, shape (n, columns).  Raises ObjError where one is missing or none."""
+    rows: list[bytes] = re.findall(rb"\n" + word + rb" +([^\n]*)", text)
+    if not rows:
+        return np.zeros((0, columns))
+    if word == b"vt":  # it may state u alone
+        rows = [row + b" 0" for row in rows]
     try:
-        loaded: Any = load_obj(io.BytesIO(text), **options)
-        if "geometry" in loaded:
-            # trimesh 5 leaves out what has no vertices
-            loaded = cast(Any, next(iter(loaded["geometry"].values()), None))
-        faces = np.asarray(loaded["faces"], dtype=np.int64).reshape(-1, 3)
-        vertices = np.asarray(loaded["vertices"], dtype=np.float64)
-        if vertices.shape[1:] != (3,) or faces.min(initial=0) < 0 or faces.max(initial=-1) >= len(vertices):
-            raise IndexError  # trimesh 5 hands out what earlier ones stumbled over
-    except (IndexError, ValueError, KeyError, TypeError, AttributeError) as error:
-        # A ValueError names the text that is no number; the others say what trimesh stumbled over in its own code.
-        torn = "its vertices and faces do not fit together; it may be cut short"
-        raise ObjError(str(error) if isinstance(error, ValueError) else torn) from error
-    normals, uv = loaded.get("vertex_normals"), getattr(loaded.get("visual"), "uv", None)
+        found = np.loadtxt(rows, comments=None, usecols=range(columns), ndmin=2)
+        if len(found) != len(rows):
+            raise ValueError("one is empty")
+    except ValueError as error:
+        raise ObjError(f"of its {word.decode()} lines: {error}; it may be cut short") from error
+    return found
 
-    def fits(values: Any) -> bool:
-        return values is not None and len(values) == len(vertices)
 
-    return Piece(vertices, faces, normals if fits(normals) else None, np.asarray(uv) if fits(uv) else None)
+def _whole(numbers: IntArray, values: Array) -> Array | None:
+    """The values, or None where a corner names none or one that is not there."""
+    return values if numbers.min(initial=1) > 0 and 0 < numbers.max(initial=0) <= len(values) else None
 
 
 def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
     """The surfaces of every ``mtllib`` that is there; a warning for one that is not."""
-    from trimesh.exchange import obj
-
     surfaces: dict[str, Surface] = {}
     for match in _LIBRARY.finditer(text):
         library = match[1].decode("utf-8", "replace")
@@ -214,19 +252,19 @@ def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
             report.add("MATERIALS_MISSING", str(path), library=Path(library).name, path=path.name)
             continue
         textures = library_textures(content, path, report)
-        for name, entry in cast(Any, obj).parse_mtl(content).items():
+        for name, entry in library_statements(content).items():
             surfaces[name] = replace(_surface(name, entry, name in textures), **textures.get(name, {}))
     return surfaces
 
 
-def _surface(name: str, entry: Mapping[str, Any], textured: bool) -> Surface:
+def _surface(name: str, entry: Mapping[str, Sequence[str]], textured: bool) -> Surface:
     """Unity's terms for a Phong material: Kd, d (or Tr) and Ns.  textured: it has images, which Kd multiplies."""
-    absent = (1.0, 1.0, 1.0) if textured else (0.8, 0.8, 0.8)
+    absent = ("1", "1", "1") if textured else ("0.8", "0.8", "0.8")
     try:
-        red, green, blue = (min(1.0, max(0.0, float(c))) for c in entry.get("diffuse", absent)[:3])
+        red, green, blue = (min(1.0, max(0.0, float(c))) for c in entry.get("kd", absent)[:3])
         opacity = float(entry["d"][0]) if "d" in entry else 1.0 - float(entry.get("tr", ["0"])[0])
-        shininess = max(0.0, float(entry.get("glossiness", 0.0)))
-    except (TypeError, ValueError, IndexError):
+        shininess = max(0.0, float(entry.get("ns", ["0"])[0]))
+    except (ValueError, IndexError):
         return Surface(name)
     color = (red, green, blue, min(1.0, max(0.0, opacity)))
     return Surface(name, color, 0.0, phong_smoothness(shininess))

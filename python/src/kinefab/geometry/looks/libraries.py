@@ -1,4 +1,4 @@
-"""Textures that an OBJ's material library names."""
+"""What an OBJ's material library states: of each material its statements, and the textures that it names."""
 
 from __future__ import annotations
 
@@ -28,6 +28,19 @@ _MEDIA = {
     ".bmp": "image/bmp",
     ".tga": "image/x-tga",
 }
+
+
+def library_statements(content: bytes) -> dict[str, dict[str, list[str]]]:
+    """For each material of a library its statements, by their word in lower case; the last of a word, and of a name, rules."""
+    found: dict[str, dict[str, list[str]]] = {}
+    material: dict[str, list[str]] = {}
+    for line in content.decode("utf-8", "replace").splitlines():
+        word, *values = line.split() or [""]
+        if word.lower() == "newmtl":
+            material = found[" ".join(values)] = {}
+        elif values:
+            material[word.lower()] = values
+    return found
 
 
 def library_textures(content: bytes, path: Path, report: Report) -> dict[str, dict[str, Any]]:

@@ -32,6 +32,23 @@ def test_a_stage_that_cannot_be_read_is_refused(code, tmp_path):
     assert all(d.where for d in report.diagnostics)
 
 
+def test_time_codes_that_take_no_time_are_refused(tmp_path):
+    """In a sublayer or above one pxr counts their samples without end."""
+    more = "timeCodesPerSecond = 0"
+    (tmp_path / "keys.usda").write_text(stage("", more=more), encoding="utf-8")
+    for text in (stage(body("B"), more=more), stage(body("B"), more="subLayers = [@keys.usda@]")):
+        scene, report = scene_of(tmp_path, text)
+        assert scene is None and codes(report) == {"USD_UNIT_IMPOSSIBLE"}
+
+
+def test_what_a_joint_names_beside_the_root_stands_somewhere(tmp_path):
+    """It is not walked over, and its place may be as wrong as any."""
+    off = 'def Xform "Off" { double3 xformOp:translate = (nan, 0, 0)\n uniform token[] xformOpOrder = ["xformOp:translate"]\n }\n'
+    inside = body("B") + joint("PhysicsRevoluteJoint", body0="/Off", body1="/R/B")
+    scene, report = scene_of(tmp_path, stage(off + f'def Xform "R" {{\n{inside}\n}}'), root="/R")
+    assert scene is None and codes(report) == {"USD_VALUE_IMPOSSIBLE"}
+
+
 TOLD = {
     "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
     "USD_WITHOUT_BODIES": 'def Sphere "S" {}',

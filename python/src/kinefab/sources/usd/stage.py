@@ -142,6 +142,11 @@ def _units(stage: Any, name: str, report: Report) -> tuple[SourceFrame, str]:
     if up not in FORWARD:
         report.add("USD_UNIT_IMPOSSIBLE", name, field="upAxis", value=up)
         up = "Y"
+    for layer in sorted(stage.GetUsedLayers(), key=lambda each: each.identifier):
+        rate = layer.timeCodesPerSecond
+        if not (math.isfinite(rate) and rate > 0.0):  # of 0 pxr counts time samples without end
+            place = layer.GetDisplayName()
+            report.add("USD_UNIT_IMPOSSIBLE", place, field="timeCodesPerSecond", value=f"{rate:g}")
     report.raise_for_errors()
     _other_units(stage, name, report)
     turn = turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]])

@@ -143,10 +143,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
     above, dressed = np.eye(4), False
     for prim in reversed(list(_ancestors(root))):
         dressed |= values.traits(prim).dressed
-        local = local_of(prim)
-        if local.mistyped:
-            values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
-        above = placed(above, local)
+        above = placed(above, sound_local(prim, values))
     start = _Context(above, (), -1, -1, True, "default", dressed, "")
     chosen = [root] if not root.IsPseudoRoot() else list(root.GetFilteredChildren(PREDICATE))
     pending = [(prim, start) for prim in reversed(chosen)]
@@ -215,12 +212,7 @@ def _look(
     if kind.startswith(("Mjc", "Newton", "Physx")):
         found.vendor.append(prim)
         return None
-    local = local_of(prim) if "xformOpOrder" in traits.names else IDENTITY
-    if local.mistyped:
-        values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
-    if local is not IDENTITY and not np.isfinite(local.matrix).all():
-        values.wrong(prim, "xformOpOrder", "a transform that is not finite")
-        local = Local(np.eye(4), local.resets, local.moves)
+    local = sound_local(prim, values)
     world = placed(context.world, local)
     # An instance of a PointInstancer has an id of its own beside the prototype's path.
     path = str(prim.GetPath())
@@ -262,6 +254,19 @@ def _look(
                 found.parts[part].sites.append((prim, world))
     ident = own if context.id else ""
     return _Context(world, pending, group, part, visible, purpose, dressed, ident, context.copies)
+
+
+def sound_local(prim: Any, values: Values) -> Local:
+    """A prim's own transform; what is wrong with it is told, and it does not count."""
+    if "xformOpOrder" not in values.traits(prim).names:
+        return IDENTITY
+    local = local_of(prim)
+    if local.mistyped:
+        values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
+    if local is not IDENTITY and not np.isfinite(local.matrix).all():
+        values.wrong(prim, "xformOpOrder", "a transform that is not finite")
+        return Local(np.eye(4), local.resets, local.moves)
+    return local
 
 
 def _shown(prim: Any, traits: Traits, context: _Context) -> tuple[bool, str]:

@@ -29,9 +29,9 @@ from ....model import (
 from ....spatial import Array, Pose, rotation_about, rotation_exp, rotation_log
 from ..api import Sdf, UsdPhysics
 from ..stage import OpenStage
-from ..transforms import Stand, local_of, placed, rotation_of
+from ..transforms import Stand, placed, rotation_of
 from ..values import Values, schemas, title
-from ..walk import Found, JointPrim, body_above
+from ..walk import Found, JointPrim, body_above, sound_local
 from .freedoms import DOFS, Freedoms, turned_round
 from .vendor import passive_of
 
@@ -220,7 +220,7 @@ class Joints:
             return np.eye(4)
         prim = self._opened.stage.GetPrimAtPath(path)
         above = self._world_of(path.GetParentPath())
-        return placed(above, local_of(prim)) if prim else above
+        return placed(above, sound_local(prim, self._values)) if prim else above
 
     def _met(self, entry: JointPrim, first: Side, second: Side) -> Side:
         """The first side of a fixed joint, put on the second: Unity's fixed joint holds the bodies as it finds them."""

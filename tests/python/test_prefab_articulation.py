@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import radians
 from pathlib import Path
 
@@ -138,6 +139,25 @@ def test_a_loop_is_closed_by_a_helper(tmp_path, ground):
     assert len(links) == 4  # with the ground
 
 
+@pytest.mark.parametrize("ground", ["body", "world"])
+@pytest.mark.parametrize("held", [False, True])
+def test_what_a_script_moves_is_no_ground_but_a_root(tmp_path, ground, held):
+    """A hinge to the world does not follow a kinematic part, one to that part does, whichever of its parts comes first."""
+    scene = kinefab.Scene()
+    fore, upper, cart = (scene.add_part(name, BOX, translation=(i, 0, 0)) for i, name in enumerate("FUC"))
+    scene.nodes[cart] = replace(scene.nodes[cart], dynamics=kinefab.model.Dynamics(kinematic=True))
+    scene.add_hinge(cart if held else None, upper, point=(0, 0, 0), axis=(0, 0, 1), limits=(-10, 80))
+    scene.add_hinge(upper, fore, point=(1, 0, 0), axis=(0, 0, 1))
+    root, _ = exported(scene, tmp_path, ground=ground)
+    nodes = nodes_of(root)
+    (base,) = [node.name for node in nodes.values() if "U" in nodes_of(node) and any(
+        c["type"] == "ArticulationBody" and c["fields"]["m_Immovable"] == "1" for c in node.components
+    )]  # fmt: skip
+    assert base == ("C" if held else "Ground")
+    assert [c.name for c in nodes["U"].children] == ["F"]
+    assert [c.name for c in nodes[base].children if "U" in c.name] == ["U"]
+
+
 def test_what_no_articulation_has_is_refused_with_its_reason(tmp_path):
     scene = arm()
     lid = scene.add_part("Lid", BOX, translation=(1, 1, 1))
@@ -149,8 +169,6 @@ def test_what_no_articulation_has_is_refused_with_its_reason(tmp_path):
 
 
 def test_friction_of_a_joint_is_the_link_s(tmp_path):
-    from dataclasses import replace
-
     from kinefab.model import RX, Drive, Passive
 
     scene = arm()

@@ -15,6 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
+from ...unity.mapping import GROUND_ID
 from ...unity.scene import (
     AnimationClip,
     ArticulationBody,
@@ -32,7 +33,8 @@ from ...unity.scene.joints.joint import AnchoredJoint
 from ...unity.scene.vectors import quaternion4, vector3
 from .links import ARTICULATION, NotArticulated, link_motion, tell_link_losses
 
-GROUND_ID = "kinefab:articulation ground"
+ARTICULATION_GROUND_ID = "kinefab:articulation ground"
+"""Of the root that stands for the world where no object does."""
 HELPER_MASS = 0.05
 """Of the link that a helper body is fixed to."""
 
@@ -98,9 +100,7 @@ class _Articulation:
         for i, entry in enumerate(self.objects):
             for body in (c for c in entry.components if isinstance(c, Rigidbody)):
                 self.bodies[i] = body
-        self.ground = next(
-            (i for i, b in self.bodies.items() if b.isKinematic and self.objects[i].parent is None), None
-        )
+        self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
         edges = [
             (i, k)
             for i in self.bodies
@@ -108,7 +108,7 @@ class _Articulation:
             if isinstance(c, Joint)
         ]
         if self.ground is None and any(self._joint(edge).connectedBody is None for edge in edges):
-            self.objects.append(GameObject(GROUND_ID, "Ground"))
+            self.objects.append(GameObject(ARTICULATION_GROUND_ID, "Ground"))
             self.poses.append(Pose())
             self.ground = len(self.objects) - 1
             self.bodies[self.ground] = Rigidbody(isKinematic=True, useGravity=False)
@@ -127,7 +127,7 @@ class _Articulation:
     def _tree(self) -> tuple[dict[int, tuple[int | None, Edge | None]], list[Edge]]:
         """Of each link the one above it and the joint between them, roots first; and the joints that close loops.
 
-        From the ground outwards, by joints that close no loop as the analysis has it; the rest of what is reached is closing.
+        From the ground outwards, else from what scripts move, by joints that close no loop as the analysis has it; the rest of what is reached is closing.
         """
         edges = [
             (i, k)
@@ -140,7 +140,8 @@ class _Articulation:
             at[edge[0]].append(edge)
             at[self._other(edge)].append(edge)
         found: dict[int, tuple[int | None, Edge | None]] = {}
-        roots = ([] if self.ground is None else [self.ground]) + sorted(self.bodies)
+        led_first = sorted(self.bodies, key=lambda i: (not self.bodies[i].isKinematic, i))
+        roots = ([] if self.ground is None else [self.ground]) + led_first
         for root in roots:
             if root in found or not at[root]:
                 continue

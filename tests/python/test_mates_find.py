@@ -27,6 +27,12 @@ FEW = (
     "bolted_frame",
     "vice",
     "gears",
+    "turntable",
+    "turrets",
+    "folding_chair",
+    "gimbal",
+    "bearing_blocks",
+    "standoffs",
 )
 """What the suite tries as drawn: a machine for each rule."""
 TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage")

@@ -9,8 +9,11 @@ import numpy as np
 
 from ...spatial import Array
 from ..shapes.features import Shape
-from ..touching.contact import Contact
+from ..touching.contact import Contact, ContactKind
 from .freedom import Freedom, Scale, freedom_of
+
+AIR, AIR_TO_CLOSEST = 0.05, 10.0
+"""Share of the radius, and how many times the closest fit's, a clearance is at least that is air beside a closer fit."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +42,12 @@ class Bodies:
     def __post_init__(self) -> None:
         self._leader = list(range(len(self.shapes)))
         self._count = [1] * len(self.shapes)
+
+    def copy(self) -> Bodies:
+        """The same parts, contacts and fixings, to go on apart."""
+        same = Bodies(self.shapes, [*self.contacts], [*self.fixings])
+        same._leader, same._count = [*self._leader], [*self._count]
+        return same
 
     def of(self, part: int) -> int:
         """The body of a part: the number of its first part."""
@@ -71,19 +80,29 @@ class Bodies:
         return dict(found)
 
     def pairs(self) -> dict[tuple[int, int], list[Contact]]:
-        """Contacts between different bodies, by the bodies, lower number first; in order."""
+        """Contacts between different bodies, by the bodies, lower number first; in order.  Of fits only those that guide."""
         found: defaultdict[tuple[int, int], list[Contact]] = defaultdict(list)
         for contact in self.contacts:
             a, b = self.of(contact.first), self.of(contact.second)
             if a != b:
                 found[min(a, b), max(a, b)].append(contact)
-        return dict(sorted(found.items()))
+        return {pair: _guiding(contacts) for pair, contacts in sorted(found.items())}
 
     def freedom(self, pair: tuple[int, int], contacts: list[Contact]) -> tuple[Freedom, Scale]:
         """What contacts leave free of the second body of a pair against the first."""
         scale = scale_of(contacts)
         flips = [self.of(contact.first) != pair[0] for contact in contacts]
         return freedom_of(contacts, flips, scale), scale
+
+
+def _guiding(contacts: list[Contact]) -> list[Contact]:
+    """Without the wide fits of bodies that a close one guides: a ring of a gimbal has air round it, and pivots in it."""
+    closest = min((max(c.gap, 0.0) for c in contacts if c.kind is ContactKind.FIT), default=0.0)
+    return [
+        c
+        for c in contacts
+        if c.kind is not ContactKind.FIT or c.gap <= AIR * c.a.radius or c.gap <= AIR_TO_CLOSEST * closest
+    ]
 
 
 def scale_of(contacts: list[Contact]) -> Scale:

@@ -6,9 +6,8 @@ is first taken as a seat; where the machine then cannot move, what stops it is t
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 
@@ -16,35 +15,41 @@ from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
 from .copies import Copies
+from .decided import Decided
 from .edge import Edge
-from .fasten import PRESSED, Bolted, Parts, axes_apart, fasten, fasteners, fix_pins, press
+from .fasten import PRESSED, Bolted, Parts, bolts_apart, fasten, fasteners, fix_pins, press
 from .freedom import RANK, Scale, freedom_of, null_space
 from .inherited import inherit
 from .motions import held_rows, motions_of
+from .pieces import Pieces, parted
 from .rolling import join_races
+from .shafts import shafts_of
 from .twins import fix_loose
 
 DENSE = 400
 """Bodies of a connected piece up to which its mobility is counted; beyond, seats stay seats."""
 
 
-@dataclass(slots=True, eq=False)
-class Decided:
-    """bodies: with all fixings.  edges: the joints between them, those left out not among them."""
-
-    bodies: Bodies
-    edges: list[Edge]
-    stops: list[Edge] = field(default_factory=list[Edge])
-
-
 def decide(bodies: Bodies, parts: Parts, near: Sequence[tuple[int, int]]) -> Decided:
-    """near: pairs of parts that come near each other."""
+    """near: pairs of parts that come near each other.
+
+    A pin is fixed to one of the bodies that it sits in with play; where these turn out not to turn against each other it
+    is a shaft in its bearings, and everything is decided once more with it.
+    """
+    decided = _decided(bodies.copy(), parts, near, ())
+    shafts = shafts_of(decided, DENSE)
+    return _decided(bodies, parts, near, shafts) if shafts else decided
+
+
+def _decided(
+    bodies: Bodies, parts: Parts, near: Sequence[tuple[int, int]], shafts: Collection[int]
+) -> Decided:
     join_races(bodies)
-    single = _bolt_groups(bodies, fasten(bodies, parts))
+    single = _bolt_groups(bodies, parts, fasten(bodies, parts))
     _clamp(bodies)
     press(bodies, parts)
     fix_loose(bodies, parts.kinds, fasteners(parts))
-    fix_pins(bodies, parts)
+    fix_pins(bodies, parts, shafts)
     _fix_held(bodies)
     edges = _edges(bodies, single)
     copies = Copies(bodies.shapes, parts.poses, parts.kinds)
@@ -52,19 +57,15 @@ def decide(bodies: Bodies, parts: Parts, near: Sequence[tuple[int, int]]) -> Dec
     return _settled(bodies, edges)
 
 
-def _bolt_groups(bodies: Bodies, bolted: Sequence[Bolted]) -> list[Bolted]:
-    """Fix parts that two or more bolts hold together; the bolts that are alone."""
+def _bolt_groups(bodies: Bodies, parts: Parts, bolted: Sequence[Bolted]) -> list[Bolted]:
+    """Fix parts that bolts on two or more axes hold together; the bolts that are alone, or in line as a hinge's are."""
     while True:
         groups: defaultdict[tuple[int, int], list[Bolted]] = defaultdict(list)
         for b in bolted:
             pair = bodies.of(b.host), bodies.of(b.other)
             if pair[0] != pair[1]:
                 groups[min(pair), max(pair)].append(b)
-        several = [
-            g
-            for _, g in sorted(groups.items())
-            if axes_apart([b.contact for b in g]) >= 2 or len({b.bolt for b in g}) >= 2
-        ]
+        several = [g for _, g in sorted(groups.items()) if bolts_apart(parts, [b.bolt for b in g])]
         if not several:
             return [b for _, g in sorted(groups.items()) for b in g]
         for group in several:
@@ -202,7 +203,7 @@ def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
     resting = sorted(
         (e for e in edges if e.one_sided), key=lambda e: (e.space.shape[1], -round(e.area, 12), e.pair)
     )
-    piece = _Pieces(len(bodies.shapes))
+    piece = Pieces(len(bodies.shapes))
     for edge in sure:
         piece.join(*edge.pair)
     chosen, inside = list(sure), list[Edge]()
@@ -213,35 +214,11 @@ def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
             inside.append(edge)
     stops: list[Edge] = []
     final: list[Edge] = []
-    for own, others in _parted(len(bodies.shapes), chosen, inside):
+    for own, others in parted(len(bodies.shapes), chosen, inside):
         kept, stopped = _settle_piece(own, others)
         final += kept
         stops += stopped
     return Decided(bodies, sorted(final, key=lambda e: e.pair), stops)
-
-
-def _parted(count: int, chosen: list[Edge], inside: list[Edge]) -> list[tuple[list[Edge], list[Edge]]]:
-    """Edges by machine: what hangs together without the body that most others hang on.  Seen from that body, one
-    machine's motions are no other's affair."""
-    whole, apart = _Pieces(count), _Pieces(count)
-    degree: Counter[int] = Counter()
-    for edge in chosen:
-        whole.join(*edge.pair)
-        degree.update(edge.pair)
-    hubs: dict[int, int] = {}
-    for body in sorted(degree):
-        key = whole.of(body)
-        hubs[key] = max(hubs.get(key, body), body, key=lambda b: (degree[b], -b))
-    for edge in [*chosen, *inside]:
-        if hubs[whole.of(edge.pair[0])] not in edge.pair:
-            apart.join(*edge.pair)
-    found: dict[int, tuple[list[Edge], list[Edge]]] = {}
-    for edges, place in ((chosen, 0), (inside, 1)):
-        for edge in edges:
-            hub = hubs[whole.of(edge.pair[0])]
-            body = edge.pair[0] if edge.pair[0] != hub else edge.pair[1]
-            found.setdefault(apart.of(body), ([], []))[place].append(edge)
-    return [found[key] for key in sorted(found)]
 
 
 def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], list[Edge]]:
@@ -279,19 +256,3 @@ def _moves(members: list[int], edge: Edge, motions: Array) -> bool:
     index = {body: i for i, body in enumerate(members)}
     a, b = (6 * index[body] for body in edge.pair)
     return bool(motions.shape[1]) and float(np.abs(motions[b : b + 6] - motions[a : a + 6]).max()) > 1e-6
-
-
-class _Pieces:
-    def __init__(self, count: int) -> None:
-        self._leader = list(range(count))
-
-    def of(self, i: int) -> int:
-        while self._leader[i] != i:
-            self._leader[i] = self._leader[self._leader[i]]
-            i = self._leader[i]
-        return i
-
-    def join(self, a: int, b: int) -> bool:
-        a, b = self.of(a), self.of(b)
-        self._leader[max(a, b)] = min(a, b)
-        return a != b

@@ -7,7 +7,7 @@ more bodies: that it spins cannot be seen, so it is fixed to the body that it si
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,11 @@ from .twins import Twins
 
 THIN = 0.6
 """Thickness of a washer, as a share of its bore's diameter, at most."""
+WIDE = 2.0
+"""How many times its bore's radius a washer is wide, at most; more often on a bolt: beyond, a disc or a wheel turns so."""
+WIDE_ON_BOLT = 3.5  # ISO 7094's extra large ones reach 3.3
+NUT = 2.5
+"""How far a nut's sides are from its axis, in radii of its bore, at most; ISO 4032's M3 with the bore at the core has 2.2."""
 PRESSED = 0.01
 """Share of the radius by which a pressed shaft may be larger than its bore; beyond, a thread is drawn so."""
 
@@ -72,6 +77,23 @@ def fasten(bodies: Bodies, parts: Parts) -> list[Bolted]:
     return _bolts(bodies, parts, fits, flats)
 
 
+def bolts_apart(parts: Parts, bolts: Sequence[int]) -> bool:
+    """Whether bolts stand on two or more axes: on one they let what they hold turn, as a hinge's do."""
+    first, *others = bolts
+    form = parts.turned[first]
+    assert form is not None
+    point, axis = parts.poses[first].point(form.point), parts.poses[first].direction(form.axis)
+    for bolt in others:
+        other = parts.turned[bolt]
+        assert other is not None
+        offset = parts.poses[bolt].point(other.point) - point
+        if float(np.linalg.norm(cross(offset, axis))) > 1e-2 * form.radius:
+            return True
+        if abs(float(parts.poses[bolt].direction(other.axis) @ axis)) < 1.0 - 1e-6:
+            return True
+    return False
+
+
 def press(bodies: Bodies, parts: Parts) -> None:
     """Fix what is pressed into a bore, and what lines one."""
     fits = fits_of(bodies)
@@ -84,7 +106,11 @@ def fasteners(parts: Parts) -> set[int]:
     return {
         part
         for part, form in enumerate(parts.turned)
-        if form is not None and (parts.is_fastener(part) or (_is_thin(form) and not form.sides))
+        if form is not None
+        and (
+            parts.is_fastener(part)
+            or (_is_thin(form) and not form.sides and form.radius <= WIDE_ON_BOLT * form.bore)
+        )
     }
 
 
@@ -94,17 +120,26 @@ def _by_gap(contacts: list[Contact]) -> list[Contact]:
 
 def _nuts(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
     for part, form in enumerate(parts.turned):
-        if (
-            form is None
-            or not form.bore
-            or not (form.sides >= 4 or (parts.named[part] and not form.has_grip))
-        ):
+        if form is None or not form.bore or _is_thin(form):
             continue
         round_it = [c for c in fits.get(part, ()) if c.inner != part and parts.turned[c.inner] is not None]
-        inside = [c for c in fits.get(part, ()) if c.inner == part]
-        if round_it and not inside and not _is_thin(form):
-            contact = _by_gap(round_it)[0]
-            bodies.fix(part, contact.inner, "nut", 0.9, (contact,))
+        if not round_it or any(c.inner == part for c in fits.get(part, ())):
+            continue
+        first, *others = _by_gap(round_it)
+        if _is_nut(form, parts.named[part], parts.is_fastener(first.inner)):
+            bodies.fix(part, first.inner, "nut", 0.9, (first,))
+            for contact in others:  # a standoff has a screw at either end
+                if parts.is_fastener(contact.inner):
+                    bodies.fix(part, contact.inner, "nut", 0.9, (contact,))
+
+
+def _is_nut(form: Turned, named: bool, on_bolt: bool) -> bool:
+    """A hexagon, or on a bolt another polygon, about as large as nuts are: a square block with a bore is a bearing."""
+    if named and not form.sides:
+        return True
+    return (
+        form.sides == 6 or (form.sides >= 4 and (named or on_bolt))
+    ) and 0.0 < form.across <= NUT * form.bore
 
 
 def _is_thin(form: Turned) -> bool:
@@ -116,8 +151,11 @@ def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> No
         if form is None or not _is_thin(form) or form.sides:
             continue
         round_it = [c for c in fits.get(part, ()) if c.inner != part]
-        if round_it and not any(c.inner == part for c in fits.get(part, ())):
-            contact = _by_gap(round_it)[0]
+        if not round_it or any(c.inner == part for c in fits.get(part, ())):
+            continue
+        contact = _by_gap(round_it)[0]
+        widest = WIDE_ON_BOLT if parts.named[part] or parts.is_fastener(contact.inner) else WIDE
+        if form.radius <= widest * form.bore:
             bodies.fix(part, contact.inner, "washer", 0.8, (contact,))
 
 
@@ -190,13 +228,13 @@ def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> Non
             bodies.fix(part, inside[0].other(part), "bushing", 0.8, tuple(inside))
 
 
-def fix_pins(bodies: Bodies, parts: Parts) -> None:
+def fix_pins(bodies: Bodies, parts: Parts, shafts: Collection[int] = ()) -> None:
     """Fix each turned part that sits in two or more bodies to the one that holds it tightest; where all hold it alike, to
-    the one that its twin is fixed to, else by its ends."""
+    the one that its twin is fixed to, else by its ends.  shafts: parts that are known to turn in all of them."""
     fits = fits_of(bodies)
     equal: list[int] = []
     for part, form in enumerate(parts.turned):
-        if form is None or form.bore:
+        if form is None or form.bore or part in shafts:
             continue
         inside = [c for c in fits.get(part, ()) if c.inner == part]
         if any(c.gap < -PRESSED * c.a.radius for c in inside):

@@ -24,22 +24,26 @@ FASTENER = re.compile(
 class Turned:
     """A part all of whose faces go round one axis, but for a spanner's flats and a thread.
 
-    point, axis: in the frame of the shape.  sides: of the hexagon (or other regular polygon), 0 where there is none.
-    threaded: it has a helical face.  length: along the axis.  radius: the largest, bore: the smallest through it, or 0.
+    point, axis: in the frame of the shape.  sides: of the hexagon (or other regular polygon), 0 where there is none;
+    across: from the axis to one of them, below zero where they face inwards.
+    threaded: it has a helical face.  length: along the axis.  radius: the largest, bore: the smallest through it, or 0;
+    shank: the smallest round part of its outside, or 0.
     """
 
     point: Array
     axis: Array
     sides: int
+    across: float
     threaded: bool
     length: float
     radius: float
     bore: float
+    shank: float
 
     @property
     def has_grip(self) -> bool:
-        """Whether a tool grips it, as one does a bolt or a nut."""
-        return self.sides >= 4 or self.threaded
+        """Whether a tool grips it, as one does a bolt or a nut; a square cut on the end of a shaft carries a handle."""
+        return self.threaded or (self.sides >= 4 and (self.across < 0.0 or self.across > self.shank))
 
 
 def is_named_fastener(name: str) -> bool:
@@ -71,9 +75,13 @@ def turned(shape: Shape) -> Turned | None:
         return None
     heights = [h for r in shape.rounds for h in _heights(r, point, axis)]
     heights += [float((f.corners[0, 0] - point) @ axis) for f in shape.flats]
-    radius = max((r.radius if r.kind is FaceKind.CYLINDER else 0.0) for r in shape.rounds)
+    radii = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER]
     bores = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER and r.hollow]
-    return Turned(point, axis, count, threaded, max(heights) - min(heights), radius, min(bores, default=0.0))
+    shanks = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER and not r.hollow]
+    return Turned(
+        point, axis, count, sides[0][0] if sides else 0.0, threaded, max(heights) - min(heights),
+        max(radii, default=0.0), min(bores, default=0.0), min(shanks, default=0.0),
+    )  # fmt: skip
 
 
 def _on_axis(r: Round, point: Array, axis: Array, size: float) -> bool:

@@ -123,6 +123,12 @@ def test_obj_continued_lines_and_polygons(tmp_path):
     assert volume(mesh) == pytest.approx(2 * 2.5 * math.sin(0.4 * math.pi))
 
 
+def test_obj_comments_may_stand_behind_what_they_are_about(tmp_path):
+    lines = ["o A", "v 0 0 0 # corner", "v 1 0 0", "v 0 1 0", "f 1 2 3 # the only face", "f 3 2 1# its back"]
+    scene, _ = load(write(tmp_path / "a.obj", lines), "A")
+    assert scene.meshes[0].faces.tolist() == [[0, 1, 2], [2, 1, 0]]
+
+
 def test_obj_material_change_makes_a_submesh_not_a_body(tmp_path):
     """One object in two materials is one mesh with two runs of faces."""
     v, f = cube_lines(1)

@@ -146,7 +146,7 @@ def _sections(text: bytes, statements: list[_Statement]) -> list[_Section]:
 
 
 def _with_plain_faces(text: bytes) -> bytes:
-    """The text with every face a fan of triangles whose indices count from 1.  Line by line, so slow."""
+    """The text with every face a fan of triangles whose indices count from 1, without comments.  Line by line, so slow."""
     counts = {b"v": 0, b"vt": 0, b"vn": 0}
     order = (b"v", b"vt", b"vn")
     lines: list[bytes] = []
@@ -157,7 +157,7 @@ def _with_plain_faces(text: bytes) -> bytes:
         if head != b"f":
             lines.append(line)
             continue
-        corners = [_absolute(corner, [counts[k] for k in order]) for corner in rest.split()]
+        corners = [_absolute(corner, [counts[k] for k in order]) for corner in rest.split(b"#")[0].split()]
         for i in range(1, len(corners) - 1):
             lines.append(b"f " + b" ".join((corners[0], corners[i], corners[i + 1])))
     return b"\n".join(lines)

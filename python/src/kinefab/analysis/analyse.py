@@ -10,7 +10,7 @@ import numpy as np
 from ..collector import collector_paused
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import Coupling, Joint, Scene
+from ..model import ConstraintKind, Coupling, Joint, JointKind, Scene, freedoms_of
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
@@ -19,7 +19,7 @@ from .couplings.standing import without_standing
 from .couplings.stated import couplings_of
 from .couplings.symmetry import symmetric_couplings
 from .findings.freedoms import check_records, singular_joints
-from .findings.idle import idle_freedoms
+from .findings.idle import IdleFreedom, idle_freedoms
 from .findings.result import Analysis, Island
 from .findings.still import report_still
 from .joints.jointing import links_of
@@ -101,7 +101,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         groups=groups,
         fixed=fixed,
         islands=_islands(assembly, tree, links, couplings),
-        idle=sorted(idle_freedoms(assembly), key=lambda idle: idle.nodes),
+        idle=sorted(_idle(assembly, links, couplings, closed), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
         findings={
             **{joint.id: JointFinding(joint.id) for joint in found.aside},
@@ -164,6 +164,27 @@ def _fixed(assembly: Assembly) -> tuple[tuple[int | None, int], ...]:
         elif not assembly.stated.together(first[body], node):
             pairs.append((first[body], node))
     return tuple(pairs)
+
+
+def _idle(
+    assembly: Assembly, links: list[Link], couplings: list[Coupling], scene: Scene
+) -> list[IdleFreedom]:
+    """Over the bodies that are exported.  scene: with middle bodies, at the closed pose.
+
+    The rod that stands for a distance moves along with what it holds, or leaves it alone where several meet.
+    """
+    if len(scene.nodes) == len(assembly.scene.nodes):
+        return idle_freedoms(assembly)
+    grounds = [c for c in scene.constraints if c.kind is ConstraintKind.GROUND]
+    fixed = [_weld(f"fixed:{i}", *pair, scene) for i, pair in enumerate(_fixed(assembly))]
+    joints = [*fixed, *(link.joint for link in links)]
+    exported = replace(scene, constraints=grounds, joints=joints, couplings=couplings)
+    return idle_freedoms(assemble(exported, Report()))
+
+
+def _weld(id: str, a: int | None, b: int, scene: Scene) -> Joint:
+    frame_a, frame_b = (scene.pose(node).inverse() for node in (a, b))
+    return Joint(id, JointKind.FIXED, a, b, frame_a, frame_b, freedoms_of(JointKind.FIXED))
 
 
 def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[Coupling]) -> list[Island]:

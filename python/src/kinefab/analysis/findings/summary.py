@@ -20,7 +20,8 @@ def scene_entry(analysis: Analysis) -> dict[str, Any]:
     return {
         "mobility": analysis.mobility,
         "firstOrderMobility": analysis.first_order,
-        "redundant": analysis.redundant,
+        # bodies that only a loop holds together are merged, and what joined them is then held more than once
+        "redundant": max(analysis.redundant, sum(island.redundant for island in analysis.islands)),
         "idle": sum(idle.count for idle in analysis.idle),
         "closureGap": {"position": metres, "angle": degrees},
         "islands": [

@@ -39,6 +39,10 @@ FURTHER = 0.1
 """Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
 WALK = 3
 WALK_STEP = 0.05
+MOVES = 1e-6
+"""Share of a velocity up to which a body stands still in it."""
+OPEN = 1e4
+"""Times the error asked for beyond which a pose that was to be closed got stuck: it is none of the mechanism's."""
 
 
 @dataclass(slots=True, eq=False)
@@ -146,10 +150,12 @@ def _trial(
     active = np.zeros(solver.parts, dtype=bool)
     active[list(directions)] = True
     state = solver.system.moved(start, bodies, twists)
-    state, _ = solver.project(state, active, _floor(solver, start) if floor is None else floor)
+    floor = _floor(solver, start) if floor is None else floor
+    state, left = solver.project(state, active, floor)
+    stuck = left > OPEN * floor  # what does not come back onto the rows has kept nothing
     moved = _displacement(solver, bodies, start, state) / step
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
-    return {part: moved[at:end] for part, at, end in zip(directions, [0, *ends], ends)}
+    return {part: moved[at:end] * (not stuck[part]) for part, at, end in zip(directions, [0, *ends], ends)}
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
@@ -165,16 +171,16 @@ def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) ->
 def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, seed: int = 5) -> State:
     """A pose some random steps away, to leave an isolated singular one."""
     draw = np.random.default_rng(seed)
-    active = np.arange(solver.parts) == part
+    active, floor = np.arange(solver.parts) == part, _floor(solver, start)
     state, basis = start, first_order.basis
     for _ in range(WALK):
         if not basis.shape[1]:
             break
         twist = WALK_STEP * _random_direction(basis, draw).reshape(-1, 6)
-        state, _ = solver.project(
-            solver.system.moved(state, first_order.bodies, twist), active, _floor(solver, start)
-        )
-        basis = block_freedoms(solver, state)[part].basis
+        there, left = solver.project(solver.system.moved(state, first_order.bodies, twist), active, floor)
+        if left[part] > OPEN * floor[part]:
+            continue
+        state, basis = there, block_freedoms(solver, there)[part].basis
     return state
 
 
@@ -197,11 +203,51 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
         return FiniteFreedom(sampled.shape[1], sampled, True)
     tangent = _survivors(solver, part, there[part], away)
     if tangent.shape[1] == 0:
-        return FiniteFreedom(0, tangent, True)
+        return FiniteFreedom(*_with_bodies_at_rest(solver, first_order, start), True)
     if first_order.mobility > MOST_DIRECTIONS:
         return FiniteFreedom(tangent.shape[1], tangent, True)
     here = _survivors(solver, part, first_order, start)
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
+
+
+def _with_bodies_at_rest(solver: Solver, first_order: BlockFreedom, start: State) -> tuple[int, Array]:
+    """Mobility and tangent at ``start`` where nothing survives of random velocities, of the solver's only part.
+
+    An obstructed velocity can take a motion beside it along, back to where both began: two cranks that turn about one
+    axis in a linkage that cannot move else.  So velocities are tried by themselves in which bodies stand still.
+    """
+    found = 0, np.zeros((len(first_order.basis), 0))
+    if not 1 < first_order.mobility <= MOST_DIRECTIONS:
+        return found
+    for way in _velocities_at_rest(first_order):
+        left = _left_of(solver, 0, first_order, start, way, STEP)
+        if np.linalg.norm(left) < 1.0 - DIRECTION:
+            continue
+        twist = WALK_STEP * (way / np.abs(way).max()).reshape(-1, 6)
+        state, _ = solver.project(
+            solver.system.moved(start, first_order.bodies, twist), None, _floor(solver, start)
+        )
+        tangent = _survivors(solver, 0, block_freedoms(solver, state)[0], state)
+        if tangent.shape[1] > found[0]:
+            found = tangent.shape[1], left[:, None] if tangent.shape[1] == 1 else tangent
+    return found
+
+
+def _velocities_at_rest(freedom: BlockFreedom) -> list[Array]:
+    """Velocities of a block, shape (6 n,), that are the only ones with some of its bodies at rest."""
+    found: list[Array] = []
+    for first in range(len(freedom.bodies)):
+        basis = freedom.basis
+        for k in range(len(freedom.bodies)):
+            body = (first + k) % len(freedom.bodies)
+            _, s, vt = np.linalg.svd(basis[6 * body : 6 * body + 6])
+            rank = int(np.sum(s > MOVES))
+            if rank < basis.shape[1]:
+                basis = basis @ vt[rank:].T
+        way = basis[:, 0] / np.linalg.norm(basis[:, 0])
+        if basis.shape[1] == 1 and all(abs(way @ other) < 1.0 - MOVES for other in found):
+            found.append(way)
+    return found
 
 
 def _further(

@@ -16,7 +16,7 @@ from kinefab import pipeline
 from kinefab.collector import collector_paused
 from kinefab.diagnostics import Report
 from kinefab.geometry import closure, hulls, loading, mass, weighing
-from kinefab.geometry.contact import cuts
+from kinefab.geometry.contact import cuts, decomposition
 from kinefab.geometry.looks import shading
 from kinefab.model import Mesh
 from kinefab.targets.prefab.text import ids, yaml
@@ -195,3 +195,21 @@ def test_an_obj_is_exported_without_trimesh(tmp_path):
     command = [sys.executable, "-c", code, str(lever), str(tmp_path / "lever.kinefab")]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False"]
+
+
+def test_a_mesh_that_was_weighed_is_not_measured_again(tmp_path, monkeypatch):
+    """Whether it is hollow follows from the volume found when it was weighed; an open one has none, one wound inwards its own."""
+    tube = trimesh.creation.annulus(0.08, 0.1, 0.3)
+    turned, lid = tube.copy(), tube.copy()
+    turned.invert()
+    lid.update_faces(np.arange(len(lid.faces)) > 3)
+    scene = kinefab.Scene()
+    for i, shape in enumerate((tube, turned, lid)):
+        scene.add_part(f"P{i}", shape, translation=(i, 0, 0))
+    measured = []
+    volume = decomposition.solid_volume
+    monkeypatch.setattr(decomposition, "solid_volume", lambda v, f: measured.append(len(f)) or volume(v, f))
+    result = kinefab.export(scene, tmp_path / "a.kinefab")
+    first, second, third = (mesh.volume for mesh in result.analysed.scene.meshes)
+    assert first == pytest.approx(tube.volume) == second and third is None
+    assert measured.count(len(tube.faces)) == 0 and measured.count(len(lid.faces)) == 1

@@ -24,13 +24,13 @@ _Kind = tuple[object, ...]
 
 
 def weigh(scene: Scene, density: float, report: Report) -> Scene:
-    """The scene with ``Node.mass`` filled in from meshes; given masses are checked and kept.
+    """The scene with ``Node.mass`` filled in from meshes, whose volumes are noted; given masses are checked and kept.
 
     density: kg/m^3 of bodies that state none.
     """
     unit: dict[int, MassProperties | None] = {}  # of each mesh at density 1, so that copies are weighed once
     nodes = list(scene.nodes)
-    turned: dict[int, Mesh] = {}
+    meshes = list(scene.meshes)
     alike: dict[_Kind, tuple[MassProperties, bool]] = {}  # of copies together, and whether it vanishes
     sound = _sound(nodes)
     for i, node in enumerate(nodes):
@@ -43,12 +43,14 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             if body.mesh is None or not body.weighed:
                 continue
             if body.mesh not in unit:
-                mesh = scene.meshes[body.mesh]
-                unit[body.mesh] = _unit_properties(mesh, f"{node.id}/{body.name}", node.where, report)
-                if (found := unit[body.mesh]) is not None and found.mass < 0.0:
+                mesh = meshes[body.mesh]
+                found, closed = _unit_properties(mesh, f"{node.id}/{body.name}", node.where, report)
+                if found is not None and found.mass < 0.0:
                     report.add("MESH_INSIDE_OUT", node.where, body=f"{node.id}/{body.name}")
-                    turned[body.mesh] = _inside_out(mesh)
-                    unit[body.mesh] = MassProperties(-found.mass, found.center, -found.inertia)
+                    mesh = _inside_out(mesh)
+                    found = MassProperties(-found.mass, found.center, -found.inertia)
+                unit[body.mesh] = found
+                meshes[body.mesh] = replace(mesh, volume=found.mass) if found is not None and closed else mesh
             if unit[body.mesh] is not None:
                 solids.append(body)
         if solids:
@@ -60,7 +62,6 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             nodes[i] = replace(node, mass=mass)
             if vanishes:
                 _tell_size(node, mass, report)
-    meshes = [turned.get(i, mesh) for i, mesh in enumerate(scene.meshes)]
     return replace(scene, nodes=nodes, meshes=meshes)
 
 
@@ -79,19 +80,19 @@ def _placed(body: Body, unit: Mapping[int, MassProperties | None], density: floa
     return MassProperties(shape.mass * factor, shape.center, shape.inertia * factor)
 
 
-def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> MassProperties | None:
-    """Of one mesh at density 1; of its convex hull where it is open; None where it has no volume."""
+def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> tuple[MassProperties | None, bool]:
+    """Of one mesh at density 1, of its convex hull where it is open, None where it has no volume; and whether it is closed."""
     low, high = bounds(mesh.vertices)
     size = float((high - low).max())
     if is_skin(mesh.vertices, mesh.faces):
         found = solid_properties(mesh.vertices, mesh.faces, 1.0)
         if abs(found.mass) > THIN * size**3:
-            return found
+            return found, True
     elif (hull := hull_of_points(mesh.vertices)) is not None:
         report.add("MESH_OPEN", where, body=body)
-        return solid_properties(*hull, 1.0)
+        return solid_properties(*hull, 1.0), False
     report.add("MESH_WITHOUT_VOLUME", where, body=body)
-    return None
+    return None, False
 
 
 def _inside_out(mesh: Mesh) -> Mesh:

@@ -21,6 +21,7 @@ class Mesh:
     face_counts: number of faces of each submesh, in order; they add up to m.
     origin: what it is in the source, whoever uses it and whatever its shape: a file and a name in it, a prim; "" where
         nobody says.  Several meshes may have one.
+    volume: cubic metres inside, of a mesh that was weighed and found closed; None of any other.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Mesh:
     colors: Array | None = None
     face_counts: tuple[int, ...] = ()
     origin: str = ""
+    volume: float | None = None
 
 
 class MeshKey(str, Enum):

@@ -82,8 +82,10 @@ def convex_pieces(
 
 def solid_share(mesh: Mesh, hull: Mesh) -> float:
     """Volume of a mesh as a share of its hull's; 1 where it is open, as it has none."""
-    share = abs(solid_volume(mesh.vertices, mesh.faces)) / solid_volume(hull.vertices, hull.faces)
-    return share if share >= SOLID or is_skin(mesh.vertices, mesh.faces) else 1.0
+    volume = abs(solid_volume(mesh.vertices, mesh.faces)) if mesh.volume is None else mesh.volume
+    share = volume / solid_volume(hull.vertices, hull.faces)
+    closed = share >= SOLID or mesh.volume is not None or is_skin(mesh.vertices, mesh.faces)
+    return share if closed else 1.0
 
 
 def _libraries() -> list[str]:

@@ -14,7 +14,7 @@ from ..closure import joined_across
 
 UP = np.array([0.0, 1.0, 0.0])
 """Normal of a vertex that no face with an area uses."""
-TOGETHER = 50_000
+TOGETHER = 25_000
 """Triangles of meshes that are shaded in one go, as far as the processor's cache goes."""
 FLAT = 1e-30
 """Twice the area of a triangle, as a share of the square of the mesh's size, below which it has no direction."""
@@ -194,19 +194,21 @@ def _smooth_groups(
     edge of two faces that run through it one way and the other is smooth when their normals differ by no more than the angle;
     any other edge is hard.
     """
-    asked = np.full(numbers.shape[::-1], -1)
-    asked[face, corner] = np.arange(len(face))
+    count = numbers.shape[1]
+    asked = np.full(3 * count, -1)  # by corner, then face
+    asked[corner * count + face] = np.arange(len(face))
+    following = np.roll(asked, -count)
     # Edges by the corner that they leave: those that end or start at a corner asked for.
-    own, start = np.nonzero((asked >= 0) | (asked[:, [1, 2, 0]] >= 0))
-    end = np.where(start == 2, 0, start + 1)
-    one, other = _twins(numbers[start, own], numbers[end, own])
+    edges = np.flatnonzero((asked >= 0) | (following >= 0))
+    own = edges % count
+    one, other = _twins(numbers.reshape(-1)[edges], np.roll(numbers.reshape(-1), -count)[edges])
     smooth = _dot(np.take(across, own[one], axis=1), np.take(across, own[other], axis=1)) >= cosine - 1e-9
     one, other = one[smooth], other[smooth]
     # Round a place each edge leaves one face as its next corner and enters another as its last.
     ahead = np.arange(len(face))
     behind = ahead.copy()
     for edge, twin in ((one, other), (other, one)):
-        leaves, enters = asked[own[edge], start[edge]], asked[own[twin], end[twin]]
+        leaves, enters = asked[edges[edge]], following[edges[twin]]
         there = leaves >= 0
         leaves, enters = leaves[there], enters[there]
         ahead[leaves], behind[enters] = enters, leaves

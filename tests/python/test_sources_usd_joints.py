@@ -227,6 +227,90 @@ def test_newton_s_and_physx_s_attributes_need_no_plug_in(tmp_path):
     assert found.freedoms[RX].stiffness == pytest.approx(0.04 / DEGREE)
 
 
+def driven(tmp_path, attributes: str, kind: str = "PhysicsRevoluteJoint", inside: str = "", scene: str = ""):
+    """The joint that an MjcActuator with these attributes acts on, and the report; a stage of decimetres and grams."""
+    schemas = '"MjcJointAPI", "PhysicsDriveAPI:angular"' if "drive:" in inside else '"MjcJointAPI"'
+    text = body("B") + joint(kind, inside=inside, schemas=schemas)
+    text += f'def MjcActuator "Motor" {{\nrel mjc:target = </J>\n{attributes}\n}}\n'
+    text += f'def PhysicsScene "S" (prepend apiSchemas = ["MjcSceneAPI"]) {{\n{scene}\n}}\n'
+    return joint_of(tmp_path, text, metres=0.1, more="kilogramsPerUnit = 0.001")
+
+
+AFFINE = 'uniform token mjc:biasType = "affine"\n'
+POSITION = AFFINE + "uniform double[] mjc:gainPrm = [6]\nuniform double[] mjc:biasPrm = [0, -6, -0.5]\n"
+RADIANS = 'uniform token mjc:compiler:angle = "radian"'
+
+
+def test_mujoco_s_springs_and_dampers_are_per_radian(tmp_path):
+    """Its angles are degrees unless its settings say otherwise; the spring's rest is counted from the reference."""
+    inside = (
+        "double mjc:damping = 3\ndouble mjc:stiffness = 5\ndouble mjc:springref = 40\ndouble mjc:ref = 10\n"
+    )
+    for scene, unit in (("", DEGREE), (RADIANS, 1.0)):
+        found, _, _ = driven(tmp_path, POSITION, inside=inside, scene=scene)
+        passive, drive = found.freedoms[RX].passive, found.freedoms[RX].drive
+        assert (passive.damping, passive.stiffness) == pytest.approx((3e-5, 5e-5))
+        assert passive.rest == pytest.approx(30 * unit)
+        assert drive.target == pytest.approx(-10 * unit)
+    slide = "double mjc:damping = 3\ndouble mjc:armature = 2\n"
+    found, _, _ = driven(tmp_path, POSITION, "PhysicsPrismaticJoint", slide)
+    assert (found.freedoms[TX].passive.damping, found.freedoms[TX].passive.armature) == pytest.approx(
+        (0.003, 0.002)
+    )
+
+
+@pytest.mark.parametrize(
+    "attributes, expected",
+    [
+        (POSITION, (6, 0.5, 0, 0, math.inf)),
+        (POSITION + "uniform double[] mjc:gear = [-2, 0, 0, 0, 0, 0]\n", (24, 2, 0, 0, math.inf)),
+        (POSITION + "double mjc:ctrlRange:min = 0.25\ndouble mjc:ctrlRange:max = 1\n", (6, 0.5, 0.25, 0, math.inf)),
+        (POSITION + "double mjc:forceRange:min = -4\ndouble mjc:forceRange:max = 4\n", (6, 0.5, 0, 0, 4)),
+        (
+            AFFINE + "uniform double[] mjc:gainPrm = [2]\nuniform double[] mjc:biasPrm = [3, 0, -2]\n",
+            (0, 2, 0, 1.5, math.inf),
+        ),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("kind", ["PhysicsRevoluteJoint", "PhysicsPrismaticJoint"])
+def test_mujoco_s_actuators_are_drives_where_unity_s_law_is_theirs(tmp_path, attributes, expected, kind):
+    """force = gear (gain u + b0 + b1 gear q + b2 gear qdot) in the stage's units, angles in radians."""
+    found, _, told = driven(tmp_path, attributes, kind)
+    turns = kind == "PhysicsRevoluteJoint"
+    drive = found.freedoms[RX if turns else TX].drive
+    force, unit = (1e-5, 1.0) if turns else (1e-4, 0.1)
+    stiffness, damping, target, speed, most = expected
+    assert (drive.stiffness, drive.damping) == pytest.approx(
+        (stiffness * force / unit, damping * force / unit)
+    )
+    assert (drive.target, drive.target_velocity) == pytest.approx((target * unit, speed * unit))
+    assert drive.max_force == pytest.approx(most * force) and "USD_FEATURE_DROPPED" not in codes(told)
+    inside = "double mjc:actuatorfrcrange:min = -3\ndouble mjc:actuatorfrcrange:max = 3"
+    drive = driven(tmp_path, attributes, kind, inside)[0].freedoms[RX if turns else TX].drive
+    assert drive.max_force == pytest.approx(3 * force)
+
+
+@pytest.mark.parametrize(
+    "attributes, inside, word, effort",
+    [
+        ("double mjc:ctrlRange:min = -3\ndouble mjc:ctrlRange:max = 2\nuniform double[] mjc:gear = [4]", "", "force is no drive", 12e-5),
+        ("", "double mjc:actuatorfrcrange:min = -7\ndouble mjc:actuatorfrcrange:max = 7", "force is no drive", 7e-5),
+        ('uniform token mjc:dynType = "integrator"', "", "dynType is 'integrator'", None),
+        (AFFINE + "uniform double[] mjc:gainPrm = [6]\nuniform double[] mjc:biasPrm = [0, -6, 1]", "", "ratio", None),
+        (POSITION + "double mjc:forceRange:min = -4\ndouble mjc:forceRange:max = 5", "", "both sides", None),
+        (POSITION, "float drive:angular:physics:stiffness = 2", "DriveAPI", None),
+        (POSITION + "rel mjc:target = [</J>, </B>]", "", "no joint", None),
+    ],
+)  # fmt: skip
+def test_other_actuators_of_mujoco_are_told_with_their_numbers(tmp_path, attributes, inside, word, effort):
+    if "rel mjc:target" in attributes:
+        attributes = attributes.replace("rel mjc:target", "add rel mjc:target")
+    found, _, told = driven(tmp_path, attributes, inside=inside)
+    assert any(word in d.message and "gear" in d.message for d in told.diagnostics)
+    if effort is not None:
+        assert found.freedoms[RX].passive.effort == pytest.approx(effort)
+
+
 TWO = body("A") + body("B") + joint("PhysicsRevoluteJoint", "J1", body1="/A")
 
 

@@ -1,7 +1,6 @@
 """Actuators as drives, where Unity's law is theirs: force = k (target - q) + d (speed - qdot), within a largest force.
 
-MuJoCo's force on a joint is gear (gain u + b0 + b1 gear q + b2 gear qdot), u the control; at the exported pose u is that of
-the keyframe, else zero within its range.
+The control is, at the exported pose, that of the keyframe, else zero within its range (``robots/actuation.py`` has the law).
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Drive
+from ..robots.actuation import APART, FORCE, GROWS, LAG, UNEVEN, Law, clipped_apart, drive_of
 from .engine import Compiled
 
 
@@ -25,23 +25,13 @@ class Driven:
 
 
 @dataclass(frozen=True, slots=True)
-class _Law:
-    """force = constant - stiffness q - damping qdot, within +-most; N and m, or N m and rad."""
-
-    constant: float
-    stiffness: float
-    damping: float
-    most: float
-
-
-@dataclass(frozen=True, slots=True)
 class _Told:
     """An actuator that became a drive.  reason: what of it the drive is not, "" for nothing."""
 
     name: str
     where: str
     numbers: str
-    law: _Law
+    law: Law
     reason: str
 
 
@@ -64,24 +54,23 @@ def read_actuators(compiled: Compiled, report: Report) -> Driven:
         law, most_control = _law(compiled, i)
         if law.stiffness == 0.0 and law.damping == 0.0:
             driven.efforts[joint] = driven.efforts.get(joint, 0.0) + min(law.most, most_control)
-            reason = "a force is no drive; without one beside it its largest is kept as the joint's effort"
             report.approximated(
-                f"actuator {name}", "MJCF_ACTUATOR", where, actuator=name, reason=reason, numbers=numbers
+                f"actuator {name}", "MJCF_ACTUATOR", where, actuator=name, reason=FORCE, numbers=numbers
             )
             continue
         if bool(m.actuator_forcelimited[i]) and abs(float(np.sum(m.actuator_forcerange[i]))) > 1e-9:
-            reason = "its force range is not the same to both sides"
+            reason = UNEVEN
         elif int(m.actuator_dyntype[i]) != int(enums.mjtDyn.mjDYN_NONE):
-            reason = "Unity's drive has no lag"
+            reason = LAG
         driving.setdefault(joint, []).append(_Told(name, where, numbers, law, reason))
     for joint, several in driving.items():
         laws = [one.law for one in several]
-        driven.drives[joint] = _together(laws)
-        clipped = len(laws) > 1 and any(math.isfinite(law.most) for law in laws)
+        driven.drives[joint] = drive_of(laws)
+        clipped = clipped_apart(laws)
         for one in several:
             reason = one.reason
             if clipped and not reason:
-                reason = "each actuator of its joint has a largest force of its own; one drive has their sum"
+                reason = APART
             if reason:
                 report.approximated(
                     f"actuator {one.name}", "MJCF_ACTUATOR", one.where,
@@ -92,16 +81,7 @@ def read_actuators(compiled: Compiled, report: Report) -> Driven:
     return driven
 
 
-def _together(laws: list[_Law]) -> Drive:
-    constant, stiffness, damping, most = (
-        math.fsum(getattr(law, name) for law in laws) for name in ("constant", "stiffness", "damping", "most")
-    )
-    if stiffness > 0.0:
-        return Drive(constant / stiffness, 0.0, stiffness, damping, most)
-    return Drive(0.0, constant / damping, 0.0, damping, most)
-
-
-def _law(compiled: Compiled, i: int) -> tuple[_Law, float]:
+def _law(compiled: Compiled, i: int) -> tuple[Law, float]:
     """The law, and the largest force that the control alone can make."""
     m = compiled.model
     gear, gain = float(m.actuator_gear[i][0]), float(m.actuator_gainprm[i][0])
@@ -116,7 +96,7 @@ def _law(compiled: Compiled, i: int) -> tuple[_Law, float]:
     most = math.inf
     if m.actuator_forcelimited[i]:
         most = abs(gear) * float(np.abs(m.actuator_forcerange[i]).max())
-    law = _Law(gear * (gain * control + bias[0]), -bias[1] * gear * gear, -bias[2] * gear * gear, most)
+    law = Law(gear * (gain * control + bias[0]), -bias[1] * gear * gear, -bias[2] * gear * gear, most)
     force = abs(gear * gain) * reach if gear * gain else 0.0
     return law, force
 
@@ -142,7 +122,7 @@ def _unlike(compiled: Compiled, i: int) -> str:
         int(m.actuator_biastype[i]) == int(enums.mjtBias.mjBIAS_AFFINE)
         and max(m.actuator_biasprm[i][1:3]) > 0.0
     ):
-        return "its force grows with the coordinate"
+        return GROWS
     return ""
 
 

@@ -21,6 +21,7 @@ from ...model import (
     freedoms_of,
 )
 from ...spatial import Array, Pose, matrix_from_quaternion
+from ..robots.actuation import bounded
 from ..robots.rigid_links import Carrier
 from ..robots.robot_frame import shape_placed
 from .actuators import Driven
@@ -167,6 +168,7 @@ def _freedom(compiled: Compiled, axis: Axis, driven: Driven, name: str, report: 
     # Beside a drive a motor's largest force is not that of the drive.
     effort = math.inf if drive is not None else driven.efforts.get(j, math.inf)
     passive = _passive(compiled, j, effort, report)
+    drive = None if drive is None else bounded(drive, passive)
     low, high = (float(v) for v in m.jnt_range[j]) if m.jnt_limited[j] else (-math.inf, math.inf)
     limited = bool(m.jnt_limited[j])
     return Freedom(

@@ -11,8 +11,10 @@ from ..reading.request import Request
 from .animation import read_clips
 from .api import Tf, UsdUtils
 from .parts import DEFAULT_PURPOSES, Parts, physics_of
+from .physics.actuators import KIND, Actuators
 from .physics.couplings import Couplings, tell_prims, tell_vendors
 from .physics.filters import collision_groups, filters, offered
+from .physics.freedoms import Units, mujoco_angle
 from .physics.joints import Joints
 from .physics.stacks import stacked
 from .stage import OpenStage, examine, open_file, reason, tell
@@ -67,7 +69,10 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     scene.joints = couplings.screwed()
     moving_prims = [*(entry.prim for entry in found.joints), *(part.prim for part in found.parts)]
     tell_vendors(moving_prims, values, opened, report)
-    tell_prims(found.vendor, opened, report)
+    acting = [prim for prim in found.vendor if prim.GetTypeName() == KIND]
+    units = Units(opened, mujoco_angle(found.scenes, values))
+    scene.joints = Actuators(couplings, units, values, report).drive(acting, scene.joints)
+    tell_prims([prim for prim in found.vendor if prim.GetTypeName() != KIND], opened, report)
     scene.extras = filters(found, opened, values, report)
     report.raise_for_errors()
     return scene

@@ -32,12 +32,9 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
     ):
         if value > 0.0:
             report.dropped(f"joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
-    drive, effort = freedom.drive, passive.effort
-    alone = not (passive.stiffness or passive.damping)
-    if drive is not None and alone:  # what bounds the drive would bound a spring of the joint too
-        drive = replace(drive, max_force=min(drive.max_force, effort))
-    if drive is not None and drive.max_force <= effort:
-        effort = math.inf
+    drive = freedom.drive
+    # A drive that keeps within the effort anyway leaves nothing of it to tell.
+    effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
     if math.isfinite(effort) or math.isfinite(passive.speed):
         report.dropped(
             f"joint {joint.id}",
@@ -47,8 +44,8 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
             speed=f"{passive.speed:g}",
             **names,
         )
-    if alone:
-        return replace(bare, drive=drive)
+    if not (passive.stiffness or passive.damping):
+        return bare
     if drive is None:
         return replace(bare, drive=Drive(passive.rest, 0.0, passive.stiffness, passive.damping))
     if drive.motor or drive.acceleration or math.isfinite(drive.max_force):

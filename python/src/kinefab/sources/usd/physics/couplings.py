@@ -90,8 +90,8 @@ class Couplings:
     ) -> Coupling | None:
         feature, where = f"mimic of {entry.id}", self._opened.place(entry.prim, relation)
         targets = self._values.targets(entry.prim, relation)
-        follower = self._coordinate(entry.id, own)
-        leader = self._coordinate(entry.meant(str(targets[0]))[1:], other) if targets else None
+        follower = self.coordinate(entry.id, own)
+        leader = self.coordinate(entry.meant(str(targets[0]))[1:], other) if targets else None
         if follower is None or leader is None:
             missing = str(targets[0]) if targets and follower is not None else entry.id
             self._lost(feature, where, f"joint {missing} has no free coordinate for it")
@@ -147,7 +147,7 @@ class Couplings:
     def _end(self, entry: JointPrim, relation: str, body: str) -> tuple[Joint, int, float] | None:
         """The coordinate of a hinge or slide, counted as the body that the gear names moves."""
         targets = self._values.targets(entry.prim, relation)
-        end = self._coordinate(entry.meant(str(targets[0]))[1:], "") if targets else None
+        end = self.coordinate(entry.meant(str(targets[0]))[1:], "") if targets else None
         if end is None:
             return None
         joint, freedom, sense = end
@@ -177,7 +177,7 @@ class Couplings:
         i, j = (freedom - RX + 1) % 3, (freedom - RX + 2) % 3
         return float(np.arctan2(here.rotation[j, i], here.rotation[j, j]))
 
-    def _coordinate(self, joint_id: str, instance: str) -> tuple[Joint, int, float] | None:
+    def coordinate(self, joint_id: str, instance: str = "") -> tuple[Joint, int, float] | None:
         """Joint, freedom and sense of a prim's freedom; the only one that moves where none of a D6 is named."""
         joint = self._joints.get(joint_id)
         if joint is None:

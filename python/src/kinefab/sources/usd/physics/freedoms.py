@@ -6,6 +6,7 @@ USD counts angles in degrees and angular gains per degree; lengths and masses in
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,9 +24,12 @@ MOTOR_DAMPING = 0.999e9
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Units:
-    """SI for one unit of the stage.  coordinate, force, gain: of a slide, or with ``turns`` of a turn."""
+    """SI for one unit of the stage.  coordinate, force, gain: of a slide, or with ``turns`` of a turn.
+
+    mujoco_angle: radians in a unit of the angles that MuJoCo's schemas state."""
 
     opened: OpenStage
+    mujoco_angle: float
 
     def coordinate(self, turns: bool) -> float:
         return self.opened.degree if turns else self.opened.frame.length
@@ -40,13 +44,26 @@ class Units:
             return PER_DEGREE if turns else 1.0
         return self.force(turns) / self.coordinate(turns)
 
+    def mujoco_gain(self, turns: bool) -> float:
+        """Of a stiffness or damping of MuJoCo's schemas, which are per radian whatever their angles are in."""
+        return self.force(turns) / (1.0 if turns else self.opened.frame.length)
+
+    def mujoco_coordinate(self, turns: bool) -> float:
+        return self.mujoco_angle if turns else self.opened.frame.length
+
+
+def mujoco_angle(scenes: Sequence[Any], values: Values) -> float:
+    """Radians in a unit of MuJoCo's angles: a degree, unless its settings on a physics scene say otherwise."""
+    words = {values.word(scene, "mjc:compiler:angle", "degree") for scene in scenes}
+    return 1.0 if words == {"radian"} else math.radians(1.0)
+
 
 class Freedoms:
     """Reads the freedoms of joint prims."""
 
-    def __init__(self, opened: OpenStage, values: Values, report: Report):
+    def __init__(self, opened: OpenStage, values: Values, scenes: Sequence[Any], report: Report):
         self._values, self._report, self._opened = values, report, opened
-        self.units = Units(opened)
+        self.units = Units(opened, mujoco_angle(scenes, values))
 
     def limited(self, prim: Any, lower: float, upper: float, turns: bool, instance: str) -> Freedom:
         """A freedom between two ends in the stage's units; either may be infinite.

@@ -98,7 +98,7 @@ class Joints:
         self._opened, self._values, self._found, self._report = opened, values, found, report
         self._nodes, self._stands = nodes, stands
         self._world = Stand(np.eye(3), np.zeros(3), opened.frame)
-        self._freedoms = Freedoms(opened, values, report)
+        self._freedoms = Freedoms(opened, values, found.scenes, report)
         self.readings = Readings()
 
     def read(self, entry: JointPrim) -> Joint | None:

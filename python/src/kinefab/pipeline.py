@@ -21,6 +21,7 @@ from .diagnostics import KinefabError, Report
 from .geometry.collision import collision_meshes
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
+from .geometry.looks.soundness import with_sound_meshes
 from .geometry.plausibility import check_plausible
 from .geometry.weighing import weigh
 from .mates import Mates
@@ -119,7 +120,8 @@ def prepared(
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
     scene = mated(_enabled(scene, report), options.reading, report)
-    scene = load_geometry(scene, files, report, progress)
+    scene = with_sound_meshes(load_geometry(scene, files, report, progress), report)
+    report.raise_for_errors()
     scene = weigh(scene, options.density, report)
     check_plausible(scene, options.density, report)
     report.raise_for_errors()

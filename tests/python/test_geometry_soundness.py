@@ -1,0 +1,119 @@
+"""Meshes that nothing could draw: told and left out, by every target, whoever made the scene."""
+
+from __future__ import annotations
+
+import json
+import struct
+from dataclasses import replace
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab.geometry.primitives import box
+from kinefab.model import Body, Collider, ColliderKind, Mesh, Node, Scene
+
+BOX = box((1.0, 2.0, 3.0))
+assert BOX.normals is not None
+COUNT = len(BOX.vertices)
+LEFT = np.column_stack([BOX.normals[:, [1, 2, 0]], np.ones(COUNT)])
+"""Tangents of unit length."""
+
+
+def machine(mesh: Mesh) -> Scene:
+    """A part that shows the mesh and touches with it, beside one that is sound."""
+    collider = Collider(ColliderKind.HULL, mesh=0)
+    nodes = [
+        Node("Bad", "Bad", bodies=(Body("b", 0),), colliders=(collider,)),
+        Node("Good", "Good", bodies=(Body("b", 1),)),
+    ]
+    return Scene(nodes=nodes, meshes=[mesh, BOX])
+
+
+def nan(width: int) -> np.ndarray:
+    values = np.zeros((COUNT, width))
+    values[3, 1] = np.nan
+    return values
+
+
+def primitives(path: Path) -> list[dict]:
+    length = struct.unpack("<I", path.read_bytes()[12:16])[0]
+    document = json.loads(path.read_bytes()[20 : 20 + length])
+    return [primitive for mesh in document["meshes"] for primitive in mesh["primitives"]]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "detail"),
+    [
+        (replace(BOX, faces=np.zeros((0, 3), dtype=np.int64)), "it has no triangles"),
+        (Mesh("none", np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)), "it has no triangles"),
+        (replace(BOX, faces=np.array([[0, 1, COUNT]])), "a triangle names a vertex that is not there"),
+        (replace(BOX, faces=np.array([[0, 1, -1]])), "a triangle names a vertex that is not there"),
+    ],
+)
+@pytest.mark.parametrize("ending", ["kinefab", "prefab", "glb", "usda"])
+def test_a_mesh_of_no_use_is_left_out(tmp_path, mesh, detail, ending):
+    result = kinefab.export(machine(mesh), tmp_path / f"a.{ending}")
+    (told,) = [d for d in result.report.diagnostics if d.code == "MESH_UNSOUND"]
+    assert detail in told.message and mesh.name in told.message
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("normals", nan(3)),
+        ("normals", np.zeros((2, 3))),
+        ("uvs", (nan(2),)),
+        ("colors", nan(4)),
+        ("tangents", nan(4)),
+        ("tangents", 2.0 * LEFT),
+        ("tangents", LEFT * [1, 1, 1, 0]),
+    ],
+)
+def test_what_a_mesh_is_drawn_by_is_left_out_where_it_is_unsound(tmp_path, name, values):
+    result = kinefab.export(machine(replace(BOX, **{name: values})), tmp_path / "a.glb")
+    told = [o.feature for o in result.report.outcomes if o.code == "MESH_UNSOUND"]
+    assert f"{name} of mesh box" in told
+    field = {"uvs": "TEXCOORD_0", "colors": "COLOR_0", "tangents": "TANGENT"}.get(name)
+    assert all(field not in primitive["attributes"] for primitive in primitives(tmp_path / "a.glb")[:1])
+    kinefab.export(machine(replace(BOX, **{name: values})), tmp_path / "a.prefab")
+    assert all("0000c07f" not in path.read_text() for path in tmp_path.rglob("*.asset"))
+
+
+def test_tangents_need_normals_and_colours_end_at_one(tmp_path):
+    scene = machine(replace(BOX, normals=None, tangents=LEFT, colors=np.full((COUNT, 4), 2.5)))
+    result = kinefab.export(scene, tmp_path / "a.prefab")
+    told = [o.feature for o in result.report.outcomes if o.code == "MESH_UNSOUND"]
+    assert told == ["tangents of mesh box"]
+    colors = result.unity.meshes[0].colors
+    assert colors is not None and (colors == 1.0).all()
+
+
+def test_vertices_that_are_no_numbers_are_errors(tmp_path):
+    for value in (np.nan, np.inf, 1e30):
+        scene = machine(replace(BOX, vertices=BOX.vertices * value))
+        with pytest.raises(kinefab.KinefabError) as caught:
+            kinefab.export(scene, tmp_path / "a.prefab")
+        assert [d.code for d in caught.value.diagnostics] == ["GEOMETRY_NOT_FINITE"]
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_sound_scene_is_itself():
+    from kinefab.diagnostics import Report
+    from kinefab.geometry.looks.soundness import with_sound_meshes
+
+    scene = machine(replace(BOX, tangents=LEFT, colors=np.full((COUNT, 4), 0.5)))
+    assert with_sound_meshes(scene, Report()) is scene
+
+
+def test_an_obj_with_numbers_that_are_none(tmp_path):
+    lines = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1", "vt nan 0", "vt 1 0", "vn nan 0 1", "vn 0 0 1"]
+    lines += ["f 1/1/1 3/2/1 2/2/2", "f 1/1/1 2/2/2 4/2/2", "f 1/1/1 4/2/1 3/2/2", "f 2/1/1 3/2/2 4/2/2"]
+    (tmp_path / "part.obj").write_text("\n".join(lines) + "\n")
+    scene = kinefab.Scene()
+    scene.add_part("Part", tmp_path / "part.obj", unit="m")
+    result = kinefab.export(scene, tmp_path / "a.prefab")
+    told = {o.feature.partition(" ")[0] for o in result.report.outcomes if o.code == "MESH_UNSOUND"}
+    assert told == {"normals", "uvs"}
+    mesh = result.unity.meshes[0]
+    assert mesh.normals is not None and np.isfinite(mesh.normals).all() and not mesh.uvs

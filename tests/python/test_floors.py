@@ -53,7 +53,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "targets": [
-        {"numbers", "content", "images"},
+        {"numbers", "content", "images", "tangents"},
         {"noun_entry", "filtering", "packing"},
         {"kinefab_file", "prefab", "gltf", "usd"},
         {"unitypackage"},

@@ -17,6 +17,7 @@ import pytest
 import trimesh
 from golden import golden_pairs
 from kinefab.diagnostics import Outcome
+from kinefab.geometry.primitives import box, sphere
 from kinefab.model import (
     RX,
     TX,
@@ -299,12 +300,94 @@ const fs = require("fs"), validator = require(process.argv[1]);
 """
 
 
+def awkward() -> Scene:
+    """Places that are another mesh's normals, a normal map on a mesh without tangents, an image on one without coordinates."""
+    image = Texture("Bumps", data=png(4))
+    bumpy = Surface("Bumpy", normal_texture=image)
+    rough = Surface("Rough", color_texture=image, metallic_roughness_texture=replace(image, uv_set=1))
+    scene = Scene(surfaces=[bumpy, rough])
+    for i, mesh in enumerate((sphere(2.0), sphere(1.0), box((1, 2, 3)), replace(box((1, 2, 3)), uvs=()))):
+        scene.meshes.append(mesh)
+        scene.nodes.append(Node(f"P{i}", f"P{i}", bodies=(Body("b", i, (i % 2,)),)))
+    return scene
+
+
+def test_what_a_mesh_lacks_its_material_does_not_show(tmp_path):
+    result = kinefab.export(awkward(), tmp_path / "awkward.glb")
+    document, _ = parsed(tmp_path / "awkward.glb")
+    shown = [m["primitives"][0] for m in document["meshes"]]
+    assert all("TANGENT" in one["attributes"] for one in (shown[0], shown[2]))
+    rough, bare = (document["materials"][shown[i]["material"]] for i in (1, 3))
+    assert "baseColorTexture" in rough["pbrMetallicRoughness"] and "pbrMetallicRoughness" in bare
+    assert not any("Texture" in key for key in bare["pbrMetallicRoughness"])
+    assert "metallicRoughnessTexture" not in rough["pbrMetallicRoughness"]
+    assert {o.code for o in result.report.outcomes if o.outcome is Outcome.DROPPED} == {"TEXTURE_DROPPED"}
+
+
+def test_tangents_run_along_u_and_their_sense_is_that_of_v(tmp_path):
+    kinefab.export(awkward(), tmp_path / "awkward.glb")
+    document, binary = parsed(tmp_path / "awkward.glb")
+    primitive = document["meshes"][2]["primitives"][0]
+    values = {key: accessor(document, binary, number) for key, number in primitive["attributes"].items()}
+    corners = accessor(document, binary, primitive["indices"]).reshape(-1, 3)
+    for a, b, c in corners:
+        edges = values["POSITION"][[b, c]] - values["POSITION"][a]
+        steps = values["TEXCOORD_0"][[b, c]] - values["TEXCOORD_0"][a]
+        along_u, along_v = np.linalg.solve(steps * [1, -1], edges)  # v upwards, as the normal map's green is
+        tangent = values["TANGENT"][a]
+        assert np.allclose(tangent[:3], along_u / np.linalg.norm(along_u), atol=1e-6)
+        bitangent = np.cross(values["NORMAL"][a], tangent[:3]) * tangent[3]
+        assert np.allclose(bitangent, along_v / np.linalg.norm(along_v), atol=1e-6)
+
+
+@pytest.mark.parametrize("shape", ["auto", "none", "hull", "box", "mesh"])
+def test_colliders_are_those_that_were_asked_for(tmp_path, shape):
+    scene = Scene(meshes=[box((1, 2, 3))])
+    scene.nodes = [
+        Node("P", "P", bodies=(Body("b", 0),)),
+        Node("G", "G", grounded=True, bodies=(Body("b", 0),)),
+    ]
+    scene.nodes.append(
+        Node(
+            "E",
+            "E",
+            colliders=(Collider(ColliderKind.SPHERE, radius=0.0), Collider(ColliderKind.SPHERE, radius=1.0)),
+        )
+    )
+    options = kinefab.ExportOptions(colliders=kinefab.ColliderShape(shape))
+    result = kinefab.export(scene, tmp_path / "a.glb", options)
+    document, _ = parsed(tmp_path / "a.glb")
+    found = [
+        n["extensions"][BODIES]["collider"]["geometry"]
+        for n in document["nodes"]
+        if "collider" in n.get("extensions", {}).get(BODIES, {})
+    ]
+    shapes = [s.get("box", s.get("sphere")) for s in document["extensions"]["KHR_implicit_shapes"]["shapes"]]
+    hulls = {"auto": [True, False], "mesh": [True, False], "hull": [True, True]}.get(shape, [])
+    assert [g.get("convexHull", False) for g in found if "node" in g] == hulls
+    assert shapes == ([{"size": [1, 2, 3]}] if shape == "box" else []) + [{"radius": 1.0}]
+    assert [o.code for o in result.report.outcomes if o.code == "COLLIDER_EMPTY"] == ["COLLIDER_EMPTY"]
+
+
+def test_a_jpeg_of_inks_is_told(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    for mode in ("CMYK", "L", "RGB"):
+        image.new(mode, (4, 4)).save(tmp_path / f"{mode}.jpg")
+    surfaces = [Surface(m, color_texture=Texture(m, tmp_path / f"{m}.jpg")) for m in ("CMYK", "L", "RGB")]
+    nodes = [Node(f"P{i}", f"P{i}", bodies=(Body("b", 0, (i,)),)) for i in range(3)]
+    scene = Scene(nodes=nodes, meshes=[box((1, 1, 1))], surfaces=surfaces)
+    result = kinefab.export(scene, tmp_path / "a.glb")
+    assert [o.feature for o in result.report.outcomes if o.code == "TEXTURE_DROPPED"] == ["texture CMYK"]
+    assert len(parsed(tmp_path / "a.glb")[0]["images"]) == 2
+
+
 def test_khronos_validator_finds_no_error_and_no_warning(tmp_path):
     if shutil.which("node") is None or not VALIDATOR.is_dir():
         pytest.skip("Khronos' gltf-validator is not installed: npm ci in tests/reference")
     files = [kinefab.export(robot(), tmp_path / "robot.glb").path]
     lever = next(bundle for bundle, _ in golden_pairs() if bundle.name == "lever.bundle.json")
     files.append(kinefab.export(lever, tmp_path / "lever.glb").path)
+    files.append(kinefab.export(awkward(), tmp_path / "awkward.glb").path)
     for bundle, _ in golden_pairs()[::12]:
         files.append(kinefab.export(bundle, tmp_path / f"{bundle.name}.glb").path)
     done = subprocess.run(

@@ -67,3 +67,19 @@ class Collider:
     group: str = ""
     where: str = ""
     reference: MeshReference | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has no size that anything could touch.
+
+        >>> import kinefab
+        >>> kinefab.Collider(kinefab.ColliderKind.BOX, size=(1.0, 0.0, 1.0)).is_empty
+        True
+        """
+        sizes = {
+            ColliderKind.BOX: self.size,
+            ColliderKind.SPHERE: (self.radius,),
+            ColliderKind.CAPSULE: (self.radius,),
+            ColliderKind.CYLINDER: (self.radius, self.length),
+        }
+        return not all(size > 0.0 for size in sizes.get(self.kind, ())) or not all(self.scale)

@@ -72,3 +72,14 @@ def _demand_whole(data: bytes, ending: str) -> None:
                 image.load()
         except Exception as error:  # Pillow raises OSError, SyntaxError, struct.error ... by the format
             raise ImageError(str(error) or type(error).__name__) from None
+
+
+def jpeg_channels(data: bytes) -> int:
+    """Of a JPEG, by its frame header (ITU-T T.81, B.2.2): 1 grey, 3 colours, 4 inks; 0 where there is none."""
+    at = 2
+    while at + 9 < len(data) and data[at] == 0xFF:
+        marker = data[at + 1]
+        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
+            return data[at + 9]
+        at += 1 if marker == 0xFF else 2 + int.from_bytes(data[at + 2 : at + 4], "big")
+    return 0

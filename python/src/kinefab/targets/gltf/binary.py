@@ -48,9 +48,11 @@ class Binary:
     def _accessor(self, array: NDArray[Any], kind: int, target: int | None, bounded: bool) -> int:
         data = array.tobytes()
         key = (hashlib.sha256(data).digest(), kind * 10 + (array.shape[1] if array.ndim > 1 else 1), target)
-        if key in self._known:
-            return self._known[key]
         columns = array.reshape(len(array), -1)
+        if key in self._known:  # of a mesh whose places are another's normals, say
+            if bounded:
+                self.accessors[self._known[key]] |= _bounds(columns)
+            return self._known[key]
         entry: dict[str, Any] = {
             "bufferView": self.view(data, target),
             "componentType": kind,
@@ -58,7 +60,11 @@ class Binary:
             "type": SHAPES[columns.shape[1]],
         }
         if bounded:
-            entry |= {"min": columns.min(axis=0).tolist(), "max": columns.max(axis=0).tolist()}
+            entry |= _bounds(columns)
         self.accessors.append(entry)
         self._known[key] = len(self.accessors) - 1
         return self._known[key]
+
+
+def _bounds(columns: NDArray[Any]) -> dict[str, Any]:
+    return {"min": columns.min(axis=0).tolist(), "max": columns.max(axis=0).tolist()}

@@ -15,14 +15,15 @@ from ...model import Body, Collider, ColliderKind, Mesh, Physics, Repeat, Surfac
 from ...options import ColliderShape
 from ...replacing import replacing
 from ...rigid import active_nodes
-from ...spatial import Pose, quaternion_from_matrix
+from ...spatial import Array, Pose, quaternion_from_matrix
 from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_kinematic, place_rigidbodies
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
+from ..tangents import tangents_along
 from .binary import Binary
 from .filters import Filters
 from .looks import Looks
-from .physics import BODIES, PhysicsEntries, motion, shape_pose
+from .physics import BODIES, PhysicsEntries, bounding_box, motion, shape_pose
 
 MAGIC, VERSION, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
 PLAIN = Surface("Default")
@@ -160,15 +161,27 @@ class _Document:
                 field="visibility",
                 target=".glb",
             )
-        if own.colliders is None and own.collision is not ColliderShape.NONE and "mesh" in self.nodes[index]:
-            geometry: dict[str, Any] = {"node": index}
-            if self._moves(node) or own.collision in (ColliderShape.BOX, ColliderShape.HULL):
+        shape = own.collision or self.content.colliders
+        if own.colliders is not None or shape is ColliderShape.NONE or "mesh" not in self.nodes[index]:
+            return
+        holder = index
+        if shape is ColliderShape.BOX:
+            around = bounding_box(self.scene.meshes[body.mesh])
+            holder, geometry = self._node("box", index, around.pose), self.physics.geometry(around)
+        else:
+            geometry = {"node": index}
+            if self._moves(node) or shape is ColliderShape.HULL:
                 geometry["convexHull"] = True
-            entry = {"geometry": geometry}
-            self.filters.add(node, "", entry)
-            self._extend(index, "collider", entry)
+        entry = {"geometry": geometry}
+        self.filters.add(node, "", entry)
+        self._extend(holder, "collider", entry)
 
     def _add_collider(self, node: int, parent: int, collider: Collider) -> None:
+        if collider.is_empty:
+            own = self.scene.nodes[node]
+            feature = f"collider {own.id}/{collider.name or collider.kind.value}"
+            self.report.dropped(feature, "COLLIDER_EMPTY", collider.where, object=own.id)
+            return
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
         if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
             assert collider.mesh is not None
@@ -199,12 +212,13 @@ class _Document:
 
     def _primitives(self, mesh: Mesh, surfaces: tuple[int, ...]) -> list[dict[str, Any]]:
         attributes = {"POSITION": self.binary.floats(mesh.vertices, bounded=True)}
-        if mesh.normals is not None:
-            lengths = np.linalg.norm(mesh.normals, axis=1, keepdims=True)
-            if (lengths > 0.0).all():
-                attributes["NORMAL"] = self.binary.floats(mesh.normals / lengths)
-        if mesh.tangents is not None:
-            attributes["TANGENT"] = self.binary.floats(mesh.tangents)
+        normals, tangents = _unit(mesh.normals), mesh.tangents
+        if normals is not None:
+            attributes["NORMAL"] = self.binary.floats(normals)
+            if tangents is None and mesh.uvs and any(self.scene.surfaces[s].normal_texture for s in surfaces):
+                tangents = tangents_along(mesh.vertices, normals, mesh.uvs[0], mesh.faces)
+            if tangents is not None:
+                attributes["TANGENT"] = self.binary.floats(tangents)
         for i, uv in enumerate(mesh.uvs):
             attributes[f"TEXCOORD_{i}"] = self.binary.floats(np.column_stack([uv[:, 0], 1.0 - uv[:, 1]]))
         if mesh.colors is not None:
@@ -217,7 +231,11 @@ class _Document:
             indices = self.binary.indices(mesh.faces[first : first + count], len(mesh.vertices))
             surface = self.scene.surfaces[surfaces[k]] if k < len(surfaces) else PLAIN
             found.append(
-                {"attributes": attributes, "indices": indices, "material": self.looks.material(surface)}
+                {
+                    "attributes": attributes,
+                    "indices": indices,
+                    "material": self.looks.material(surface, len(mesh.uvs)),
+                }
             )
             first += count
         return found
@@ -312,3 +330,11 @@ class _Document:
                     f"clip {clip.name}", "TARGET_FIELD_DROPPED", clip.where, field="repeat", target=".glb"
                 )
         return found
+
+
+def _unit(normals: Array | None) -> Array | None:
+    """None where one has no length, and there is none to be said."""
+    if normals is None:
+        return None
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals / lengths if (lengths > 0.0).all() else None

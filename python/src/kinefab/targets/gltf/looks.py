@@ -7,12 +7,28 @@ from typing import Any
 
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
-from ..images import ImageError, read_image
+from ..images import ImageError, jpeg_channels, read_image
 from .binary import Binary
 
 WRAPS = {Wrap.REPEAT: 10497, Wrap.CLAMP: 33071, Wrap.MIRROR: 33648}
 MEDIA_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
 """Of the images that glTF holds, by their endings."""
+
+
+SHADING = ("baseColorTexture", "metallicRoughnessTexture")
+"""Textures that stand among the numbers of PBR; the others stand in the material itself."""
+
+
+def textures(surface: Surface) -> list[tuple[str, Texture]]:
+    """A surface's, by what glTF calls them."""
+    named = {
+        "baseColorTexture": surface.color_texture,
+        "metallicRoughnessTexture": surface.metallic_roughness_texture,
+        "normalTexture": surface.normal_texture,
+        "occlusionTexture": surface.occlusion_texture,
+        "emissiveTexture": surface.emission_texture,
+    }
+    return [(name, texture) for name, texture in named.items() if texture is not None]
 
 
 class Looks:
@@ -28,30 +44,30 @@ class Looks:
         self._known: dict[tuple[object, ...], int] = {}
         self._image_of: dict[tuple[object, ...], int | None] = {}
 
-    def material(self, surface: Surface) -> int:
-        """Index of a surface's material."""
-        key = ("material", id(surface))
+    def material(self, surface: Surface, uv_sets: int) -> int:
+        """Index of a surface's material, on a mesh with so many sets of texture coordinates."""
+        key = (
+            "material",
+            id(surface),
+            min(uv_sets, 1 + max((t.uv_set for _, t in textures(surface)), default=-1)),
+        )
         if key not in self._known:
-            self.materials.append(self._entry(surface))
+            self.materials.append(self._entry(surface, uv_sets))
             self._known[key] = len(self.materials) - 1
         return self._known[key]
 
-    def _entry(self, surface: Surface) -> dict[str, Any]:
+    def _entry(self, surface: Surface, uv_sets: int) -> dict[str, Any]:
         shading: dict[str, Any] = {
             "baseColorFactor": list(surface.color),
             "metallicFactor": surface.metallic,
             "roughnessFactor": 1.0 - surface.smoothness,
         }
         entry: dict[str, Any] = {"name": surface.name, "pbrMetallicRoughness": shading}
-        for holder, name, texture in (
-            (shading, "baseColorTexture", surface.color_texture),
-            (shading, "metallicRoughnessTexture", surface.metallic_roughness_texture),
-            (entry, "normalTexture", surface.normal_texture),
-            (entry, "occlusionTexture", surface.occlusion_texture),
-            (entry, "emissiveTexture", surface.emission_texture),
-        ):
-            if texture is not None and (reference := self._texture(texture, surface.name)) is not None:
-                holder[name] = reference
+        for name, texture in textures(surface):
+            if texture.uv_set >= uv_sets:
+                self._lost(texture, surface.name, "a mesh that shows it has no texture coordinates for it")
+            elif (reference := self._texture(texture, surface.name)) is not None:
+                (shading if name in SHADING else entry)[name] = reference
         strongest = max(surface.emission)
         if strongest > 0.0:
             entry["emissiveFactor"] = [c / max(1.0, strongest) for c in surface.emission]
@@ -108,17 +124,17 @@ class Looks:
     def _embedded(self, texture: Texture, surface: str) -> int | None:
         try:
             image = read_image(texture, MEDIA_TYPES, "glTF holds PNG and JPEG only")
+            if image.ending == ".jpg" and jpeg_channels(image.data) not in (1, 3):
+                raise ImageError("glTF holds JPEG of grey or of three colours only")
         except ImageError as error:
-            self._report.dropped(
-                f"texture {texture.name}",
-                "TEXTURE_DROPPED",
-                texture=texture.name,
-                surface=surface,
-                detail=error,
-            )
+            self._lost(texture, surface, str(error))
             return None
         kind = MEDIA_TYPES[image.ending]
         self.images.append(
             {"name": texture.name, "mimeType": kind, "bufferView": self._binary.view(image.data)}
         )
         return len(self.images) - 1
+
+    def _lost(self, texture: Texture, surface: str, detail: str) -> None:
+        told = {"texture": texture.name, "surface": surface, "detail": detail}
+        self._report.dropped(f"texture {texture.name}", "TEXTURE_DROPPED", **told)

@@ -20,10 +20,11 @@ from ...model import (
     Freedom,
     Joint,
     MassProperties,
+    Mesh,
     Motion,
     PhysicsMaterial,
 )
-from ...spatial import Pose, quaternion_from_matrix, rotation_about
+from ...spatial import Pose, bounds, quaternion_from_matrix, rotation_about
 
 BODIES, SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes"
 ALONG_Y = rotation_about(np.array([1.0, 0.0, 0.0]), math.pi / 2)
@@ -123,6 +124,13 @@ def motion(mass: MassProperties, *, kinematic: bool, gravity: bool) -> dict[str,
     if not gravity:
         entry["gravityFactor"] = 0.0
     return entry
+
+
+def bounding_box(mesh: Mesh) -> Collider:
+    """About a mesh, in its own frame."""
+    low, high = bounds(mesh.vertices)
+    x, y, z = (high - low).tolist()
+    return Collider(ColliderKind.BOX, Pose(np.eye(3), 0.5 * (low + high)), size=(x, y, z))
 
 
 def shape_pose(collider: Collider) -> Pose:

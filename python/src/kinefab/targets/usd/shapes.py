@@ -93,7 +93,7 @@ class Shapes:
     def _collider(self, number: int, node: Node, collider: Collider) -> Shape | None:
         name = collider.name.rpartition("/")[2] or collider.kind.value
         feature = f"collider {node.id}/{collider.name or collider.kind.value}"
-        if _empty(collider):
+        if collider.is_empty:
             self.report.dropped(feature, "COLLIDER_EMPTY", collider.where, object=node.id)
             return None
         material = "" if collider.material is None else self._material(collider.material)
@@ -124,16 +124,6 @@ class Shapes:
             write_physics_material(prim, material)
             self._materials[material] = str(prim.path)
         return self._materials[material]
-
-
-def _empty(collider: Collider) -> bool:
-    sizes = {
-        ColliderKind.BOX: collider.size,
-        ColliderKind.SPHERE: (collider.radius,),
-        ColliderKind.CAPSULE: (collider.radius,),
-        ColliderKind.CYLINDER: (collider.radius, collider.length),
-    }
-    return not all(size > 0.0 for size in sizes.get(collider.kind, ())) or not all(collider.scale)
 
 
 def _write(parent: Prim, shape: Shape, meshes: Meshes) -> str:

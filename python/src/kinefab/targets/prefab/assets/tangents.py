@@ -1,44 +1,15 @@
-"""Tangents where a normal map wants them and the source gives none (Lengyel, "Computing Tangent Space Basis Vectors")."""
+"""Tangents of meshes that show a normal map."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from ....unity.scene import Mesh
+from ...tangents import tangents_along
 
 
 def with_tangents(mesh: Mesh) -> Mesh:
     """The mesh with tangents along the first texture coordinates; as it is where it has them, or nothing to make them of."""
     if mesh.tangents is not None or mesh.normals is None or not mesh.uvs:
         return mesh
-    a, b, c = (mesh.triangles[:, i].astype(np.int64) for i in range(3))
-    p, uv = mesh.vertices.astype(np.float64), mesh.uvs[0].astype(np.float64)
-    e, f = p[b] - p[a], p[c] - p[a]
-    s, t = uv[b] - uv[a], uv[c] - uv[a]
-    area = s[:, 0] * t[:, 1] - t[:, 0] * s[:, 1]
-    sense = np.sign(area)[:, None]
-    along_u = (e * t[:, 1:] - f * s[:, 1:]) * sense
-    along_v = (f * s[:, :1] - e * t[:, :1]) * sense
-    us, vs = np.zeros_like(p), np.zeros_like(p)
-    for corner in (a, b, c):
-        np.add.at(us, corner, along_u)
-        np.add.at(vs, corner, along_v)
-    normals = mesh.normals.astype(np.float64)
-    flat = us - normals * np.einsum("ij,ij->i", normals, us)[:, None]
-    length = np.linalg.norm(flat, axis=1)
-    lost = length <= 1e-12 * max(1.0, float(length.max(initial=0.0)))
-    flat[lost] = _across(normals[lost])
-    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
-    right = np.einsum("ij,ij->i", np.cross(normals, flat), vs) >= 0.0
-    tangents = np.column_stack([flat, np.where(right, 1.0, -1.0)]).astype(np.float32)
-    return replace(mesh, tangents=tangents)
-
-
-def _across(normals: np.ndarray) -> np.ndarray:
-    """Some direction at right angles to each normal, shape (n, 3): where the texture coordinates say nothing."""
-    axis = np.eye(3)[np.abs(normals).argmin(axis=1)] if len(normals) else np.zeros((0, 3))
-    found = np.cross(normals, axis)
-    found[np.linalg.norm(found, axis=1) == 0.0] = (1.0, 0.0, 0.0)
-    return found
+    return replace(mesh, tangents=tangents_along(mesh.vertices, mesh.normals, mesh.uvs[0], mesh.triangles))

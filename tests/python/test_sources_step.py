@@ -25,11 +25,14 @@ pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kin
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path.insert(0, str(FIXTURES))
 
+from kinefab.sources.step.xcaf import _children, _name  # noqa: E402
+from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB  # noqa: E402
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool  # noqa: E402
 from step.linkages import two_plates  # noqa: E402
 from step.machine import Machine  # noqa: E402
 from step.solids import box  # noqa: E402
 from step.tessellated import triangles_alone, write_tessellated  # noqa: E402
-from step.writer import write_iges, write_step  # noqa: E402
+from step.writer import document_of, write_document, write_iges, write_step  # noqa: E402
 
 LEVER = FIXTURES / "lever" / "lever.step"
 PLATES = FIXTURES / "step" / "two_plates_inch_ap242.step"
@@ -84,6 +87,36 @@ def test_colours_are_linear():
     assert surface.name == "#FF8000"
     np.testing.assert_allclose(surface.color, (1.0, 0.2140, 0.0, 1.0), atol=1e-3)
     assert scene.nodes[1].bodies[0].surfaces == (0,)
+
+
+def test_what_has_no_colour_has_that_of_the_assembly_round_it(tmp_path: Path):
+    """Of two occurrences of one product the one in a red sub-assembly is red; what is green there stays green."""
+    machine = Machine("Top")
+    machine.add("Loose", box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), product="Plain")
+    machine.add(
+        "Inside", box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), (5.0, 0.0, 0.0), product="Plain", group="Red"
+    )
+    green = box((0.0, 0.0, 0.0), (2.0, 1.0, 1.0))
+    machine.add("Green", green, (9.0, 0.0, 0.0), color=(0.0, 1.0, 0.0), group="Red")
+    document = document_of(machine)
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    (group,) = [
+        child
+        for label in _children(shapes.BaseLabel())
+        for child in _children(label)
+        if _name(child) == "Red"
+    ]
+    red = Quantity_Color(1.0, 0.0, 0.0, Quantity_TOC_sRGB)
+    XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(
+        group, red, XCAFDoc_ColorType.XCAFDoc_ColorSurf
+    )
+    write_document(document, tmp_path / "red.step")
+    scene, report = read_whole(tmp_path / "red.step")
+    assert not report.diagnostics
+    seen = {
+        node.name: [scene.surfaces[i].name for b in node.bodies for i in b.surfaces] for node in scene.nodes
+    }
+    assert seen == {"Top": [], "Loose": [], "Red": [], "Inside": ["#FF0000"], "Green": ["#00FF00"]}
 
 
 @pytest.mark.parametrize("schema", ["AP203", "AP214IS", "AP242DIS"])

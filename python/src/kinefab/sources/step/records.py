@@ -16,7 +16,8 @@ Color = tuple[float, float, float, float]
 class Occurrence:
     """A component of the tree.  parent: its place in the list, or None.  matrix: its frame in its parent's, (3, 4).
 
-    shape: number of the shape that it shows, None for an assembly.  color: given to this occurrence, or None.
+    shape: number of the shape that it shows, None for an assembly.  color: given to this occurrence, or None; that of an
+    assembly is for what has none of its own in it.
     product: name of what it is an occurrence of; key: what tells that apart from others of the name.
     """
 

@@ -109,9 +109,9 @@ class Shapes:
             mirrored = bool(self._placement.mirrored[node])
             if mirrored not in shared:
                 shared[mirrored] = [self._mesh(piece, self._placement.local[node]) for piece in shape.pieces]
-            own = self._tree.occurrences[node].color
+            own, around = self._tree.occurrences[node].color, self._around(node)
             bodies = tuple(
-                Body(piece.name, mesh, self._colored(looks, own), boundary=faces)
+                Body(piece.name, mesh, self._colored(looks, own, around), boundary=faces)
                 for piece, (mesh, looks, faces) in zip(shape.pieces, shared[mirrored], strict=True)
             )
             self._scene.nodes[node] = replace(self._scene.nodes[node], bodies=bodies)
@@ -129,9 +129,19 @@ class Shapes:
             tuple(_in_node(face, turn, length) for face in piece.boundary),
         )
 
-    def _colored(self, looks: tuple[Color | None, ...], own: Color | None) -> tuple[int, ...]:
-        """A surface for each submesh: the occurrence's colour, else those of the shape; none where nothing is stated."""
-        colors = [own or color for color in looks]
+    def _around(self, node: int) -> Color | None:
+        """The colour of the nearest assembly round an occurrence that has one."""
+        parent = self._tree.occurrences[node].parent
+        while parent is not None and self._tree.occurrences[parent].color is None:
+            parent = self._tree.occurrences[parent].parent
+        return None if parent is None else self._tree.occurrences[parent].color
+
+    def _colored(
+        self, looks: tuple[Color | None, ...], own: Color | None, around: Color | None
+    ) -> tuple[int, ...]:
+        """A surface for each submesh: the occurrence's colour, else those of the shape, else that of the assembly round
+        it; none where nothing is stated."""
+        colors = [own or color or around for color in looks]
         if not any(colors):
             return ()
         return tuple(self._surface(color or DEFAULT_COLOR) for color in colors)

@@ -107,7 +107,7 @@ class _Walk:
             product=_name(product),
             key=_entry(product),
             shape=None if is_assembly or loose else self._shape(product),
-            color=None if occurrence is product and parent is None else _label_color(occurrence),
+            color=self._color(occurrence, product, is_assembly),
             layers=self._layers_of(occurrence) or self._layers_of(product),
             visible=self.colors.IsVisible_s(occurrence) if hasattr(self.colors, "IsVisible_s") else True,
         )
@@ -141,6 +141,11 @@ class _Walk:
             self.shapes.append((product, XCAFDoc_ShapeTool.GetShape_s(product)))
             self.tree.shapes.append(_name(product))
         return self._numbers[entry]
+
+    def _color(self, occurrence: Any, product: Any, is_assembly: bool) -> Color | None:
+        """Given to the occurrence; to an assembly also by its product, which a shape's own faces have already."""
+        own = None if occurrence is product else _label_color(occurrence)
+        return own or (_label_color(product) if is_assembly else None)
 
     def _layers_of(self, label: Any) -> tuple[str, ...]:
         names = self._layers.GetLayers(label)

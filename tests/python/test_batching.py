@@ -118,7 +118,9 @@ from kinefab.batching import child, work
 real = work.work
 def hostile(job, reading):
     name = os.path.basename(job.source)
-    if name.startswith("hang"): time.sleep(600)
+    if name.startswith("hang"):
+        with open(job.source + ".pid", "w") as file: file.write(str(os.getpid()))
+        time.sleep(600)
     if name.startswith("crash"): os.kill(os.getpid(), signal.SIGSEGV)
     if name.startswith("exit"): os._exit(7)
     if name.startswith("raise"): raise RuntimeError("a library's own")
@@ -186,6 +188,51 @@ def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
     result = kinefab.batch([folder], tmp_path / "out", jobs=2)
     assert result.counts.get("up_to_date", 0) >= 3 and result.worst.good and len(result.records) == 12
     assert list(tmp_path.glob("out/.*.tmp")) == []
+
+
+def test_a_batch_that_is_broken_off_ends_what_is_under_way_and_begins_nothing(tmp_path, hostile):
+    """As by Ctrl+C, which a terminal sends to a whole session: the converting processes have one of their own."""
+    folder = bundles(tmp_path / "in", "hang", "ok1", "ok2", "ok3")
+    marker = folder / "hang.bundle.json.pid"
+
+    def broken_off(done, total, record):
+        while not marker.exists() or not marker.read_text():
+            time.sleep(0.01)
+        assert os.getsid(int(marker.read_text())) != os.getsid(0)
+        raise KeyboardInterrupt
+
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        kinefab.batch([folder], tmp_path / "out", jobs=2, progress=broken_off)
+    assert time.monotonic() - began < 60.0
+    with pytest.raises(ProcessLookupError):
+        for _ in range(500):
+            os.kill(int(marker.read_text()), 0)
+            time.sleep(0.01)
+    assert kinefab.batch([bundles(tmp_path / "more", "ok4")], tmp_path / "out").worst.good
+
+
+def test_two_batches_at_once_write_every_target_once(tmp_path):
+    folder = bundles(tmp_path / "in", *(f"n{i}" for i in range(8)))
+    command = [
+        sys.executable,
+        "-m",
+        "kinefab",
+        "batch",
+        str(folder),
+        "-o",
+        str(tmp_path / "out"),
+        "--json",
+        "-q",
+    ]
+    both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    told = [[json.loads(line) for line in one.communicate()[0].splitlines()] for one in both]
+    assert [one.returncode for one in both] == [0, 0]
+    of = [{record["source"]: record["outcome"] for record in records} for records in told]
+    assert (
+        all({of[0][source], of[1][source]} == {"written", "up_to_date"} for source in of[0])
+        and len(of[0]) == 8
+    )
 
 
 def test_targets_of_somebody_else_are_left_alone(tmp_path):

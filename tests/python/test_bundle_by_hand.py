@@ -188,6 +188,12 @@ def test_an_unknown_ending_names_its_road(name, word):
     assert found.code == "SOURCE_FORMAT_UNKNOWN" and word in found.remedy and ".step" in found.remedy
 
 
+def test_a_name_without_a_file_is_told_as_that(tmp_path):
+    with pytest.raises(KinefabError) as refused:
+        sources.read(tmp_path / "robotz", Report())
+    assert [found.code for found in refused.value.diagnostics] == ["SOURCE_NOT_FOUND"]
+
+
 def test_the_page_of_cad_programs_is_short():
     """Every program has its road, in five lines at most."""
     text = (ROOT / "python" / "README.md").read_text(encoding="utf-8")

@@ -7,6 +7,8 @@ import os
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 from ..diagnostics import diagnostic
 from .job import Job, Outcome, Record, unmade
@@ -14,6 +16,8 @@ from .job import Job, Outcome, Record, unmade
 GRACE_SECONDS = 10.0
 """After a job's timeout the process itself is given up."""
 TRIES = 2
+STOP_SECONDS = 1.0
+"""Within which a process that nobody asks any more ends its job and itself."""
 
 
 class Slot:
@@ -21,9 +25,12 @@ class Slot:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
+        self._stopped = False
 
     def convert(self, job: Job) -> Record:
         for _ in range(TRIES):
+            if self._stopped:
+                break
             answer = self._asked(job)
             if answer is not None:
                 return Record.of_json(json.loads(answer))
@@ -41,7 +48,7 @@ class Slot:
             process.stdin.write(json.dumps(job.as_json()).encode() + b"\n")
             process.stdin.flush()
             line = process.stdout.readline()
-        except OSError:
+        except (OSError, ValueError):  # gone, or stopped meanwhile
             line = b""
         finally:
             timer.cancel()
@@ -57,8 +64,20 @@ class Slot:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 env={**one, **os.environ},  # the files are what runs side by side
+                start_new_session=True,  # Ctrl+C is for whoever asks: it stops them
             )
         return self._process
+
+    def stop(self) -> None:
+        """From another thread: what is under way is given up, and nothing is begun any more."""
+        self._stopped = True
+        if (process := self._process) is not None and process.stdin is not None:
+            with suppress(OSError, ValueError):
+                process.stdin.close()  # which tells it that nobody asks any more: it ends the job, then itself
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(STOP_SECONDS)
+                return
+            process.kill()  # it was still importing
 
     def close(self) -> None:
         if self._process is not None:
@@ -71,6 +90,34 @@ class Slot:
 
     def __del__(self) -> None:
         self.close()  # with the thread that had it
+
+
+class Crew:
+    """The threads of a batch, each with a slot.
+
+    jobs: how many.
+    """
+
+    def __init__(self, jobs: int) -> None:
+        self.pool = ThreadPoolExecutor(jobs)
+        self._local = threading.local()
+        self._slots: list[Slot] = []
+
+    def convert(self, job: Job) -> Record:
+        if not hasattr(self._local, "slot"):
+            self._local.slot = Slot()
+            self._slots.append(self._local.slot)
+        slot: Slot = self._local.slot
+        return slot.convert(job)
+
+    def end(self, broken_off: bool) -> None:
+        """Wait for the threads.  broken_off: what is under way is given up."""
+        self.pool.shutdown(wait=False, cancel_futures=True)
+        for slot in self._slots if broken_off else ():
+            slot.stop()
+        self.pool.shutdown()
+        for slot in self._slots:
+            slot.close()
 
 
 _local = threading.local()

@@ -7,6 +7,7 @@ report what it found wrong, approximated or dropped.  Where the geometry is in f
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
@@ -115,6 +116,9 @@ def read(
     found = format_of(path)
     if found is None:
         known, road = ", ".join(sorted(known_suffixes())), road_of(path.name)
+        if not road and not os.path.lexists(path):
+            report.add("SOURCE_NOT_FOUND", path.name, path=path)
+            report.raise_for_errors()
         report.add(
             "SOURCE_FORMAT_UNKNOWN", path.name, path=path, road=f"{road} " if road else "", known=known
         )

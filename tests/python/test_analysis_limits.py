@@ -235,3 +235,12 @@ def test_a_search_that_would_not_end_stops_and_says_where(monkeypatch):
     assert all("the search stopped after 150 steps, having come from " in message for message in stopped)
     complete = {r.joint: (r.lower, r.upper) for r in whole.ranges}
     assert all((r.lower, r.upper) == complete[r.joint] for r in found.ranges)
+
+
+def test_a_curve_too_long_to_be_followed_stops_and_says_where(monkeypatch):
+    """A four-bar followed for ten steps: no range is written, and each joint says how far it came."""
+    monkeypatch.setattr("kinefab.analysis.ranges.curve.WORK_IN_ALL", 30)
+    found = analyse(scene("M01"), SWEEP)
+    stopped = [d.message for d in found.report.diagnostics if d.code == "LIMITS_NOT_SWEPT"]
+    assert not found.ranges and len(stopped) == 3
+    assert all("stopped after 10 steps, having come from " in message for message in stopped)

@@ -20,6 +20,9 @@ STEP = 0.05
 """Length of a step along the curve: the fastest body's radians, or fractions of the length."""
 SMALLEST = 1e-4
 MOST_STEPS = 4000
+WORK_IN_ALL = 2.5e5
+"""Steps tried times the bodies of the block, both ways together, after which the search stops where it has come: about a
+minute."""
 STRAIGHT = 0.95
 """Cosine between tangents of neighbouring poses; below it the step was too long."""
 FAR = 20.0
@@ -30,35 +33,44 @@ OVERLAP = 3
 """Steps walked past the starting pose, so that no turning point is missed at the seam."""
 
 
-def ranges_of_curve(block: Measured) -> tuple[Array, Array] | None:
-    """Lower and upper ends of the block's coordinates, metres and radians from each joint's zero (not from the
-    exported pose); infinite where there is none.
-
-    None where the curve could not be followed to an end: what was seen of it may not be all of it.
-    """
-    try:
-        return _Curve(block).ranges()
-    except _Lost:
-        return None
-
-
 class _Lost(Exception):
     """The curve could not be followed between two of its poses."""
 
 
-class _Curve:
-    """The poses of one block with one freedom, followed from the exported one both ways."""
+class Curve:
+    """The poses of one block with one freedom, followed from the exported one both ways.
+
+    zero: the coordinates at the exported pose, metres and radians: they count from the source's zero, which may lie anywhere.
+    low, high: the ends that were come to.  steps: tried so far.
+    """
 
     def __init__(self, block: Measured):
         self.block = block
         self.turns = block.turns
         self.zero = block.read(block.start, block.turns)[0]
-        """Coordinates at the exported pose: they count from the source's zero, which may lie anywhere."""
+        self.low, self.high = self.zero.copy(), self.zero.copy()
+        self.steps = 0
+        self.most = int(WORK_IN_ALL / len(block.bodies))
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the search has come to an end before it was done."""
+        return self.steps >= self.most
 
     def ranges(self) -> tuple[Array, Array] | None:
-        count = len(self.block.rotary)
-        low, high = self.zero.copy(), self.zero.copy()
-        endless = np.zeros(count, dtype=bool)
+        """Lower and upper ends of the block's coordinates, metres and radians from each joint's zero (not from the
+        exported pose); infinite where there is none.
+
+        None where the curve could not be followed to an end, or is ``stopped``: what was seen may not be all of it.
+        """
+        try:
+            return self._ranges()
+        except _Lost:
+            return None
+
+    def _ranges(self) -> tuple[Array, Array] | None:
+        low, high = self.low, self.high
+        endless = np.zeros(len(low), dtype=bool)
         for sign in (1.0, -1.0):
             came_round = self._follow(sign, low, high, endless)
             if came_round is None:
@@ -91,6 +103,9 @@ class _Curve:
         q, rate = self._coordinates(state, tangent)
         step, travelled, overlap = STEP, 0.0, 0
         for _ in range(MOST_STEPS):
+            if self.stopped:
+                return None
+            self.steps += 1
             there = self.block.moved(state, step * tangent)
             ahead = None if there is None else self._tangent(there, tangent)
             if (

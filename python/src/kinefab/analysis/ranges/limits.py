@@ -14,7 +14,7 @@ from ...diagnostics import Report
 from ...model import RX, JointKind, Motion, Scene
 from ..assembly.assemble import Assembly
 from ..joints.links import Link
-from .curve import ranges_of_curve
+from .curve import Curve
 from .measured import Measured
 from .reach import Reach
 
@@ -102,20 +102,29 @@ def _ranges_in(
     block = Measured(assembly, part, coordinates, scene)
     lost = "its mechanism was lost at a singular pose"
     if mobility == 1:
-        found = ranges_of_curve(block)
+        curve = Curve(block)
+        found = curve.ranges()
         for i, own in enumerate(swept):
-            yield *own, lost if found is None else (float(found[0][i]), float(found[1][i]))
+            if found is not None:
+                yield *own, (float(found[0][i]), float(found[1][i]))
+            elif curve.stopped:
+                yield *own, _stopped(*own, curve.steps, (float(curve.low[i]), float(curve.high[i])))
+            else:
+                yield *own, lost
         return
     reach = Reach(block)
     for i, own in enumerate(swept):
-        yield *own, reach.range_of(i) or (_stopped(*own, reach) if reach.stopped else lost)
+        yield (
+            *own,
+            reach.range_of(i) or (_stopped(*own, reach.steps, reach.seen) if reach.stopped else lost),
+        )
 
 
-def _stopped(link: Link, freedom: int, reach: Reach) -> str:
+def _stopped(link: Link, freedom: int, steps: int, seen: tuple[float, float]) -> str:
     """How far the search had come where it stopped."""
     unit, factor = ("degrees", math.degrees(1.0)) if freedom >= RX else ("m", 1.0)
-    low, high = (end * factor for end in link.joint.freedoms[freedom].displayed(*reach.seen))
-    return f"the search stopped after {reach.steps} steps, having come from {low:.6g} to {high:.6g} {unit}"
+    low, high = (end * factor for end in link.joint.freedoms[freedom].displayed(*seen))
+    return f"the search stopped after {steps} steps, having come from {low:.6g} to {high:.6g} {unit}"
 
 
 def _by_block(assembly: Assembly, links: list[Link]) -> dict[int, list[Link]]:

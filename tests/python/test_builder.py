@@ -144,6 +144,41 @@ def test_wrong_part_says_what_to_pass(change, says):
     assert not (scene.nodes or scene.meshes or scene.surfaces)
 
 
+@pytest.mark.parametrize(
+    "change", [{"name": 3}, {"density": "steel"}, {"density": True}, {"grounded": "no"}, {"flexible": 1}]
+)
+def test_a_part_takes_what_its_words_mean(change):
+    """A name is a string, a density a number, and "no" is not taken for True."""
+    scene = kinefab.Scene()
+    add = scene.add_assembly if "flexible" in change else scene.add_part
+    with pytest.raises(TypeError, match="; pass "):
+        add(**{"name": "Lid", **change})
+    assert not scene.nodes
+
+
+@pytest.mark.parametrize(
+    "kind, lead, says",
+    [("screw", 0.0, "pass lead=, metres a turn"), ("revolute", 0.002, "only a screw has one")],
+)
+def test_a_lead_is_a_screw_s(kind, lead, says):
+    """A screw without one would be a hinge with a slide that stays, and elsewhere it would mean nothing."""
+    scene = kinefab.Scene()
+    bolt = scene.add_part("Bolt")
+    with pytest.raises(ValueError, match=says):
+        scene.add_joint(kind, None, bolt, point=(0, 0, 0), axis=(0, 1, 0), lead=lead)
+    assert not scene.joints
+
+
+def test_export_takes_a_source_and_options(tmp_path):
+    """What is neither says what to pass."""
+    scene = kinefab.Scene()
+    scene.add_part("Part", Shape())
+    with pytest.raises(TypeError, match="pass kinefab.ExportOptions"):
+        kinefab.export(scene, tmp_path / "part.kinefab", {"strict": True})  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="pass a file's path, a kinefab.Scene"):
+        kinefab.export(5, tmp_path / "part.kinefab")  # type: ignore[arg-type]
+
+
 def test_a_rotation_of_four_digits_is_taken_as_the_nearest():
     """Digits typed off a page make a proper rotation; an exact one stays to the last bit."""
     scene = kinefab.Scene()
@@ -165,7 +200,11 @@ def test_a_rotation_of_four_digits_is_taken_as_the_nearest():
         ({"axis": (INF, 0, 1)}, ValueError),
         ({"limits": (None, 5)}, TypeError),
         ({"limits": ("a", "b")}, TypeError),
+        ({"limits": ("0", "10")}, TypeError),
+        ({"limits": (False, 10)}, TypeError),
         ({"limits": (-10, 80, 90)}, TypeError),
+        ({"name": 3}, TypeError),
+        ({"collide": "no"}, TypeError),
         ({"limits": (NAN, 80)}, ValueError),
     ],
 )

@@ -121,6 +121,7 @@ def test_a_coupling_counts_in_degrees_and_metres(tmp_path):
         (("Pin", "tx"), "Pin", 1.0, "which leaves rx free"),
         ("Pin", "Pin", 0.0, "nothing would follow"),
         ("Pin", "Pin", math.nan, "pass a finite number"),
+        ("Pin", "Pin", 2.0, "a and b are both rx of joint Pin; pass two"),
     ],
 )
 def test_a_wrong_coupling_says_what_to_pass(a, b, ratio, says):

@@ -9,12 +9,13 @@ import runpy
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
 import numpy as np
 import pytest
-from kinefab.model import JointKind
+from kinefab.model import Constraint, ConstraintKind, Feature, FeatureKind, JointKind
 from kinefab.spatial import matrix_from_quaternion, quaternions_from_matrices, rotation_about
 from kinefab.unity import frames
 from kinefab.unity.mapping import GROUND_ID
@@ -267,6 +268,43 @@ def test_coordinates_that_move_each_other_are_refused_together(lever):
 def test_wrong_calls_say_what_to_pass(lever, values, says):
     with pytest.raises(ValueError, match=says):
         lever.follow(values)
+
+
+@pytest.mark.parametrize(
+    ("asked", "error"),
+    [
+        ({"start": "0", "stop": 90}, TypeError),
+        ({"stop": 90, "frames": 2.5}, TypeError),
+        ({"stop": 90, "frames": 10**9}, ValueError),
+        ({"stop": 90, "frames": 1}, ValueError),
+    ],
+)
+def test_a_sweep_takes_numbers_in_bounds(lever, asked, error):
+    """Words, halves of frames and more frames than a memory holds are refused at once."""
+    with pytest.raises(error):
+        lever.sweep(lever.coordinates[0].name, **asked)
+
+
+def test_parts_that_constraints_fix_move_together_beside_a_rod():
+    """P30, a rod for which a body stands, with a part locked to the one that it holds and one that is stated to stand
+    on the ground: the mechanism of the joints keeps both."""
+    source = scene("P30")
+    nodes = [*source.nodes, *(replace(source.nodes[1], id=name, name=name) for name in ("C", "D"))]
+    at = np.zeros(3)
+    constraints = [
+        *source.constraints,
+        Constraint(
+            "lock",
+            ConstraintKind.LOCK,
+            (Feature(1, FeatureKind.POINT, at), Feature(2, FeatureKind.POINT, at)),
+        ),
+        Constraint("ground", ConstraintKind.GROUND, (Feature(3, FeatureKind.BODY, at),)),
+    ]
+    mechanism = kinefab.motion(replace(source, nodes=nodes, constraints=constraints))
+    assert mechanism.mobility == 5
+    moved = mechanism.sweep(mechanism.coordinates[0].name, 0, 30, frames=3)
+    assert np.abs(moved["B"][-1] - moved["B"][0]).max() > 0.01
+    assert np.allclose(moved["B"], moved["C"]) and np.allclose(moved["D"], moved["D"][0])
 
 
 def test_a_slide_without_limits_needs_an_end():

@@ -9,6 +9,7 @@ from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
 from .analysis.driving.mechanism import Branching, Coordinate, Mechanism, Stop, Trajectory
 from .analysis.joints.dof_records import joints_of_dof_records
+from .analysis.joints.welding import welded
 from .diagnostics import Report
 from .model import Scene
 from .rigid import rigid_groups
@@ -55,5 +56,5 @@ def mechanism_of(found: Analysis) -> Mechanism:
     Where a relation needs two joints and a body between them, the mechanism is that of the joints.
     """
     if found.nodes:
-        found = analyse(replace(found.scene(solved=True), constraints=[], dof_records=[]))
+        found = analyse(welded(found.scene(solved=True), found.fixed, found.joints, found.couplings))
     return Mechanism(found.assembly, Driven.of(found.joints, found.findings), found.scene(solved=True))

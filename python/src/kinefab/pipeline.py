@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
@@ -173,7 +173,8 @@ def export(
 
     source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
     Raises KinefabError, with every error found, when the data is wrong (or lossy, if strict) or the target
-    cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has.
+    cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has,
+    TypeError for a source or options that are none.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -188,6 +189,12 @@ def export(
     if kind is None:
         known = " or ".join(known_endings())
         raise ValueError(f"the target is {os.fspath(target)!r}; its name must end in {known}")
+    if not isinstance(cast(object, options), ExportOptions):
+        raise TypeError(f"the options are {options!r}; pass kinefab.ExportOptions(...)")
+    if not (isinstance(source, (str, Path, Scene)) or hasattr(source, "GetRootLayer")):
+        raise TypeError(
+            f"the source is {source!r}; pass a file's path, a kinefab.Scene or an open pxr.Usd.Stage"
+        )
     report = Report()
     try:
         asked = check_target(kind, options.writing, report)

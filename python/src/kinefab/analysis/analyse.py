@@ -10,7 +10,7 @@ import numpy as np
 from ..collector import collector_paused
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import ConstraintKind, Coupling, Joint, JointKind, Scene, freedoms_of
+from ..model import Coupling, Joint, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
@@ -24,6 +24,7 @@ from .findings.result import Analysis, Island
 from .findings.still import report_still
 from .joints.jointing import links_of
 from .joints.links import Link, Links
+from .joints.welding import welded
 from .loops.minimal import minimal_closures
 from .loops.spanning import Tree, spanning_tree
 from .ranges.limits import found_ranges, with_found_ranges
@@ -175,16 +176,8 @@ def _idle(
     """
     if len(scene.nodes) == len(assembly.scene.nodes):
         return idle_freedoms(assembly)
-    grounds = [c for c in scene.constraints if c.kind is ConstraintKind.GROUND]
-    fixed = [_weld(f"fixed:{i}", *pair, scene) for i, pair in enumerate(_fixed(assembly))]
-    joints = [*fixed, *(link.joint for link in links)]
-    exported = replace(scene, constraints=grounds, joints=joints, couplings=couplings)
-    return idle_freedoms(assemble(exported, Report()))
-
-
-def _weld(id: str, a: int | None, b: int, scene: Scene) -> Joint:
-    frame_a, frame_b = (scene.pose(node).inverse() for node in (a, b))
-    return Joint(id, JointKind.FIXED, a, b, frame_a, frame_b, freedoms_of(JointKind.FIXED))
+    joints = [link.joint for link in links]
+    return idle_freedoms(assemble(welded(scene, _fixed(assembly), joints, couplings), Report()))
 
 
 def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[Coupling]) -> list[Island]:

@@ -33,6 +33,18 @@ def checked_vector(what: str, values: Any) -> Array:
     return array
 
 
+def checked_name(what: str, name: object) -> None:
+    """Raises TypeError for what is no string."""
+    if not isinstance(name, str):
+        raise TypeError(f"{what} is {name!r}; pass a string")
+
+
+def checked_flag(what: str, value: object) -> None:
+    """Raises TypeError for what is neither True nor False; a word such as "no" would count as true."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{what} is {value!r}; pass True or False")
+
+
 def checked_mass(name: str, mass: object) -> None:
     """Raises TypeError for what is neither None nor MassProperties; a number alone would leave the inertia open."""
     if mass is not None and not isinstance(mass, MassProperties):

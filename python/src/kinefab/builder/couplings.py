@@ -19,12 +19,17 @@ def coupling_between(
     """The coupling q_b = ratio q_a + offset; ratio and offset in degrees and metres.
 
     joints: of the scene.  name: without one it is called by its kind and ``number``.
-    Raises ValueError for a joint that is none of them, a freedom that is locked, and a ratio of 0 or that is no number.
+    Raises ValueError for a joint that is none of them, a freedom that is locked, a coordinate with itself, and a ratio
+    of 0 or that is no number.
     """
     (joint_a, freedom_a), (joint_b, freedom_b) = _coordinate(joints, "a", a), _coordinate(joints, "b", b)
     factor, shift = checked_number("the ratio", ratio), checked_number("the offset", offset)
     if factor == 0.0:
         raise ValueError("the ratio is 0; nothing would follow. Pass how far b moves for one of a")
+    if (joint_a.id, freedom_a) == (joint_b.id, freedom_b):
+        raise ValueError(
+            f"a and b are both {FREEDOM_NAMES[freedom_a]} of joint {joint_a.id}; pass two coordinates"
+        )
     turns = [freedom >= RX for freedom in (freedom_a, freedom_b)]
     unit_a, unit_b = (math.radians(1.0) if turn else 1.0 for turn in turns)
     kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR

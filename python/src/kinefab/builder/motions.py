@@ -125,9 +125,10 @@ def _freedom(name: str, asked: Any) -> Freedom:
 def _limited(freedom: Freedom, name: str, limits: Any) -> Freedom:
     """limits: (lower, upper), degrees or metres; an end may be infinite."""
     try:
-        if isinstance(limits, str):
+        lower, upper = limits
+        if any(isinstance(end, (str, bool)) for end in (lower, upper)):
             raise TypeError
-        lower, upper = (float(end) for end in limits)
+        lower, upper = float(lower), float(upper)
     except (TypeError, ValueError):
         raise TypeError(f"limits are {limits!r}; pass two numbers, (lower, upper), or None") from None
     if not lower <= upper:

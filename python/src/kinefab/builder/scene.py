@@ -25,7 +25,16 @@ from ..model import (
 )
 from ..options import ColliderShape
 from ..spatial import Pose, frame_from_axes
-from .arguments import Vector, checked_color, checked_mass, checked_number, checked_pose, checked_vector
+from .arguments import (
+    Vector,
+    checked_color,
+    checked_flag,
+    checked_mass,
+    checked_name,
+    checked_number,
+    checked_pose,
+    checked_vector,
+)
 from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .materials import colliders_of, materials_of
@@ -99,8 +108,11 @@ class Scene(model.Scene):
         >>> scene.add_part("Bar", trimesh.creation.box((0.4, 0.02, 0.03)), rotation=("XYZ", (30, 0, 90)), density=2700)
         0
         """
-        if density is not None and not 0.0 < density < math.inf:
-            raise ValueError(f"the density of {name} is {density}; it must be a number above zero")
+        weighs = f"the density of {name}"
+        if density is not None and not 0.0 < checked_number(weighs, density, infinite=True) < math.inf:
+            raise ValueError(f"{weighs} is {density}; it must be a number above zero")
+        checked_name("the name", name)
+        checked_flag(f"grounded of {name}", grounded)
         checked_mass(name, mass)
         shapes = [] if mesh is None else shapes_of(name, mesh, unit)
         looks, touch = materials_of(name, material)
@@ -114,7 +126,7 @@ class Scene(model.Scene):
             translation,
             rotation,
             mass=mass,
-            grounded=grounded,
+            grounded=bool(grounded),
             colliders=own,
             collision=shape,
         )
@@ -158,6 +170,8 @@ class Scene(model.Scene):
         >>> scene.nodes[scene.add_part("Finger", parent=gripper)].id
         'Gripper/Finger'
         """
+        checked_name("the name", name)
+        checked_flag(f"flexible of {name}", flexible)
         return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
 
     def _add_node(
@@ -225,7 +239,7 @@ class Scene(model.Scene):
         (locked), or a model ``Freedom``, whose angles are radians.
         Raises TypeError for a side that is no index, ValueError for one that no node of this scene has, for an axis without
         length, for a number that is not finite (but for the ends of a range), for a freedom that the kind does not leave,
-        and for a part joined to itself.
+        for a screw without a lead, and for a part joined to itself.
 
         >>> scene = kinefab.Scene()
         >>> bolt = scene.add_part("Bolt")
@@ -245,7 +259,9 @@ class Scene(model.Scene):
                 f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
             )
         near = None if secondary is None else checked_vector("the secondary axis", secondary)
-        pitch = checked_number("the lead", lead)
+        pitch = _checked_lead(kind, lead)
+        checked_name("the name", name)
+        checked_flag("collide", collide)
         asked = freedoms_asked(kind, freedoms, limits, drive, spring, damping)
         world = Pose(frame_from_axes(main, near), checked_vector("the point", point))
         frame_a, frame_b = (self.pose(side).inverse() @ world for side in (a, b))
@@ -380,3 +396,13 @@ class Scene(model.Scene):
         coupling = coupling_between(self.joints, a, b, ratio, offset, name, number)
         self.couplings.append(coupling)
         return coupling
+
+
+def _checked_lead(kind: JointKind, lead: Any) -> float:
+    """A screw's travel, metres a turn; 0 of any other joint."""
+    pitch = checked_number("the lead", lead)
+    if kind is JointKind.SCREW and pitch == 0.0:
+        raise ValueError("a screw moves by its lead; pass lead=, metres a turn")
+    if kind is not JointKind.SCREW and pitch != 0.0:
+        raise ValueError(f"the lead of a {kind.value} joint is {lead}; only a screw has one")
+    return pitch

@@ -18,6 +18,9 @@ from .run import Run, shares, straight
 from .trajectory import Branching, Coordinate, Stop, Trajectory
 from .way import Way
 
+MOST_FRAMES = 1_000_000
+"""Of a sweep: beyond, a slip of the keyboard would fill the memory."""
+
 
 class Mechanism:
     """What an analysis found, to be driven.  Every motion starts from the exported pose.
@@ -97,8 +100,9 @@ class Mechanism:
         """Move one coordinate evenly from ``start`` to ``stop``, the others following or staying.
 
         start, stop: degrees or metres as the source shows them; without them the joint's limits, or a whole turn from
-        where it stands.  frames: at least 2.
-        Raises ValueError for a name that is none, a number that is not finite, and a slide without limits and stop.
+        where it stands.  frames: at least 2, at most a million.
+        Raises ValueError for a name that is none, a number that is not finite, and a slide without limits and stop,
+        TypeError for what is no number.
 
         >>> scene = kinefab.Scene()
         >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
@@ -106,12 +110,13 @@ class Mechanism:
         [0.0, 55.0, 110.0]
         """
         coordinate = self.coordinate(name)
+        _check_numbers(start, stop, frames)
         if stop is None:
             start, stop = self._whole(coordinate, start)
         elif start is None:
             start = coordinate.value
-        if frames < 2:
-            raise ValueError(f"a sweep has at least 2 frames, not {frames}")
+        if not 2 <= frames <= MOST_FRAMES:
+            raise ValueError(f"a sweep has at least 2 frames and at most {MOST_FRAMES}, not {frames}")
         return self.follow({coordinate.name: np.linspace(start, stop, frames)})
 
     def follow(self, values: Mapping[str, Sequence[float] | Array]) -> Trajectory:
@@ -370,3 +375,12 @@ def _shown(joint: Joint, freedom: int, value: Array | float):
     if freedom < RX:
         return value
     return np.degrees(value + 2.0 * math.pi * joint.freedoms[freedom].turns)
+
+
+def _check_numbers(start: object, stop: object, frames: object) -> None:
+    """Of a sweep.  Raises TypeError."""
+    if isinstance(frames, bool) or not isinstance(frames, (int, np.integer)):
+        raise TypeError(f"frames is {frames!r}; pass a whole number")
+    for what, value in (("start", start), ("stop", stop)):
+        if not (value is None or isinstance(value, (int, float, np.integer, np.floating))):
+            raise TypeError(f"{what} is {value!r}; pass a number")

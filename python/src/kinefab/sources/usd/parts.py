@@ -118,7 +118,7 @@ class Parts:
             group = self._groups.get(piece.path, "")
             made = self._colliders.of(piece, at, fit, pushed, material, group)
             colliders += made
-            kind = values.traits(piece.prim).kind
+            kind = piece.seen.traits.kind
             solid = values.word(piece.prim, "physics:approximation", "none") if kind == "Mesh" else ""
             weighed += [
                 Weighed(c, piece.prim, piece.world, density, kind if kind in ROUND else solid) for c in made
@@ -143,14 +143,14 @@ class Parts:
             self._report.dropped(feature, "USD_SCALE_ZERO", where)
             return None
         stretch = fit.stretch
-        shared = self.library.shared(piece.prim, stretch.bake)
+        shared = self.library.shared(piece, stretch.bake)
         if shared is None:
             return None
         if stretch.bake is not None:
             self._report.kept(feature, where, "USD_SHEAR_BAKED" if stretch.sheared else "USD_MIRROR_BAKED")
         colored = self.library.meshes[shared.mesh].colors is not None
         return Body(
-            title(piece.prim) if "[" not in piece.id else piece.id.rpartition("/")[2],
+            shared.title if "[" not in piece.id else piece.id.rpartition("/")[2],
             shared.mesh,
             self.looks.of(piece, shared.subsets, shared.uv_names, colored),
             pose=fit.pose,

@@ -10,13 +10,12 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array
-from .api import Usd, UsdGeom
 from .instancer import instances
+from .prims import Prims, Seen
 from .stage import OpenStage
-from .transforms import IDENTITY, Local, local_of, placed
-from .values import Traits, Values
+from .transforms import placed
+from .values import Values
 
-PREDICATE = Usd.TraverseInstanceProxies()
 MAX_PRIMS = 5_000_000
 """Most prims that are looked at: a small file may multiply itself by nested instances."""
 LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderProduct RenderVar".split())
@@ -32,7 +31,7 @@ class Piece:
     visible: whether it and all above it are shown.  purpose: default, render, proxy or guide.
     dressed: it, or a prim above, states a material or colours."""
 
-    prim: Any
+    seen: Seen
     path: str
     id: str
     world: Array
@@ -40,6 +39,11 @@ class Piece:
     purpose: str
     collides: bool
     dressed: bool
+
+    @property
+    def prim(self) -> Any:
+        """What stands at the path: of an instance's content a proxy, made anew, as most are never asked for."""
+        return self.seen.at(self.path)
 
 
 @dataclass(slots=True, eq=False)
@@ -122,9 +126,10 @@ class Found:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Context:
-    """What a prim inherits.  pending: prims above without a group yet, from the outermost.  group: number of the
+    """What a prim inherits.  path: of the prim above, "" for the root.  pending: prims above without a group yet, from the outermost.  group: number of the
     innermost group that exists.  dressed: see ``Piece``; of a prototype's copies always, as its own place is elsewhere."""
 
+    path: str
     world: Array
     pending: tuple[tuple[Any, str, Array], ...]
     group: int
@@ -138,31 +143,40 @@ class _Context:
 
 def walk(opened: OpenStage, values: Values, report: Report) -> Found:
     """Look at every prim below the root that is asked for.  Raises KinefabError when there are too many."""
-    found = Found()
+    found, prims = Found(), Prims(values)
     root = opened.root
     above, dressed = np.eye(4), False
     for prim in reversed(list(_ancestors(root))):
-        dressed |= values.traits(prim).dressed
-        above = placed(above, sound_local(prim, values))
-    start = _Context(above, (), -1, -1, True, "default", dressed, "")
-    chosen = [root] if not root.IsPseudoRoot() else list(root.GetFilteredChildren(PREDICATE))
-    pending = [(prim, start) for prim in reversed(chosen)]
+        seen = prims.seen(prim)
+        dressed |= seen.traits.dressed
+        seen.tell(str(prim.GetPath()), values)
+        above = placed(above, seen.local)
+    path = "" if root.IsPseudoRoot() else _path(root.GetParent())
+    start = _Context(path, above, (), -1, -1, True, "default", dressed, "")
+    seen = prims.seen(root)
+    chosen = prims.below(seen) if root.IsPseudoRoot() else (seen,)
+    pending = [(each, start) for each in reversed(chosen)]
     count = 0
     groups_of: dict[str, int] = {}
     while pending:
-        prim, context = pending.pop()
+        seen, context = pending.pop()
         count += 1
         if count > MAX_PRIMS:
             report.add("USD_TOO_MANY_PRIMS", opened.name, limit=MAX_PRIMS)
             report.raise_for_errors()
-        below = _look(prim, context, found, groups_of, opened, values, report)
+        below = _look(seen, context, found, groups_of, prims, opened, values, report)
         if below is None:
             continue
-        if values.traits(prim).kind == "PointInstancer":  # what lies below it is prototypes
-            pending += _instanced(prim, below, opened, report)
+        if seen.traits.kind == "PointInstancer":  # what lies below it is prototypes
+            pending += _instanced(seen, below, prims, opened, report)
         else:
-            pending += [(child, below) for child in reversed(prim.GetFilteredChildren(PREDICATE))]
+            pending += [(child, below) for child in reversed(prims.below(seen))]
     return found
+
+
+def _path(prim: Any) -> str:
+    """Of a prim, "" for the root of all."""
+    return "" if prim.IsPseudoRoot() else str(prim.GetPath())
 
 
 def _ancestors(prim: Any) -> Iterator[Any]:
@@ -172,61 +186,58 @@ def _ancestors(prim: Any) -> Iterator[Any]:
 
 
 def _look(
-    prim: Any,
+    seen: Seen,
     context: _Context,
     found: Found,
     groups_of: dict[str, int],
+    prims: Prims,
     opened: OpenStage,
     values: Values,
     report: Report,
 ) -> _Context | None:
     """Note what a prim is; what its children inherit, or None where nothing below matters."""
-    traits = values.traits(prim)
-    kind, applied = traits.kind, traits.schemas
+    traits = seen.traits
+    kind, applied, ranks = traits.kind, traits.schemas, traits.ranks
     if kind in LOOKS or kind in SKIPPED:
         return None
-    ranks = traits.ranks
+    path = f"{context.path}/{seen.name}"
     if "Scene" in ranks:
-        found.scenes.append(prim)
+        found.scenes.append(seen.at(path))
         return None
     if "CollisionGroup" in ranks:
-        found.collision_groups.append(prim)
+        found.collision_groups.append(seen.at(path))
         return None
     if "PhysicsFilteredPairsAPI" in applied:
-        found.filtered.append(prim)
+        found.filtered.append(seen.at(path))
     if "PhysicsArticulationRootAPI" in applied:
-        found.articulations.append(prim)
+        found.articulations.append(seen.at(path))
+    # An instance of a PointInstancer has an id of its own beside the prototype's path.
+    own = f"{context.id}/{seen.name}" if context.id else path[1:]
     if "Joint" in ranks or kind.endswith("Joint") or "PhysicsJoint" in kind:
-        name = str(prim.GetName())
-        ident = f"{context.id}/{name}" if context.id else str(prim.GetPath())[1:]
-        found.joints.append(JointPrim(prim, ident, context.copies))
-        return context
+        found.joints.append(JointPrim(seen.at(path), own, context.copies))
+        return replace(context, path=path)
     if kind in LIGHTS:
         report.dropped(
-            f"light {prim.GetPath()}",
-            "USD_FEATURE_DROPPED",
-            opened.place(prim),
-            detail="lights are not carried over",
+            f"light {path}", "USD_FEATURE_DROPPED", opened.place(path), detail="lights are not carried over"
         )
         return None
     if kind.startswith(("Mjc", "Newton", "Physx")):
-        found.vendor.append(prim)
+        found.vendor.append(seen.at(path))
         return None
-    local = sound_local(prim, values)
-    world = placed(context.world, local)
-    # An instance of a PointInstancer has an id of its own beside the prototype's path.
-    path = str(prim.GetPath())
-    own = f"{context.id}/{prim.GetName()}" if context.id else path[1:]
+    seen.tell(path, values)
+    world = placed(context.world, seen.local)
     found.worlds.setdefault(path, world)
     if context.id:
         found.worlds[f"/{own}"] = world
-    if local.moves:
-        found.animated[path] = prim
-    visible, purpose = _shown(prim, traits, context)
+    if seen.local.moves:
+        found.animated[path] = seen.at(path)
+    visible = context.visible and not seen.hidden
+    purpose = context.purpose if seen.purpose is None else seen.purpose
     dressed = context.dressed or traits.dressed
     part, pending, group = context.part, context.pending, context.group
     collides = "PhysicsCollisionAPI" in applied
     if "PhysicsRigidBodyAPI" in applied and "Xformable" in ranks:
+        prim = seen.at(path)
         enabled = values.flag(prim, "physics:rigidBodyEnabled", True)
         group, pending = _outer_group(context, found, groups_of), ()
         found.parts.append(Part(prim, path, own, world, group, True, enabled, visible))
@@ -238,47 +249,22 @@ def _look(
     if "Gprim" in ranks:
         if part < 0:
             outer = _outer_group(context, found, groups_of)
-            found.parts.append(Part(prim, path, own, world, outer, False, True, visible))
+            found.parts.append(Part(seen.at(path), path, own, world, outer, False, True, visible))
         holder = found.parts[part]  # the last, if it is no body's
-        holder.pieces.append(Piece(prim, path, own, world, visible, purpose, collides, dressed))
+        holder.pieces.append(Piece(seen, path, own, world, visible, purpose, collides, dressed))
     elif collides and kind != "PointInstancer":
         report.dropped(
-            f"collider {path}", "USD_FEATURE_DROPPED", opened.place(prim),
+            f"collider {path}", "USD_FEATURE_DROPPED", opened.place(path),
             detail="a CollisionAPI stands on a prim without geometry of its own",
         )  # fmt: skip
     if "Gprim" not in ranks:
         if part < 0:
-            pending = (*pending, (prim, own, world))
+            pending = (*pending, (seen.at(path), own, world))
         elif part == context.part and "Xformable" in ranks and kind != "PointInstancer":
-            if not prim.GetFilteredChildren(PREDICATE):
-                found.parts[part].sites.append((prim, world))
+            if not prims.below(seen):
+                found.parts[part].sites.append((seen.at(path), world))
     ident = own if context.id else ""
-    return _Context(world, pending, group, part, visible, purpose, dressed, ident, context.copies)
-
-
-def sound_local(prim: Any, values: Values) -> Local:
-    """A prim's own transform; what is wrong with it is told, and it does not count."""
-    if "xformOpOrder" not in values.traits(prim).names:
-        return IDENTITY
-    local = local_of(prim)
-    if local.mistyped:
-        values.wrong(prim, local.mistyped, prim.GetAttribute(local.mistyped).Get())
-    if local is not IDENTITY and not np.isfinite(local.matrix).all():
-        values.wrong(prim, "xformOpOrder", "a transform that is not finite")
-        return Local(np.eye(4), local.resets, local.moves)
-    return local
-
-
-def _shown(prim: Any, traits: Traits, context: _Context) -> tuple[bool, str]:
-    """Whether it and all above it are shown, and the purpose it has or inherits."""
-    visible, purpose = context.visible, context.purpose
-    if "visibility" in traits.names and (imageable := UsdGeom.Imageable(prim)):
-        visible = visible and imageable.GetVisibilityAttr().Get() != "invisible"
-    if "purpose" in traits.names and (imageable := UsdGeom.Imageable(prim)):
-        attribute = imageable.GetPurposeAttr()
-        if attribute.HasAuthoredValue():
-            purpose = str(attribute.Get())
-    return visible, purpose
+    return _Context(path, world, pending, group, part, visible, purpose, dressed, ident, context.copies)
 
 
 def _outer_group(context: _Context, found: Found, groups_of: dict[str, int]) -> int:
@@ -292,15 +278,22 @@ def _outer_group(context: _Context, found: Found, groups_of: dict[str, int]) -> 
     return group
 
 
-def _instanced(prim: Any, context: _Context, opened: OpenStage, report: Report) -> list[tuple[Any, _Context]]:
+def _instanced(
+    seen: Seen, context: _Context, prims: Prims, opened: OpenStage, report: Report
+) -> list[tuple[Seen, _Context]]:
     """The prototypes of a PointInstancer, once for each of its instances, last first."""
-    copies: list[tuple[Any, _Context]] = []
+    copies: list[tuple[Seen, _Context]] = []
+    prim = seen.at(context.path)
     for number, prototype, placing in instances(prim, opened, report):
         world = context.world @ placing
-        own = f"{context.id or str(prim.GetPath())[1:]}[{number}]"
-        copy = Copy(str(prototype.GetPath()), f"/{own}/{prototype.GetName()}")
-        below = replace(context, world=world, dressed=True, id=own, copies=(*context.copies, copy))
-        copies.append((prototype, below))
+        own = f"{context.id or context.path[1:]}[{number}]"
+        copied = prims.shared(prototype)
+        copy = Copy(str(prototype.GetPath()), f"/{own}/{copied.name}")
+        above = _path(prototype.GetParent())
+        below = replace(
+            context, path=above, world=world, dressed=True, id=own, copies=(*context.copies, copy)
+        )
+        copies.append((copied, below))
     return copies[::-1]
 
 
@@ -311,3 +304,19 @@ def body_above(path: str, found: Found) -> int:
             return part
         path = path.rpartition("/")[0]
     return -1
+
+
+def world_of(path: Any, found: Found, opened: OpenStage, values: Values) -> Array:
+    """The matrix of what stands at an Sdf path, also of what was not walked over."""
+    known = found.worlds.get(str(path))
+    if known is not None:
+        return known
+    if path.isEmpty or path.IsAbsoluteRootPath():
+        return np.eye(4)
+    prim = opened.stage.GetPrimAtPath(path)
+    above = world_of(path.GetParentPath(), found, opened, values)
+    if not prim:
+        return above
+    seen = Prims(values).seen(prim)
+    seen.tell(str(path), values)
+    return placed(above, seen.local)

@@ -12,8 +12,10 @@ import numpy as np
 from ....diagnostics import Report
 from ....model import Mesh
 from ....spatial import Array
+from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values, title
+from ..walk import Piece
 from . import gprims
 from .meshes import Polygons, read_mesh
 
@@ -22,9 +24,11 @@ SHAPES = frozenset("Sphere Cube Capsule Capsule_1 Cylinder Cylinder_1 Cone Plane
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shared:
-    """mesh: index into the scene's meshes.  subsets: prims whose materials the submeshes have, None for the mesh's own."""
+    """mesh: index into the scene's meshes.  title: the prim's name as a user sees it.
+    subsets: prims whose materials the submeshes have, None for the mesh's own."""
 
     mesh: int
+    title: str
     subsets: tuple[Any, ...]
     uv_names: tuple[str, ...]
 
@@ -45,15 +49,15 @@ class Library:
         default_factory=dict[tuple[object, ...], list[int]]
     )
 
-    def shared(self, prim: Any, bake: Array | None = None) -> Shared | None:
+    def shared(self, piece: Piece, bake: Array | None = None) -> Shared | None:
         """The mesh of a gprim, None where it has none (the report says why).
 
         bake: linear map of the vertices in the prim's axes, shape (3, 3), a mirror or a shear.
         """
-        source = source_path(prim)
+        source = piece.seen.source
         key = (source, b"" if bake is None else np.round(bake, 9).tobytes())
         if key not in self._by_source:
-            self._by_source[key] = self._made(prim, source, bake)
+            self._by_source[key] = self._made(piece.prim, source, bake)
         return self._by_source[key]
 
     def _made(self, prim: Any, source: str, bake: Array | None) -> Shared | None:
@@ -63,11 +67,12 @@ class Library:
             polygons = self._polygons[source]
         if polygons is None:
             return None
-        index = self._added(title(prim), polygons, bake)
+        name = title(prim)
+        index = self._added(name, polygons, bake)
         mesh, origin = self.meshes[index], _origin(prim)
         if not mesh.origin or origin < mesh.origin:  # of prims alike, whichever is read first
             self.meshes[index] = replace(mesh, origin=origin)
-        return Shared(index, polygons.subsets, polygons.uv_names)
+        return Shared(index, name, polygons.subsets, polygons.uv_names)
 
     def _added(self, name: str, p: Polygons, bake: Array | None) -> int:
         frame = self.opened.frame
@@ -106,13 +111,6 @@ class Library:
             )  # fmt: skip
             self._polygons[source] = None
         return None
-
-
-def source_path(prim: Any) -> str:
-    """The path that all instances of a prim share."""
-    if prim.IsInstanceProxy():
-        return str(prim.GetPrimInPrototype().GetPath())
-    return str(prim.GetPath())
 
 
 def _origin(prim: Any) -> str:

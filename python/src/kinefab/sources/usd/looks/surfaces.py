@@ -10,10 +10,10 @@ from typing import Any, TypeVar
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
+from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values, shown, title
 from ..walk import Piece
-from .library import source_path
 from .textures import Sampler, read_sampler
 
 T = TypeVar("T")

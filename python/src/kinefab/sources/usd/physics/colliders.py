@@ -40,7 +40,7 @@ class Colliders:
         """fit: of the piece as its part sees it, None for a flat one.  dynamic: the body moves, so that a mesh must be
         convex."""
         prim = piece.prim
-        kind = self._values.traits(prim).kind
+        kind = piece.seen.traits.kind
         where = self._opened.place(piece.path)
         if fit is None:
             self._report.dropped(f"collider {piece.path}", "USD_SCALE_ZERO", where)
@@ -50,7 +50,7 @@ class Colliders:
             ColliderKind.BOX,
             name=piece.id,
             material=material,
-            trigger="PhysxTriggerAPI" in self._values.traits(prim).schemas,
+            trigger="PhysxTriggerAPI" in piece.seen.traits.schemas,
             enabled=self._values.flag(prim, "physics:collisionEnabled", True),
             group=group,
             where=where,
@@ -60,7 +60,7 @@ class Colliders:
         if kind == "Points":
             return self._points(piece, common, stand, stretch)
         if stretch.sheared or kind in ("Cone", "Capsule_1", "Cylinder_1"):
-            return self._hull(prim, common, fit)
+            return self._hull(piece, common, fit)
         found = self._shape(kind, prim, common, at, stretch)
         if found is None:
             self._dropped(prim, f"a {kind or 'prim without type'} has no shape")
@@ -142,15 +142,15 @@ class Colliders:
             return np.ones(count)
         return np.abs(np.broadcast_to(found, (count,)))
 
-    def _hull(self, prim: Any, common: Collider, fit: Fit) -> list[Collider]:
-        shared = self._library.shared(prim, fit.stretch.bake)
+    def _hull(self, piece: Piece, common: Collider, fit: Fit) -> list[Collider]:
+        shared = self._library.shared(piece, fit.stretch.bake)
         if shared is None:
             return []
         return [replace(common, kind=ColliderKind.HULL, pose=fit.pose, mesh=shared.mesh, scale=fit.scale)]
 
     def _mesh(self, piece: Piece, common: Collider, fit: Fit, dynamic: bool) -> list[Collider]:
         prim, at, scale = piece.prim, fit.pose, fit.scale
-        shared = self._library.shared(prim, fit.stretch.bake)
+        shared = self._library.shared(piece, fit.stretch.bake)
         if shared is None:
             return []
         wanted = self._values.word(prim, "physics:approximation", "none")

@@ -27,11 +27,11 @@ from ....model import (
     unlocked_of,
 )
 from ....spatial import Array, Pose, rotation_about, rotation_exp, rotation_log
-from ..api import Sdf, UsdPhysics
+from ..api import UsdPhysics
 from ..stage import OpenStage
-from ..transforms import Stand, placed, rotation_of
+from ..transforms import Stand, rotation_of
 from ..values import Values, schemas, title
-from ..walk import Found, JointPrim, body_above, sound_local
+from ..walk import Found, JointPrim, body_above, world_of
 from .freedoms import DOFS, Freedoms, turned_round
 from .vendor import passive_of
 
@@ -200,7 +200,7 @@ class Joints:
         meant = entry.meant(str(path))
         world = self._found.worlds.get(meant)
         if world is None:
-            world = self._world_of(path)
+            world = world_of(path, self._found, self._opened, self._values)
         part = body_above(meant, self._found)
         if (
             meant == str(path)
@@ -211,16 +211,6 @@ class Joints:
             self._approximated(entry, detail)
         node = GROUND if part < 0 else self._nodes[part]
         return Side(node, rotation_of(world[:3, :3]) @ rotation, world[:3, :3] @ position + world[:3, 3])
-
-    def _world_of(self, path: Any) -> Array:
-        known = self._found.worlds.get(str(path))
-        if known is not None:
-            return known
-        if path == Sdf.Path.absoluteRootPath or path.isEmpty:
-            return np.eye(4)
-        prim = self._opened.stage.GetPrimAtPath(path)
-        above = self._world_of(path.GetParentPath())
-        return placed(above, sound_local(prim, self._values)) if prim else above
 
     def _met(self, entry: JointPrim, first: Side, second: Side) -> Side:
         """The first side of a fixed joint, put on the second: Unity's fixed joint holds the bodies as it finds them."""

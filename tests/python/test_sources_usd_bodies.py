@@ -265,6 +265,20 @@ def test_an_inertia_without_principal_axes_is_along_the_prims_own(tmp_path, up, 
     assert node.mass.inertia == pytest.approx(np.diag(moments))
 
 
+def test_bodies_that_state_the_same_mass_share_it_and_each_wrong_one_is_told(tmp_path):
+    """Also one whose mass is true, which Python takes for 1."""
+    one, odd = ("float physics:mass = 1", "bool physics:mass = 1")
+    rest = "; point3f physics:centerOfMass = (0, 0, 0); float3 physics:diagonalInertia = (1, 1, 1)"
+    scene, _ = scene_of(tmp_path, stage(body("A", mass=one + rest) + body("B", (1, 0, 0), mass=one + rest)))
+    assert scene is not None and scene.nodes[0].mass is scene.nodes[1].mass
+    both = body("A", mass=one + rest) + body("B", mass=odd + rest) + body("C", mass=odd + rest)
+    _, report = scene_of(tmp_path, stage(both))
+    assert [d.where for d in report.diagnostics if d.code == "USD_VALUE_IMPOSSIBLE"] == [
+        "stage.usda</B.physics:mass>",
+        "stage.usda</C.physics:mass>",
+    ]
+
+
 def test_the_fastest_turn_of_a_body_is_kept(tmp_path):
     """PhysX's degrees a second; Unity's own is 7 rad/s."""
     scene, _ = scene_of(tmp_path, stage(body("B", inside="float physxRigidBody:maxAngularVelocity = 1800")))

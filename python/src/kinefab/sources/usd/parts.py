@@ -17,8 +17,9 @@ from .looks.surfaces import Surfaces
 from .physics.colliders import Colliders
 from .physics.held import held_parts
 from .physics.mass import ROUND, Weighed, body_mass
+from .physics.stated import MassApis
 from .stage import OpenStage
-from .transforms import Fit, Stand, fits, rotation_of, stands
+from .transforms import HOME, Fit, Stand, fits, rotation_of, stands
 from .values import Traits, Values, title
 from .walk import Found, Part, Piece
 
@@ -55,6 +56,7 @@ class Parts:
         self.library = Library(opened, values, report)
         self.looks = Surfaces(opened, values, report)
         self._colliders = Colliders(opened, values, self.library, report)
+        self._masses = MassApis(opened, values, report)
         self._materials: dict[str, tuple[PhysicsMaterial | None, float]] = {}
         self._bound: dict[str, Any] = {}
         self._usual: dict[tuple[Traits, bool], Dynamics] = {}
@@ -77,8 +79,13 @@ class Parts:
                 )
             )  # fmt: skip
         self._resolve()
-        pieces = [(piece.world, i) for i, part in zip(self.nodes, found.parts) for piece in part.pieces]
-        fitting = iter(fits(np.array([world for world, _ in pieces]), [self.stands[i] for _, i in pieces]))
+        pieces = [
+            (piece.world, self.stands[i])
+            for i, part in zip(self.nodes, found.parts)
+            for piece in part.pieces
+            if not self._at_home(piece, part, self.stands[i])
+        ]
+        fitting = iter(fits(np.array([world for world, _ in pieces]), [at for _, at in pieces]))
         for number, part in enumerate(found.parts):
             at, pose = standing[self.nodes[number]]
             nodes.append(self._node(number, part, at, pose, fitting))
@@ -96,11 +103,15 @@ class Parts:
             for path, material in zip(colliding, materials):
                 self._bound[path] = material.GetPrim() if material else None
 
+    @staticmethod
+    def _at_home(piece: Piece, part: Part, at: Stand) -> bool:
+        return at.rigid and piece.world is part.world
+
     def _drawn(self, piece: Piece) -> bool:
         return piece.purpose in self._purposes
 
     def _node(self, number: int, part: Part, at: Stand, pose: Pose, fitting: Iterator[Fit | None]) -> Node:
-        """fitting: of all pieces from this part's first one on."""
+        """fitting: of all pieces that are not at home, from this part's first one on."""
         opened, values, prim = self._opened, self._values, part.prim
         moves = part.body and part.enabled
         kinematic = moves and values.flag(prim, "physics:kinematicEnabled", False)
@@ -109,7 +120,7 @@ class Parts:
         colliders: list[Collider] = []
         weighed: list[Weighed] = []
         for piece in part.pieces:
-            fit = next(fitting)
+            fit = HOME if self._at_home(piece, part, at) else next(fitting)
             if self._drawn(piece) and (body := self._body(piece, fit)) is not None:
                 bodies.append(body)
             if not piece.collides:
@@ -125,7 +136,8 @@ class Parts:
             ]
         mass = None
         if moves:
-            mass = body_mass(prim, part.world, at, weighed, self.library.meshes, values, opened, self._report)
+            meshes, apis = self.library.meshes, self._masses
+            mass = body_mass(prim, part.world, at, weighed, meshes, apis, values, opened, self._report)
         return Node(
             part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
             bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),

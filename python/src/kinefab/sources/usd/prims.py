@@ -53,7 +53,7 @@ class Prims:
 
     def __init__(self, values: Values):
         self._values = values
-        self._shared: dict[str, Seen] = {}
+        self._shared: dict[Any, Seen] = {}
 
     def seen(self, prim: Any) -> Seen:
         traits = self._values.traits(prim)
@@ -69,10 +69,10 @@ class Prims:
 
     def shared(self, prim: Any) -> Seen:
         """As ``seen``, of what stands in many places."""
-        path = str(prim.GetPath())
-        if path not in self._shared:
-            self._shared[path] = self.seen(prim)
-        return self._shared[path]
+        found = self._shared.get(prim)
+        if found is None:
+            found = self._shared[prim] = self.seen(prim)
+        return found
 
     def below(self, seen: Seen) -> tuple[Seen, ...]:
         """A prim's children, those of an instance in its prototype."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...spatial import Array, Pose
+from ...spatial import Array, BoolArray, Pose
 from ..reading.source_frame import SourceFrame
 from .api import Gf, Usd, UsdGeom, Vt
 from .stage import matrix
@@ -35,13 +35,14 @@ def rotation_of(linear: Array) -> Array:
     return left @ right * np.sign(np.linalg.det(left) * np.linalg.det(right))
 
 
-def rotations_of(linears: Array) -> Array:
-    """As ``rotation_of`` of each, shape (n, 3, 3); those that are rotations already in one stack."""
+def rotations_of(linears: Array) -> tuple[Array, BoolArray]:
+    """As ``rotation_of`` of each, shape (n, 3, 3), and which are rotations already, shape (n,); these in one stack."""
     off = np.abs(linears.transpose(0, 2, 1) @ linears - np.eye(3)).max(axis=(1, 2), initial=0.0)
+    rigid = (off <= EXACT) & (np.linalg.det(linears) > 0.0)
     found = linears.copy()
-    for i in np.flatnonzero(~((off <= EXACT) & (np.linalg.det(linears) > 0.0))).tolist():
+    for i in np.flatnonzero(~rigid).tolist():
         found[i] = rotation_of(linears[i])
-    return found
+    return found, rigid
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,6 +101,10 @@ class Fit:
     scale: tuple[float, float, float]
 
 
+HOME = Fit(Stretch(np.eye(3), np.ones(3), None, False), Pose(), (1.0, 1.0, 1.0))
+"""Of what stands as its node does."""
+
+
 def fits(worlds: Array, stands: Sequence[Stand]) -> list[Fit | None]:
     """Of prims by their matrices, shape (n, 4, 4), each in its node's frame; None where it is flat."""
     if not stands:
@@ -147,6 +152,8 @@ _TYPES: dict[str, Any] = {
 """Of the values of operations on all three axes; of those on one, they are numbers."""
 
 IDENTITY = Local(np.eye(4), False)
+WHOLE = "xformOp:transform"
+"""The operation that is a matrix by itself."""
 
 
 def local_of(prim: Any, time: Any = None) -> Local:
@@ -158,6 +165,10 @@ def local_of(prim: Any, time: Any = None) -> Local:
     order = stated.Get()
     if not isinstance(order, Vt.TokenArray):
         return Local(np.eye(4), False, mistyped="xformOpOrder") if stated.HasAuthoredValue() else IDENTITY
+    if time is None and len(order) == 1 and order[0] == WHOLE:  # as most of many parts have it
+        attribute = prim.GetAttribute(WHOLE)
+        if isinstance(value := attribute.Get(), Gf.Matrix4d):
+            return Local(matrix(value) + 0.0, False, attribute.ValueMightBeTimeVarying())
     ops = xform.GetOrderedXformOps()
     attributes = [op.GetAttr() for op in ops]  # an inverse operation has that of the one that it undoes
     asked = Usd.TimeCode.Default() if time is None else time
@@ -187,11 +198,13 @@ class Stand:
     """A rigid frame of the source: of a node, or the world's.
 
     rotation, origin: in the source's world and units, shapes (3, 3) and (3,).
+    rigid: whether the prim's matrix is known to be no more than that.
     """
 
     rotation: Array
     origin: Array
     frame: SourceFrame
+    rigid: bool = False
 
     @property
     def pose(self) -> Pose:
@@ -222,9 +235,10 @@ def stand(world: Array, frame: SourceFrame) -> Stand:
 
 def stands(worlds: Array, frame: SourceFrame) -> list[tuple[Stand, Pose]]:
     """As ``stand`` of each, shape (n, 4, 4), with its pose."""
-    rotations, origins = rotations_of(worlds[:, :3, :3]), worlds[:, :3, 3].copy()
+    rotations, rigid = rotations_of(worlds[:, :3, :3])
+    origins = worlds[:, :3, 3].copy()
     turned, moved = frame.turn @ rotations @ frame.turn.T, origins @ frame.turn.T * frame.length
     return [
-        (Stand(rotation, origin, frame), Pose(r, t))
-        for rotation, origin, r, t in zip(rotations, origins, turned, moved)
+        (Stand(rotation, origin, frame, plain), Pose(r, t))
+        for rotation, origin, plain, r, t in zip(rotations, origins, rigid.tolist(), turned, moved)
     ]

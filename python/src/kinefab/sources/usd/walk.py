@@ -124,7 +124,7 @@ class Found:
     animated: dict[str, Any] = field(default_factory=dict[str, Any])
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class _Context:
     """What a prim inherits.  path: of the prim above, "" for the root.  pending: prims above without a group yet, from the outermost.  group: number of the
     innermost group that exists.  dressed: see ``Piece``; of a prototype's copies always, as its own place is elsewhere."""

@@ -1,11 +1,10 @@
-"""MassAPI of bodies and colliders, as ``UsdPhysics.RigidBodyAPI.ComputeMassProperties`` adds it up.
+"""Masses of bodies and colliders, as ``UsdPhysics.RigidBodyAPI.ComputeMassProperties`` adds it up.
 
 Precedence: mass before density; a collider's own before the body's, before its material's, before 1000 kg/m^3.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -20,10 +19,10 @@ from ....model import Collider, ColliderKind, MassProperties, Mesh
 from ....spatial import Array, Pose
 from ..looks.gprims import axis_turn
 from ..stage import OpenStage
-from ..transforms import EXACT, Stand, rotation_of
+from ..transforms import Stand
 from ..values import Values, identity
+from .stated import MassApis, Stated
 
-UNIT = np.eye(3)
 WATER = 1000.0
 """kg/m^3 of what states nothing."""
 POINT = 0.1
@@ -42,29 +41,15 @@ class Weighed:
     solid: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Stated:
-    """What a MassAPI says, SI; None for nothing.  axes: of the principal frame in the prim's, scene axes."""
-
-    mass: float | None = None
-    density: float | None = None
-    center: Array | None = None
-    moments: Array | None = None
-    axes: Array | None = None
-
-
 def body_mass(
-    prim: Any, world: Array, stand: Stand, solids: Sequence[Weighed], meshes: Sequence[Mesh], values: Values, opened: OpenStage, report: Report
+    prim: Any, world: Array, stand: Stand, solids: Sequence[Weighed], meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage, report: Report
 ) -> MassProperties:  # fmt: skip
     """Mass of a body, kg; centre and inertia in its node's frame."""
-    stated = _stated(prim, world, values, opened, stand.rotation)
+    stated = apis.of(prim, world, stand)
+    if stated.whole is not None:
+        return stated.whole
     counted = [s for s in solids if s.collider.enabled]
-    if stated.mass is not None and stated.center is not None and stated.moments is not None:
-        axes = (
-            opened.frame.turn if stated.axes is None else stated.axes
-        )  # without principal axes the prim's own
-        return MassProperties(stated.mass, stated.center, (axes * stated.moments) @ axes.T)
-    parts = [_solid(s, stated.density, meshes, values, opened, report) for s in counted]
+    parts = [_solid(s, stated.density, meshes, apis, values, opened) for s in counted]
     parts = [p for p in parts if p is not None and p.mass > 0.0]
     if not parts:
         return _without_solids(prim, stated, opened, report)
@@ -81,7 +66,7 @@ def body_mass(
     return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
 
 
-def _without_solids(prim: Any, stated: _Stated, opened: OpenStage, report: Report) -> MassProperties:
+def _without_solids(prim: Any, stated: Stated, opened: OpenStage, report: Report) -> MassProperties:
     mass = opened.frame.mass if stated.mass is None else stated.mass
     if stated.mass is None or stated.moments is None:
         what = "mass and inertia" if stated.mass is None else "inertia"
@@ -95,56 +80,8 @@ def _without_solids(prim: Any, stated: _Stated, opened: OpenStage, report: Repor
     return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
 
 
-def _stated(
-    prim: Any, world: Array, values: Values, opened: OpenStage, rotation: Array | None = None
-) -> _Stated:
-    """rotation: of the prim's matrix ``world``, where it is known."""
-    if "PhysicsMassAPI" not in values.traits(prim).schemas:
-        return _Stated()
-    frame = opened.frame
-    mass = values.number(prim, "physics:mass", 0.0)
-    density = values.number(prim, "physics:density", 0.0)
-    moments = values.vector(prim, "physics:diagonalInertia", (0.0, 0.0, 0.0))
-    least, *_, largest = sorted(moments.tolist())
-    for name, found in (
-        ("physics:mass", mass),
-        ("physics:density", density),
-        ("physics:diagonalInertia", least),
-    ):
-        if found < 0.0:
-            values.wrong(prim, name, f"{found:g}")
-    center = None
-    raw = values.array(prim, "physics:centerOfMass")
-    if raw is not None and len(raw) == 3 and all(map(math.isfinite, raw.tolist())):
-        # In the prim's own space, its scale too.
-        linear = world[:3, :3]
-        scale = (rotation_of(linear) if rotation is None else rotation).T @ linear
-        if np.abs(scale - UNIT).max() > EXACT:  # else copies of a part differ in their last digits
-            raw = scale @ raw
-        center = frame.turn @ raw * frame.length
-    elif raw is not None and (len(raw) != 3 or np.isnan(raw).any()):
-        values.wrong(prim, "physics:centerOfMass", raw)
-    axes = values.rotation(prim, "physics:principalAxes")
-    inertia = None
-    if largest > 0.0:  # pxr takes what is below 1e-5 for unset, which small bodies in metres are
-        inertia = moments * frame.mass * frame.length**2
-    tensor = values.array(prim, "newton:inertia")
-    if tensor is not None and len(tensor) == 6 and np.isfinite(tensor).all():
-        xx, yy, zz, xy, xz, yz = (float(v) for v in tensor)
-        inertia, axes = principal(
-            np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * frame.mass * frame.length**2
-        )
-    return _Stated(
-        mass * frame.mass if mass > 0.0 else None,
-        density * frame.mass / frame.length**3 if density > 0.0 else None,
-        center,
-        inertia,
-        None if axes is None else frame.turn @ axes,
-    )
-
-
 def _solid(
-    solid: Weighed, body_density: float | None, meshes: Sequence[Mesh], values: Values, opened: OpenStage, report: Report
+    solid: Weighed, body_density: float | None, meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage
 ) -> MassProperties | None:  # fmt: skip
     """Of one collider in the node's frame; None where it has no volume."""
     if solid.solid in ROUND:
@@ -154,7 +91,7 @@ def _solid(
     if unit is None:
         return None
     frame = opened.frame
-    stated = _stated(solid.prim, solid.world, values, opened)
+    stated = apis.of(solid.prim, solid.world)
     material = solid.density * frame.mass / frame.length**3
     density = stated.density or body_density or material or WATER
     if stated.mass is not None:

@@ -24,7 +24,7 @@ from ..diagnostics import KinefabError, Report
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
 from ..unity.counting import with_led_joints_on_light_bodies
-from ..unity.scene import Component, Coupling, GameObject, Joint, Mesh, UnityScene
+from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
@@ -113,7 +113,7 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
         "couplings": [_coupling(coupling) for coupling in scene.couplings],
         "animations": [entry(clip) for clip in scene.animations],
         "constraints": [entry(constraint) for constraint in scene.constraints],
-        "analysis": None if scene.analysis is None else entry(scene.analysis),
+        "analysis": None if scene.analysis is None else _analysis(scene.analysis),
         "report": report_entries(report),
         "extras": dict(scene.extras),
     }
@@ -132,6 +132,21 @@ def _game_objects(objects: Iterable[GameObject]) -> list[dict[str, Any]]:
         return known[own]
 
     return [entry(game_object, component) for game_object in objects]
+
+
+def _analysis(found: Mobility) -> dict[str, Any]:
+    """Bodies that are free alike share the lists of their vectors."""
+    known: dict[object, dict[str, Any]] = {}
+
+    def item(own: Any) -> dict[str, Any]:
+        if not isinstance(own, BodyFreedom):
+            return entry(own)
+        freedom = (own.directions, own.axes)
+        if freedom not in known:
+            known[freedom] = entry(own)
+        return known[freedom] | {"gameObject": own.gameObject}
+
+    return entry(found, item)
 
 
 def _coupling(coupling: Coupling) -> dict[str, Any]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from ..spatial import Array
 from . import frames
-from .scene import BodyFreedom, ClosureGap, Island, Mobility
+from .scene import BodyFreedom, ClosureGap, Island, Mobility, Vector3
 from .scene.vectors import vectors3
 
 
@@ -22,7 +23,7 @@ def map_mobility(found: Mapping[str, Any], object_of: Sequence[int]) -> Mobility
         found["idle"],
         ClosureGap(gap["position"], gap["angle"]),
         tuple(_island(island, object_of) for island in found["islands"]),
-        tuple(_body(body, object_of) for body in found["bodies"]),
+        _bodies(found["bodies"], object_of),
     )
 
 
@@ -32,7 +33,21 @@ def _island(found: Mapping[str, Any], object_of: Sequence[int]) -> Island:
     return Island(objects, found["mobility"], found["redundant"], found["loops"])
 
 
-def _body(found: Mapping[str, Any], object_of: Sequence[int]) -> BodyFreedom:
-    node: int = found["node"]
-    directions, axes = frames.direction(found["directions"]), frames.axial(found["axes"])
-    return BodyFreedom(object_of[node], len(directions), len(axes), vectors3(directions), vectors3(axes))
+def _bodies(found: Sequence[Mapping[str, Any]], object_of: Sequence[int]) -> tuple[BodyFreedom, ...]:
+    directions = _mapped((body["directions"] for body in found), frames.direction)
+    axes = _mapped((body["axes"] for body in found), frames.axial)
+    nodes: list[int] = [body["node"] for body in found]
+    return tuple(
+        BodyFreedom(object_of[node], len(free), len(turning), free, turning)
+        for node, free, turning in zip(nodes, directions, axes)
+    )
+
+
+def _mapped(bodies: Iterable[Array], mirrored: Callable[[Array], Array]) -> Iterator[tuple[Vector3, ...]]:
+    """Vectors of each body, shape (n, 3); bodies that are free alike, as many parts of a large scene are, share them."""
+    known: dict[bytes, tuple[Vector3, ...]] = {}
+    for vectors in bodies:
+        key = vectors.tobytes()
+        if key not in known:
+            known[key] = vectors3(mirrored(vectors))
+        yield known[key]

@@ -94,19 +94,20 @@ def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[A
             before = root[here]
             places: list[int] = part.tolist()
             mine = [pairs[i] for i in places]
+            if k == 6:  # it is all free, as its root is
+                for body, above in mine:
+                    found[body] = found[above]
+                continue
             carried = np.array([found[r] for _, r in mine])
-            if 0 < k < 6:
+            if k:
                 arm = (relative.center[here] - relative.center[before])[:, None]
                 turning = np.swapaxes(carried[:, 3:], 1, 2)
                 v = carried[:, :3] * relative.length[before, None, None] + np.swapaxes(
                     cross(turning, arm), 1, 2
                 )
                 carried = np.concatenate([v / relative.length[here, None, None], carried[:, 3:]], axis=1)
-            if k < 6:
-                carried = _moving_spans(
-                    np.concatenate([carried, np.array([own[b] for b, _ in mine])], axis=2)
-                )
-            for (body, _), twists in zip(mine, carried):
+            moving = _moving_spans(np.concatenate([carried, np.array([own[b] for b, _ in mine])], axis=2))
+            for (body, _), twists in zip(mine, moving):
                 found[body] = twists
     return found
 

@@ -70,9 +70,8 @@ def twist_spaces(
     for k, group in alike(basis.shape[1] for basis in bases):
         members: list[int] = group.tolist()
         if k == 6:  # whatever the basis, everything: along and about every axis of every point
-            found |= {
-                i: TwistSpace(origins[i], axes.T, axes.T, np.zeros((3, 3)), origins[i]) for i in members
-            }
+            every, still = axes.T, np.zeros((3, 3))
+            found |= {i: TwistSpace(origins[i], every, every, still, origins[i]) for i in members}
             continue
         basis = np.array([bases[i] for i in members]).reshape(len(group), 6, k)
         u, s, vt = np.linalg.svd(basis[:, 3:], full_matrices=True)

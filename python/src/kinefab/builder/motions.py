@@ -41,6 +41,16 @@ def kind_of_word(kind: Any) -> JointKind:
         raise ValueError(f"the kind is {kind!r}; pass one of: {words}") from None
 
 
+def checked_lead(kind: JointKind, lead: Any) -> float:
+    """A screw's travel, metres a turn; 0 of any other joint."""
+    pitch = checked_number("the lead", lead)
+    if kind is JointKind.SCREW and pitch == 0.0:
+        raise ValueError("a screw moves by its lead; pass lead=, metres a turn")
+    if kind is not JointKind.SCREW and pitch != 0.0:
+        raise ValueError(f"the lead of a {kind.value} joint is {lead}; only a screw has one")
+    return pitch
+
+
 def freedoms_asked(
     kind: JointKind,
     stated: Mapping[str, Any],

@@ -38,7 +38,7 @@ from .arguments import (
 from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .materials import colliders_of, materials_of
-from .motions import FreedomLike, Range, freedoms_asked, kind_of_word
+from .motions import FreedomLike, Range, checked_lead, freedoms_asked, kind_of_word
 from .shapes import shapes_of
 
 _numbers = itertools.count()
@@ -259,7 +259,7 @@ class Scene(model.Scene):
                 f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
             )
         near = None if secondary is None else checked_vector("the secondary axis", secondary)
-        pitch = _checked_lead(kind, lead)
+        pitch = checked_lead(kind, lead)
         checked_name("the name", name)
         checked_flag("collide", collide)
         asked = freedoms_asked(kind, freedoms, limits, drive, spring, damping)
@@ -396,13 +396,3 @@ class Scene(model.Scene):
         coupling = coupling_between(self.joints, a, b, ratio, offset, name, number)
         self.couplings.append(coupling)
         return coupling
-
-
-def _checked_lead(kind: JointKind, lead: Any) -> float:
-    """A screw's travel, metres a turn; 0 of any other joint."""
-    pitch = checked_number("the lead", lead)
-    if kind is JointKind.SCREW and pitch == 0.0:
-        raise ValueError("a screw moves by its lead; pass lead=, metres a turn")
-    if kind is not JointKind.SCREW and pitch != 0.0:
-        raise ValueError(f"the lead of a {kind.value} joint is {lead}; only a screw has one")
-    return pitch

@@ -31,6 +31,7 @@ REFUSED = {
     "bomb": ("XML_ENTITY", 1, BOMB),
     "external entity": ("XML_ENTITY", 1, OUTSIDE),
     "deep": ("XML_TOO_LARGE", 1, "<mujoco >" + "<body>" * 200 + "</body>" * 200 + "</mujoco>"),
+    "a weight beyond all": ("MJCF_REFUSED", None, world(BODY.replace("size", "mass='1e308' size"))),
     "unknown element": ("MJCF_REFUSED", 3, world("<bodi/>")),
     "unknown default": ("MJCF_REFUSED", 3, world("<body><geom size='.1' class='x'/></body>")),
     "negative mass": ("MJCF_REFUSED", 3, world(BODY.replace("size", "mass='-1' size"))),
@@ -201,3 +202,21 @@ def test_a_long_licence_hides_no_model(tmp_path):
     path = tmp_path / "m.xml"
     path.write_text("<!-- " + "all rights " * 900 + "-->\n" + world(BODY), encoding="utf-8")
     assert [joint.id for joint in read(path, Report()).joints] == ["j"]
+
+
+@pytest.mark.parametrize("encoding", ["iso-8859-1", "utf-16"])
+def test_other_encodings_than_mujocos_are_refused_at_their_line(tmp_path, encoding):
+    """MuJoCo takes every file for UTF-8; what stands in a comment is no matter."""
+    path = tmp_path / "m.xml"
+    text = f"<?xml version='1.0' encoding='{encoding}'?>\n<!-- \u00e4\n-->" + world(BODY)
+    named = text.replace("name='a'", "name='\u00e4'", 1)
+    assert named != text
+    path.write_bytes(named.encode(encoding))
+    with pytest.raises(KinefabError) as raised:
+        read(path, Report())
+    (found,) = raised.value.diagnostics
+    line = 1 if encoding == "utf-16" else 3 + named.partition("-->")[2].partition("\u00e4")[0].count("\n")
+    assert (found.code, found.where) == ("MJCF_REFUSED", f"m.xml:{line}") and "UTF-8" in found.message
+    if encoding != "utf-16":
+        path.write_bytes(text.encode(encoding))
+        assert read(path, Report()).nodes

@@ -495,16 +495,31 @@ def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
     ]
 
 
-def test_a_mimic_that_is_off_at_the_pose_is_told(tmp_path):
+def test_a_mimic_that_is_off_at_the_pose_keeps_its_offset_and_is_told(tmp_path):
+    """The stated pose is where Gazebo and Drake begin, and the law is the file's; once told, and ``--solve`` meets both."""
     inner = (
         link("a") + link("b") + link("c") + joint("j", "revolute", "a", "b", TURN)
         + joint("k", "revolute", "a", "c", "<axis><xyz>0 0 1</xyz><mimic joint='j'><multiplier>2</multiplier><offset>.3</offset><reference>.1</reference></mimic></axis>")
     )  # fmt: skip
-    report = Report()
-    scene = read(written(tmp_path, model(inner)), report)
-    (coupling,) = scene.couplings
+    path = written(tmp_path, model(inner))
+    (coupling,) = read(path, Report()).couplings
     assert coupling.offset == pytest.approx(0.1) and coupling.terms[0].ratio == 2.0
-    assert "COUPLING_GAP" in [d.code for d in report.diagnostics]
+    result = kinefab.export(path, tmp_path / "m.kinefab")
+    gaps = [d for d in result.report.diagnostics if d.code.endswith("_GAP")]
+    assert [(d.code, d.where) for d in gaps] == [("CONSTRAINT_GAP", coupling.where)]
+    assert kinefab.motion(result.path).follow({"j": [0.0]})["k"][0] == pytest.approx(math.degrees(0.1))
+    solved = kinefab.export(path, tmp_path / "s.kinefab", kinefab.ExportOptions(solve=True)).path
+    (entry,) = json.loads(solved.read_text("utf-8"))["couplings"]
+    assert "offset" not in entry
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "iso-8859-1"])
+def test_the_encoding_that_a_file_states_is_its_own(tmp_path, encoding):
+    path = written(tmp_path, "")
+    declared = encoding.removesuffix("-sig").removesuffix("-le")
+    text = f"<?xml version='1.0' encoding='{declared}'?>" + model(link("\u00e4").replace("><", ">\r\n<"))
+    path.write_bytes(text.encode(encoding))
+    assert read(path, Report()).nodes[-1].name == "\u00e4"
 
 
 def test_no_mutation_of_a_file_is_a_traceback(tmp_path, fuzz_count):

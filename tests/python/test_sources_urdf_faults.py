@@ -228,6 +228,24 @@ def test_a_xacro_that_fails_says_why(tmp_path):
     assert "undefined_thing" in refused.value.diagnostics[0].message
 
 
+def test_macros_that_call_each_other_twice_and_twice_again_are_ended(tmp_path):
+    """2^40 links are asked for."""
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    path = tmp_path / "r.xacro"
+    macros = "".join(
+        f"<xacro:macro name='m{i}'><xacro:m{i + 1}/><xacro:m{i + 1}/></xacro:macro>" for i in range(40)
+    )
+    path.write_text(
+        f"<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>{macros}"
+        "<xacro:macro name='m40'><link name='x'/></xacro:macro><xacro:m0/></robot>",
+        encoding="utf-8",
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "XACRO_FAILED" and "more than" in found.message
+
+
 def mutated(text: str, chance: random.Random) -> bytes:
     """The text with a few bytes, words or lines changed, doubled, cut or exchanged."""
     data = bytearray(text.encode("utf-8"))

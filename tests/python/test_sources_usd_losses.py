@@ -32,6 +32,14 @@ def test_a_stage_that_cannot_be_read_is_refused(code, tmp_path):
     assert all(d.where for d in report.diagnostics)
 
 
+@pytest.mark.parametrize("metres", ["1e-320", "1e300"])
+def test_units_at_the_ends_of_what_floats_hold_are_none(tmp_path, metres):
+    text = stage(body("B")).replace("metersPerUnit = 1", f"metersPerUnit = {metres}")
+    assert metres in text
+    scene, report = scene_of(tmp_path, text)
+    assert scene is None and codes(report) == {"USD_UNIT_IMPOSSIBLE"}
+
+
 def test_time_codes_that_take_no_time_are_refused(tmp_path):
     """In a sublayer or above one pxr counts their samples without end."""
     more = "timeCodesPerSecond = 0"

@@ -116,7 +116,7 @@ def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
     sizes = np.linalg.norm(high - low, axis=1)
     far = np.linalg.norm(np.maximum(np.maximum(low - centers, centers - high), 0.0), axis=1)
     reach = np.linalg.norm(np.maximum(abs(low - centers), abs(high - centers)), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):  # parts without size
+    with np.errstate(all="ignore"):  # parts without size, masses at the ends of what floats hold
         away = far / sizes
         wide = moments / (masses * reach * reach)
         dense = masses / np.maximum(high - low, 1e-3 * sizes[:, None]).prod(axis=1)

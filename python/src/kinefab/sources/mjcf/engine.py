@@ -17,6 +17,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array, Pose
+from ..reading.record import MAX_NUMBER
 from ..robots.packages import Found, Packages
 from ..robots.rigid_links import unique
 from .files import Files
@@ -147,10 +148,10 @@ class _Library:
             "geom_size site_pos site_quat eq_data key_qpos dof_damping dof_armature mesh_vert"
         )
         for name in arrays.split():
-            if not np.isfinite(getattr(model, name)).all():
-                self.report.add(
-                    "MJCF_REFUSED", self.files.path.name, detail=f"{name} holds numbers that are not finite"
-                )
+            values = np.asarray(getattr(model, name))
+            if not np.isfinite(values).all() or np.abs(values).max(initial=0.0) > MAX_NUMBER:
+                detail = f"{name} holds numbers that are not finite, or beyond {MAX_NUMBER:g}"
+                self.report.add("MJCF_REFUSED", self.files.path.name, detail=detail)
         self.report.raise_for_errors()
 
     # What is not there .................................................................................................

@@ -116,7 +116,8 @@ def _include(
 
 
 def _parsed(data: bytes, name: str, report: Report) -> Element:
-    """MuJoCo's parser minds neither a blank that is missing between attributes nor ``--`` in a comment."""
+    """MuJoCo's parser minds neither a blank that is missing between attributes nor ``--`` in a comment, and takes every
+    file for UTF-8 whatever it declares."""
     tried = Report()
     try:
         root = parse_xml(data, name, tried)
@@ -130,6 +131,15 @@ def _parsed(data: bytes, name: str, report: Report) -> Element:
         except KinefabError:
             report.extend(tried)
             raise error from None
+    text = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
+    try:
+        text.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = text.count(b"\n", 0, error.start) + 1
+        report.add(
+            "MJCF_REFUSED", f"{name}:{line}", detail="the file is no UTF-8, and MuJoCo reads nothing else."
+        )
+        report.raise_for_errors()
     for element in _walk(root):
         element.report = report
     return root

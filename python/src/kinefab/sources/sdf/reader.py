@@ -13,6 +13,7 @@ from ...diagnostics import Report
 from ...model import Physics, Scene, Source
 from ..reading.file import read_bytes
 from ..reading.request import Request
+from ..reading.xml_text import root_name
 from ..robots.packages import Packages
 from ..robots.robot_frame import direction
 from ..robots.xml_elements import Element, parse_xml
@@ -23,7 +24,7 @@ from .scopes import Scope
 
 def sniff(head: bytes) -> bool:
     """Whether the first bytes are XML's: ``.world`` is also the ending of programs that write otherwise."""
-    return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<")
+    return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<") or root_name(head) == "sdf"
 
 
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:

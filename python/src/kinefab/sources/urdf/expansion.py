@@ -14,6 +14,9 @@ from ...diagnostics import Report
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element, parse_xml
 
+MOST_CALLS = 20_000
+"""Of macros in one file: a few that call each other twice are soon more than any machine ends."""
+
 
 def is_xacro(path: Path) -> bool:
     return path.suffix.lower() == ".xacro"
@@ -61,6 +64,7 @@ def _expand(path: Path, packages: Packages, mappings: dict[str, str]) -> bytes:
     library: Any = import_module("xacro")
     with (
         _finding(import_module("xacro.substitution_args"), packages),
+        _counting(library),
         contextlib.redirect_stderr(io.StringIO()),
     ):
         document = library.process_file(str(path), mappings=mappings)
@@ -81,3 +85,22 @@ def _finding(substitution: Any, packages: Packages) -> Generator[None, None, Non
         yield
     finally:
         substitution._eval_find = before
+
+
+@contextlib.contextmanager
+def _counting(library: Any) -> Generator[None, None, None]:
+    """Ends an expansion that calls macros without end."""
+    before, calls = library.handle_macro_call, 0
+
+    def call(*arguments: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        if calls > MOST_CALLS:
+            raise ValueError(f"it calls macros more than {MOST_CALLS} times")
+        return before(*arguments)
+
+    library.handle_macro_call = call
+    try:
+        yield
+    finally:
+        library.handle_macro_call = before

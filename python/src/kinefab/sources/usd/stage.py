@@ -15,6 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import SourceFile
 from ..reading.file import MAX_BYTES, read_bytes
+from ..reading.record import MAX_NUMBER
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, SourceFrame, turn_to_scene
 from .api import Sdf, Tf, Usd, UsdGeom, UsdPhysics
@@ -136,7 +137,7 @@ def _units(stage: Any, name: str, report: Report) -> tuple[SourceFrame, str]:
     metres = UsdGeom.GetStageMetersPerUnit(stage)
     kilograms = UsdPhysics.GetStageKilogramsPerUnit(stage)
     for key, value in (("metersPerUnit", metres), ("kilogramsPerUnit", kilograms)):
-        if not (math.isfinite(value) and value > 0.0):
+        if not 1.0 / MAX_NUMBER <= value <= MAX_NUMBER:
             report.add("USD_UNIT_IMPOSSIBLE", name, field=key, value=f"{value:g}")
     up = str(UsdGeom.GetStageUpAxis(stage))
     if up not in FORWARD:

@@ -14,9 +14,11 @@ export DOTNET_NOLOGO := 1
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
 
-extras: # libraries of single formats, so that their tests run; where the index has none of them, those are skips
+# Where the index has none of them, their tests are skips.
+extras: setup ## libraries of single formats: STEP, IGES, FreeCAD's shapes, MuJoCo, S3
 	@[ -f .venv/extras.stamp ] || { [ -x .venv/bin/pip ] && .venv/bin/pip install --quiet --disable-pip-version-check \
-		--retries 1 --timeout 15 -e 'python[dev,dev-s3,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || true
+		--retries 1 --timeout 15 -e 'python[dev,dev-s3,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || \
+		echo "extras: not installed, the Python index does not have them; what needs them says so" >&2
 
 # A package that pip installs is compiled by pip; a checkout would be compiled by every call where Python writes no bytecode.
 setup: ## .venv with everything Python needs

@@ -28,6 +28,7 @@ FEW = (
     "vice",
     "gears",
     "turntable",
+    "idler",
     "turrets",
     "folding_chair",
     "gimbal",

@@ -23,6 +23,8 @@ THIN = 0.6
 WIDE = 2.0
 """How many times its bore's radius a washer is wide, at most; more often on a bolt: beyond, a disc or a wheel turns so."""
 WIDE_ON_BOLT = 3.5  # ISO 7094's extra large ones reach 3.3
+THIN_AND_WIDE = 0.4
+"""The same share for those that are wide; ISO 7094's reach 0.36, where a roller on a bolt is thicker."""
 NUT = 2.5
 """How far a nut's sides are from its axis, in radii of its bore, at most; ISO 4032's M3 with the bore at the core has 2.2."""
 PRESSED = 0.01
@@ -109,7 +111,11 @@ def fasteners(parts: Parts) -> set[int]:
         if form is not None
         and (
             parts.is_fastener(part)
-            or (_is_thin(form) and not form.sides and form.radius <= WIDE_ON_BOLT * form.bore)
+            or (
+                _is_thin(form)
+                and not form.sides
+                and (form.radius <= WIDE * form.bore or _is_wide_washer(form))
+            )
         )
     }
 
@@ -146,6 +152,10 @@ def _is_thin(form: Turned) -> bool:
     return bool(form.bore) and form.length <= THIN * 2.0 * form.bore
 
 
+def _is_wide_washer(form: Turned) -> bool:
+    return form.radius <= WIDE_ON_BOLT * form.bore and form.length <= THIN_AND_WIDE * 2.0 * form.bore
+
+
 def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
     for part, form in enumerate(parts.turned):
         if form is None or not _is_thin(form) or form.sides:
@@ -154,8 +164,8 @@ def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> No
         if not round_it or any(c.inner == part for c in fits.get(part, ())):
             continue
         contact = _by_gap(round_it)[0]
-        widest = WIDE_ON_BOLT if parts.named[part] or parts.is_fastener(contact.inner) else WIDE
-        if form.radius <= widest * form.bore:
+        on_bolt = parts.named[part] or parts.is_fastener(contact.inner)
+        if form.radius <= WIDE * form.bore or (on_bolt and _is_wide_washer(form)):
             bodies.fix(part, contact.inner, "washer", 0.8, (contact,))
 
 

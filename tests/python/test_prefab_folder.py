@@ -100,6 +100,30 @@ def test_their_folder_keeps_its_guid(tmp_path):
     assert "00000001" in (tmp_path / "Robot.meta").read_text()
 
 
+def test_their_prefab_keeps_its_guid(tmp_path):
+    """Its content is what the user asked to replace; scenes refer to it by its meta."""
+    meta = "fileFormatVersion: 2\nguid: 00000000000000000000000000000001\n"
+    (tmp_path / "Robot.prefab").write_text("theirs")
+    (tmp_path / "Robot.prefab.meta").write_text(meta)
+    for _ in range(2):
+        kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
+        assert (tmp_path / "Robot.prefab.meta").read_text() == meta
+        assert (tmp_path / "Robot.prefab").read_text().startswith("%YAML")
+
+
+@pytest.mark.posix
+def test_a_link_of_theirs_in_place_of_an_asset_folder_is_told_and_kept(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "a.txt").write_text("theirs")
+    (tmp_path / "Robot").mkdir()
+    (tmp_path / "Robot" / "Meshes").symlink_to("../elsewhere")
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
+    assert [d.code for d in caught.value.diagnostics] == ["TARGET_FILE_FOREIGN"]
+    assert os.readlink(tmp_path / "Robot" / "Meshes") == "../elsewhere"
+    assert files(tmp_path) == {"elsewhere/a.txt": b"theirs"}
+
+
 @pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
 def test_the_same_scene_gives_the_same_bytes(tmp_path, suffix):
     found = []

@@ -58,8 +58,9 @@ def _refuse_foreign(
             twin = there.get(path.casefold())
             if twin is not None and twin not in ours:
                 in_the_way.append(parent / twin)
-        if file.content is None and (parent / file.path).exists() and not (parent / file.path).is_dir():
-            in_the_way.append(parent / file.path)
+        place = parent / file.path
+        if file.content is None and (place.is_symlink() or (place.exists() and not place.is_dir())):
+            in_the_way.append(place)
     if in_the_way:
         raise KinefabError([report.add("TARGET_FILE_FOREIGN", path=path) for path in in_the_way])
 
@@ -82,11 +83,9 @@ def _write_all(
     (staging / folder.name).mkdir()
     for i, file in enumerate(files):
         path = staging / file.path
+        meta = meta_of(file.path)
         if file.content is None:
             path.mkdir(exist_ok=True)
-            meta = meta_of(file.path)
-            if meta not in ours and _other_content(parent / meta, file.meta):
-                continue  # their folder, or Unity's meta of it, before we came: it keeps its guid
         else:
             with open(path, "xb") as out:
                 for piece in file.content():
@@ -94,11 +93,13 @@ def _write_all(
                 out.flush()
                 os.fsync(out.fileno())
             written.add(file.path)
-        with open(staging / meta_of(file.path), "xb") as out:
+        if (file.content is None or i == 0) and meta not in ours and _other_content(parent / meta, file.meta):
+            continue  # of their folder or prefab before we came: it keeps its guid, by which others refer to it
+        with open(staging / meta, "xb") as out:
             out.write(file.meta.encode("utf-8"))
             out.flush()
             os.fsync(out.fileno())
-        written.add(meta_of(file.path))
+        written.add(meta)
         progress((i + 1) / len(files))
     return frozenset([*written, f"{folder.name}/{MANIFEST}"])
 

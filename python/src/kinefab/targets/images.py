@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Any
 
 from ..geometry.references import read_regular
 from ..model import Texture
@@ -23,6 +24,8 @@ MAGIC = (
 """How images begin, and the endings of their files; a Targa has no such beginning."""
 MOST_BYTES = 256 * 2**20
 """Of one image."""
+MOST_PIXELS = 16384 * 16384
+"""Of one image: what Unity and others show at most."""
 
 
 class ImageError(Exception):
@@ -63,7 +66,7 @@ def _demand_whole(data: bytes, ending: str) -> None:
     if ending == ".png" and b"IEND" not in data[-32:]:
         raise ImageError("it breaks off")
     try:
-        from PIL import Image as Pillow
+        Pillow = pillow()
     except ImportError:
         return
     if ending in (".png", ".jpg", ".bmp", ".gif"):
@@ -72,6 +75,14 @@ def _demand_whole(data: bytes, ending: str) -> None:
                 image.load()
         except Exception as error:  # Pillow raises OSError, SyntaxError, struct.error ... by the format
             raise ImageError(str(error) or type(error).__name__) from None
+
+
+def pillow() -> Any:
+    """The library that reads images, taking those of as many pixels as an editor does.  Raises ImportError."""
+    from PIL import Image
+
+    Image.MAX_IMAGE_PIXELS = MOST_PIXELS
+    return Image
 
 
 def jpeg_channels(data: bytes) -> int:

@@ -23,7 +23,7 @@ from .assets.materials import MATERIAL_ID, material_asset
 from .assets.meshes import MESH_ID, mesh_asset
 from .assets.physics_materials import PHYSICS_MATERIAL_ID, physics_material_asset
 from .assets.tangents import with_tangents
-from .assets.textures import TextureFile, Textures, reference, shown
+from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
@@ -145,8 +145,9 @@ class _Export:
 
     def _materials(self) -> dict[int, Plain]:
         materials, options = self.scene.materials, self.options
-        textures = Textures(self.content.report, f"the {options.pipeline.value} shader")
-        slots = [textures.wanted(material) for material in materials]
+        shader, identities = f"the {options.pipeline.value} shader", named_identities(materials)
+        textures = Textures(self.content.report, shader, twins_of(materials))
+        slots = [textures.wanted(*each) for each in zip(materials, identities)]
         references = self._textures(list(textures.files.values()))
         maps = [shown(s, references, m) for s, m in zip(slots, materials)]
 
@@ -154,7 +155,7 @@ class _Export:
             return [material_asset(materials[k], title, maps[k], options.pipeline, self.dialect)]
 
         names = [material.name for material in materials]
-        found = self._assets(MATERIALS, ".mat", MATERIAL_ID, named_identities(materials), names, made)
+        found = self._assets(MATERIALS, ".mat", MATERIAL_ID, identities, names, made)
         return dict(enumerate(found))
 
     def _textures(self, files: Sequence[TextureFile]) -> dict[str, Plain]:

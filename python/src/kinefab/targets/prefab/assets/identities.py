@@ -5,10 +5,12 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
-from ....model import Node, Scene
+from ....model import Node, Scene, Texture
 from ....unity.scene import GameObject, MeshCollider, MeshFilter, UnityScene
+from .images import content_of
 
 
 def mesh_identities(scene: UnityScene, model: Scene, origin: Callable[[int], str]) -> dict[int, str]:
@@ -97,4 +99,13 @@ def named_identities(nouns: Sequence[Any]) -> list[str]:
 
 
 def _digest(noun: Any) -> str:
-    return hashlib.md5(repr(noun).encode("utf-8", "surrogatepass"), usedforsecurity=False).hexdigest()
+    """What it holds, wherever the images of its textures lie."""
+    told = [
+        (field.name, _bare(value) if isinstance(value := getattr(noun, field.name), Texture) else value)
+        for field in fields(noun)
+    ]
+    return hashlib.md5(repr(told).encode("utf-8", "surrogatepass"), usedforsecurity=False).hexdigest()
+
+
+def _bare(texture: Texture) -> tuple[Texture, str]:
+    return replace(texture, path=None, data=None), content_of(texture)

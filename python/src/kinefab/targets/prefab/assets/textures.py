@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from ....diagnostics import Report
@@ -11,7 +12,7 @@ from ....unity.scene import Material
 from ...images import Image, ImageError
 from ..text.metas import texture_meta
 from ..text.yaml import Plain, external
-from .images import packed, read_image
+from .images import content_of, packed, read_image
 from .materials import Map, Maps
 
 TEXTURE_ID = 2800000
@@ -44,25 +45,32 @@ class TextureFile:
 
 @dataclass(slots=True)
 class Textures:
-    """Collects the textures of materials; the report gets what cannot be shown.  shader: its name, for the report."""
+    """Collects the textures of materials; the report gets what cannot be shown.
+
+    shader: its name, for the report.  twins: names that different images have.
+    """
 
     report: Report
     shader: str
+    twins: Collection[str] = ()
     files: dict[str, TextureFile] = field(default_factory=dict[str, TextureFile])
 
-    def wanted(self, material: Material) -> dict[str, tuple[str, Texture]]:
-        """For each slot of ``Maps`` the identity of its file, and the texture whose place on the surface it takes."""
+    def wanted(self, material: Material, identity: str) -> dict[str, tuple[str, Texture]]:
+        """For each slot of ``Maps`` the identity of its file, and the texture whose place on the surface it takes.
+
+        identity: what the material is among all.
+        """
         found: dict[str, tuple[str, Texture]] = {}
         for slot, texture, use in (
             ("color", material.colorTexture, COLOR),
             ("normal", material.normalTexture, NORMAL),
             ("emission", material.emissionTexture if any(material.emission) else None, COLOR),
         ):
-            if texture is not None and (identity := self._plain(material, slot, texture, use)):
-                found[slot] = (identity, texture)
+            if texture is not None and (image := self._plain(material, slot, texture, use)):
+                found[slot] = (image, texture)
         rough = material.metallicRoughnessTexture or material.occlusionTexture
-        if rough is not None and (identity := self._packed(material, rough)):
-            found["packed"] = (identity, rough)
+        if rough is not None and (image := self._packed(material, identity, rough)):
+            found["packed"] = (image, rough)
         return found
 
     def _plain(self, material: Material, slot: str, texture: Texture, use: str) -> str | None:
@@ -71,18 +79,19 @@ class Textures:
         except ImageError as error:
             return self._lost(material, slot, texture, error)
         self._tell_placing(material, slot, texture)
-        identity = f"{texture.name}|{use}|{texture.wrap.value}"
+        held = f"|{content_of(texture)}" if texture.name in self.twins else ""
+        identity = f"{texture.name}{held}|{use}|{texture.wrap.value}"
         name = texture.name if use == COLOR else f"{texture.name} {use}"
         self.files.setdefault(identity, TextureFile(identity, name, use, texture.wrap, ending, texture))
         return identity
 
-    def _packed(self, material: Material, texture: Texture) -> str | None:
+    def _packed(self, material: Material, own: str, texture: Texture) -> str | None:
         try:
             ending = packed(material).ending
         except ImageError as error:
             return self._lost(material, "metallic, roughness or occlusion", texture, error)
         self._tell_placing(material, "metallic and roughness", texture)
-        identity = f"{material.name}|mask|{texture.name}|{texture.wrap.value}"
+        identity = f"{own}|mask|{texture.name}|{texture.wrap.value}"
         name = f"{material.name} mask"
         file = TextureFile(identity, name, DATA, texture.wrap, ending, texture, material)
         self.files.setdefault(identity, file)
@@ -97,6 +106,22 @@ class Textures:
         for told, is_plain in (("uv_set", texture.uv_set == 0), ("rotation", texture.rotation == 0.0)):
             if not is_plain:
                 self.report.dropped(feature, "TARGET_FIELD_DROPPED", field=told, target=self.shader)
+
+
+def twins_of(materials: Iterable[Material]) -> frozenset[str]:
+    """Names that different images have: two files of one name lie in two folders, say."""
+    sources: dict[str, set[object]] = defaultdict(set)
+    for material in materials:
+        for texture in (
+            material.colorTexture,
+            material.normalTexture,
+            material.metallicRoughnessTexture,
+            material.occlusionTexture,
+            material.emissionTexture,
+        ):
+            if texture is not None:
+                sources[texture.name].add(texture.data if texture.path is None else texture.path)
+    return frozenset(name for name, images in sources.items() if len(images) > 1)
 
 
 def shown(

@@ -1,0 +1,101 @@
+"""Images that a prefab shows: each its own file whatever it is called, and packed ones by what their pixels say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab import model
+from prefab_scenes import block, png
+from unity_yaml import documents
+
+PIXELS = {"a": (255, 0, 0, 255), "b": (0, 255, 0, 255)}
+
+
+def twins(folder: Path, order: str = "ab", names: str = "MM") -> model.Scene:
+    """Two materials, mostly of one name, with images of one name that lie in two folders."""
+    scene = model.Scene(meshes=[block("Block", (0.1, 0.1, 0.1), uvs=True)])
+    for i, own in enumerate(order):
+        (folder / own).mkdir(exist_ok=True)
+        image = png(folder / own / "tex.png", np.full((2, 2, 4), PIXELS[own], dtype=np.uint8))
+        texture = model.Texture("tex.png", image)
+        look = {"color_texture": texture, "metallic_roughness_texture": texture}
+        scene.surfaces.append(model.Surface(names["ab".index(own)], metallic=1.0, smoothness=0.0, **look))
+        scene.nodes.append(model.Node(own, own, bodies=(model.Body("b", 0, (i,)),)))
+    return scene
+
+
+def shown(prefab: Path) -> dict[str, dict[str, tuple[bytes, str]]]:
+    """Of each part the files that its material shows, by slot, with their guids."""
+    by_guid = {
+        line.removeprefix("guid: "): meta.with_suffix("")
+        for meta in prefab.parent.rglob("*.meta")
+        for line in meta.read_text("utf-8").splitlines()
+        if line.startswith("guid: ")
+    }
+    found = {d.file_id: d for d in documents(prefab.read_text("utf-8"))}
+    told: dict[str, dict[str, tuple[bytes, str]]] = {}
+    for d in (d for d in found.values() if d.kind == "MeshRenderer"):
+        owner = str(found[int(d.fields["m_GameObject"]["fileID"])].fields["m_Name"])
+        (reference,) = d.fields["m_Materials"]
+        (own,) = documents(by_guid[reference["guid"]].read_text("utf-8"))
+        slots = {
+            k: v["m_Texture"]
+            for entry in own.fields["m_SavedProperties"]["m_TexEnvs"]
+            for k, v in entry.items()
+        }
+        told[owner] = {
+            slot: (by_guid[r["guid"]].read_bytes(), r["guid"])
+            for slot, r in slots.items()
+            if r["fileID"] != "0"
+        }
+    return told
+
+
+@pytest.mark.parametrize("names", ["MM", "MN"])
+def test_images_of_one_name_are_two_files(tmp_path, names):
+    image = pytest.importorskip("PIL.Image")
+    import io
+
+    kinefab.export(twins(tmp_path, names=names), tmp_path / "Twins.prefab")
+    found = shown(tmp_path / "Twins.prefab")
+    for own in "ab":
+        assert found[own]["_MainTex"][0] == (tmp_path / own / "tex.png").read_bytes()
+        mask = image.open(io.BytesIO(found[own]["_MetallicGlossMap"][0])).getpixel((0, 0))
+        assert mask == (0, 255, 0, 255 - PIXELS[own][1])  # metallic from blue, smoothness from green
+
+
+def test_their_guids_hang_neither_on_order_nor_on_where_they_lie(tmp_path):
+    guids: list[dict[str, dict[str, str]]] = []
+    for k, order in enumerate(("ab", "ba")):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        kinefab.export(twins(folder, order), folder / "Twins.prefab")
+        found = shown(folder / "Twins.prefab")
+        guids.append({own: {slot: guid for slot, (_, guid) in slots.items()} for own, slots in found.items()})
+    assert guids[0] == guids[1] and guids[0]["a"] != guids[0]["b"]
+
+
+def test_grey_of_16_bits_is_packed_by_its_upper_half(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    values = np.array([[0, 12850], [40000, 65535]], dtype=np.uint16)
+    image.fromarray(values).save(tmp_path / "grey.png")
+    scene = twins(tmp_path, "a")
+    texture = model.Texture("grey", tmp_path / "grey.png")
+    scene.surfaces = [model.Surface("M", metallic=1.0, metallic_roughness_texture=texture)]
+    kinefab.export(scene, tmp_path / "Grey.prefab")
+    (mask,) = (tmp_path / "Grey" / "Textures").glob("*mask*.png")
+    assert np.array_equal(np.asarray(image.open(mask))[:, :, 0], np.round(values / 257.0))
+
+
+def test_an_image_of_unity_s_most_pixels_is_no_fault(tmp_path):
+    """Of as many as Pillow by itself warns of."""
+    image = pytest.importorskip("PIL.Image")
+    image.new("1", (16384, 12000)).save(tmp_path / "large.png")
+    scene = twins(tmp_path, "a")
+    scene.surfaces = [model.Surface("M", color_texture=model.Texture("large", tmp_path / "large.png"))]
+    result = kinefab.export(scene, tmp_path / "Large.prefab")
+    assert not [d for d in result.report.diagnostics if d.code == "TEXTURE_NOT_WRITTEN"]
+    assert shown(tmp_path / "Large.prefab")["a"]["_MainTex"][0] == (tmp_path / "large.png").read_bytes()

@@ -5,8 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from kinefab.diagnostics import Report
 from usd_stages import body, codes, joint, scene_of, stage
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
@@ -88,6 +90,18 @@ def test_what_is_not_kept_is_told(code, tmp_path):
     assert code in codes(report)
     (found, *_) = (d for d in report.diagnostics if d.code == code)
     assert found.where.startswith("stage.usda")
+
+
+def test_what_pxr_says_is_told_in_one_order():
+    """Its threads compose, and some of what they say comes in another order at each run."""
+    from kinefab.sources.usd.stage import tell
+
+    reports = [Report(), Report()]
+    for words, report in zip((("b", "a", "b"), ("a", "b")), reports):
+        said = [SimpleNamespace(commentary=word) for word in words]
+        heard = SimpleNamespace(TakeUncoalescedDiagnostics=said.copy)
+        tell(heard, SimpleNamespace(folder=None, name="stage.usda"), report)
+    assert len(reports[0].outcomes) == 2 and reports[0].outcomes == reports[1].outcomes
 
 
 def test_what_pxr_says_is_the_same_wherever_the_stage_lies(tmp_path):

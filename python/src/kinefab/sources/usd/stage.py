@@ -120,7 +120,8 @@ def reason(error: Exception, path: Path) -> tuple[str, str]:
 
 
 def tell(heard: Any, opened: OpenStage, report: Report) -> None:
-    """What pxr said while composing and reading (missing references, cycles, ...) as losses.  Not told by an error."""
+    """What pxr said while composing and reading (missing references, cycles, ...) as losses, by their words: its threads
+    say it in another order at each run.  Not told by an error."""
     told: set[str] = set()
     for entry in heard.TakeUncoalescedDiagnostics():
         try:
@@ -128,9 +129,10 @@ def tell(heard: Any, opened: OpenStage, report: Report) -> None:
         except UnicodeDecodeError:
             text = "what is named there holds bytes that are no UTF-8."
         text = text.replace(f"{opened.folder}{os.sep}", "")
-        if text and text not in told:
+        if text:
             told.add(text)
-            report.dropped("composition arc", "USD_COMPOSITION", opened.name, detail=text)
+    for text in sorted(told):
+        report.dropped("composition arc", "USD_COMPOSITION", opened.name, detail=text)
 
 
 def _units(stage: Any, name: str, report: Report) -> tuple[SourceFrame, str]:

@@ -17,6 +17,7 @@ from kinefab.model import FaceKind, NodeKind
 from kinefab.sources import read
 from kinefab.sources.occ.guard import GuardedCrash, GuardedError, guarded
 from kinefab.sources.step import reader
+from kinefab.sources.step.iges_unit import metres_of
 from kinefab.sources.step.part21 import Part21
 from kinefab.sources.step.records import Begun
 
@@ -139,6 +140,44 @@ def test_iges_gives_the_same_faces(tmp_path: Path):
     )
     np.testing.assert_allclose(vertices.min(axis=0), [0.0, 0.0, -0.0708], atol=1e-6)
     np.testing.assert_allclose(vertices.max(axis=0), [0.1, 0.015, 0.0], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "stated, metres",
+    [
+        ("2,2HMM", 1e-3),
+        ("²,²HMM", 0.0254),
+        ("1,4HINCH", 0.0254),
+        ("6,1HM", 1.0),
+        ("3,2HCM", 1e-2),
+        (",", 0.0254),
+    ],
+)
+def test_the_unit_of_an_iges_file_is_told(tmp_path: Path, stated: str, metres: float):
+    """Texts are counted: what parts parameters may stand in one, before the unit."""
+    fields = [
+        *",;",
+        "7Ha,b;2,c",
+        "1Hf",
+        "1Hs",
+        "1Hv",
+        "32",
+        "38",
+        "6",
+        "308",
+        "15",
+        "1Hi",
+        "1.",
+        stated,
+        "1",
+        "0.01;",
+    ]
+    text = ",".join(("1H,", "1H;", *fields[2:]))
+    rows = [text[i : i + 72].ljust(72) + f"G{i // 72 + 1:7d}" for i in range(0, len(text), 72)]
+    assert metres_of("\n".join(["start".ljust(72) + "S      1", *rows]).encode()) == metres
+    write_iges(two_plates(), tmp_path / "plates.igs")
+    scene, _ = read_whole(tmp_path / "plates.igs")
+    assert scene.source.meters_per_unit == 1e-3
 
 
 def test_a_tessellated_file_gives_its_triangles(tmp_path: Path):

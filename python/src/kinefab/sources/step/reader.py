@@ -17,6 +17,7 @@ from ..occ.triangles import Tolerance
 from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_scene
+from .iges_unit import metres_of
 from .mechanism import add_pairs
 from .part21 import Part21
 from .records import Begun, Shape, Tree
@@ -39,9 +40,10 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     """
     iges = path.suffix.lower() in (".iges", ".igs")
     data = read_bytes(path, report, MAX_BYTES)
-    length, text = MILLIMETRE, Part21(b"" if iges else data)
+    text = Part21(b"" if iges else data)
     if iges:
         _check_iges(data, path, report)
+        length = metres_of(data)
     else:
         length = _check_step(text, path, report)
     tolerance = tolerance_of(request, path, report)

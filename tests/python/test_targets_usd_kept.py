@@ -195,3 +195,13 @@ def test_collision_groups_and_pairs_are_those_of_the_source(tmp_path, extras):
     assert "tools" in ignored["arms"] and ("arms" in ignored["arms"]) is not own
     ((first, second),) = read_back.extras["ignoreCollision"]
     assert {first.rpartition("/")[2], second.rpartition("/")[2]} == {"Part_0", "Part_1"}
+
+
+def test_a_name_that_usd_cannot_show_is_told(tmp_path):
+    names = {"line\nbreak": "line_break", "\u202eback": "_back", " ": "_", "plain": None, "Größe 1": None}
+    scene = Scene(nodes=[kinefab.model.Node(f"N{i}", name) for i, name in enumerate(names)])
+    result = kinefab.export(scene, tmp_path / "a.usda")
+    told = [o.feature for o in result.report.outcomes if o.code == "TARGET_NAME_CHANGED"]
+    assert told == [f"name of N{i}" for i, changed in enumerate(names.values()) if changed]
+    messages = [d.message for d in result.report.diagnostics if d.code == "TARGET_NAME_CHANGED"]
+    assert all(changed in message for changed, message in zip(filter(None, names.values()), messages))

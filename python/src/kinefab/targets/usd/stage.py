@@ -17,7 +17,7 @@ from .bodies import Bodies, find_bodies
 from .clips import Clips
 from .looks.materials import Materials
 from .looks.textures import Textures
-from .names import sibling_names
+from .names import display_name, sibling_names
 from .physics.articulations import Edge, mark_articulations
 from .physics.couplings import write_couplings
 from .physics.filters import write_groups, write_pairs
@@ -134,6 +134,9 @@ class Stage:
                 root = prim
             self.prims.append(prim)
             prim.tell_source(node.id)
+            if display_name(node.name) != node.name != names[i]:
+                told = {"object": node.id, "name": node.name, "changed": names[i]}
+                self.content.report.approximated(f"name of {node.id}", "TARGET_NAME_CHANGED", **told)
             if not active[i]:
                 prim.deactivate()
             prim.place(scene.pose(above).inverse() @ node.pose, moves=i in clips.moving)

@@ -52,6 +52,7 @@ def told(scene, **options) -> list[tuple[str, str]]:
         (arm(mass=mass(moments=(2e4, 3e4, 2e4))), {}, "INERTIA_IMPLAUSIBLE", "likely in kg mm^2"),
         (arm(mass=mass(2000.0, moments=(20.0, 30.0, 20.0))), {}, "MASS_IMPLAUSIBLE", "likely in grams"),
         (arm(density=7.85), {}, "DENSITY_IMPLAUSIBLE", "g/cm^3, 7850 kg/m^3"),
+        (arm(density=11.34), {}, "DENSITY_IMPLAUSIBLE", "g/cm^3, 11340 kg/m^3"),
         (arm(density=7.85e-6), {}, "DENSITY_IMPLAUSIBLE", "kg/mm^3, 7850 kg/m^3"),
         (arm(density=7.85e-9), {}, "DENSITY_IMPLAUSIBLE", "t/mm^3, 7850 kg/m^3"),
         (arm(), {"density": 2.7}, "DENSITY_IMPLAUSIBLE", "g/cm^3, 2700 kg/m^3"),
@@ -77,7 +78,7 @@ def test_one_warning_names_the_likely_unit(scene, options, code, says):
     "scene",
     [
         arm(limits=(-10, 80)), arm(limits=(-90, 90)), arm(limits=(-2, 2)), arm(limits=(-5, 1)), arm(limits=(-3600, 3600)),
-        arm(density=7850.0), arm(density=30.0), arm(mass=mass()), arm((30.0, 3.0, 3.0)), arm((0.004, 0.002, 0.003)),
+        arm(density=7850.0), arm(density=15.0), arm(mass=mass()), arm((30.0, 3.0, 3.0)), arm((0.004, 0.002, 0.003)),
         arm(rx=Freedom(Motion.LIMITED, math.radians(-10.0), math.radians(80.0))),
         arm(rx=Freedom(Motion.LIMITED, -20.0 * math.pi, 20.0 * math.pi)), arm(at=(5.0, 0.0, 0.0)),
     ],

@@ -71,8 +71,8 @@ class Draft:
 
     definitions: of each name and identity that the program has for a part, what the bundle calls it.
     owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
-    may try.  meshes: of a definition, by its name.  ids: of joints and constraints, each with the number that its next namesake
-    may have.
+    may try.  meshes: of a definition, by its name.  ids: of joints and constraints, called: what definitions are, each with
+    the number that its next namesake may have.
     """
 
     program: str
@@ -93,6 +93,7 @@ class Draft:
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     ids: dict[str, int] = field(default_factory=dict[str, int])
+    called: dict[str, int] = field(default_factory=dict[str, int])
     parts: set[str] = field(default_factory=set[str])
     notes: Record = field(default_factory=dict[str, Any])
 
@@ -146,10 +147,7 @@ class Draft:
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
             raise TypeError("the name of its definition is no text")
         if (name, identity) not in self.definitions:
-            alike, number = name, 2
-            while alike in self.definitions.values():
-                alike, number = f"{name} ({number})", number + 1
-            self.definitions[name, identity] = alike
+            self.definitions[name, identity] = _numbered(name, self.called)
         return self.definitions[name, identity]
 
     def settle(self) -> None:
@@ -190,11 +188,7 @@ class Draft:
         """An id that no joint or constraint has yet."""
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] (a program may answer anything)
             raise TypeError("its name is no text")
-        found = name
-        while found in self.ids:
-            found, self.ids[name] = f"{name} ({self.ids[name]})", self.ids[name] + 1
-        self.ids[found] = 2
-        return found
+        return _numbered(name, self.ids)
 
     def values(self) -> Record:
         """The bundle as ``schemas/bundle.schema.json`` has it, without its mesh files."""
@@ -288,3 +282,15 @@ def three(values: Numbers) -> list[float]:
 def pose_of_rows(m: Numbers) -> Record:
     """Pose of a row-major 4 x 4 matrix, translation in its last column."""
     return pose(*([m[i], m[i + 4], m[i + 8]] for i in (3, 0, 1, 2)))
+
+
+def _numbered(name: str, taken: dict[str, int]) -> str:
+    """The name, or it with the first number from 2 on that makes it one of its own; taken from then on.
+
+    taken: each name with the number that its next namesake may have.
+    """
+    found = name
+    while found in taken:
+        found, taken[name] = f"{name} ({taken[name]})", taken[name] + 1
+    taken[found] = 2
+    return found

@@ -17,8 +17,8 @@ TINY = 1e-4
 """Metres: no whole assembly is that small, but one whose metres were taken for millimetres, twice, is."""
 APART = 100.0
 """Sizes of a part: nothing that belongs to a part is that far outside of it, unless the two are in different units."""
-LIGHT, HEAVY = 25.0, 25_000.0
-"""kg/m^3: solids are denser than the one, and osmium is lighter than the other."""
+LIGHT, HEAVY = 12.0, 25_000.0
+"""kg/m^3: foams are denser than the one, which is above lead in g/cm^3, and osmium is lighter than the other."""
 SPREAD = 4.0
 """Times that a moment of inertia may exceed mass times greatest distance squared: a part may lack a mesh of its load."""
 TURNS = 4.0 * math.pi

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kinefab.analysis import analyse
+from kinefab.analysis import AnalysisOptions, Closures, analyse
 from kinefab.diagnostics import Severity
 from kinefab.model import Constraint, Feature, Joint, JointKind, Node, NodeKind, Scene, Sense, freedoms_of
 from kinefab.model import ConstraintKind as C
@@ -114,6 +114,25 @@ def test_missing_side_is_an_error():
     """A constraint with one side only is refused by name."""
     bad = Constraint("bad", C.COINCIDENT, (on(0, F.POINT, (0, 0, 0)),))
     assert codes(analyse(two_parts(bad))) == ["CONSTRAINT_FEATURES_MISSING"]
+
+
+@pytest.mark.parametrize("kind", [k for k in C if k not in (C.ANGLE, C.SYMMETRY)])
+def test_a_third_side_that_a_kind_has_no_use_for_changes_nothing(kind):
+    """Such as what is left of a gear's carrier when its kind was changed."""
+    sides = on(0, F.LINE, (0, 0, 0), Z), on(1, F.LINE, (0, 0, 0), Z)
+    two = Constraint("c", kind, sides, value=0.5)
+    three = replace(two, features=(*sides, on(0, F.PLANE, (0, 0, 0), Z)))
+    assert analyse(two_parts(three)).mobility == analyse(two_parts(two)).mobility
+
+
+@pytest.mark.parametrize("closures", list(Closures))
+def test_a_rod_between_points_that_others_hold_together_is_a_contradiction(closures):
+    """It has no direction, from which no body can be made that stands for it."""
+    sides = [(on(0, F.POINT, at), on(1, F.POINT, at)) for at in ((0, 0, 0), *np.eye(3))]
+    constraints = [Constraint(f"c{i}", C.COINCIDENT, both) for i, both in enumerate(sides[1:])]
+    constraints.append(Constraint("rod", C.DISTANCE, sides[0], value=0.5))
+    found = analyse(two_parts(*constraints), AnalysisOptions(closures))
+    assert "CONSTRAINTS_CONTRADICT" in codes(found)
 
 
 def test_unknown_pairing_and_unknown_kind_are_dropped_with_a_warning():

@@ -48,7 +48,12 @@ class Context:
 def build(rows: Rows, constraint: Constraint, sides: list[Side], context: Context) -> None:
     """Add the constraint's equations.  Raises UnknownPairing when there are none for its geometry."""
     context.value = constraint.value
-    _BUILDERS[constraint.kind](rows, constraint, *sides, context=context)
+    _BUILDERS[constraint.kind](rows, constraint, *_taken(constraint, sides), context=context)
+
+
+def _taken(constraint: Constraint, sides: list[Side]) -> list[Side]:
+    """Without a third side where the kind has none: it says nothing there."""
+    return sides if constraint.kind in _WITH_A_THIRD else sides[:2]
 
 
 def stack_of(constraint: Constraint, sides: tuple[tuple[FeatureKind, bool], ...]) -> Hashable:
@@ -58,7 +63,9 @@ def stack_of(constraint: Constraint, sides: tuple[tuple[FeatureKind, bool], ...]
     """
     if constraint.kind in _BY_GEOMETRY or is_bounded(constraint):
         return None
-    if constraint.kind is ConstraintKind.DISTANCE and FeatureKind.PLANE not in (kind for kind, _ in sides):
+    if constraint.kind is ConstraintKind.DISTANCE and FeatureKind.PLANE not in (
+        kind for kind, _ in sides[:2]
+    ):
         return None  # a distance of nothing has other equations
     return constraint.kind, sides, constraint.lock_rotation, constraint.reading.get("offset")
 
@@ -66,7 +73,8 @@ def stack_of(constraint: Constraint, sides: tuple[tuple[FeatureKind, bool], ...]
 def build_stack(rows: Rows, constraints: list[Constraint], sides: list[Side], context: Context) -> None:
     """As ``build``, of constraints with one ``stack_of``; ``rows.owner`` and the sides are stacks of them."""
     context.value = np.array([c.value for c in constraints])
-    _BUILDERS[constraints[0].kind](rows, constraints[0], *sides, context=context)
+    first = constraints[0]
+    _BUILDERS[first.kind](rows, first, *_taken(first, sides), context=context)
 
 
 def _ordered(a: Side, b: Side, *order: str) -> tuple[Side, Side, tuple[str, str]]:
@@ -358,6 +366,8 @@ _BUILDERS: Mapping[ConstraintKind, Callable[..., None]] = {
     ConstraintKind.SCREW: screw,
     **dict.fromkeys(COUPLED, coupled),
 }
+
+_WITH_A_THIRD = COUPLED | {ConstraintKind.ANGLE, ConstraintKind.SYMMETRY}
 
 _BY_GEOMETRY = COUPLED | {
     ConstraintKind.ANGLE,

@@ -36,8 +36,12 @@ def middle_body(
     side_a, side_b = (system.p_a[last], a), (system.p_b[last], b if b.any() else a)
     if recipe not in _SIDED and not first_is_a:  # the same from either side
         side_a, side_b, first_is_a = side_b, side_a, True
-    on_a, on_b = recipe(*side_a, *side_b, relation.geometry)
-    return (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        on_a, on_b = recipe(*side_a, *side_b, relation.geometry)
+    near, far = (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
+    if not all(np.isfinite(c.axes).all() and np.isfinite(c.origin).all() for c in (near, far)):
+        return None  # a rod between points that other constraints hold together has no direction
+    return near, far
 
 
 def _joint(

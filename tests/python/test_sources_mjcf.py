@@ -532,3 +532,21 @@ def test_a_ball_without_range_is_fixed(tmp_path):
     scene, _ = loaded(tmp_path, inner)
     (joint,) = scene.joints
     assert joint.kind is JointKind.FIXED and analyse(scene).mobility == 0
+
+
+@pytest.mark.parametrize("turn", ["0 0 0", "0 0 180", "90 0 0", "0 90 90", "40 120 200"])
+@pytest.mark.parametrize("points", [1, 2])
+def test_an_equality_closes_its_loop_whatever_it_leaves_free(tmp_path, points, turn):
+    """Two connects are a hinge like the joints of the tree, and these carry the bodies all the same."""
+    rod = "<body name='rod' pos='-.1 .3 0'><joint name='b' axis='0 0 -1'/><geom size='.02'/></body>"
+    bodies = (
+        f"<body name='crank'><joint name='a' axis='0 0 1' range='-30 60'/><geom size='.02'/>{rod}</body>"
+        "<body name='lever' pos='-.8 0 0'><joint name='c' axis='0 0 1'/><geom size='.02'/></body>"
+    )
+    ends = "".join(f"<connect body1='rod' body2='lever' anchor='-.6 .2 {z}'/>" for z in (0.0, 0.1)[:points])
+    bodies = f"<body name='base' pos='.4 -.1 .2' euler='{turn}'><geom size='.02'/>{bodies}</body>"
+    path = model(tmp_path, bodies, tail=f"<equality>{ends}</equality>")
+    target = kinefab.export(path, tmp_path / "loop.kinefab").path
+    motion = SceneKinematics.load(target)
+    assert [tuple(j.fields["because"]) for j in motion.joints if j.closure] == [("connect",)]
+    assert scored(target, MujocoModel(path), 20, set())["wrong"] == []

@@ -205,7 +205,10 @@ def test_a_ball_has_the_cone_of_physx_and_a_rope_its_length(tmp_path):
 def test_what_is_switched_off_or_said_of_loops_and_contacts_is_kept(tmp_path):
     inside = "bool physics:jointEnabled = 0\nbool physics:collisionEnabled = 1\nuniform bool physics:excludeFromArticulation = 1"
     found, _, _ = joint_of(tmp_path, body("B") + joint("PhysicsRevoluteJoint", inside=inside))
-    assert not found.enabled and found.collide and found.extras["excludeFromArticulation"]
+    assert not found.enabled and found.collide and found.extras["excludeFromArticulation"] and found.closes
+    # What breaks is outside of an articulation too, and closes nothing.
+    inside += "\nfloat physics:breakForce = 5"
+    assert not joint_of(tmp_path, body("B") + joint("PhysicsRevoluteJoint", inside=inside))[0].closes
 
 
 def test_newton_s_and_physx_s_attributes_need_no_plug_in(tmp_path):

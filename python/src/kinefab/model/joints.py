@@ -103,6 +103,7 @@ class Joint:
     for all translations it is a.
     freedoms: six, in the order tx ty tz rx ry rz.  lead: of a SCREW, metres a turn, right-handed.
     enabled: False for a joint that the source has and switches off.  collide: whether the two bodies collide.
+    closes: the source says that it closes a loop, so others carry the bodies where they can.
     slerp: one drive about all three rotations, instead of single ones.
     because: ids of the source's constraints or joints that this one comes from.
 
@@ -127,6 +128,7 @@ class Joint:
     break_torque: float = math.inf
     enabled: bool = True
     collide: bool = False
+    closes: bool = False
     slerp: SphericalDrive | None = None
     because: tuple[str, ...] = ()
     where: str = ""

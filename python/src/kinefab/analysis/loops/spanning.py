@@ -12,7 +12,7 @@ from ...model import RX, JointKind, Motion
 from ...spatial import IntArray
 from ..joints.links import Link, Links
 
-_Offer = tuple[bool, int, int, int, int, int, int]
+_Offer = tuple[bool, bool, int, int, int, int, int, int]
 """What a joint is worth, least first; its index; the body that it would hold."""
 
 
@@ -70,6 +70,7 @@ class Tree:
 def spanning_tree(links: Links) -> Tree:
     """Grow from ground (then from the first body of each floating island), best joints first.
 
+    What the source says to close a loop does so if it can.
     A joint that carries limits or a drive is wanted in the tree, where its coordinate is exact; so is one
     with few freedoms, which leaves the freest (ball before hinge) to close loops.  Among equals the tree
     stays shallow and follows what turns rather than what slides, since a crank drives and a slide follows.
@@ -135,4 +136,4 @@ def _offer(
         plain = not any(f.motion is Motion.LIMITED or f.drive is not None for f in free)
         dof = len(free) - (link.joint.kind is JointKind.SCREW)
         shallow = int(depth[body]) + 1, int(slides[body])
-        heapq.heappush(heap, (plain, dof, *shallow, int(precedence[i]), i, other))
+        heapq.heappush(heap, (link.joint.closes, plain, dof, *shallow, int(precedence[i]), i, other))

@@ -160,6 +160,7 @@ class Equalities:
                 name="+".join(names),
                 enabled=active,
                 collide=frozenset((a, b)) not in self.apart,
+                closes=True,
                 because=names,
                 where=where,
                 extras={

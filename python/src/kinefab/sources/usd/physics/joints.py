@@ -147,6 +147,7 @@ class Joints:
             break_force=breaks[0], break_torque=breaks[1],
             enabled=self._values.flag(prim, "physics:jointEnabled", True),
             collide=self._values.flag(prim, "physics:collisionEnabled", False),
+            closes="excludeFromArticulation" in extras and prim.GetTypeName() != "PhysicsJoint" and math.isinf(min(breaks)),
             slerp=slerp, where=where, extras=extras,
         )  # fmt: skip
 

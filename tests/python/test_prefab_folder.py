@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tarfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
@@ -109,6 +110,28 @@ def test_their_prefab_keeps_its_guid(tmp_path):
         kinefab.export(box_scene("Base"), tmp_path / "Robot.prefab")
         assert (tmp_path / "Robot.prefab.meta").read_text() == meta
         assert (tmp_path / "Robot.prefab").read_text().startswith("%YAML")
+
+
+def test_import_settings_that_people_changed_stay_with_the_asset(tmp_path):
+    """Also when it moves to another path: guids are the assets' own."""
+    target = tmp_path / "Robot.prefab"
+    scene = box_scene("Base", "Arm")
+    kinefab.export(scene, target)
+    before = files(tmp_path)
+    (mesh,) = (name for name in before if name.endswith("Arm.asset.meta"))
+    for name, text in (("Robot.prefab.meta", "labels:\n- arm\n"), (mesh, "timeCreated: 7\n")):
+        (tmp_path / name).write_bytes(before[name] + text.encode())
+    changed = files(tmp_path)
+    kinefab.export(scene, target)
+    assert files(tmp_path) == changed
+    scene.meshes[1] = replace(scene.meshes[1], name="Boom")
+    kinefab.export(scene, target)
+    after = files(tmp_path)
+    moved = [name for name, data in after.items() if data == changed[mesh]]
+    assert after["Robot.prefab.meta"] == changed["Robot.prefab.meta"] and len(moved) == 1 and moved[0] != mesh
+    (tmp_path / moved[0]).write_bytes(b"guid: 0123456789abcdef0123456789abcdef\n")
+    kinefab.export(scene, target)
+    assert files(tmp_path)[moved[0]] == before[mesh]
 
 
 @pytest.mark.posix

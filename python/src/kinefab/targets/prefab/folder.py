@@ -80,6 +80,7 @@ def _write_all(
 ) -> frozenset[str]:
     """Everything, in the hidden folder; returns the paths that are ours from now on."""
     written: set[str] = set()
+    known = _metas_by_guid(ours, parent)
     (staging / folder.name).mkdir()
     for i, file in enumerate(files):
         path = staging / file.path
@@ -96,12 +97,19 @@ def _write_all(
         if (file.content is None or i == 0) and meta not in ours and _other_content(parent / meta, file.meta):
             continue  # of their folder or prefab before we came: it keeps its guid, by which others refer to it
         with open(staging / meta, "xb") as out:
-            out.write(file.meta.encode("utf-8"))
+            out.write(known[file.guid].read_bytes() if file.guid in known else file.meta.encode("utf-8"))
             out.flush()
             os.fsync(out.fileno())
         written.add(meta)
         progress((i + 1) / len(files))
     return frozenset([*written, f"{folder.name}/{MANIFEST}"])
+
+
+def _metas_by_guid(ours: frozenset[str], parent: Path) -> dict[str, Path]:
+    """The metas that the last export left: the editor writes all import settings into them and people change them there, so
+    they go on with the asset.  What we would say in them follows from what the asset is, as its guid does."""
+    metas = (parent / path for path in sorted(ours) if path.endswith(".meta"))
+    return {guid: meta for meta in metas if (guid := _guid_in(meta))}
 
 
 def _taken_up(gone: frozenset[str], files: Sequence[AssetFile], parent: Path) -> frozenset[str]:

@@ -301,6 +301,7 @@ def test_mujoco_s_actuators_are_drives_where_unity_s_law_is_theirs(tmp_path, att
         ('uniform token mjc:dynType = "integrator"', "", "dynType is 'integrator'", None),
         (AFFINE + "uniform double[] mjc:gainPrm = [6]\nuniform double[] mjc:biasPrm = [0, -6, 1]", "", "ratio", None),
         (POSITION + "double mjc:forceRange:min = -4\ndouble mjc:forceRange:max = 5", "", "both sides", None),
+        (POSITION + "uniform double[] mjc:gear = [0, 0, 0, 0, 0, 0]", "", "force is no drive", 0.0),
         (POSITION, "float drive:angular:physics:stiffness = 2", "DriveAPI", None),
         (POSITION + "rel mjc:target = [</J>, </B>]", "", "no joint", None),
     ],

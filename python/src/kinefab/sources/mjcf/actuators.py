@@ -52,7 +52,7 @@ def read_actuators(compiled: Compiled, report: Report) -> Driven:
             continue
         joint = int(m.actuator_trnid[i][0])
         law, most_control = _law(compiled, i)
-        if law.stiffness == 0.0 and law.damping == 0.0:
+        if law.is_force:
             driven.efforts[joint] = driven.efforts.get(joint, 0.0) + min(law.most, most_control)
             report.approximated(
                 f"actuator {name}", "MJCF_ACTUATOR", where, actuator=name, reason=FORCE, numbers=numbers

@@ -27,9 +27,14 @@ class Law:
     damping: float
     most: float = math.inf
 
+    @property
+    def is_force(self) -> bool:
+        """Whether it pushes alike wherever the joint stands and however fast it moves: no drive does."""
+        return self.stiffness == 0.0 and self.damping == 0.0
+
 
 def drive_of(laws: Sequence[Law]) -> Drive:
-    """One drive for laws of which one at least has a stiffness or damping."""
+    """One drive for laws of which one at least is no force alone."""
     constant, stiffness, damping, most = (
         math.fsum(getattr(law, name) for law in laws) for name in ("constant", "stiffness", "damping", "most")
     )

@@ -60,7 +60,8 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     scene.nodes = parts.read()
     scene.meshes, scene.surfaces = parts.library.meshes, parts.looks.surfaces
     moving = [parts.nodes[i] if part.body and part.enabled else -1 for i, part in enumerate(found.parts)]
-    joints = Joints(opened, values, found, moving, parts.stands, report)
+    units = Units(opened, mujoco_angle(found.scenes, values))
+    joints = Joints(opened, values, found, moving, parts.stands, units, report)
     made = [(entry.prim, joint) for entry in found.joints if (joint := joints.read(entry)) is not None]
     scene.joints = stacked(scene.nodes, made, joints.readings, report)
     scene.animations = read_clips(found, scene.nodes, opened, report)
@@ -70,7 +71,6 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     moving_prims = [*(entry.prim for entry in found.joints), *(part.prim for part in found.parts)]
     tell_vendors(moving_prims, values, opened, report)
     acting = [prim for prim in found.vendor if prim.GetTypeName() == KIND]
-    units = Units(opened, mujoco_angle(found.scenes, values))
     scene.joints = Actuators(couplings, units, values, report).drive(acting, scene.joints)
     tell_prims([prim for prim in found.vendor if prim.GetTypeName() != KIND], opened, report)
     scene.extras = filters(found, opened, values, report)

@@ -65,18 +65,20 @@ class Actuators:
         low, high = limited(prim, "mjc:forceRange", "mjc:forceLimited", self._values)
         if low != -high:
             reason = UNEVEN
-        most = abs(gear) * max(abs(low), abs(high))
+        most = abs(gear) * max(abs(low), abs(high)) if gear else 0.0
         low, high = self._control(prim, joint, freedom, sense)
         control = min(max(0.0, low), high)
-        if not (bias[1] or bias[2]):
-            reach = max(abs(low), abs(high)) if gear * gain else 0.0
-            most, reason = min(most, abs(gear * gain) * reach if reach else 0.0), FORCE
         unit, angle = self._units.force(turns), self._units.mujoco_gain(turns)
         # MuJoCo counts from the joint's reference, which the bodies stand at where the stage counts zero.
         zero = self._values.number(owner, "mjc:ref", 0.0) * self._units.mujoco_coordinate(turns)
         stiffness, damping = -bias[1] * gear * gear * angle, -bias[2] * gear * gear * angle
         constant = gear * (gain * control + bias[0]) * unit - stiffness * zero
-        return Law(sense * constant, stiffness, damping, most * unit), reason
+        law = Law(sense * constant, stiffness, damping, most * unit)
+        if law.is_force:
+            reach = max(abs(low), abs(high)) if gear * gain else 0.0
+            law = replace(law, most=min(most, abs(gear * gain) * reach if reach else 0.0) * unit)
+            return law, FORCE
+        return law, reason
 
     def _control(self, prim: Any, joint: Joint, freedom: int, sense: float) -> tuple[float, float]:
         """The range of the control."""
@@ -92,7 +94,7 @@ class Actuators:
         freedoms = list(joint.freedoms)
         for i, freedom in enumerate(freedoms):
             several = acting.get((joint.id, i), [])
-            laws = [one.law for one in several if one.reason != FORCE]
+            laws = [one.law for one in several if not one.law.is_force]
             for one in several:
                 self._tell(one.prim, one.reason or (APART if clipped_apart(laws) else ""))
             if laws:

@@ -61,9 +61,9 @@ def mujoco_angle(scenes: Sequence[Any], values: Values) -> float:
 class Freedoms:
     """Reads the freedoms of joint prims."""
 
-    def __init__(self, opened: OpenStage, values: Values, scenes: Sequence[Any], report: Report):
+    def __init__(self, opened: OpenStage, values: Values, units: Units, report: Report):
         self._values, self._report, self._opened = values, report, opened
-        self.units = Units(opened, mujoco_angle(scenes, values))
+        self.units = units
 
     def limited(self, prim: Any, lower: float, upper: float, turns: bool, instance: str) -> Freedom:
         """A freedom between two ends in the stage's units; either may be infinite.

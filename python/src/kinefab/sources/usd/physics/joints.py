@@ -32,7 +32,7 @@ from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
 from ..values import Values, schemas, title
 from ..walk import Found, JointPrim, body_above, world_of
-from .freedoms import DOFS, Freedoms, turned_round
+from .freedoms import DOFS, Freedoms, Units, turned_round
 from .vendor import passive_of
 
 MAIN = {"X": [0, 1, 2], "Y": [1, 2, 0], "Z": [2, 0, 1]}
@@ -93,12 +93,12 @@ class Joints:
     stands: of the nodes by number."""
 
     def __init__(
-        self, opened: OpenStage, values: Values, found: Found, nodes: list[int], stands: dict[int, Stand], report: Report
+        self, opened: OpenStage, values: Values, found: Found, nodes: list[int], stands: dict[int, Stand], units: Units, report: Report
     ):  # fmt: skip
         self._opened, self._values, self._found, self._report = opened, values, found, report
         self._nodes, self._stands = nodes, stands
         self._world = Stand(np.eye(3), np.zeros(3), opened.frame)
-        self._freedoms = Freedoms(opened, values, found.scenes, report)
+        self._freedoms = Freedoms(opened, values, units, report)
         self.readings = Readings()
 
     def read(self, entry: JointPrim) -> Joint | None:

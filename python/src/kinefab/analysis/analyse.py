@@ -51,6 +51,7 @@ def analyse(
     progress: called with the share of the joints whose limits are searched.
     """
     found = _analysed(scene, options, progress)
+    _report_whole(found)
     if not _led(scene):
         return found
     nodes = [replace(n, grounded=n.grounded or n.dynamics.kinematic) for n in scene.nodes]
@@ -73,7 +74,7 @@ def _led(scene: Scene) -> bool:
 
 
 def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float], None]) -> Analysis:
-    """With bodies that scripts lead counted as free ones."""
+    """With bodies that scripts lead counted as free ones; what there is to tell of the whole is not yet in its report."""
     report = Report()
     assembly = assemble(scene, report)
     found = links_of(assembly, report)
@@ -93,7 +94,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     groups = rigid_groups(scene, fixed)
     joints = _in_source_order(assembly, links)
     place = {joint.id: i for i, joint in enumerate(joints)}
-    analysis = Analysis(
+    return Analysis(
         source=scene,
         mobility=sum(f.mobility for f in assembly.finite) + 6 * assembly.floating,
         first_order=sum(f.mobility for f in assembly.freedoms) + 6 * assembly.floating,
@@ -119,15 +120,6 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         assembly=assembly,
         singular=singular_joints(assembly, found.relations),
     )
-    _report_singular(assembly, report)
-    loose = not any(groups.grounded) and not _led(scene)
-    if analysis.joints and loose and all(island.floating for island in analysis.islands):
-        report.add("NOTHING_GROUNDED", count=len(analysis.joints))
-    report_still(scene, assembly, analysis.mobility, report)
-    if scene.dof_records:
-        check_records(assembly, analysis.freedoms, report)
-    _report_outcomes(assembly, analysis, report)
-    return analysis
 
 
 def _in_source_order(assembly: Assembly, links: list[Link]) -> list[Joint]:
@@ -244,6 +236,18 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
     ]
 
 
+def _report_whole(analysis: Analysis) -> None:
+    scene, assembly, report = analysis.source, analysis.assembly, analysis.report
+    _report_singular(assembly, report)
+    loose = not any(analysis.groups.grounded) and not _led(scene)
+    if analysis.joints and loose and all(island.floating for island in analysis.islands):
+        report.add("NOTHING_GROUNDED", count=len(analysis.joints))
+    report_still(scene, assembly, analysis.mobility, report)
+    if scene.dof_records:
+        check_records(assembly, analysis.freedoms, report)
+    _report_outcomes(assembly, report)
+
+
 def _report_singular(assembly: Assembly, report: Report) -> None:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         if finite.mobility < first.mobility:
@@ -253,7 +257,7 @@ def _report_singular(assembly: Assembly, report: Report) -> None:
             report.add("MECHANISM_SINGULAR", parts=parts, first=first.mobility, finite=finite.mobility)
 
 
-def _report_outcomes(assembly: Assembly, analysis: Analysis, report: Report) -> None:
+def _report_outcomes(assembly: Assembly, report: Report) -> None:
     """Constraints that nothing was said about are kept: in a joint, or by the rigid group they make."""
     said = {o.feature for o in report.outcomes}
     for constraint in assembly.scene.constraints:

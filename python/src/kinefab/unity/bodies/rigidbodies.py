@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from ...rigid import RigidGroups
 from ...spatial import quaternion_from_matrix
 from .. import frames
 from ..scene import Rigidbody
-from ..scene.vectors import Quaternion, Vector3, quaternion4, vector3
+from ..scene.vectors import quaternion4, vector3
 
 UNITY_ANGULAR_DAMPING = 0.05
 """1/s: a Rigidbody's before anyone sets it."""
@@ -86,7 +85,7 @@ def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: 
 def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> Rigidbody:
     """Mass, centre of mass and principal inertia of everything a carrier moves, in the carrier's frame."""
     own, total = scene.nodes[carrier], body_mass(scene, carrier, moved_nodes, report)
-    moments, axes = _principal(np.ascontiguousarray(total.inertia).tobytes())
+    moments, axes = principal(total.inertia)
     dynamics = body_dynamics(scene, carrier, moved_nodes)
     if dynamics.velocity is not None or dynamics.angular_velocity is not None:
         report.dropped(f"velocity {own.id}", "BODY_VELOCITY_DROPPED", own.where, node=own.id)
@@ -96,19 +95,12 @@ def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], repo
         linearDamping=0.0 if damping[0] is None else damping[0],
         angularDamping=UNITY_ANGULAR_DAMPING if damping[1] is None else damping[1],
         centerOfMass=vector3(frames.point(total.center)),
-        inertiaTensor=moments,
-        inertiaTensorRotation=axes,
+        inertiaTensor=vector3(moments),
+        inertiaTensorRotation=quaternion4(frames.quaternion(quaternion_from_matrix(axes))),
         useGravity=dynamics.gravity,
         isKinematic=dynamics.kinematic,
         maxAngularVelocity=dynamics.max_angular_velocity,
     )
-
-
-@lru_cache(maxsize=4096)
-def _principal(inertia_bytes: bytes) -> tuple[Vector3, Quaternion]:
-    """Unity's moments and their axes, of an inertia that copies of a part share."""
-    moments, axes = principal(np.frombuffer(inertia_bytes).reshape(3, 3))
-    return vector3(moments), quaternion4(frames.quaternion(quaternion_from_matrix(axes)))
 
 
 def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:

@@ -165,20 +165,14 @@ def test_what_hangs_crashes_or_eats_memory_is_ended_and_told(tmp_path, hostile):
     assert "a library's own" in told["raise"] and "600 MiB" in told["greedy"]
 
 
+def command_of(folder, out, *more):
+    """A batch in a process of its own that tells each record."""
+    return [sys.executable, "-m", "kinefab", "batch", str(folder), "-o", str(out), "--json", *more]
+
+
 def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
     folder = bundles(tmp_path / "in", *(f"n{i}" for i in range(12)))
-    command = [
-        sys.executable,
-        "-m",
-        "kinefab",
-        "batch",
-        str(folder),
-        "-o",
-        str(tmp_path / "out"),
-        "--json",
-        "-j",
-        "1",
-    ]
+    command = command_of(folder, tmp_path / "out", "-j", "1")
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     for _ in range(3):
         process.stdout.readline()
@@ -214,25 +208,13 @@ def test_a_batch_that_is_broken_off_ends_what_is_under_way_and_begins_nothing(tm
 
 def test_two_batches_at_once_write_every_target_once(tmp_path):
     folder = bundles(tmp_path / "in", *(f"n{i}" for i in range(8)))
-    command = [
-        sys.executable,
-        "-m",
-        "kinefab",
-        "batch",
-        str(folder),
-        "-o",
-        str(tmp_path / "out"),
-        "--json",
-        "-q",
-    ]
+    command = command_of(folder, tmp_path / "out", "-q")
     both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
     told = [[json.loads(line) for line in one.communicate()[0].splitlines()] for one in both]
     assert [one.returncode for one in both] == [0, 0]
-    of = [{record["source"]: record["outcome"] for record in records} for records in told]
-    assert (
-        all({of[0][source], of[1][source]} == {"written", "up_to_date"} for source in of[0])
-        and len(of[0]) == 8
-    )
+    one, other = ({record["source"]: record["outcome"] for record in records} for records in told)
+    assert len(one) == 8
+    assert all({one[source], other[source]} == {"written", "up_to_date"} for source in one)
 
 
 def test_targets_of_somebody_else_are_left_alone(tmp_path):

@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Executor, Future, as_completed
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,7 +20,7 @@ from .index import index_page
 from .job import Job, Outcome, Record, options_as_json, unmade
 from .ledger import LEDGER
 from .plan import planned
-from .slot import Crew, convert
+from .slot import convert, crew
 
 Progress = Callable[[int, int, Record], None]
 """Called with how many are done, of how many, and what became of the last."""
@@ -119,20 +119,12 @@ def batch(
 
     for record in plan.refused:
         took(record)
-    crew = None if executor is not None else Crew(jobs or os.cpu_count() or 1)
-    pool, do = (executor, convert) if crew is None else (crew.pool, crew.convert)
-    assert pool is not None
-    ended = False
-    try:
-        futures: dict[Future[Record], Job] = {pool.submit(do, job): job for job in work}
+    with crew(jobs or os.cpu_count() or 1) if executor is None else nullcontext(executor) as pool:
+        futures: dict[Future[Record], Job] = {pool.submit(convert, job): job for job in work}
         for future in as_completed(futures):
             record = _record(future, futures[future])
             found[record.target] = record
             took(record)
-        ended = True
-    finally:
-        if crew is not None:
-            crew.end(broken_off=not ended)
     records = (*plan.refused, *(found[job.target] for job in work))
     index = places.join(folder, "index.html")
     told = "".join(f"{line}\n" for line in lines).encode("utf-8", "backslashreplace")

@@ -7,8 +7,9 @@ import os
 import subprocess
 import sys
 import threading
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from collections.abc import Generator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 
 from ..diagnostics import diagnostic
 from .job import Job, Outcome, Record, unmade
@@ -92,34 +93,6 @@ class Slot:
         self.close()  # with the thread that had it
 
 
-class Crew:
-    """The threads of a batch, each with a slot.
-
-    jobs: how many.
-    """
-
-    def __init__(self, jobs: int) -> None:
-        self.pool = ThreadPoolExecutor(jobs)
-        self._local = threading.local()
-        self._slots: list[Slot] = []
-
-    def convert(self, job: Job) -> Record:
-        if not hasattr(self._local, "slot"):
-            self._local.slot = Slot()
-            self._slots.append(self._local.slot)
-        slot: Slot = self._local.slot
-        return slot.convert(job)
-
-    def end(self, broken_off: bool) -> None:
-        """Wait for the threads.  broken_off: what is under way is given up."""
-        self.pool.shutdown(wait=False, cancel_futures=True)
-        for slot in self._slots if broken_off else ():
-            slot.stop()
-        self.pool.shutdown()
-        for slot in self._slots:
-            slot.close()
-
-
 _local = threading.local()
 
 
@@ -129,3 +102,26 @@ def convert(job: Job) -> Record:
         _local.slot = Slot()
     slot: Slot = _local.slot
     return slot.convert(job)
+
+
+@contextmanager
+def crew(jobs: int) -> Generator[Executor, None, None]:
+    """So many threads, each with a slot.  Where the work is broken off by an exception, what is under way is given up."""
+    slots: list[Slot] = []
+
+    def begin() -> None:
+        _local.slot = Slot()
+        slots.append(_local.slot)
+
+    pool = ThreadPoolExecutor(jobs, initializer=begin)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for slot in slots:
+            slot.stop()
+        raise
+    finally:
+        pool.shutdown()
+        for slot in slots:
+            slot.close()

@@ -46,10 +46,8 @@ def read_image(texture: Texture, endings: Collection[str], otherwise: str) -> Im
     endings: of the kinds that the target holds.  otherwise: what is said of another kind.
     Raises ImageError for what is not there, is no regular file of a bounded size, breaks off, or is of another kind.
     """
-    data = texture.data
     try:
-        if data is None:
-            data = read_regular(texture.path, MOST_BYTES) if texture.path else b""
+        data = bytes_of(texture)
     except OSError as error:
         raise ImageError(error.strerror or str(error)) from None
     ending = next((ending for magic, ending in MAGIC if data.startswith(magic)), "")
@@ -59,6 +57,13 @@ def read_image(texture: Texture, endings: Collection[str], otherwise: str) -> Im
         raise ImageError(otherwise if data else "it is empty")
     _demand_whole(data, ending)
     return Image(data, ending)
+
+
+def bytes_of(texture: Texture) -> bytes:
+    """As they are.  Raises OSError for a file that is not there, no regular one, or too large."""
+    if texture.data is not None:
+        return texture.data
+    return read_regular(texture.path, MOST_BYTES) if texture.path else b""
 
 
 def _demand_whole(data: bytes, ending: str) -> None:

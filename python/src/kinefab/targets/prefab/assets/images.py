@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ....geometry.references import read_regular
 from ....model import Texture
 from ....unity.scene import Material
 from ... import images
@@ -24,10 +23,8 @@ def read_image(texture: Texture) -> Image:
 
 def content_of(texture: Texture) -> str:
     """What the texture's image holds, whatever it is called and wherever it lies, as a digest; "" where it is not to be had."""
-    data = texture.data
     try:
-        if data is None:
-            data = read_regular(texture.path, images.MOST_BYTES) if texture.path else b""
+        data = images.bytes_of(texture)
     except OSError:
         return ""
     return hashlib.md5(data, usedforsecurity=False).hexdigest()

@@ -21,7 +21,7 @@ def with_sound_meshes(scene: Scene, report: Report) -> Scene:
 
     Vertices that are no numbers are errors.  A mesh without triangles, or of which one names a vertex that is not there, is left
     out of the bodies and colliders that name it; normals, texture coordinates, tangents and colours are, where they do not fit
-    the vertices or hold what is no number.  The report tells each.
+    the vertices or hold what is no number.  The report tells each.  Colours are clipped to 0..1, which is not told.
     """
     found = [_sound(mesh, report) for mesh in scene.meshes]
     if all(new is old for new, old in zip(found, scene.meshes)):

@@ -13,7 +13,7 @@ import pytest
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.geometry.closure import is_closed, welded
 from kinefab.geometry.mass import solid_properties
-from kinefab.model import FaceKind, NodeKind
+from kinefab.model import FaceKind, NodeKind, Scene
 from kinefab.sources import read
 from kinefab.sources.occ.guard import GuardedCrash, GuardedError, guarded
 from kinefab.sources.step import reader
@@ -33,7 +33,7 @@ from step.linkages import two_plates  # noqa: E402
 from step.machine import Machine  # noqa: E402
 from step.solids import box  # noqa: E402
 from step.tessellated import triangles_alone, write_tessellated  # noqa: E402
-from step.writer import document_of, write_document, write_iges, write_step  # noqa: E402
+from step.writer import document_of, write_document, write_external, write_iges, write_step  # noqa: E402
 
 LEVER = FIXTURES / "lever" / "lever.step"
 PLATES = FIXTURES / "step" / "two_plates_inch_ap242.step"
@@ -221,6 +221,68 @@ def test_a_file_that_is_none_is_refused(tmp_path: Path, text: bytes, code: str):
     path = tmp_path / "odd.step"
     path.write_bytes(text)
     assert code in codes(path)
+
+
+def external(folder: Path, prefix: str = "p_") -> Path:
+    """An assembly in inches whose parts lie in files of their own, in millimetres."""
+    machine = Machine("Top")
+    machine.add("Base", box((0.0, 0.0, 0.0), (50.0, 50.0, 10.0)))
+    machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)), (100.0, 0.0, 0.0))
+    write_external(machine, folder / "top.step")
+    text = (folder / "top.step").read_bytes().replace(b"'p_", b"'" + prefix.encode())
+    (folder / "top.step").write_bytes(text)
+    return folder / "top.step"
+
+
+def sizes(scene: Scene) -> dict[str, list[float]]:
+    """Cubic centimetres of each part's bodies."""
+    meshes = [
+        [scene.meshes[body.mesh] for body in node.bodies if body.mesh is not None] for node in scene.nodes
+    ]
+    return {
+        node.id: [round(1e6 * solid_properties(m.vertices, m.faces, 1.0).mass, 6) for m in own]
+        for node, own in zip(scene.nodes, meshes, strict=True)
+    }
+
+
+@pytest.mark.parametrize("folder", ["", "parts"])
+def test_parts_in_other_files_are_read_from_wherever_one_stands(tmp_path, monkeypatch, folder):
+    """By a relative path too, and though the process that reads was begun in another folder."""
+    external(tmp_path, f"{folder}/p_" if folder else "p_")
+    (tmp_path / folder).mkdir(exist_ok=True)
+    for part in tmp_path.glob("p_*"):
+        part.rename(tmp_path / folder / part.name)
+    for stand, path in ((tmp_path, "top.step"), (tmp_path.parent, f"{tmp_path.name}/top.step")):
+        monkeypatch.chdir(stand)
+        scene, report = read_whole(Path(path))
+        assert not report.diagnostics
+        assert sizes(scene) == {"Top": [], "Top/Base": [25.0], "Top/Arm": [0.5]}
+        np.testing.assert_allclose(scene.nodes[2].pose.translation, [0.1, 0.0, 0.0], atol=1e-9)
+
+
+def test_a_part_whose_file_is_not_there_is_told_by_its_file(tmp_path):
+    path = external(tmp_path)
+    (tmp_path / "p_Arm.stp").unlink()
+    scene, report = read_whole(path)
+    assert sizes(scene) == {"Top": [], "Top/Base": [25.0], "Top/Arm": []}
+    assert [d.code for d in report.diagnostics] == ["STEP_FILE_MISSING", "STEP_SHAPE_FAILED"]
+    assert "p_Arm.stp" in report.diagnostics[0].message
+
+
+def test_a_file_that_a_part_names_may_not_lie_outside_either(tmp_path):
+    """Files name others in turn, each from its own folder; two that name each other end OpenCASCADE, which is told."""
+    (tmp_path / "inner" / "sub").mkdir(parents=True)
+    path = external(tmp_path / "inner")
+    deeper = path.read_bytes().replace(b"'p_", b"'../p_")
+    (tmp_path / "inner" / "sub" / "mid.step").write_bytes(deeper)
+    path.write_bytes(path.read_bytes().replace(b"'p_Arm.stp", b"'sub/mid.step"))
+    scene, report = read_whole(path)
+    assert not report.diagnostics
+    assert [v for own in sizes(scene).values() for v in own] == [25.0, 25.0, 0.5]
+    (tmp_path / "inner" / "sub" / "mid.step").write_bytes(deeper.replace(b"'../p_", b"'../../p_"))
+    assert codes(path) == ["STEP_FILE_OUTSIDE"] * 2
+    (tmp_path / "inner" / "sub" / "mid.step").write_bytes(deeper.replace(b"'../p_Arm.stp", b"'../top.step"))
+    assert codes(path) == ["STEP_UNREADABLE"]
 
 
 def test_a_tolerance_that_is_none_is_refused():

@@ -48,8 +48,9 @@ def read_guarded(path: Path, report: Report, where: str) -> MeshFile | None:
         _check(path, suffix)
         metres = metres_of_3mf(path) if suffix == ".3mf" else METRES.get(suffix)
         seconds = SECONDS + SECONDS_PER_MEGABYTE * path.stat().st_size / 2**20
+        file = str(path.absolute())  # the process may have been begun in another folder
         found: list[Found] = [
-            Found(*entry) for entry in guarded(f"{PACKAGE}.{module}", "meshes", str(path), seconds=seconds)
+            Found(*entry) for entry in guarded(f"{PACKAGE}.{module}", "meshes", file, seconds=seconds)
         ]
     except (GuardedError, GuardedCrash, OSError, ValueError) as error:
         detail = error.strerror if isinstance(error, OSError) and error.strerror else str(error)

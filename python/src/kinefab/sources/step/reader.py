@@ -7,7 +7,7 @@ AP242 file's kinematic mechanism are read from its text.  Z is taken to be up, a
 from __future__ import annotations
 
 import hashlib
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from ...diagnostics import Report
 from ...model import Scene, Source
@@ -17,6 +17,7 @@ from ..occ.triangles import Tolerance
 from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_scene
+from .external import check_external
 from .iges_unit import metres_of
 from .mechanism import add_pairs
 from .part21 import Part21
@@ -46,12 +47,13 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
         length = metres_of(data)
     else:
         length = _check_step(text, path, report)
+    size = len(data) + check_external(text, path, MAX_BYTES, report)
     tolerance = tolerance_of(request, path, report)
     report.raise_for_errors()
     up = request.text("up", "Z")
     frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
-    _fill(scene, path, iges, tolerance, len(data), frame, report, request)
+    _fill(scene, path, iges, tolerance, size, frame, report, request)
     if text.kinematic_pairs():
         add_pairs(scene, text, frame.turn, length, report)
     report.raise_for_errors()
@@ -68,12 +70,12 @@ def _fill(
     done: set[int] = set()
     begun: int | None = None
     seconds = SECONDS + SECONDS_PER_MEGABYTE * size / 2**20
+    # By a relative path OpenCASCADE finds no external file; and the process may have been begun in another folder.
+    file = str(path.absolute())
     for _ in range(MOST_CRASHES + 1):
         try:
             module = f"{__package__}.xcaf"
-            for found in guarded(
-                module, "load", str(path), iges, tolerance, frozenset(done), seconds=seconds
-            ):
+            for found in guarded(module, "load", file, iges, tolerance, frozenset(done), seconds=seconds):
                 if isinstance(found, Tree) and shapes is None:
                     tree = found
                     scene.nodes, placement = scene_nodes(found, frame, path.name, report)
@@ -133,10 +135,6 @@ def _check_step(text: Part21, path: Path, report: Report) -> float:
         report.add("STEP_EMPTY", path.name, path=path.name)
     elif dangling := text.dangling():
         report.add("STEP_DANGLING", path.name, path=path.name, count=dangling)
-    for file in text.external_files():
-        inside = PurePosixPath(file.replace("\\", "/"))
-        if inside.is_absolute() or ".." in inside.parts or file[1:2] == ":":
-            report.add("STEP_FILE_OUTSIDE", path.name, file=file)
     return text.metres()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import random
+import time
 from pathlib import Path
 
 import kinefab
@@ -244,6 +245,42 @@ def test_macros_that_call_each_other_twice_and_twice_again_are_ended(tmp_path):
         read(path, Report())
     (found,) = refused.value.diagnostics
     assert found.code == "XACRO_FAILED" and "more than" in found.message
+
+
+ENDLESS = {
+    "power": "${9**9**9}",
+    "sum": "${python.sum(python.range(10**12))}",
+    "comprehension": "${[i for i in python.range(10**12) if i == -1]}",
+    "list": "${[0] * 10**10}",
+    "string": "${'a' * 10**10}",
+    "width": "${'%9999999999d' % 1}",
+}
+
+
+@pytest.mark.parametrize("ending", [".xacro", ".urdf"])
+@pytest.mark.parametrize("expression", ENDLESS.values(), ids=ENDLESS)
+def test_python_in_a_xacro_that_never_ends_or_takes_all_memory_is_ended(
+    tmp_path, monkeypatch, expression, ending
+):
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    monkeypatch.setattr("kinefab.sources.urdf.expansion.MOST_SECONDS", 1.5)
+    path = tmp_path / f"r{ending}"
+    path.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><link name='a'/>"
+        f"<xacro:if value=\"{expression}\"><link name='b'/></xacro:if></robot>",
+        encoding="utf-8",
+    )
+    start, report = time.monotonic(), Report()
+    if ending == ".urdf":  # its leftovers are told as such
+        read(path, report)
+        assert "ELEMENT_DROPPED" in [d.code for d in report.diagnostics]
+    else:
+        with pytest.raises(KinefabError) as refused:
+            read(path, report)
+        (found,) = refused.value.diagnostics
+        assert found.code == "XACRO_FAILED"
+        assert "more than" in found.message or "longer than" in found.message
+    assert time.monotonic() - start < 20.0
 
 
 def mutated(text: str, chance: random.Random) -> bytes:

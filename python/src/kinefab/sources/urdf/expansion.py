@@ -1,21 +1,34 @@
-"""Xacro files, expanded by the xacro package where it is installed."""
+"""Xacro files, expanded by the xacro package where it is installed.
+
+Xacro evaluates Python that stands in the file: ``${9**9**9}`` never ends, ``${[0]*10**10}`` takes all memory, and no look
+at an expression tells which do.  So it works in the guarded process (``sources.occ.guard``), within limits of time and
+memory; the second one only where the system knows such limits (not on Windows, and macOS heeds none).
+"""
 
 from __future__ import annotations
 
 import contextlib
-import io
-from collections.abc import Generator, Sequence
+import os
+import time
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from ...diagnostics import Report
+from ..occ.guard import GuardedCrash, GuardedError, guarded
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element, parse_xml
 
 MOST_CALLS = 20_000
 """Of macros in one file: a few that call each other twice are soon more than any machine ends."""
+MOST_SECONDS = 30.0
+MOST_BYTES = 2**30
+
+
+class ExpansionFailed(Exception):
+    """The text says why."""
 
 
 def is_xacro(path: Path) -> bool:
@@ -30,8 +43,8 @@ def expanded_leftovers(
     if not any(child.tag.startswith("xacro:") for child in root.children) or find_spec("xacro") is None:
         return None
     try:
-        text = _expand(path, packages, _mappings(arguments))
-    except Exception:  # whatever the Python in it raises
+        text = _expand(path, packages, arguments)
+    except ExpansionFailed:
         return None
     return parse_xml(text, f"{path.name} (expanded)", report)
 
@@ -46,12 +59,9 @@ def expanded(path: Path, packages: Packages, arguments: Sequence[str], report: R
         report.raise_for_errors()
     text = b""
     try:
-        text = _expand(path, packages, _mappings(arguments))
-    except RecursionError:
-        report.add("XACRO_FAILED", path.name, detail="macros or includes that hold themselves")
-    except Exception as error:  # xacro evaluates Python in the file, which may raise anything
-        detail = " ".join(str(error).split())[:300] or type(error).__name__
-        report.add("XACRO_FAILED", path.name, detail=detail)
+        text = _expand(path, packages, arguments)
+    except ExpansionFailed as failed:
+        report.add("XACRO_FAILED", path.name, detail=failed)
     report.raise_for_errors()
     return parse_xml(text, f"{path.name} (expanded)", report)
 
@@ -60,15 +70,76 @@ def _mappings(arguments: Sequence[str]) -> dict[str, str]:
     return {name: value for name, given, value in (a.partition(":=") for a in arguments) if given}
 
 
-def _expand(path: Path, packages: Packages, mappings: dict[str, str]) -> bytes:
+def _expand(path: Path, packages: Packages, arguments: Sequence[str]) -> bytes:
+    here = (os.getcwd(), dict(os.environ))  # the process may have been started elsewhere
+    asked = (*here, path, packages.folder, packages.given, _mappings(arguments), MOST_BYTES, MOST_SECONDS)
+    try:
+        ((text, detail),) = guarded(__name__, "expansion", *asked, seconds=MOST_SECONDS)
+    except (GuardedCrash, GuardedError) as error:
+        text, detail = b"", str(error)
+    if detail:
+        raise ExpansionFailed(detail)
+    return text
+
+
+def expansion(
+    directory: str,
+    environment: Mapping[str, str],
+    path: Path,
+    folder: Path,
+    given: tuple[Path, ...],
+    mappings: dict[str, str],
+    most_bytes: int,
+    most_seconds: float,
+) -> Iterator[tuple[bytes, str]]:
+    """What xacro makes of a file, or why it makes nothing; to be run by ``guard.guarded``."""
+    os.chdir(directory)
+    os.environ.clear()
+    os.environ.update(environment)
     library: Any = import_module("xacro")
-    with (
-        _finding(import_module("xacro.substitution_args"), packages),
-        _counting(library),
-        contextlib.redirect_stderr(io.StringIO()),
-    ):
-        document = library.process_file(str(path), mappings=mappings)
-        return document.toprettyxml(indent="  ", encoding="utf-8")
+    packages = Packages(folder, given)
+    substitution: Any = import_module("xacro.substitution_args")
+    text, detail = b"", ""
+    try:
+        with _limited(most_bytes, most_seconds), _finding(substitution, packages), _counting(library):
+            document = library.process_file(str(path), mappings=mappings)
+            text = document.toprettyxml(indent="  ", encoding="utf-8")
+        if len(text) > most_bytes // 8:
+            text, detail = b"", f"it makes more than {most_bytes / 8 / 2**20:.0f} MiB of text"
+    except RecursionError:
+        detail = "macros or includes that hold themselves"
+    except Exception as error:  # xacro evaluates Python in the file, which may raise anything
+        detail = " ".join(str(error)[:3000].split())[:300] or type(error).__name__
+        if isinstance(error, MemoryError) or isinstance(getattr(error, "exc", None), MemoryError):
+            detail = f"it takes more than {most_bytes / 2**20:.0f} MiB of memory"
+    yield text, detail
+
+
+@contextlib.contextmanager
+def _limited(most_bytes: int, most_seconds: float) -> Generator[None, None, None]:
+    """Memory and, should nobody be left who ends the process, its own time."""
+    try:
+        resource: Any = import_module("resource")
+    except ImportError:  # Windows
+        yield
+        return
+    held = 0  # what earlier questions left in the process counts too
+    with contextlib.suppress(OSError):
+        held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    wanted = {
+        resource.RLIMIT_AS: held + most_bytes,
+        resource.RLIMIT_CPU: int(time.process_time() + most_seconds) + 1,
+    }
+    before = {kind: resource.getrlimit(kind) for kind in wanted}
+    try:
+        for kind, limit in wanted.items():
+            with contextlib.suppress(OSError, ValueError):  # beyond what the user or the system allows
+                resource.setrlimit(kind, (limit, before[kind][1]))
+        yield
+    finally:
+        for kind, limits in before.items():
+            with contextlib.suppress(OSError, ValueError):
+                resource.setrlimit(kind, limits)
 
 
 @contextlib.contextmanager

@@ -285,6 +285,34 @@ def test_a_file_that_a_part_names_may_not_lie_outside_either(tmp_path):
     assert codes(path) == ["STEP_UNREADABLE"]
 
 
+@pytest.mark.parametrize("complex_instance", [False, True])
+@pytest.mark.parametrize("x, told", [(1, []), (-1, ["STEP_MIRROR_TURNED"])])
+def test_an_operator_that_mirrors_is_told(tmp_path: Path, complex_instance: bool, x: int, told: list[str]):
+    """OpenCASCADE makes a turn by 180 degrees about Z of it."""
+    machine = Machine("Top")
+    machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)))
+    write_step(machine, tmp_path / "mirror.step")
+    axes = "#9001,#9002,#9003,1."
+    operator = f"CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',{axes},#9004);"
+    if complex_instance:
+        operator = (
+            f"( CARTESIAN_TRANSFORMATION_OPERATOR({axes}) CARTESIAN_TRANSFORMATION_OPERATOR_3D(#9004) "
+            "FUNCTIONALLY_DEFINED_TRANSFORMATION('','') GEOMETRIC_REPRESENTATION_ITEM() REPRESENTATION_ITEM('') );"
+        )
+    points = f"#9001=DIRECTION('',({x}.,0.,0.));\n#9002=DIRECTION('',(0.,1.,0.));\n"
+    points += "#9003=CARTESIAN_POINT('',(100.,20.,0.));\n#9004=DIRECTION('',(0.,0.,1.));"
+    text, count = re.subn(
+        r"ITEM_DEFINED_TRANSFORMATION\([^)]*\);",
+        f"{operator}\n{points}",
+        (tmp_path / "mirror.step").read_text("utf-8"),
+    )
+    assert count == 1
+    (tmp_path / "mirror.step").write_text(text, "utf-8")
+    _, report = read_whole(tmp_path / "mirror.step")
+    assert [d.code for d in report.diagnostics] == told
+    assert [o.outcome.value for o in report.outcomes] == ["approximated" for _ in told]
+
+
 def test_a_tolerance_that_is_none_is_refused():
     assert codes(PLATES, tolerance="fine") == ["STEP_TOLERANCE"]
     assert codes(PLATES, tolerance="-1") == ["STEP_TOLERANCE"]

@@ -20,6 +20,7 @@ from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_sce
 from .external import check_external
 from .iges_unit import metres_of
 from .mechanism import add_pairs
+from .operators import tell_mirrors
 from .part21 import Part21
 from .records import Begun, Shape, Tree
 from .scene import Shapes, scene_nodes
@@ -54,6 +55,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
     _fill(scene, path, iges, tolerance, size, frame, report, request)
+    tell_mirrors(text, path.name, report)
     if text.kinematic_pairs():
         add_pairs(scene, text, frame.turn, length, report)
     report.raise_for_errors()

@@ -34,7 +34,7 @@ from kinefab.mates.find import find_mates  # noqa: E402
 from kinefab.model import ConstraintKind, Scene  # noqa: E402
 from kinefab.options import Closures  # noqa: E402
 from kinefab.sources import read  # noqa: E402
-from kinefab.sources.occ.guard import end_idle  # noqa: E402
+from kinefab.sources.guard import end_idle  # noqa: E402
 from step.catalogue import MACHINES  # noqa: E402
 from step.line import line  # noqa: E402
 from step.machine import Machine, Truth  # noqa: E402

@@ -86,7 +86,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "sources": [
-        {"reading", "roads"},
+        {"reading", "roads", "guard"},
         {"occ", "robots"},
         {"asmt"},
         {"bundle", "freecad", "mjcf", "sdf", "step", "urdf", "usd"},

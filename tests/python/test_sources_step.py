@@ -15,7 +15,7 @@ from kinefab.geometry.closure import is_closed, welded
 from kinefab.geometry.mass import solid_properties
 from kinefab.model import FaceKind, NodeKind, Scene
 from kinefab.sources import read
-from kinefab.sources.occ.guard import GuardedCrash, GuardedError, guarded
+from kinefab.sources.guard import GuardedCrash, GuardedError, guarded
 from kinefab.sources.step import reader
 from kinefab.sources.step.iges_unit import metres_of
 from kinefab.sources.step.part21 import Part21

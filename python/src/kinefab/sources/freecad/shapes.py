@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from ...diagnostics import Report
 from ...model import Body, Scene
+from ..guard import GuardedCrash, GuardedError, guarded
 from ..occ import EXTRA, available
-from ..occ.guard import GuardedCrash, GuardedError, guarded
 from ..occ.triangles import Tessellation, Tolerance, mesh_of
 from ..reading.record import shown
 from .archive import ArchiveError

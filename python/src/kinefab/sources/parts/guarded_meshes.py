@@ -14,7 +14,7 @@ from ...geometry.pieces import MeshFile, Piece, placed
 from ...geometry.references import UnsafeReference, demand_honest_archive, metres_of_3mf, read_regular
 from ...model import MeshKey, Surface
 from ...spatial import Array, IntArray
-from ..occ.guard import GuardedCrash, GuardedError, guarded
+from ..guard import GuardedCrash, GuardedError, guarded
 
 PACKAGE = __name__.rpartition(".parts")[0]
 SECONDS, SECONDS_PER_MEGABYTE = 20.0, 4.0

@@ -1,4 +1,4 @@
-"""A mesh file through assimp; runs in the guarded process (``sources.occ.guard``), nothing else imports it."""
+"""A mesh file through assimp; runs in the guarded process (``sources.guard``), nothing else imports it."""
 
 # assimp_py is a binding of C++ that need not be installed.
 # pyright: reportMissingImports=false, reportMissingModuleSource=false, reportMissingTypeStubs=false

@@ -1,6 +1,6 @@
 """STEP and IGES files: the assembly tree, names, instances, colours, layers and exact geometry.
 
-OpenCASCADE reads them in a process of its own (``sources.occ.guard``).  Neither format states mates; the pairs of an
+OpenCASCADE reads them in a process of its own (``sources.guard``).  Neither format states mates; the pairs of an
 AP242 file's kinematic mechanism are read from its text.  Z is taken to be up, as CAD programs have it.
 """
 
@@ -11,8 +11,8 @@ from pathlib import Path
 
 from ...diagnostics import Report
 from ...model import Scene, Source
+from ..guard import GuardedCrash, GuardedError, guarded
 from ..occ.asked import tolerance_of
-from ..occ.guard import GuardedCrash, GuardedError, guarded
 from ..occ.triangles import Tolerance
 from ..reading.file import read_bytes
 from ..reading.request import Request

@@ -1,4 +1,4 @@
-"""A VRML file through OpenCASCADE; runs in the guarded process (``sources.occ.guard``), nothing else imports it."""
+"""A VRML file through OpenCASCADE; runs in the guarded process (``sources.guard``), nothing else imports it."""
 
 # OCP is a binding of C++ that need not be installed, and its stubs are not those of every version.
 # pyright: reportMissingImports=false, reportMissingModuleSource=false, reportMissingTypeStubs=false

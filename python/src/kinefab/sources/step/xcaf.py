@@ -1,6 +1,6 @@
 """A STEP or IGES file through OpenCASCADE's document: the assembly tree, then shape after shape.
 
-Runs in the guarded process (``sources.occ.guard``); nothing else imports it.
+Runs in the guarded process (``sources.guard``); nothing else imports it.
 """
 
 # OCP is a binding of C++ that need not be installed, and its stubs are not those of every version.

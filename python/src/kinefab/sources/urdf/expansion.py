@@ -1,7 +1,7 @@
 """Xacro files, expanded by the xacro package where it is installed.
 
 Xacro evaluates Python that stands in the file: ``${9**9**9}`` never ends, ``${[0]*10**10}`` takes all memory, and no look
-at an expression tells which do.  So it works in the guarded process (``sources.occ.guard``), within limits of time and
+at an expression tells which do.  So it works in the guarded process (``sources.guard``), within limits of time and
 memory; the second one only where the system knows such limits (not on Windows, and macOS heeds none).
 """
 
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ...diagnostics import Report
-from ..occ.guard import GuardedCrash, GuardedError, guarded
+from ..guard import GuardedCrash, GuardedError, guarded
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element, parse_xml
 

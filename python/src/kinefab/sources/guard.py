@@ -1,7 +1,8 @@
-"""OpenCASCADE in a process of its own: a damaged file can make it crash or never end, and takes only that process along.
+"""What a file can make crash, never end or take all memory, in a process of its own, and takes only that process along:
+OpenCASCADE, assimp, xacro with the Python in its files.
 
 The child answers piece by piece, so that the caller knows how far it came.  It stays for the next question, since
-loading the library takes longer than a small file.
+loading such a library takes longer than a small file.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from importlib import import_module
 from typing import IO, Any
 
 MOST_QUESTIONS = 200
-"""After so many the child is replaced: what the library never frees must not add up."""
+"""After so many the child is replaced: what a library never frees must not add up."""
 
 
 class GuardedCrash(Exception):
@@ -122,7 +123,7 @@ def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
 
 
 def _live() -> None:
-    # The library prints on standard output: the answers get a descriptor of their own.
+    # Libraries print on standard output: the answers get a descriptor of their own.
     answers = os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

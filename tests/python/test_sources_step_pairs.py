@@ -6,6 +6,7 @@ import json
 import math
 import os
 import random
+import re
 import sys
 from pathlib import Path
 
@@ -175,6 +176,38 @@ def test_freedoms_are_the_flags_of_the_pair(tmp_path, kind, free, wanted, ranges
     assert len(joint.unlocked) == len(free or named[kind].split())
     limited = sum(low is not None for low in ranges[::2])
     assert sum(f.motion is Motion.LIMITED for f in joint.freedoms) == limited
+
+
+INCHES_AND_DEGREES = """#{0}=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#{1}=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#{0});
+#{2}=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);
+#{3}=(CONVERSION_BASED_UNIT('INCH',#{1})LENGTH_UNIT()NAMED_UNIT(#{2}));
+#{4}=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));
+#{5}=PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(0.0174532925199433),#{4});
+#{6}=DIMENSIONAL_EXPONENTS(0.,0.,0.,0.,0.,0.,0.);
+#{7}=(CONVERSION_BASED_UNIT('DEGREE',#{5})NAMED_UNIT(#{6})PLANE_ANGLE_UNIT());
+"""
+CONTEXT_OF_THEM = "#{8}=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#{3},#{7}))REPRESENTATION_CONTEXT('','3D'));\n"
+
+
+@pytest.mark.parametrize("used, metre, radian", [(False, 1e-3, 1.0), (True, 0.0254, math.pi / 180.0)])
+def test_ranges_are_in_the_units_of_the_mechanism(tmp_path, used, metre, radian):
+    """A file may define units that it does not use, and give a mechanism others than its shapes."""
+    data, links = boxes(tmp_path)
+    pair = Pair("p", "cylindrical", "Base", "Arm", (np.eye(4), np.eye(4)), (-10.0, 80.0, -0.2, 1.4))
+    whole = with_mechanism(data, links, [pair], "Base").decode("latin-1")
+    numbers = range(first := 1 + max(int(n) for n in re.findall(r"#(\d+)\s*=", whole)), first + 9)
+    units = INCHES_AND_DEGREES + CONTEXT_OF_THEM * used
+    if used:
+        whole = re.sub(r"(= *MECHANISM_REPRESENTATION\('',\([^)]*\)),#\d+", rf"\1,#{numbers[8]}", whole)
+    head, _, tail = whole.rpartition("ENDSEC;")
+    scene, report = read((head + units.format(*numbers) + "ENDSEC;" + tail).encode("latin-1"), tmp_path)
+    (joint,) = scene.joints
+    assert report.diagnostics == []
+    assert (joint.freedoms[TX].lower, joint.freedoms[TX].upper) == pytest.approx((-10 * metre, 80 * metre))
+    assert (joint.freedoms[RX].lower, joint.freedoms[RX].upper) == pytest.approx(
+        (-0.2 * radian, 1.4 * radian)
+    )
 
 
 def test_a_screw_has_its_pitch(tmp_path):

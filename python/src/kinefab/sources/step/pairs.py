@@ -110,7 +110,7 @@ def mechanism_of(text: Part21) -> Mechanism:
     found = Mechanism()
     for instance, given in known["damaged"].items():
         found.faults.append((f"#{instance}", text_of(given[""], 0)))
-    degrees = re.search(rb"CONVERSION_BASED_UNIT\s*\(\s*'DEGREES?'", text.data, re.IGNORECASE) is not None
+    turn = text.radians()
     seen: set[int] = set()
     for name, instances in known.items():
         if _PAIR.match(name) is None:
@@ -120,7 +120,7 @@ def mechanism_of(text: Part21) -> Mechanism:
                 continue
             seen.add(instance)
             try:
-                found.pairs.append(_pair(text, instance, given, math.pi / 180.0 if degrees else 1.0))
+                found.pairs.append(_pair(text, instance, given, turn))
             except EntityError as error:
                 label = text_of(given[""], 0) or f"#{instance}"
                 found.faults.append((label, str(error)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,6 +24,12 @@ _METRES = {
     b"DECA": 10.0, b"DECI": 0.1, b"CENTI": 1e-2, b"MILLI": 1e-3, b"MICRO": 1e-6, b"NANO": 1e-9, b"PICO": 1e-12,
     b"FEMTO": 1e-15, b"ATTO": 1e-18,
 }  # fmt: skip
+_METRE = re.compile(rb"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.")
+_RADIAN = re.compile(rb"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.RADIAN\.")
+_CONVERSION = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'", re.IGNORECASE)
+_ASSIGNED = re.compile(rb"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([^)]*)\)")
+_MECHANISM = re.compile(rb"=\s*MECHANISM_REPRESENTATION\s*\(\s*\$?\s*,\s*\([^)]*\)\s*,\s*#\s*(\d+)")
+_DEGREES = (b"DEGREE", b"DEGREES")
 _CONVERSIONS = {b"INCH": 0.0254, b"FOOT": 0.3048, b"YARD": 0.9144, b"MILE": 1609.344, b"MIL": 2.54e-5}
 
 
@@ -63,13 +70,34 @@ class Part21:
         """How many numbers are referred to and never defined."""
         return len({int(number) for number in _REFERENCE.findall(self.plain)} - self.instances.keys())
 
+    @cached_property
+    def _units(self) -> list[bytes]:
+        """Each unit that a context assigns, those of a mechanism's context first (ISO 10303-41, global_unit_assigned_context):
+        a file may define units that it does not use.  The whole file where no context assigns any."""
+        contexts = [int(found[1]) for found in _MECHANISM.finditer(self.plain)]
+        texts = [self.plain[slice(*self.instances[c])] for c in contexts if c in self.instances]
+        assigned = [found[1] for text in (*texts, self.plain) for found in _ASSIGNED.finditer(text)]
+        numbers = dict.fromkeys(int(number) for units in assigned for number in _REFERENCE.findall(units))
+        return [self.text(number) for number in numbers if number in self.instances] or [self.data]
+
     def metres(self) -> float:
         """Metres in the file's unit of length; the first one where it has several, a millimetre where none is found."""
-        for found in re.finditer(rb"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'", self.data):
-            if (name := found[1].strip().upper()) in _CONVERSIONS:
-                return _CONVERSIONS[name]
-        found = re.search(rb"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.", self.plain)
-        return _METRES.get((found[1] or b"").upper(), 1e-3) if found else 1e-3
+        for unit in self._units:
+            for found in _CONVERSION.finditer(unit):
+                if (name := found[1].strip().upper()) in _CONVERSIONS:
+                    return _CONVERSIONS[name]
+            if found := _METRE.search(unit):
+                return _METRES.get((found[1] or b"").upper(), 1e-3)
+        return 1e-3
+
+    def radians(self) -> float:
+        """Radians in the file's unit of angle; the first one where it has several."""
+        for unit in self._units:
+            if any(found[1].strip().upper() in _DEGREES for found in _CONVERSION.finditer(unit)):
+                return math.pi / 180.0
+            if _RADIAN.search(unit):
+                return 1.0
+        return 1.0
 
     def kinematic_pairs(self) -> int:
         """How many pairs of an AP242 mechanism the file states."""

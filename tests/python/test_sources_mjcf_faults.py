@@ -204,6 +204,7 @@ def test_a_long_licence_hides_no_model(tmp_path):
     assert [joint.id for joint in read(path, Report()).joints] == ["j"]
 
 
+@needs_mujoco
 @pytest.mark.parametrize("encoding", ["iso-8859-1", "utf-16"])
 def test_other_encodings_than_mujocos_are_refused_at_their_line(tmp_path, encoding):
     """MuJoCo takes every file for UTF-8; what stands in a comment is no matter."""

@@ -129,7 +129,7 @@ class _Loading:
         self._by_shape: dict[tuple[int, tuple[int, ...], tuple[bool, ...], int], list[_Known]] = {}
         self._known: dict[int, _Known] = {}
         self._first_of: dict[tuple[str, int], tuple[int, str]] = {}
-        self._told: dict[int, str] = {}
+        self._told: dict[int, tuple[str, str]] = {}
 
     def place(self, place: _Place, wanted: Wanted, file: MeshFile, numbers: tuple[int, ...]) -> None:
         """Give a body the mesh of these pieces."""
@@ -146,8 +146,7 @@ class _Loading:
                 return
             self._by_origin[origin] = (self._share(body.name, piece) if found is None else found, piece)
         mesh, piece = self._by_origin[origin]
-        told = _told(wanted.reference)
-        self._told[mesh] = min(self._told.get(mesh, told), told)  # of files alike, whichever is read first
+        self._tell(mesh, wanted.reference)
         surfaces = self._body_surfaces(body, piece, file) if k < self._drawn[i] else ()
         self._bodies[i][k] = replace(body, mesh=mesh, surfaces=surfaces, reference=None)
         self._compare_with_definition(place, wanted, mesh)
@@ -158,10 +157,21 @@ class _Loading:
             for node, bodies in zip(self._scene.nodes, self._bodies)
         ]
         meshes = [
-            replace(mesh, origin=self._told[i]) if i in self._told else mesh
+            replace(mesh, origin="|".join(self._told[i])) if i in self._told else mesh
             for i, mesh in enumerate(self._meshes)
         ]
         return replace(self._scene, nodes=nodes, meshes=meshes, surfaces=self._surfaces)
+
+    def _tell(self, mesh: int, reference: MeshReference) -> None:
+        """Keep a mesh's origin: its file wherever that lies and its name in it, then how it is stretched along the file's axes;
+        of files and names alike, whichever is read first."""
+        name = f"{reference.path.name}|{reference.key or ''}"
+        known = self._told.get(mesh)
+        if known is None or name <= known[0]:
+            linear = np.asarray(reference.to_node, dtype=np.float64)[:3, :3]
+            stretch = np.copysign(np.linalg.norm(linear, axis=0), np.linalg.det(linear))
+            told = name, ",".join(f"{x:.6g}" for x in stretch)
+            self._told[mesh] = told if known is None else min(known, told)
 
     def _mesh_of_definition(self, place: _Place, piece: Piece) -> int | None:
         """The mesh of the first occurrence of a body's definition where this is its shape too, as it nearly always is: a search
@@ -260,13 +270,6 @@ def _stated(shape: Mesh | Piece) -> tuple[bool, bool, bool]:
     """Whether it has texture coordinates, normals, colours."""
     uv = shape.uv is not None if isinstance(shape, Piece) else bool(shape.uvs)
     return uv, shape.normals is not None, shape.colors is not None
-
-
-def _told(reference: MeshReference) -> str:
-    """A mesh's origin: its file wherever that lies, its name in it, and how it is stretched along the file's axes."""
-    linear = np.asarray(reference.to_node, dtype=np.float64)[:3, :3]
-    stretch = np.copysign(np.linalg.norm(linear, axis=0), np.linalg.det(linear))
-    return f"{reference.path.name}|{reference.key or ''}|{','.join(f'{x:.6g}' for x in stretch)}"
 
 
 def _to_node(reference: MeshReference, file: MeshFile) -> Array:

@@ -21,6 +21,8 @@ AIR = 0.04
 """Of all hulls together, as a share of the solid: enough."""
 HELPS = 0.05
 """Share of a part's air that a cut takes away at once, below which the next cut is looked at too."""
+GOOD = 0.5
+"""Share of a part's air that goes by a cut through its middle or along an inner edge, from which on no other is tried."""
 ENOUGH = 0.2
 """Share of a part's air that goes by two cuts, from which on no other first cut is looked for."""
 SAME = 1e-6
@@ -79,10 +81,11 @@ def nearly_convex_parts(vertices: Array, faces: IntArray, most: int) -> list[Arr
 
 def _cut(part: _Part, reflex: list[_Plane], library: Any) -> list[_Part]:
     """The halves of a part, by the best plane found."""
-    planes = _distinct(
-        [*_across(part.points, np.eye(3), ALONG), *_middles(part.points), *_within(part.points, reflex)]
-    )
-    filled, best = _best(part, planes, library)
+    filled, best = _best(part, _distinct([*_middles(part.points), *_within(part.points, reflex)]), library)
+    if part.filled - filled < GOOD * part.air:
+        further, other = _best(part, _across(part.points, np.eye(3), ALONG), library)
+        if further < filled * (1.0 - SAME):
+            filled, best = further, other
     halves = _apart(part.solid.split_by_plane(*best), library)
     if part.filled - filled > HELPS * part.air:
         return halves

@@ -16,8 +16,9 @@ BUILT_IN = (
     "0000000000000000f000000000000000",
     "933532a4fcc9baf4fa0491de14d08ed7",
     "6e4ae4064600d784cac1e41a9e6f2e59",
+    "d0353a89b1f911e48b9e16bdc9f2e058",
 )
-"""Files of Unity itself and of its packages that ours refer to: shaders."""
+"""Files of Unity itself and of its packages that ours refer to: shaders, and URP's script of a material's version."""
 
 
 @dataclass

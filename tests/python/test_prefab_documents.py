@@ -114,7 +114,10 @@ def test_every_document_has_the_fields_of_its_class(folder, dialect, pipeline):
         rule = TABLE[dialect][document.kind]
         assert document.class_id == rule["classID"]
         assert not document.stripped
-        assert disagreements(document.fields, rule["fields"], f"{path.name} {document.kind}") == []
+        fields = rule["fields"] | (
+            {"version": "int"} if path.suffix == ".mat" and document.class_id == 114 else {}
+        )
+        assert disagreements(document.fields, fields, f"{path.name} {document.kind}") == []
 
 
 def references(value) -> list[dict]:

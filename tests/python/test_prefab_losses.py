@@ -29,8 +29,8 @@ def told(result: kinefab.ExportResult) -> set[tuple[str, str]]:
 
 
 def material(folder: Path, name: str) -> dict:
-    (document,) = documents((folder / "out" / "Rich" / "Materials" / f"{name}.mat").read_text("utf-8"))
-    return document.fields
+    found = documents((folder / "out" / "Rich" / "Materials" / f"{name}.mat").read_text("utf-8"))
+    return found[0].fields
 
 
 def properties(fields: dict, kind: str) -> dict:
@@ -360,7 +360,7 @@ def test_colours_of_vertices_are_kept_and_told(tmp_path, pipeline):
 
 
 def test_no_image_is_made_smaller(tmp_path):
-    """Unity's own most of a side, in what the editor reads for every platform."""
+    """Unity's own most of a side, in what the editor reads for every platform; no side is made a power of two."""
     scene = rich_scene(tmp_path)
     exported(scene, tmp_path)
     for path in sorted((tmp_path / "out").rglob("*.png.meta")):
@@ -368,6 +368,7 @@ def test_no_image_is_made_smaller(tmp_path):
         (platform,) = imported["platformSettings"]
         assert platform["buildTarget"] == "DefaultTexturePlatform"
         assert imported["maxTextureSize"] == platform["maxTextureSize"] == "16384"
+        assert imported["nPOTScale"] == "0"
 
 
 @pytest.mark.parametrize("count, short", [(65_535, True), (65_536, False)])

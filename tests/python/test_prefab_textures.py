@@ -40,7 +40,7 @@ def shown(prefab: Path) -> dict[str, dict[str, tuple[bytes, str]]]:
     for d in (d for d in found.values() if d.kind == "MeshRenderer"):
         owner = str(found[int(d.fields["m_GameObject"]["fileID"])].fields["m_Name"])
         (reference,) = d.fields["m_Materials"]
-        (own,) = documents(by_guid[reference["guid"]].read_text("utf-8"))
+        own = documents(by_guid[reference["guid"]].read_text("utf-8"))[0]
         slots = {
             k: v["m_Texture"]
             for entry in own.fields["m_SavedProperties"]["m_TexEnvs"]
@@ -99,3 +99,56 @@ def test_an_image_of_unity_s_most_pixels_is_no_fault(tmp_path):
     result = kinefab.export(scene, tmp_path / "Large.prefab")
     assert not [d for d in result.report.diagnostics if d.code == "TEXTURE_NOT_WRITTEN"]
     assert shown(tmp_path / "Large.prefab")["a"]["_MainTex"][0] == (tmp_path / "large.png").read_bytes()
+
+
+@pytest.mark.parametrize("dialect, version, blend", [("2021", 5, 1.0), ("2022", 7, 0.0), ("6", 7, 0.0)])
+def test_urp_knows_which_of_its_changes_a_material_has_seen(tmp_path, dialect, version, blend):
+    """Its fourth change darkens emission, its sixth takes what shines through glass out of the blend mode: neither may
+    happen to a material that is written as after it, nor be left out where it is written as before."""
+    scene = model.Scene(meshes=[block("Block", (0.1, 0.1, 0.1))])
+    scene.surfaces += [
+        model.Surface("Glass", (0.2, 0.4, 0.6, 0.3), alpha_mode=model.AlphaMode.BLEND),
+        model.Surface("Leaf", alpha_mode=model.AlphaMode.MASK, emission=(0.5, 0.25, 0.0)),
+    ]
+    scene.nodes += [model.Node(n, n, bodies=(model.Body("b", 0, (i,)),)) for i, n in enumerate("ab")]
+    for pipeline, versioned in (("urp", True), ("builtin", False)):
+        folder = tmp_path / pipeline
+        folder.mkdir()
+        writing = {"unity": dialect, "pipeline": pipeline}
+        kinefab.export(scene, folder / "A.prefab", kinefab.ExportOptions(writing=writing))
+        glass, leaf = (
+            documents((folder / "A" / "Materials" / f"{n}.mat").read_text("utf-8")) for n in ("Glass", "Leaf")
+        )
+        assert [d.kind for d in glass] == ["Material", "MonoBehaviour"][: 1 + versioned]
+        if not versioned:
+            continue
+        assert glass[1].fields["version"] == leaf[1].fields["version"] == str(version)
+        assert glass[1].fields["m_Script"]["guid"] == "d0353a89b1f911e48b9e16bdc9f2e058"
+        floats = [
+            {k: float(v) for entry in d[0].fields["m_SavedProperties"]["m_Floats"] for k, v in entry.items()}
+            for d in (glass, leaf)
+        ]
+        expected = {
+            "_Surface": 1.0,
+            "_Blend": blend,
+            "_BlendModePreserveSpecular": 1.0,
+            "_AlphaClip": 0.0,
+            "_AlphaToMask": 0.0,
+        }
+        expected |= {
+            "_SrcBlend": 1.0,
+            "_DstBlend": 10.0,
+            "_SrcBlendAlpha": 1.0,
+            "_DstBlendAlpha": 10.0,
+            "_ZWrite": 0.0,
+        }
+        assert {k: floats[0][k] for k in expected} == expected
+        expected = {
+            "_Surface": 0.0,
+            "_Blend": 0.0,
+            "_AlphaClip": 1.0,
+            "_AlphaToMask": 1.0,
+            "_DstBlendAlpha": 0.0,
+            "_ZWrite": 1.0,
+        }
+        assert {k: floats[1][k] for k in expected} == expected

@@ -14,6 +14,12 @@ from ..text.documents import HEAD
 from ..text.yaml import HEADER, NULL, Fields, Plain, document, external, vector
 
 MATERIAL_ID = 2100000
+URP_VERSION_ID = 11400000
+URP_VERSION_SCRIPT = external(11500000, "d0353a89b1f911e48b9e16bdc9f2e058", 3)
+HIDDEN = 11
+"""Hide flags of an object that neither hierarchy nor inspector shows, and that nobody edits."""
+PREMULTIPLY, ALPHA = 1.0, 0.0
+"""Blend modes of URP."""
 SHADERS = {
     Pipeline.BUILTIN: external(46, "0000000000000000f000000000000000", 0),
     Pipeline.URP: external(4800000, "933532a4fcc9baf4fa0491de14d08ed7", 3),
@@ -60,10 +66,29 @@ class _Sheet:
 
 def material_asset(material: Material, name: str, maps: Maps, pipeline: Pipeline, dialect: Dialect) -> bytes:
     """The file."""
-    makers = {Pipeline.BUILTIN: _builtin, Pipeline.URP: _urp, Pipeline.HDRP: _hdrp}
-    sheet = makers[pipeline](material, maps)
-    text = HEADER + document(21, "Material", MATERIAL_ID, _fields(material, name, sheet, pipeline, dialect))
-    return text.encode("ascii")
+    if pipeline is Pipeline.URP:
+        sheet, tail = _urp(material, maps, dialect), _urp_version(dialect)
+    else:
+        sheet, tail = (_builtin if pipeline is Pipeline.BUILTIN else _hdrp)(material, maps), ""
+    text = document(21, "Material", MATERIAL_ID, _fields(material, name, sheet, pipeline, dialect))
+    return (HEADER + text + tail).encode("ascii")
+
+
+def _urp_version(dialect: Dialect) -> str:
+    """The object by which URP knows which of its changes a material has seen (MaterialPostprocessor.cs in Unity's Graphics
+    repository).  One without it is taken for the project's last state, or for the oldest, and then its emission is darkened."""
+    fields: Fields = {
+        **HEAD,
+        "m_ObjectHideFlags": HIDDEN,
+        "m_GameObject": NULL,
+        "m_Enabled": 1,
+        "m_EditorHideFlags": 0,
+        "m_Script": URP_VERSION_SCRIPT,
+        "m_Name": "",
+        "m_EditorClassIdentifier": "",
+        "version": dialect.urp_material,
+    }
+    return document(114, "MonoBehaviour", URP_VERSION_ID, fields)
 
 
 def _fields(material: Material, name: str, sheet: _Sheet, pipeline: Pipeline, dialect: Dialect) -> Fields:
@@ -170,8 +195,10 @@ def _builtin(material: Material, maps: Maps) -> _Sheet:
     return sheet
 
 
-def _urp(material: Material, maps: Maps) -> _Sheet:
+def _urp(material: Material, maps: Maps, dialect: Dialect) -> _Sheet:
     sheet = _builtin(material, maps)
+    # from its sixth change on, URP tells what shines through glass undimmed from how colours blend
+    premultiplied = PREMULTIPLY if dialect.urp_material < 6 else ALPHA
     blend = material.alphaMode is AlphaMode.BLEND
     if "_METALLICGLOSSMAP" in sheet.keywords:
         sheet.keywords.remove("_METALLICGLOSSMAP")
@@ -185,8 +212,12 @@ def _urp(material: Material, maps: Maps) -> _Sheet:
     sheet.floats |= {
         "_WorkflowMode": 1.0,
         "_Surface": 1.0 if blend else 0.0,
-        "_Blend": 1.0 if blend else 0.0,
+        "_Blend": premultiplied if blend else ALPHA,
+        "_BlendModePreserveSpecular": 1.0,
+        "_SrcBlendAlpha": 1.0,
+        "_DstBlendAlpha": 10.0 if blend else 0.0,
         "_AlphaClip": 1.0 if material.alphaMode is AlphaMode.MASK else 0.0,
+        "_AlphaToMask": 1.0 if material.alphaMode is AlphaMode.MASK else 0.0,
         "_Cull": 0.0 if material.doubleSided else 2.0,
         "_Smoothness": 1.0 if maps.metallic else material.smoothness,
         "_ReceiveShadows": 1.0,

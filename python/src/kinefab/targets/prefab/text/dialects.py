@@ -20,6 +20,7 @@ class Dialect:
 
     root_order: a Transform states its place among its siblings (until 2022.3.4).  mass_properties: a Rigidbody holds centre of mass and
     inertia (from 2022.2), layer_overrides: and colliders their layers.  valid_keywords: a material lists them one by one.
+    urp_material: of URP's own count of changes to its materials, see ``assets.materials``.
     """
 
     name: str
@@ -40,12 +41,13 @@ class Dialect:
     clip: int
     animation: int
     material: int
+    urp_material: int
     physics_material: int
 
 
-_2021 = Dialect("2021", True, False, False, False, 2, 2, 2, 1, 4, 1, 2, 3, 2, 1, 6, 3, 6, 1)
-_2022 = Dialect("2022", True, True, True, True, 4, 3, 3, 2, 5, 2, 3, 4, 5, 1, 7, 3, 8, 1)
-_6 = Dialect("6", False, True, True, True, 4, 3, 3, 2, 5, 3, 4, 4, 5, 2, 7, 4, 8, 2)
+_2021 = Dialect("2021", True, False, False, False, 2, 2, 2, 1, 4, 1, 2, 3, 2, 1, 6, 3, 6, 5, 1)
+_2022 = Dialect("2022", True, True, True, True, 4, 3, 3, 2, 5, 2, 3, 4, 5, 1, 7, 3, 8, 7, 1)
+_6 = Dialect("6", False, True, True, True, 4, 3, 3, 2, 5, 3, 4, 4, 5, 2, 7, 4, 8, 7, 2)
 
 DIALECTS = {dialect.name: dialect for dialect in (_2021, _2022, _6)}
 """2021.2, 2022.2 and 6000.0, by the type trees of those editors."""

@@ -81,7 +81,7 @@ def texture_meta(guid: str, srgb: bool, normal: bool, wrap: int) -> str:
             "wrapV": wrap,
             "wrapW": wrap,
         },
-        "nPOTScale": 1,
+        "nPOTScale": 0,  # 1 makes sides powers of two, so that images of other sizes are drawn anew
         "lightmap": 0,
         "compressionQuality": 50,
         "spriteMode": 0,

@@ -283,6 +283,48 @@ def test_python_in_a_xacro_that_never_ends_or_takes_all_memory_is_ended(
     assert time.monotonic() - start < 20.0
 
 
+YAML = "<xacro:property name='p' value=\"${{xacro.load_yaml('{}')}}\"/><link name='l${{p.n}}'/>"
+INCLUDED = "<xacro:include filename='{}'/>"
+
+
+@pytest.mark.parametrize(
+    ("inner", "found"),
+    [
+        (YAML.format("../more.yaml"), True),
+        (YAML.format("$(find near)/more.yaml"), True),
+        (INCLUDED.format("$(find near)/more.xacro"), True),
+        (YAML.format("../../../far/more.yaml"), False),
+        (YAML.format("{far}/more.yaml"), False),
+        (INCLUDED.format("../../../far/more.xacro"), False),
+        (INCLUDED.format("{far}/m*.xacro"), False),
+    ],
+)
+def test_a_xacro_reads_what_lies_in_a_package_alone(tmp_path, inner, found):
+    """What it loads and includes, absolute or not; a folder that is given opens the way."""
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    near, far = tmp_path / "ws" / "near", tmp_path / "far"
+    (near / "urdf").mkdir(parents=True)
+    far.mkdir()
+    (near / "package.xml").write_text("<package><name>near</name></package>", encoding="utf-8")
+    for folder in (near, far):
+        (folder / "more.yaml").write_text("n: 7", encoding="utf-8")
+        text = "<robot xmlns:xacro='http://ros.org/wiki/xacro'><link name='l7'/></robot>"
+        (folder / "more.xacro").write_text(text, encoding="utf-8")
+    path = near / "urdf" / "r.xacro"
+    text = (
+        f"<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>{inner.replace('{far}', str(far))}</robot>"
+    )
+    path.write_text(text, encoding="utf-8")
+    if not found:
+        with pytest.raises(KinefabError) as refused:
+            read(path, Report())
+        (why,) = refused.value.diagnostics
+        assert why.code == "XACRO_FAILED" and "leads out of the package" in why.message
+        assert "--package-path" in why.remedy
+    scene = read(path, Report(), options={} if found else {"package_path": [far]})
+    assert [node.name for node in scene.nodes] == ["r", "l7"]
+
+
 def mutated(text: str, chance: random.Random) -> bytes:
     """The text with a few bytes, words or lines changed, doubled, cut or exchanged."""
     data = bytearray(text.encode("utf-8"))

@@ -103,6 +103,18 @@ def test_failed_write_is_a_diagnostic_and_leaves_nothing(tmp_path, monkeypatch):
     assert size_in(target) == 0.1 and len(list(tmp_path.iterdir())) == 2
 
 
+@pytest.mark.parametrize("ending", [".kinefab", ".glb", ".usda"])
+def test_a_name_too_long_is_said_to_be(tmp_path, ending):
+    """249 bytes, of which 120 letters take two: a file system's 255 leave no room for what stands beside it meanwhile."""
+    name = "ü" * 120 + "x" * (249 - 240 - len(ending)) + ending
+    with pytest.raises(KinefabError) as caught:
+        kinefab.export(box_scene(0.1), tmp_path / name)
+    (found,) = caught.value.diagnostics
+    assert found.code == "TARGET_UNWRITABLE"
+    assert "249 bytes" in found.message and "shorter" in found.message
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_missing_folder_is_a_diagnostic(tmp_path):
     """A target in a folder that is not there is refused by name."""
     with pytest.raises(KinefabError) as caught:

@@ -71,6 +71,8 @@ def why_unwritable(path: Path, error: OSError) -> str:
     """In words why a file could not be written: the system names no folder that is missing."""
     if isinstance(error, FileNotFoundError) and not path.parent.exists():
         return f"there is no folder {path.parent}"
+    if error.errno == errno.ENAMETOOLONG:  # while it is written a longer name stands beside it
+        return f"its name has {len(os.fsencode(path.name))} bytes, or its path more than the system takes; give a shorter one"
     return error.strerror or str(error)
 
 

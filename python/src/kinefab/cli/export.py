@@ -56,11 +56,12 @@ def export(
         typer.echo(f"{output} was not written: {reason}.", err=True)
     elif console.verbosity >= 0:
         typer.echo(_summary(result), err=True)
-    text = json_text(report_document(found, str(output), result is not None))
-    if as_json:
-        typer.echo(text)
-    if report is not None:
-        write(report, f"{text}\n".encode())
+    if as_json or report is not None:
+        text = json_text(report_document(found, str(output), result is not None))
+        if as_json:
+            typer.echo(text)
+        if report is not None:
+            write(report, f"{text}\n".encode())
     if result is None:
         raise typer.Exit(1)
 

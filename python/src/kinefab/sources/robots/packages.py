@@ -62,7 +62,7 @@ class Packages:
         if "\0" in plain:
             return Found(None)
         if PurePosixPath(plain).is_absolute() or re.match(r"[A-Za-z]:", plain):
-            inside = next((r for r in (*self.given, self._home()) if _is_inside(Path(plain), r)), None)
+            inside = next((r for r in (*self.given, self._home()) if is_inside(Path(plain), r)), None)
             return Found(
                 Path(plain) if inside is not None and Path(plain).is_file() else None, inside is None
             )
@@ -140,7 +140,7 @@ def _is_package(folder: Path, name: str) -> bool:
 def _inside(folder: Path, name: str, home: Path | None = None) -> Found:
     """A file by its name in a folder; not where it leads out of ``home`` (the folder itself)."""
     path = Path(os.path.normpath(os.path.join(os.path.abspath(folder), name)))
-    if not _is_inside(path, folder if home is None else home):
+    if not is_inside(path, folder if home is None else home):
         return Found(None, outside=True)
     try:
         return Found(path if path.is_file() else None)
@@ -148,5 +148,5 @@ def _inside(folder: Path, name: str, home: Path | None = None) -> Found:
         return Found(None)
 
 
-def _is_inside(path: Path, root: Path) -> bool:
+def is_inside(path: Path, root: Path) -> bool:
     return Path(os.path.normpath(path)).is_relative_to(os.path.abspath(root))

@@ -14,14 +14,6 @@ from .scopes import Entry, Scope
 DEEPEST = 32
 """Files that include each other."""
 NEWEST, OLDEST = (1, 12), (1, 4)
-DROPPED = frozenset(
-    "plugin light actor sensor gripper state road population audio atmosphere magnetic_field gui scene wind physics "
-    "spherical_coordinates self_collide allow_auto_disable enable_wind model_state gravity pose static".split()
-)
-SILENT = frozenset(
-    "gravity pose static self_collide allow_auto_disable enable_wind uri name physics scene spherical_coordinates "
-    "magnetic_field atmosphere wind placement_frame namespace".split()
-)
 
 
 def version_of(root: Element) -> tuple[int, int]:
@@ -41,7 +33,6 @@ def version_of(root: Element) -> tuple[int, int]:
 
 def read_models(scope: Scope, files: tuple[Path, ...]) -> None:
     """Fill a scope from its element: links, joints, frames, nested and included models.  files: that are open."""
-    feature = f"model {scope.name}"
     for child in scope.element.children:
         if child.tag in ("link", "joint", "frame"):
             name = child.name()
@@ -51,18 +42,6 @@ def read_models(scope: Scope, files: tuple[Path, ...]) -> None:
             _add_model(scope, child, child, child.name(), scope.version, scope.packages, files)
         elif child.tag == "include":
             _include(scope, child, files)
-        elif child.tag in SILENT:
-            continue
-        elif child.tag in DROPPED or ":" in child.tag:
-            name = child.attributes.get("name", "")
-            scope.report.dropped(
-                f"{child.tag} {name} of {feature}".replace("  ", " "), "ELEMENT_DROPPED", child.where
-            )
-        else:
-            label = f"{child.tag} of {feature}"
-            scope.report.dropped(
-                label, "ELEMENT_UNKNOWN", child.where, element=child.tag, inside=scope.element.tag
-            )
 
 
 def _allowed(name: str, element: Element, version: tuple[int, int]) -> bool:
@@ -87,7 +66,7 @@ def _add_model(
     if not name or not _allowed(name, element, version):
         return
     path = scope.path if merged else f"{scope.path}/{name}" if scope.path else name
-    inner = Scope(name, path, element, scope, version, packages, scope.report, posed)
+    inner = Scope(name, path, element, scope, version, packages, scope.report, posed, scope.unread)
     inner.merged = merged
     own, given = element.attributes.get("placement_frame", ""), posed.content("placement_frame")
     inner.placement = (given if posed is not element and given else own).strip()
@@ -132,6 +111,9 @@ def _include(scope: Scope, element: Element, files: tuple[Path, ...]) -> None:
     posed = element if element.child("pose") is not None else models[0]
     packages = Packages(path.parent, scope.packages.given, scope.packages.environment)
     holder = _Overlay(element, posed)
+    above = f"{scope.path}/" if scope.path else ""
+    label = f"model {above}{name}"
+    scope.unread.look_through(models[0], label, f"{above}{name}/")
     _add_model(scope, models[0], holder.element, name, version, packages, (*files, path), merged)
 
 

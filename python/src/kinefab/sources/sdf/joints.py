@@ -17,9 +17,6 @@ from .scopes import Entry, Scope, entry_world_pose, frame_pose, link_of, world_p
 TYPES = ("revolute", "continuous", "prismatic", "ball", "universal", "revolute2", "screw", "gearbox", "fixed")
 TWO_AXES = frozenset({"universal", "revolute2", "gearbox"})
 NO_AXIS = frozenset({"ball", "fixed"})
-KNOWN = frozenset(
-    "parent child pose axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body".split()
-)
 DEFAULT_STIFFNESS, DEFAULT_DISSIPATION = 1e8, 1.0
 
 
@@ -116,9 +113,6 @@ def read_joint(entry: Entry, report: Report) -> SdfJoint | None:
     for tag in ("axis", "axis2"):
         if tag not in names and element.child(tag) is not None and kind not in NO_AXIS:
             report.dropped(f"{tag} of {feature}", "ELEMENT_DROPPED", element.where)
-    for other in element.children:
-        if other.tag not in KNOWN:
-            report.dropped(f"{other.tag} of {feature}", "ELEMENT_DROPPED", other.where)
     return joint
 
 

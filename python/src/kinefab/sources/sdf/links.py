@@ -15,9 +15,6 @@ from ..robots.xml_elements import Element
 from .materials import Materials, physics_material
 from .scopes import Entry, Scope, entry_world_pose, frame_pose, pose_of, relative_to
 
-KNOWN = frozenset(
-    "pose inertial visual collision gravity kinematic self_collide must_be_base_link enable_wind".split()
-)
 ROUND = {
     "sphere": ("radius",),
     "cylinder": ("radius", "length"),
@@ -46,12 +43,6 @@ class Links:
         link.touched = self._parts(element, "collision", scope, label)
         link.gravity = element.content("gravity") not in ("false", "0")
         link.kinematic = element.content("kinematic") in ("true", "1")
-        for child in element.children:
-            if child.tag not in KNOWN:
-                name = child.attributes.get("name", "")
-                self.report.dropped(
-                    f"{child.tag} {name} of {label}".replace("  ", " "), "ELEMENT_DROPPED", child.where
-                )
         return link
 
     def _parts(self, link: Element, tag: str, scope: Scope, label: str) -> list[Part]:

@@ -20,6 +20,7 @@ from ..robots.xml_elements import Element, parse_xml
 from .includes import read_models, version_of
 from .scene import fill_scene
 from .scopes import Scope
+from .unread import unread_of
 
 
 def sniff(head: bytes) -> bool:
@@ -38,20 +39,15 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     packages = Packages(path.parent, request.paths("package_path"))
     scene = Scene(source=Source(path.name, "Z", 1.0, hashlib.sha256(data).hexdigest()))
     worlds = list(root.all("world"))
-    for other in worlds[1:]:
-        report.dropped(f"world {other.attributes.get('name', '')}", "ELEMENT_DROPPED", other.where)
     holder = worlds[0] if worlds else root
-    scope = Scope("world", "", holder, None, version, packages, report, holder)
+    unread = unread_of(bool(worlds), report)
+    unread.look_through(root, "")
     if not worlds:
-        models = [child for child in root.children if child.tag in ("model", "include")]
-        for child in root.children:
-            if child not in models:
-                report.dropped(
-                    f"{child.tag} {child.attributes.get('name', '')}", "ELEMENT_DROPPED", child.where
-                )
+        models = list(root.all("model", "include"))
         holder = Element(root.tag, root.attributes, root.path, root.line, report, models)
-        scope.element = scope.posed = holder
+    scope = Scope("world", "", holder, None, version, packages, report, holder, unread)
     read_models(scope, (path.resolve(),))
+    unread.tell_rest()
     if not scope.all_entries("link"):
         report.add("LINKS_NONE", root.where)
     report.raise_for_errors()

@@ -11,6 +11,7 @@ from ...diagnostics import Report
 from ...spatial import Pose, matrix_from_quaternion
 from ..robots.packages import Packages
 from ..robots.robot_frame import rotation_rpy
+from ..robots.unread import Unread
 from ..robots.xml_elements import Element, near_matches
 
 SCOPE_FRAMES = ("__model__", "__root__")
@@ -45,6 +46,7 @@ class Scope:
     packages: Packages
     report: Report
     posed: Element
+    unread: Unread
     placement: str = ""
     static: bool = False
     merged: bool = False

@@ -14,11 +14,11 @@ from collections.abc import Generator, Iterator, Mapping, Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 from ...diagnostics import Report
 from ..guard import GuardedCrash, GuardedError, guarded
-from ..robots.packages import Packages
+from ..robots.packages import Packages, is_inside
 from ..robots.xml_elements import Element, parse_xml
 
 MOST_CALLS = 20_000
@@ -101,7 +101,8 @@ def expansion(
     substitution: Any = import_module("xacro.substitution_args")
     text, detail = b"", ""
     try:
-        with _limited(most_bytes, most_seconds), _finding(substitution, packages), _counting(library):
+        staying = _staying(library, substitution, packages)
+        with _limited(most_bytes, most_seconds), staying, _counting(library):
             document = library.process_file(str(path), mappings=mappings)
             text = document.toprettyxml(indent="  ", encoding="utf-8")
         if len(text) > most_bytes // 8:
@@ -143,19 +144,29 @@ def _limited(most_bytes: int, most_seconds: float) -> Generator[None, None, None
 
 
 @contextlib.contextmanager
-def _finding(substitution: Any, packages: Packages) -> Generator[None, None, None]:
-    """Lets ``$(find NAME)`` look where meshes are looked for; without ROS the package has nothing to ask."""
+def _staying(library: Any, substitution: Any, packages: Packages) -> Generator[None, None, None]:
+    """Lets ``$(find NAME)`` look where meshes are looked for (without ROS the package has nothing to ask), and opens what
+    is included or loaded only where a mesh may lie, or in a package so found."""
     before = substitution._eval_find
+    named: list[Path] = []
 
     def find(name: str) -> str:
         folder = packages.package(name)
-        return before(name) if folder is None else str(folder)
+        named.append(Path(before(name)) if folder is None else folder)
+        return str(named[-1])
 
-    substitution._eval_find = find
+    def opened(name: str, *arguments: Any) -> IO[Any]:
+        path = os.path.abspath(name)
+        if packages.find(path).outside and not any(is_inside(Path(path), root) for root in named):
+            raise ValueError(f"{name} leads out of the package")
+        return cast("IO[Any]", open(path, *arguments))
+
+    substitution._eval_find, library.open = find, opened
     try:
         yield
     finally:
         substitution._eval_find = before
+        del library.open
 
 
 @contextlib.contextmanager

@@ -11,11 +11,10 @@ import numpy as np
 from ...diagnostics import Report
 from ...spatial import Array
 from ..robots.xml_elements import Element, near_matches
-from .links import origin, told
+from .links import origin
 from .robot import Mimic, Robot, UrdfJoint
 
 TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
-KNOWN = frozenset("origin parent child axis limit dynamics mimic safety_controller calibration".split())
 AXIAL = frozenset({"revolute", "continuous", "prismatic", "planar"})
 MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
 
@@ -65,9 +64,6 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
             joint.extras[tag] = {
                 key: float(child.attributes[key]) for key in child.attributes if _is_number(child, key)
             }
-    for child in element.children:
-        if child.tag not in KNOWN:
-            told(child, element, f"{child.tag} of joint {name}", report)
     return joint
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Pose
+from ..reading.record import shown
 from ..robots.inertial import Inertial, tensor
 from ..robots.packages import Packages
 from ..robots.rigid_links import Link, Part, unique
@@ -15,8 +16,6 @@ from ..robots.xml_elements import Element
 from .materials import Materials
 from .robot import Robot
 
-KNOWN = frozenset("inertial visual collision origin".split())
-DROPPED = frozenset("contact sensor gazebo self_collision_checking collision_checking".split())
 SHAPES = {
     "box": ("size",),
     "sphere": ("radius",),
@@ -39,18 +38,7 @@ def read_links(robot: Robot, packages: Packages, materials: Materials, report: R
         link.inertial = _inertial(element, name)
         link.drawn = _parts(element, "visual", name, packages, materials, report)
         link.touched = _parts(element, "collision", name, packages, None, report)
-        for child in element.children:
-            if child.tag not in KNOWN:
-                told(child, element, f"{child.tag} of link {name}", report)
         robot.links[name] = link
-
-
-def told(child: Element, inside: Element, feature: str, report: Report) -> None:
-    """Say of an element that it was not read: an extension that is known to have no place, or one that nobody knows."""
-    if child.tag in DROPPED or ":" in child.tag or child.tag.startswith("drake"):
-        report.dropped(feature, "ELEMENT_DROPPED", child.where)
-    else:
-        report.dropped(feature, "ELEMENT_UNKNOWN", child.where, element=child.tag, inside=inside.tag)
 
 
 def origin(element: Element) -> Pose:
@@ -106,6 +94,9 @@ def _shape(part: Element, feature: str, packages: Packages, report: Report) -> S
     if geometry is None:
         part.fault("XML_MISSING", element=part.tag, field="geometry")
         return None
+    for other in geometry.children[1:]:
+        code, values = "ELEMENT_REPEATED", {"element": shown(other.tag), "inside": "geometry"}
+        report.dropped(f"{shown(other.tag)} of {feature}", code, other.where, **values)
     for child in geometry.children:
         if child.tag == "mesh":
             uri = child.name("filename")
@@ -124,7 +115,8 @@ def _shape(part: Element, feature: str, packages: Packages, report: Report) -> S
                 report.dropped(feature, "SHAPE_EMPTY", child.where, shape=child.tag)
                 return None
             return Shape(child.tag, size, where=child.where)
-        told(child, geometry, feature, report)
+        code = "ELEMENT_DROPPED" if ":" in child.tag else "ELEMENT_UNKNOWN"
+        report.dropped(feature, code, child.where, element=shown(child.tag), inside="geometry")
         return None
     geometry.fault("XML_MISSING", element="geometry", field="shape")
     return None

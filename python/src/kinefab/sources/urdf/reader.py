@@ -14,18 +14,14 @@ from ...model import Scene, Source
 from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..robots.packages import Packages
-from ..robots.xml_elements import Element, parse_xml
+from ..robots.xml_elements import parse_xml
 from .expansion import expanded, expanded_leftovers, is_xacro
 from .joints import read_joints
 from .links import read_links
 from .materials import Materials
 from .robot import Robot
 from .scene import fill_scene
-
-KNOWN = frozenset({"link", "joint", "material"})
-EXTENSIONS = frozenset(
-    "gazebo transmission sensor mujoco ros2_control plugin group group_state end_effector".split()
-)
+from .unread import tell_unread
 
 
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:
@@ -46,26 +42,8 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     read_joints(robot, report)
     if not robot.links:
         report.add("LINKS_NONE", root.where)
-    _tell_extensions(root, report)
+    tell_unread(root, report)
     report.raise_for_errors()
     fill_scene(scene, robot, request.flag("floating_base"), report)
     report.raise_for_errors()
     return scene
-
-
-def _tell_extensions(root: Element, report: Report) -> None:
-    """What a robot's file holds for other programs: left out by name."""
-    for child in root.children:
-        if child.tag in KNOWN:
-            continue
-        name = (
-            child.attributes.get("name")
-            or child.attributes.get("reference")
-            or child.attributes.get("link")
-            or ""
-        )
-        feature = f"{child.tag} {name}".strip()
-        if child.tag in EXTENSIONS or ":" in child.tag or "_" in child.tag:
-            report.dropped(feature, "ELEMENT_DROPPED", child.where)
-        else:
-            report.dropped(feature, "ELEMENT_UNKNOWN", child.where, element=child.tag, inside=root.tag)

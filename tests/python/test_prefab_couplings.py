@@ -130,15 +130,22 @@ def program(request, tmp_path_factory) -> Path:
         f"-out:{out}",
         *map(str, sources),
     ]
-    command += [str(FOLDER / SCRIPT), str(OWN / "MotionStandIns.cs"), str(OWN / "GearPair.cs")]
+    command += [
+        str(FOLDER / SCRIPT),
+        *(str(OWN / f"{name}.cs") for name in ("MotionStandIns", "GearPair", "Slide")),
+    ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     return out
 
 
-@pytest.mark.parametrize("how", ["moved", "hinge", "configurable"])
+@pytest.mark.parametrize(
+    "how",
+    ["moved", "hinge", "configurable", "driven slide", "swapped slide", "moved slide", "from slide"],
+)
 def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
-    """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is."""
+    """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
+    pose of the prefab and not from where their anchors meet."""
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3

@@ -6,14 +6,15 @@ using System.Reflection;
 using Kinefab;
 using UnityEngine;
 
-public static class GearPair
+public static partial class GearPair
 {
     private const double Ratio = -2.5, Offset = 17;
 
     public static int Main(string[] arguments)
     {
         CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
-        double worst = Run(arguments[0]);
+        string how = arguments[0];
+        double worst = how.EndsWith("slide", StringComparison.Ordinal) ? Slide.Run(how) : Run(how);
         Console.WriteLine(worst.ToString("R"));
         return 0;
     }

@@ -111,7 +111,7 @@ namespace Kinefab
             if (axis < 3)
             {
                 Vector3 position = joint.targetPosition;
-                float value = (float)(sense * target);
+                float value = (float)(sense * (target + _driven.Zero)); // Unity counts from where the anchors meet
                 joint.targetPosition = new Vector3(axis == 0 ? value : position.x, axis == 1 ? value : position.y, axis == 2 ? value : position.z);
                 if (axis == 0)
                 {
@@ -151,6 +151,7 @@ namespace Kinefab
             private readonly Vec _axis;
             private readonly Vec _anchor;
             private readonly Quat _start;
+            private readonly Vec _startAt;
             private double _last;
 
             public Reading(Joint joint, Coordinate coordinate)
@@ -159,9 +160,14 @@ namespace Kinefab
                 _isAngle = coordinate == Coordinate.Angle || coordinate >= Coordinate.AngularX;
                 _axis = Axis(joint, coordinate == Coordinate.Angle ? 0 : ((int)coordinate - 1) % 3);
                 _anchor = new Vec(joint.anchor);
-                Pose(out Quat connected, out _, out Quat own, out _);
+                Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt);
                 _start = connected.Inverse() * own;
+                _startAt = connected.Inverse() * (ownAt - connectedAt);
+                Zero = _isAngle ? 0 : Apart(connected, connectedAt, own, ownAt);
             }
+
+            /// <summary>Metres by which the anchors stood apart at the start: there a slide is at zero, as an angle is.</summary>
+            public double Zero { get; }
 
             /// <summary>Degrees, over whole turns, or metres.</summary>
             public double Value()
@@ -169,9 +175,7 @@ namespace Kinefab
                 Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt);
                 if (!_isAngle)
                 {
-                    Vec anchor = ownAt + own * _anchor;
-                    Vec other = connectedAt + connected * new Vec(_joint.connectedAnchor);
-                    return (anchor - other).Dot(Turning(connected, own) * _axis);
+                    return Apart(connected, connectedAt, own, ownAt) - Zero;
                 }
 
                 Quat turn = _start.Inverse() * (connected.Inverse() * own);
@@ -185,20 +189,27 @@ namespace Kinefab
             {
                 Pose(out Quat connected, out Vec connectedAt, out _, out _);
                 Quat own = connected * _start;
-                Vec anchor = connectedAt + connected * new Vec(_joint.connectedAnchor);
+                Vec at = connectedAt + connected * _startAt;
                 if (_isAngle)
                 {
                     double half = value * Math.PI / 360;
+                    Vec anchor = at + own * _anchor;
                     own = own * new Quat(Math.Sin(half) * _axis, Math.Cos(half));
+                    at = anchor - own * _anchor;
                 }
                 else
                 {
-                    anchor = anchor + value * (own * _axis);
+                    at = at + value * (own * _axis);
                 }
 
-                Vec at = anchor - own * _anchor;
                 position = new Vector3((float)at.X, (float)at.Y, (float)at.Z);
                 rotation = new Quaternion((float)own.V.X, (float)own.V.Y, (float)own.V.Z, (float)own.W);
+            }
+
+            private double Apart(Quat connected, Vec connectedAt, Quat own, Vec ownAt)
+            {
+                Vec other = connectedAt + connected * new Vec(_joint.connectedAnchor);
+                return (ownAt + own * _anchor - other).Dot(Turning(connected, own) * _axis);
             }
 
             private Quat Turning(Quat connected, Quat own)

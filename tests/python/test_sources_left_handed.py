@@ -177,12 +177,12 @@ def by_the_other_hand(right: dict) -> dict:
 
 
 def plain(value):
-    """A scene as JSON values, without where it was read from."""
+    """A scene as JSON values, without where it was read from and how it is shown there."""
     if dataclasses.is_dataclass(value):
         return {
             f.name: plain(getattr(value, f.name))
             for f in dataclasses.fields(value)
-            if f.name not in ("source", "where")
+            if f.name not in ("source", "where", "sign")
         }
     if isinstance(value, Enum):
         return value.value
@@ -234,6 +234,41 @@ def test_what_is_counted_about_an_axis_is_counted_by_the_left_hand(tmp_path):
     assert hinge["axis"] == pytest.approx([sense, 0, 0], abs=1e-9) and abs(sense) == pytest.approx(1.0)
     limits = sorted(sense * hinge["limits"][end] for end in ("min", "max"))
     assert limits == pytest.approx([-35.0, 55.0], abs=1e-6)
+
+
+@pytest.mark.parametrize("handed", ["right", "left"])
+def test_a_coordinate_is_shown_as_the_source_counts_it(handed, tmp_path):
+    """Displayed 380 (20 and a whole turn), limits -10 to 80 and a turn: in messages and in motions, from either hand."""
+    z, x, off = (0, 0, 1), (1, 0, 0), (np.cos(np.radians(23.0)), np.sin(np.radians(23.0)), 0)
+    joint = {"id": "hinge", "type": "revolute", "a": "base", "b": "lid", "frameA": frame((1, 2, 3), z, x)}
+    values = bundle(
+        part("base", grounded=True),
+        part("lid", (1.5, 2.0, 3.0)),
+        angle="deg",
+        joints=[joint | {"frameB": frame((1, 2, 3), z, off), "dof": [limited("rz", 380.0, 350.0, 440.0)]}],
+    )
+    values["meta"]["handed"] = handed
+    scene, report = read(values, tmp_path)
+    assert [d.message for d in report.diagnostics] == [
+        "joint hinge has the value 380 degrees, its frames say 23 degrees; the value was taken."
+    ]
+    mechanism = kinefab.motion(scene)
+    hinge = mechanism.coordinate("hinge")
+    assert (hinge.value, hinge.lower, hinge.upper) == pytest.approx((380.0, 350.0, 440.0))
+    counted = (20.0, -10.0, 80.0) if handed == "right" else (-20.0, -80.0, 10.0)
+    assert np.degrees(mechanism.internal(hinge)) == pytest.approx(counted)
+    way = mechanism.sweep("hinge", 380.0, 470.0, frames=10)
+    assert len(way) == 7 and way["hinge"][-1] == pytest.approx(440.0)
+    assert str(way.stop) == "hinge is at its limit at 440 deg"
+    assert way["lid"][6, :3] - way["lid"][0, :3] == pytest.approx(
+        np.array([1.0 if handed == "right" else -1.0, 1.0, 1.0]) * [-0.25, np.sqrt(0.1875), 0.0], abs=1e-9
+    )
+
+    values["joints"][0] |= {"frameB": None, "dof": [limited("rz", 20.0, -10.0, 15.0)]}
+    del values["joints"][0]["frameB"]
+    scene, report = read(values, tmp_path)
+    said = [d.message for d in kinefab.export(scene, tmp_path / "lid.kinefab").report.diagnostics]
+    assert report.diagnostics == [] and any("rz = 20 degrees, outside its range -10 to 15" in m for m in said)
 
 
 def test_a_unity_like_source_comes_back_as_it_was_written(tmp_path):

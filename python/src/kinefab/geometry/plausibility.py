@@ -212,8 +212,7 @@ def _check_limits(scene: Scene, report: Report) -> None:
     for found, unit, taken in ((degrees, "degrees", "radians"), (radians, "radians", "degrees")):
         if found:
             joint, where, freedom = found[0]
-            ends = freedom.displayed(freedom.lower, freedom.upper)
-            low, high = (math.degrees(e) for e in ends)
+            low, high = map(math.degrees, freedom.displayed_range(freedom.lower, freedom.upper))
             report.add(
                 "LIMITS_IMPLAUSIBLE", where, joint=joint, lower=f"{low:.6g}", upper=f"{high:.6g}", count=len(found),
                 unit=unit, taken=taken,

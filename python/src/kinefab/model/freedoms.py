@@ -98,7 +98,8 @@ class Freedom:
     stiffness, damping: of the limit, 0 and 0 for a hard one.  restitution: 0..1, of a hard limit.
     passive: what the freedom is by itself, None for nothing stated.
     at: the coordinate at the exported pose where the source states it: its frames tell an angle up to whole turns only.
-    turns: whole turns by which the source displays more than the coordinate, its limits too; for messages only.
+    turns: whole turns by which the source displays more than the coordinate, its limits too.  sign: -1 where it counts by the
+    other hand.  Both for what people read only.
     name, where: what the source calls the freedom and where it speaks of it, empty where it does not; for messages only.
 
     >>> import kinefab
@@ -117,6 +118,7 @@ class Freedom:
     passive: Passive | None = None
     at: float | None = field(default=None, compare=False)
     turns: int = field(default=0, compare=False)
+    sign: float = field(default=1.0, compare=False)
     name: str = field(default="", compare=False)
     where: str = field(default="", compare=False)
 
@@ -126,7 +128,16 @@ class Freedom:
         >>> kinefab.Freedom(kinefab.Motion.FREE).displayed(0.25)
         (0.25,)
         """
-        return tuple(value + 2.0 * math.pi * self.turns for value in values)
+        return tuple(0.0 + self.sign * (value + 2.0 * math.pi * self.turns) for value in values)  # no -0
+
+    def displayed_range(self, lower: float, upper: float) -> tuple[float, float]:
+        """A range of the coordinate as the source shows it: where that counts by the other hand, its ends change places.
+
+        >>> kinefab.Freedom(sign=-1.0).displayed_range(-0.5, 1.5)
+        (-1.5, 0.5)
+        """
+        low, high = sorted(self.displayed(lower, upper))
+        return low, high
 
     def counted_from(self, zero: float) -> Freedom:
         """The same freedom whose coordinate is zero where it was ``zero``, metres or radians.

@@ -191,10 +191,10 @@ class Mechanism:
         """
         block, i = self._place[coordinate.name]
         joint, freedom = block.joint(i)
-        shown = (coordinate.value, coordinate.lower, coordinate.upper)
-        if freedom < RX:
-            return shown
-        value, lower, upper = (math.radians(x) - 2.0 * math.pi * joint.freedoms[freedom].turns for x in shown)
+        value = float(_counted(joint, freedom, coordinate.value))
+        lower, upper = sorted(
+            float(_counted(joint, freedom, x)) for x in (coordinate.lower, coordinate.upper)
+        )
         return value, lower, upper
 
     def bodies_of(self, block: DrivenBlock) -> tuple[int, list[int]]:
@@ -274,8 +274,7 @@ class Mechanism:
                 raise ValueError(f"the values of {name} are no list of finite numbers")
             lengths.add(len(column))
             joint, freedom = block.joint(i)
-            if freedom >= RX:
-                column = np.radians(column) - 2.0 * math.pi * joint.freedoms[freedom].turns
+            column = np.asarray(_counted(joint, freedom, column))
             places, columns = driven.setdefault(block, ([], []))
             if i in places:
                 raise ValueError(f"{name} is named twice")
@@ -366,15 +365,22 @@ def _continuous(q: Array) -> Array:
 def _coordinate(name: str, joint: Joint, freedom: int, value: float) -> Coordinate:
     own = joint.freedoms[freedom]
     limits = (own.lower, own.upper) if own.motion is Motion.LIMITED else (-math.inf, math.inf)
-    shown = (float(_shown(joint, freedom, x)) for x in (value, *limits))
-    return Coordinate(name, joint.id, "deg" if freedom >= RX else "m", *shown)
+    lower, upper = sorted(float(_shown(joint, freedom, x)) for x in limits)
+    at = float(_shown(joint, freedom, value))
+    return Coordinate(name, joint.id, "deg" if freedom >= RX else "m", at, lower, upper)
 
 
 def _shown(joint: Joint, freedom: int, value: Array | float):
     """Metres or radians of a coordinate as the source shows it."""
-    if freedom < RX:
-        return value
-    return np.degrees(value + 2.0 * math.pi * joint.freedoms[freedom].turns)
+    own = joint.freedoms[freedom]
+    return 0.0 + own.sign * (value if freedom < RX else np.degrees(value + 2.0 * math.pi * own.turns))
+
+
+def _counted(joint: Joint, freedom: int, shown: Array | float):
+    """What ``_shown`` undoes: metres or radians from where the joint's frames meet."""
+    own = joint.freedoms[freedom]
+    value = own.sign * shown
+    return value if freedom < RX else np.radians(value) - 2.0 * math.pi * own.turns
 
 
 def _check_numbers(start: object, stop: object, frames: object) -> None:

@@ -64,7 +64,7 @@ def found_ranges(
             if isinstance(ends, str):
                 report.add("LIMITS_NOT_SWEPT", link.joint.where, joint=link.joint.id, detail=ends)
             else:
-                displayed = link.joint.freedoms[freedom].displayed(*ends)
+                displayed = link.joint.freedoms[freedom].displayed_range(*ends)
                 ranges.append(JointRange(link.joint.id, freedom, *ends, displayed))
             done += 1
             progress(done / total)
@@ -123,7 +123,7 @@ def _ranges_in(
 def _stopped(link: Link, freedom: int, steps: int, seen: tuple[float, float]) -> str:
     """How far the search had come where it stopped."""
     unit, factor = ("degrees", math.degrees(1.0)) if freedom >= RX else ("m", 1.0)
-    low, high = (end * factor for end in link.joint.freedoms[freedom].displayed(*seen))
+    low, high = (end * factor for end in link.joint.freedoms[freedom].displayed_range(*seen))
     return f"the search stopped after {steps} steps, having come from {low:.6g} to {high:.6g} {unit}"
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -55,18 +55,21 @@ def read_joints(bundle: Record, components: Components, frame: SourceFrame, log:
         if (draft := read_draft(record, name, components, frame, found.inactive)) is not None:
             drafts.append(draft)
     if drafts:
-        _build(drafts, components.placement, found, log)
+        _build(drafts, components.placement, frame, found, log)
     return found
 
 
-def _build(drafts: list[JointDraft], placement: Placement, found: Joints, log: Log) -> None:
+def _build(
+    drafts: list[JointDraft], placement: Placement, frame: SourceFrame, found: Joints, log: Log
+) -> None:
     """Frames of all joints at once, then the joints one by one."""
     pairs = _bring_together(drafts, placement)
     for i, draft in enumerate(drafts):
         _check_flip(draft, bool(pairs.opposed[i]))
         unlocked, known = UNLOCKED[draft.kind], pairs.known[i]
         here = np.array([pairs.measured[i, k] if k in unlocked and known[k] else 0.0 for k in range(6)])
-        wanted, turns = _positions(draft, here, known)
+        stated = _named(draft.kind, frame)
+        wanted, turns = _positions(draft, stated, here, known)
         world_b = np.eye(4)
         world_b[:3, :3], world_b[:3, 3] = pairs.axes_b[i], pairs.origins_b[i]
         if not np.array_equal(here, wanted):
@@ -79,7 +82,7 @@ def _build(drafts: list[JointDraft], placement: Placement, found: Joints, log: L
                 b=draft.b,
                 frame_a=_in_node(placement, draft.a, pairs.axes_a[i], pairs.origins_a[i]),
                 frame_b=_in_node(placement, draft.b, world_b[:3, :3], world_b[:3, 3]),
-                freedoms=_freedoms(draft, wanted, turns, log),
+                freedoms=_freedoms(draft, stated, wanted, turns, log),
                 name=draft.name,
                 lead=draft.lead,
                 because=draft.because,
@@ -163,7 +166,9 @@ def _check_flip(draft: JointDraft, opposed: bool) -> None:
         )
 
 
-def _positions(draft: JointDraft, here: Array, known: np.ndarray) -> tuple[Array, Array]:
+def _positions(
+    draft: JointDraft, stated: tuple[Freedom, ...], here: Array, known: np.ndarray
+) -> tuple[Array, Array]:
     """Coordinates at the exported pose, and the whole turns by which the CAD displays more.
 
     The displayed value rules: the limits are stated beside it.
@@ -182,16 +187,20 @@ def _positions(draft: JointDraft, here: Array, known: np.ndarray) -> tuple[Array
         if not known[freedom]:
             positions[freedom] = value
         elif abs(value - here[freedom]) > (GAP_ANGLE if freedom >= 3 else GAP_LENGTH):
+            unit, factor = ("degrees", math.degrees(1.0)) if freedom >= 3 else ("m", 1.0)
+            shown = [factor * stated[freedom].sign * q for q in (said.value, here[freedom])]
             said.record.fault(
-                "JOINT_VALUE_MISMATCH", "value", feature=f"joint {draft.id}", stated=f"{said.value:.6g}",
-                measured=f"{here[freedom]:.6g}", unit="rad" if freedom >= 3 else "m",
+                "JOINT_VALUE_MISMATCH", "value", feature=f"joint {draft.id}", stated=f"{shown[0]:.6g}",
+                measured=f"{shown[1]:.6g}", unit=unit,
             )  # fmt: skip
             positions[freedom] = value
     return positions, turns
 
 
-def _freedoms(draft: JointDraft, wanted: Array, turns: Array, log: Log) -> tuple[Freedom, ...]:
-    freedoms = list(_named(draft.kind))
+def _freedoms(
+    draft: JointDraft, stated: tuple[Freedom, ...], wanted: Array, turns: Array, log: Log
+) -> tuple[Freedom, ...]:
+    freedoms = list(stated)
     for freedom, said in draft.dof.items():
         lower, upper = said.lower - turns[freedom], said.upper - turns[freedom]
         freedoms[freedom] = replace(
@@ -206,8 +215,11 @@ def _freedoms(draft: JointDraft, wanted: Array, turns: Array, log: Log) -> tuple
     return tuple(freedoms)
 
 
-@cache
-def _named(kind: JointKind) -> tuple[Freedom, ...]:
-    """The freedoms of a kind under the bundle's names."""
+@lru_cache(maxsize=64)
+def _named(kind: JointKind, frame: SourceFrame) -> tuple[Freedom, ...]:
+    """The freedoms of a kind under the bundle's names, counted as the bundle does."""
     names = {freedom: name for name, freedom in freedom_names(kind).items()}
-    return tuple(replace(freedom, name=names[i]) for i, freedom in enumerate(freedoms_of(kind)))
+    return tuple(
+        replace(freedom, name=names[i], sign=math.copysign(1.0, frame.coordinate(names[i])))
+        for i, freedom in enumerate(freedoms_of(kind))
+    )

@@ -17,15 +17,16 @@ def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, re
     if beyond <= 1e-6:
         return
     angle = freedom >= RX
-    shown = [math.degrees(x) if angle else x for x in limits.displayed(value, limits.lower, limits.upper)]
+    shown = *limits.displayed(value), *limits.displayed_range(limits.lower, limits.upper)
+    value, lower, upper = map(math.degrees, shown) if angle else shown
     report.add(
         "JOINT_OUTSIDE_LIMITS",
         limits.where or joint.where,
         joint=joint.id,
         freedom=joint.freedom_name(freedom),
-        value=f"{shown[0]:g}",
-        lower=f"{shown[1]:g}",
-        upper=f"{shown[2]:g}",
+        value=f"{value:g}",
+        lower=f"{lower:g}",
+        upper=f"{upper:g}",
         unit="degrees" if angle else "m",
     )
 

@@ -271,3 +271,14 @@ def test_a_prefab_has_no_name_that_windows_refuses(tmp_path, name):
         paths = [tar.extractfile(e).read().decode() for e in tar if e.name.endswith("/pathname")]
     (prefab,) = [path for path in paths if path.endswith(".prefab")]
     assert prefab.removeprefix("Assets/Kinefab/").removesuffix(".prefab") != name
+
+
+def test_each_meta_is_read_once(tmp_path, monkeypatch):
+    """Also where assets come and go: whose guid is whose is asked before anything is written."""
+    target = tmp_path / "Robot.prefab"
+    kinefab.export(box_scene("Base", "Arm", "Hand"), target)
+    read, once = [], Path.read_text
+    monkeypatch.setattr(Path, "read_text", lambda path, *a, **k: read.append(path) or once(path, *a, **k))
+    kinefab.export(box_scene("Base", "Hand", "Foot"), target)
+    metas = [path for path in read if path.suffix == ".meta"]
+    assert len(metas) == len(set(metas)) >= 8

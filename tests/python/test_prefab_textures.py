@@ -152,3 +152,34 @@ def test_urp_knows_which_of_its_changes_a_material_has_seen(tmp_path, dialect, v
             "_ZWrite": 1.0,
         }
         assert {k: floats[1][k] for k in expected} == expected
+
+
+@pytest.mark.parametrize("count", [1, 7])
+def test_an_image_is_looked_at_once_however_many_materials_show_it(tmp_path, monkeypatch, count):
+    """And once more for each mask that it is packed into, with that material's factors."""
+    image = pytest.importorskip("PIL.Image")
+    scene = model.Scene(meshes=[block("Block", (0.1, 0.1, 0.1), uvs=True)])
+    texture = model.Texture("tex.png", png(tmp_path / "tex.png", np.full((2, 3, 4), 7)))
+    look = {"color_texture": texture, "normal_texture": texture, "metallic_roughness_texture": texture}
+    for i in range(count):
+        scene.surfaces.append(model.Surface(f"M{i}", metallic=0.1 * i, **look))
+        scene.nodes.append(model.Node(f"N{i}", f"N{i}", bodies=(model.Body("b", 0, (i,)),)))
+    opened, once = [], image.open
+    monkeypatch.setattr(image, "open", lambda *given, **named: opened.append(1) or once(*given, **named))
+    kinefab.export(scene, tmp_path / "T.prefab")
+    assert len(opened) == 1 + count
+    assert len(list((tmp_path / "T" / "Textures").glob("*.png"))) == 2 + count
+
+
+@pytest.mark.parametrize(
+    "alpha, mode, shown", [(0.3, "OPAQUE", 3.0), (1.0, "OPAQUE", 0.0), (0.3, "MASK", 1.0)]
+)
+def test_a_colour_that_is_not_whole_is_seen_through(tmp_path, alpha, mode, shown):
+    """Bundles, STEP and OBJ state an alpha and no mode; a mode that is stated stays."""
+    surface = model.Surface("Pane", (0.2, 0.4, 0.6, alpha), alpha_mode=model.AlphaMode[mode])
+    scene = model.Scene(meshes=[block("Block", (0.1, 0.1, 0.1))], surfaces=[surface])
+    scene.nodes.append(model.Node("N", "N", bodies=(model.Body("b", 0, (0,)),)))
+    kinefab.export(scene, tmp_path / "T.prefab")
+    (own,) = documents((tmp_path / "T" / "Materials" / "Pane.mat").read_text("utf-8"))
+    floats = {k: v for entry in own.fields["m_SavedProperties"]["m_Floats"] for k, v in entry.items()}
+    assert float(floats["_Mode"]) == shown

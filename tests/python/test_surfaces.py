@@ -197,6 +197,21 @@ def painted(**more) -> trimesh.Trimesh:
     return box
 
 
+@pytest.mark.parametrize(
+    "mode, expected",
+    [("OPAQUE", (1.0, AlphaMode.OPAQUE)), ("BLEND", (0.2, AlphaMode.BLEND)), (None, (1.0, AlphaMode.OPAQUE))],
+)
+def test_alpha_of_what_gltf_calls_opaque_is_not_seen(mode, expected, tmp_path):
+    """OPAQUE is also what glTF means where no mode stands."""
+    box = trimesh.creation.box((1, 1, 1))
+    material = PBRMaterial(name="lacquer", baseColorFactor=[51, 102, 153, 51], alphaMode=mode)
+    box.visual = trimesh.visual.TextureVisuals(uv=np.array(box.vertices)[:, :2], material=material)
+    box.export(tmp_path / "p.glb")
+    _, result = exported(tmp_path / "p.glb", tmp_path)
+    (found,) = result.unity.materials
+    assert (pytest.approx(found.color[3]), found.alphaMode) == expected
+
+
 @pytest.mark.parametrize("through_file", [False, True])
 def test_a_pbr_material_arrives_whole(through_file, tmp_path):
     """Factors, modes and textures, from a script's mesh or through a GLB."""

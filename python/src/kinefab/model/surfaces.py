@@ -64,3 +64,9 @@ class Surface:
     metallic_roughness_texture: Texture | None = None
     occlusion_texture: Texture | None = None
     emission_texture: Texture | None = None
+
+    @property
+    def blending(self) -> AlphaMode:
+        """How alpha is shown: BLEND where a colour that is not whole came without a mode, as most formats have none."""
+        seen_through = self.alpha_mode is AlphaMode.OPAQUE and self.color[3] < 1.0
+        return AlphaMode.BLEND if seen_through else self.alpha_mode

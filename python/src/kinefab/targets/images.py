@@ -22,6 +22,8 @@ MAGIC = (
     (b"#?RADIANCE", ".hdr"),
 )
 """How images begin, and the endings of their files; a Targa has no such beginning."""
+LOADED = (".png", ".jpg", ".bmp", ".gif")
+"""Endings of images whose every pixel is looked at, where Pillow is installed."""
 MOST_BYTES = 256 * 2**20
 """Of one image."""
 MOST_PIXELS = 16384 * 16384
@@ -74,7 +76,7 @@ def _demand_whole(data: bytes, ending: str) -> None:
         Pillow = pillow()
     except ImportError:
         return
-    if ending in (".png", ".jpg", ".bmp", ".gif"):
+    if ending in LOADED:
         try:
             with Pillow.open(io.BytesIO(data)) as image:
                 image.load()

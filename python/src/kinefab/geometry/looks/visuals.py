@@ -110,12 +110,15 @@ def _of_pbr(name: str, m: Any, color: tuple[float, float, float, float], gltf: b
     stated = str(getattr(m, "alphaMode", None) or "").upper()
     modes = {"OPAQUE": AlphaMode.OPAQUE, "MASK": AlphaMode.MASK, "BLEND": AlphaMode.BLEND}
     absent = AlphaMode.BLEND if color[3] < 1.0 and not gltf else AlphaMode.OPAQUE
+    mode = modes.get(stated, absent)
+    if mode is AlphaMode.OPAQUE:
+        color = (*color[:3], 1.0)  # of which glTF has alpha ignored
     return Surface(
         name,
         color,
         factor("metallicFactor", 1.0 if whole else 0.0),
         1.0 - factor("roughnessFactor", 1.0 if whole else 0.5),
-        modes.get(stated, absent),
+        mode,
         factor("alphaCutoff", 0.5),
         bool(getattr(m, "doubleSided", None)),
         (float(emitted[0]), float(emitted[1]), float(emitted[2])),

@@ -74,9 +74,7 @@ class Looks:
         if strongest > 1.0:
             entry["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": strongest}}
             self.extensions.add("KHR_materials_emissive_strength")
-        mode = surface.alpha_mode
-        if mode is AlphaMode.OPAQUE and surface.color[3] < 1.0:
-            mode = AlphaMode.BLEND
+        mode = surface.blending
         if mode is not AlphaMode.OPAQUE:
             entry["alphaMode"] = mode.value.upper()
         if mode is AlphaMode.MASK:

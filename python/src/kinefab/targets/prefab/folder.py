@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from ...diagnostics import KinefabError, Report
@@ -36,9 +36,10 @@ def put_in_place(
         _refuse_foreign(files, parent, folder, ours, report)
         staging = Path(tempfile.mkdtemp(prefix=staging_prefix(folder), dir=parent))
         try:
-            written = _write_all(files, staging, parent, folder, ours, progress)
+            guids = _guids(ours, parent)
+            written = _write_all(files, staging, parent, folder, guids, progress)
             gone = ours - written
-            _carry_over(folder, staging / folder.name, written | _taken_up(gone, files, parent))
+            _carry_over(folder, staging / folder.name, written | _taken_up(gone, files, guids))
             take_place(staging, target, folder, Manifest(written, Pending(staging.name, tuple(sorted(gone)))))
         finally:
             shutil.rmtree(staging, ignore_errors=True)
@@ -75,12 +76,16 @@ def _write_all(
     staging: Path,
     parent: Path,
     folder: Path,
-    ours: frozenset[str],
+    guids: Mapping[str, str],
     progress: Progress,
 ) -> frozenset[str]:
-    """Everything, in the hidden folder; returns the paths that are ours from now on."""
+    """Everything, in the hidden folder; returns the paths that are ours from now on.
+
+    guids: of the metas that the last export left.  The editor writes all import settings into them and people change them there,
+    so they go on with the asset.  What we would say in them follows from what the asset is, as its guid does.
+    """
     written: set[str] = set()
-    known = _metas_by_guid(ours, parent)
+    known = {guid: parent / meta for meta, guid in guids.items() if guid}
     (staging / folder.name).mkdir()
     for i, file in enumerate(files):
         path = staging / file.path
@@ -94,7 +99,11 @@ def _write_all(
                 out.flush()
                 os.fsync(out.fileno())
             written.add(file.path)
-        if (file.content is None or i == 0) and meta not in ours and _other_content(parent / meta, file.meta):
+        if (
+            (file.content is None or i == 0)
+            and meta not in guids
+            and _other_content(parent / meta, file.meta)
+        ):
             continue  # of their folder or prefab before we came: it keeps its guid, by which others refer to it
         with open(staging / meta, "xb") as out:
             out.write(known[file.guid].read_bytes() if file.guid in known else file.meta.encode("utf-8"))
@@ -105,18 +114,16 @@ def _write_all(
     return frozenset([*written, f"{folder.name}/{MANIFEST}"])
 
 
-def _metas_by_guid(ours: frozenset[str], parent: Path) -> dict[str, Path]:
-    """The metas that the last export left: the editor writes all import settings into them and people change them there, so
-    they go on with the asset.  What we would say in them follows from what the asset is, as its guid does."""
-    metas = (parent / path for path in sorted(ours) if path.endswith(".meta"))
-    return {guid: meta for meta in metas if (guid := _guid_in(meta))}
+def _guids(ours: frozenset[str], parent: Path) -> dict[str, str]:
+    """Of each meta that the last export left, by its path."""
+    return {path: _guid_in(parent / path) for path in sorted(ours) if path.endswith(".meta")}
 
 
-def _taken_up(gone: frozenset[str], files: Sequence[AssetFile], parent: Path) -> frozenset[str]:
+def _taken_up(gone: frozenset[str], files: Sequence[AssetFile], guids: Mapping[str, str]) -> frozenset[str]:
     """Of the paths that the last export wrote and this one did not, those whose guid another file has now: side by side
     Unity would give one of the two a new guid."""
-    guids = {file.guid for file in files}
-    return frozenset(path for path in gone if _guid_in(parent / meta_of(path.removesuffix(".meta"))) in guids)
+    taken = {file.guid for file in files}
+    return frozenset(path for path in gone if guids.get(meta_of(path.removesuffix(".meta"))) in taken)
 
 
 def _guid_in(meta: Path) -> str:

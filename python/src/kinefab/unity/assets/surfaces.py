@@ -20,7 +20,7 @@ def map_surface(surface: Surface) -> Material:
         surface.color,
         surface.metallic,
         surface.smoothness,
-        surface.alpha_mode,
+        surface.blending,
         surface.alpha_cutoff,
         surface.double_sided,
         surface.emission,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,43 +12,75 @@ import numpy as np
 from ....model import Texture
 from ....unity.scene import Material
 from ... import images
-from ...images import MAGIC, Image, ImageError, pillow
+from ...images import LOADED, MAGIC, ImageError, bytes_of, pillow
 
 ENDINGS = frozenset(ending for _, ending in MAGIC) | {".tga"}
 
 
-def read_image(texture: Texture) -> Image:
-    """The bytes of a texture.  Raises ImageError for what is not there and for what Unity imports no such file of."""
-    return images.read_image(texture, ENDINGS, "it is no image of a kind that Unity imports")
+class Images:
+    """Whether images can be used, each looked at once, however many materials show it."""
+
+    def __init__(self) -> None:
+        self._endings: dict[object, str | ImageError] = {}
+        self._pixels: dict[object, str | ImageError] = {}
+
+    def ending(self, texture: Texture) -> str:
+        """Of the file.  Raises ImageError for what is not there and for what Unity imports no such file of."""
+        return _once(self._endings, texture, _ending)
+
+    def demand_pixels(self, texture: Texture) -> None:
+        """Raises ImageError where they cannot be read, also because Pillow is not installed."""
+        ending = self.ending(texture)
+        try:
+            pillow()
+        except ImportError:
+            raise ImageError(
+                "it has to be repacked, which needs Pillow: pip install 'kinefab[picture]'"
+            ) from None
+        if ending not in LOADED:
+            _once(self._pixels, texture, _decoded)
+
+
+def _once(known: dict[object, str | ImageError], texture: Texture, ask: Callable[[Texture], str]) -> str:
+    image = texture.path if texture.data is None else texture.data
+    if image not in known:
+        try:
+            known[image] = ask(texture)
+        except ImageError as error:
+            known[image] = error
+    found = known[image]
+    if isinstance(found, ImageError):
+        raise found
+    return found
+
+
+def _ending(texture: Texture) -> str:
+    return images.read_image(texture, ENDINGS, "it is no image of a kind that Unity imports").ending
+
+
+def _decoded(texture: Texture) -> str:
+    try:
+        _eight_bit(bytes_of(texture))
+    except Exception as error:  # Pillow raises OSError, SyntaxError, struct.error ... by the format
+        raise ImageError(str(error) or type(error).__name__) from None
+    return ""
 
 
 def content_of(texture: Texture) -> str:
     """What the texture's image holds, whatever it is called and wherever it lies, as a digest; "" where it is not to be had."""
     try:
-        data = images.bytes_of(texture)
+        data = bytes_of(texture)
     except OSError:
         return ""
     return hashlib.md5(data, usedforsecurity=False).hexdigest()
 
 
-def packed(material: Material) -> Image:
-    """Metallic in R, occlusion in G, smoothness in A, with the material's own factors, which shaders do not apply to a map.
-
-    Raises ImageError where the images cannot be read, or Pillow is not installed.
-    """
-    try:
-        Pillow = pillow()
-    except ImportError:
-        raise ImageError(
-            "it has to be repacked, which needs Pillow: pip install 'kinefab[picture]'"
-        ) from None
+def packed(material: Material) -> bytes:
+    """A PNG with metallic in R, occlusion in G, smoothness in A, with the material's own factors, which shaders do not apply to
+    a map; of images whose pixels were demanded before."""
+    Pillow = pillow()
     rough, occluded = material.metallicRoughnessTexture, material.occlusionTexture
-    try:
-        sources = [None if t is None else _eight_bit(read_image(t).data) for t in (rough, occluded)]
-    except ImageError:
-        raise
-    except Exception as error:
-        raise ImageError(str(error) or type(error).__name__) from None
+    sources = [None if t is None else _eight_bit(bytes_of(t)) for t in (rough, occluded)]
     size = next(image.size for image in sources if image is not None)
     first, second = (None if image is None else image.resize(size) for image in sources)
     full = Pillow.new("L", size, 255)
@@ -59,7 +92,7 @@ def packed(material: Material) -> Image:
     occlusion = full if second is None else second.split()[0]
     out = io.BytesIO()
     Pillow.merge("RGBA", (metallic, occlusion, Pillow.new("L", size, 0), smooth)).save(out, "PNG")
-    return Image(out.getvalue(), ".png")
+    return out.getvalue()
 
 
 def _eight_bit(data: bytes) -> Any:

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from ....diagnostics import Report
 from ....model import Texture, Wrap
 from ....unity.scene import Material
-from ...images import Image, ImageError
+from ...images import ImageError, bytes_of
 from ..text.metas import texture_meta
 from ..text.yaml import Plain, external
-from .images import content_of, packed, read_image
+from .images import Images, content_of, packed
 from .materials import Map, Maps
 
 TEXTURE_ID = 2800000
@@ -36,8 +36,7 @@ class TextureFile:
     material: Material | None = None
 
     def content(self) -> list[bytes]:
-        image: Image = read_image(self.texture) if self.material is None else packed(self.material)
-        return [image.data]
+        return [bytes_of(self.texture) if self.material is None else packed(self.material)]
 
     def meta(self, guid: str) -> str:
         return texture_meta(guid, self.use == COLOR, self.use == NORMAL, WRAPS[self.wrap])
@@ -54,6 +53,7 @@ class Textures:
     shader: str
     twins: Collection[str] = ()
     files: dict[str, TextureFile] = field(default_factory=dict[str, TextureFile])
+    images: Images = field(default_factory=Images)
 
     def wanted(self, material: Material, identity: str) -> dict[str, tuple[str, Texture]]:
         """For each slot of ``Maps`` the identity of its file, and the texture whose place on the surface it takes.
@@ -75,7 +75,7 @@ class Textures:
 
     def _plain(self, material: Material, slot: str, texture: Texture, use: str) -> str | None:
         try:
-            ending = read_image(texture).ending
+            ending = self.images.ending(texture)
         except ImageError as error:
             return self._lost(material, slot, texture, error)
         self._tell_placing(material, slot, texture)
@@ -87,13 +87,15 @@ class Textures:
 
     def _packed(self, material: Material, own: str, texture: Texture) -> str | None:
         try:
-            ending = packed(material).ending
+            for image in (material.metallicRoughnessTexture, material.occlusionTexture):
+                if image is not None:
+                    self.images.demand_pixels(image)
         except ImageError as error:
             return self._lost(material, "metallic, roughness or occlusion", texture, error)
         self._tell_placing(material, "metallic and roughness", texture)
         identity = f"{own}|mask|{texture.name}|{texture.wrap.value}"
         name = f"{material.name} mask"
-        file = TextureFile(identity, name, DATA, texture.wrap, ending, texture, material)
+        file = TextureFile(identity, name, DATA, texture.wrap, ".png", texture, material)
         self.files.setdefault(identity, file)
         return identity
 
@@ -112,15 +114,8 @@ def twins_of(materials: Iterable[Material]) -> frozenset[str]:
     """Names that different images have: two files of one name lie in two folders, say."""
     sources: dict[str, set[object]] = defaultdict(set)
     for material in materials:
-        for texture in (
-            material.colorTexture,
-            material.normalTexture,
-            material.metallicRoughnessTexture,
-            material.occlusionTexture,
-            material.emissionTexture,
-        ):
-            if texture is not None:
-                sources[texture.name].add(texture.data if texture.path is None else texture.path)
+        for texture in material.textures:
+            sources[texture.name].add(texture.data if texture.path is None else texture.path)
     return frozenset(name for name, images in sources.items() if len(images) > 1)
 
 

@@ -24,3 +24,15 @@ class Material:
     metallicRoughnessTexture: Texture | None = None
     occlusionTexture: Texture | None = None
     emissionTexture: Texture | None = None
+
+    @property
+    def textures(self) -> tuple[Texture, ...]:
+        """Those that it has."""
+        slots = (
+            self.colorTexture,
+            self.normalTexture,
+            self.metallicRoughnessTexture,
+            self.occlusionTexture,
+            self.emissionTexture,
+        )
+        return tuple(texture for texture in slots if texture is not None)

@@ -300,8 +300,8 @@ def test_losses_are_told_by_name(tmp_path):
         "Ball", JointKind.SPHERICAL, 2, 4, Pose(), Pose(), model.freedoms_of(JointKind.SPHERICAL), slerp=given
     )
     scene.joints.append(ball)
-    terms = (model.Term("Hinge", model.RX, 1.0), model.Term("Ball", model.RX, 2.0))
-    scene.couplings.append(model.Coupling("Sum", model.CouplingKind.LINEAR, "Slide", model.TX, terms))
+    terms = (model.Term("Hinge", model.RX, 1.0), model.Term("Slide", model.TX, 2.0))
+    scene.couplings.append(model.Coupling("Sum", model.CouplingKind.LINEAR, "Ball", model.RX, terms))
     scene.animations.append(scene.animations[0])
     stage, result = opened(scene, tmp_path / "robot.usda")
     assert {"TARGET_FEATURE_APPROXIMATED"} <= codes(result, Outcome.APPROXIMATED)

@@ -16,7 +16,19 @@ import kinefab
 import numpy as np
 import pytest
 from golden import FIXTURES
-from kinefab.model import Joint, JointKind, MassProperties, Node, Scene, freedoms_of
+from kinefab.diagnostics import Outcome
+from kinefab.model import (
+    RX,
+    Coupling,
+    CouplingKind,
+    Joint,
+    JointKind,
+    MassProperties,
+    Node,
+    Scene,
+    Term,
+    freedoms_of,
+)
 from kinefab.spatial import Pose, rotation_about, rotation_exp
 from scene_kinematics import unity_point
 from test_dynamics_physx5 import PYTHON, TOOL, physx5
@@ -103,6 +115,32 @@ def test_a_closed_loop_stands_still_where_gravity_moves_nothing(tmp_path):
         for name in names
     ]
     assert float(np.abs(found - np.array([unity_point(p) for p in drawn])).max()) < 1e-6
+
+
+@needs_physx
+@pytest.mark.parametrize("terms", [{"H0": -0.5}, {"H0": -0.5, "H1": 0.2}])
+def test_joints_without_ends_are_coupled(tmp_path, terms):
+    """Three weights that fall about one axis, the third by ratios of the others: by one mimic, and by two and a light link."""
+    scene = Scene([Node("Base", "Base", grounded=True)])
+    for i in range(3):
+        place = Pose(np.eye(3), np.array([1.0 + i, 0.0, 0.3]))
+        inertia = np.diag([0.02, 0.03, 0.04])
+        scene.nodes.append(
+            Node(f"Link{i}", f"Link{i}", pose=place, mass=MassProperties(2.0 - 0.5 * i, np.zeros(3), inertia))
+        )
+        hinge = JointKind.REVOLUTE
+        on, off = Pose(np.eye(3), np.array([1.0 + i, 0.0, 0.0])), Pose(np.eye(3), np.array([0.0, 0.0, -0.3]))
+        scene.joints.append(Joint(f"H{i}", hinge, 0, i + 1, on, off, freedoms_of(hinge)))
+    told = tuple(Term(name, RX, ratio) for name, ratio in terms.items())
+    scene.couplings.append(Coupling("Sum", CouplingKind.LINEAR, "H2", RX, told))
+    stage = kinefab.export(scene, tmp_path / "fall.usda", BARE)
+    assert {o.outcome for o in stage.report.outcomes} == {Outcome.KEPT}
+    found = physx5(stage.path, 0.6, 0.001, [f"/fall/Link{i}" for i in range(3)])
+    places = found[..., [2, 0, 1]] * (-1.0, -1.0, 1.0)
+    angles = np.unwrap(np.arctan2(-places[..., 1], places[..., 2]), axis=0)
+    assert float(np.ptp(angles[:, 0])) > 0.3
+    follows = sum(ratio * angles[:, int(name[1])] for name, ratio in terms.items())
+    assert float(np.abs(angles[:, 2] - follows).max()) < 3e-5
 
 
 @pytest.mark.parametrize("source", ["lever/lever.bundle.json", "twins/arm.urdf", "twins/fourbar.bundle.json"])

@@ -10,7 +10,7 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
-from kinefab.diagnostics import Report
+from kinefab.diagnostics import Outcome, Report
 from kinefab.model import (
     RX,
     RY,
@@ -18,6 +18,8 @@ from kinefab.model import (
     TX,
     Collider,
     ColliderKind,
+    Coupling,
+    CouplingKind,
     Drive,
     Freedom,
     Joint,
@@ -25,6 +27,7 @@ from kinefab.model import (
     Passive,
     Scene,
     SphericalDrive,
+    Term,
 )
 from kinefab.sources import read
 from kinefab.spatial import rotation_exp
@@ -205,3 +208,39 @@ def test_a_name_that_usd_cannot_show_is_told(tmp_path):
     assert told == [f"name of N{i}" for i, changed in enumerate(names.values()) if changed]
     messages = [d.message for d in result.report.diagnostics if d.code == "TARGET_NAME_CHANGED"]
     assert all(changed in message for changed, message in zip(filter(None, names.values()), messages))
+
+
+def test_what_is_coupled_has_ends_that_engines_take_and_kinefab_reads_as_none(tmp_path: Path):
+    """PhysX refuses a mimic of joints without finite ranges, of any that the articulation excludes, and across articulations."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", BOX, grounded=True)
+    parts = [scene.add_part(f"W{i}", BOX, translation=(i, 0.3, 0.2)) for i in range(1, 5)]
+    for i, part in enumerate(parts):
+        scene.add_hinge(base, part, point=(i + 1, 0.3, 0), axis=(1, 2, 3), name=f"J{i}")
+    sided = Freedom(Motion.LIMITED, math.radians(-10.0), math.inf)
+    free = scene.joints[1].freedoms
+    scene.joints[1] = replace(scene.joints[1], freedoms=(*free[:RX], sided, *free[RX + 1 :]))
+    scene.joints[2] = replace(scene.joints[2], break_force=5.0)
+    ids = [joint.id for joint in scene.joints]
+    tie = Coupling("C1", CouplingKind.GEAR, ids[1], RX, (Term(ids[0], RX, -2.0),))
+    scene.couplings = [tie, replace(tie, id="C2", joint=ids[2])]
+    result = kinefab.export(scene, tmp_path / "gears.usda")
+    stage = Usd.Stage.Open(str(result.path))
+    ranges = {
+        p.GetName(): [p.GetAttribute(f"physics:{end}Limit").Get() for end in ("lower", "upper")]
+        for p in stage.Traverse()
+        if p.GetTypeName() == "PhysicsRevoluteJoint"
+    }
+    most = pytest.approx(1e30, rel=1e-6)
+    assert ranges["J0"] == [-ranges["J0"][1], most] and ranges["J1"] == [pytest.approx(-10.0), most]
+    assert ranges["J2"] == ranges["J3"] == [-math.inf, math.inf]  # the one that breaks is in no articulation
+    outcomes = {o.feature: (o.outcome, o.code) for o in result.report.outcomes if "coupling" in o.feature}
+    assert outcomes["coupling C1"][0] is Outcome.KEPT
+    assert outcomes["coupling C2"] == (Outcome.APPROXIMATED, "TARGET_FEATURE_APPROXIMATED")
+    again = {joint.name: joint for joint in read(result.path, Report()).joints}
+    assert again["J0"].freedoms[RX].motion is Motion.FREE
+    back = again["J1"].freedoms[RX]
+    assert (back.lower, back.upper) == (pytest.approx(math.radians(-10.0)), math.inf)
+    hung = replace(scene, joints=[replace(joint, a=None) for joint in scene.joints], couplings=[tie])
+    told = kinefab.export(hung, tmp_path / "apart.usda").report.outcomes
+    assert [o.outcome for o in told if o.feature == "coupling C1"] == [Outcome.APPROXIMATED]

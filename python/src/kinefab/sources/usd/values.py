@@ -17,8 +17,8 @@ from ...spatial import Array, matrix_from_quaternion
 from .api import Usd, UsdGeom, UsdPhysics
 from .stage import OpenStage
 
-UNBOUNDED = 0.5e38
-"""USD's sentinel: from here on a bound is none (physics:lowerLimit and the like, FLT_MAX in files)."""
+UNBOUNDED = 0.99e30
+"""From here on a bound is none (physics:lowerLimit and the like): FLT_MAX in files, 1e30 where infinity is not allowed."""
 
 
 RANKS: dict[str, Any] = {

@@ -23,6 +23,7 @@ from .physics.couplings import write_couplings
 from .physics.filters import write_groups, write_pairs
 from .physics.joints import Joints, Places
 from .physics.rigid import write_grounded, write_moving
+from .physics.sums import with_one_term_each
 from .prims import Prim, vector3f
 from .shapes import Shapes
 
@@ -48,9 +49,10 @@ class Stage:
 
     def write(self) -> None:
         """Fill the layer; the report gets what became of joints, colliders, couplings and clips."""
+        joints = [joint for joint in self.content.scene.joints if self._is_written(joint)]
+        self.content, joints = with_one_term_each(self.content, joints)
         content = self.content
         scene, report = content.scene, content.report
-        joints = [joint for joint in scene.joints if self._is_written(joint)]
         bodies = find_bodies(scene, content.groups, joints)
         with Sdf.ChangeBlock():
             clips = Clips(scene, bodies, report, self.target)
@@ -189,8 +191,8 @@ class Stage:
             edges.append(writer.write(joint, name, content.findings.get(joint.id)))
         kinematic = {i for i in bodies.moving.carriers if not bodies.dynamic(i)}
         base = edges[0].prim if bodies.grounded else None
-        mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)
-        write_couplings(scene, writer.written, report, self.target)
+        trees = mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)
+        write_couplings(scene, writer.written, trees, report, self.target)
 
     def _fixed(self, scope: Prim, a: int | None, b: int, places: Places) -> Edge:
         """A joint that holds b to a (None: the world) as they stand."""

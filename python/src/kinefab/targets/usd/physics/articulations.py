@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ..prims import Prim
 
@@ -26,9 +27,11 @@ class Edge:
 
 def mark_articulations(
     edges: Sequence[Edge], kinematic: Callable[[int], bool], prim_of: Callable[[int], Prim], base: Prim | None
-) -> None:
+) -> dict[Any, int]:
     """Exclude what is in no tree, and apply the root API: to the joint ``base`` that fixes the ground's body to the world,
-    for each tree that hangs on the world by another joint or on nothing to its first body."""
+    for each tree that hangs on the world by another joint or on nothing to its first body.
+
+    Returns, by the path of each joint that is in a tree, the first body of that tree."""
     leader: dict[int | None, int | None] = {}
 
     def find(body: int | None) -> int | None:
@@ -45,11 +48,13 @@ def mark_articulations(
             continue
         leader[find(edge.b)] = find(edge.a)
         taken.append(edge)
-    _mark_roots(taken, prim_of, base)
+    tree_of = _mark_roots(taken, prim_of, base)
+    ends = ((edge.prim.path, edge.b if edge.a is None else edge.a) for edge in taken)
+    return {path: tree_of[body] for path, body in ends if body is not None}
 
 
-def _mark_roots(taken: Sequence[Edge], prim_of: Callable[[int], Prim], base: Prim | None) -> None:
-    """taken: edges of a forest, in which the world is a leaf of each of its trees."""
+def _mark_roots(taken: Sequence[Edge], prim_of: Callable[[int], Prim], base: Prim | None) -> dict[int, int]:
+    """taken: edges of a forest, in which the world is a leaf of each of its trees.  Returns the first body of each one's tree."""
     neighbours: dict[int, list[int]] = {}
     hung: list[int] = []
     for edge in taken:
@@ -62,20 +67,21 @@ def _mark_roots(taken: Sequence[Edge], prim_of: Callable[[int], Prim], base: Pri
             continue
         neighbours[a].append(b)
         neighbours[b].append(a)
-    seen: set[int] = set()
+    seen: dict[int, int] = {}
     fixed = {edge.b for edge in taken if edge.prim is base}
     for start in [*hung, *sorted(neighbours)]:
         if start in seen:
             continue
         tree, waiting = 0, [start]
-        seen.add(start)
+        seen[start] = start
         while waiting:
             tree += 1
             fresh = [n for n in neighbours[waiting.pop()] if n not in seen]
-            seen.update(fresh)
+            seen |= dict.fromkeys(fresh, start)
             waiting += fresh
         if start in fixed:
             if tree > 1 and base is not None:
                 base.apply("PhysicsArticulationRootAPI")
         elif tree > 1 or start in hung:
             prim_of(start).apply("PhysicsArticulationRootAPI")
+    return seen

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from ....diagnostics import Report
 from ....model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Scene, Term
@@ -13,10 +14,17 @@ from .joints import WrittenJoint
 
 TURNS = ("rotX", "rotY", "rotZ")
 """Axes that PhysX's own mimic knows."""
+BOUNDS = {"physics:lowerLimit": -1e30, "physics:upperLimit": 1e30}
+"""Degrees or metres: PhysX couples hinges and slides of finite ranges only, and from 1e38 on a bound is none for it.  Kinefab's own
+reader takes these for none."""
 
 
-def write_couplings(scene: Scene, joints: Mapping[str, WrittenJoint], report: Report, ending: str) -> None:
-    """q = ratio q_leader + offset on the prim of the joint that follows; the report tells what no mimic is."""
+def write_couplings(
+    scene: Scene, joints: Mapping[str, WrittenJoint], trees: Mapping[Any, int], report: Report, ending: str
+) -> None:
+    """q = ratio q_leader + offset on the prim of the joint that follows; the report tells what no mimic is.
+
+    trees: of what is in an articulation, as ``mark_articulations`` has it."""
     sound: list[Coupling] = []
     for coupling in [*scene.couplings, *_screws(scene, joints)]:
         feature = f"coupling {coupling.id}"
@@ -44,7 +52,7 @@ def write_couplings(scene: Scene, joints: Mapping[str, WrittenJoint], report: Re
             )
             continue
         coupling = coupling if follows else _turned_round(coupling)
-        _write(coupling, coupling.terms[0], joints, report, ending)
+        _write(coupling, coupling.terms[0], joints, trees, report, ending)
 
 
 def _followers(couplings: Sequence[Coupling], joints: Mapping[str, WrittenJoint]) -> list[bool | None]:
@@ -91,7 +99,12 @@ def _turned_round(coupling: Coupling) -> Coupling:
 
 
 def _write(
-    coupling: Coupling, term: Term, joints: Mapping[str, WrittenJoint], report: Report, ending: str
+    coupling: Coupling,
+    term: Term,
+    joints: Mapping[str, WrittenJoint],
+    trees: Mapping[Any, int],
+    report: Report,
+    ending: str,
 ) -> None:
     own, led = joints[coupling.joint], joints[term.joint]
     unit, led_unit = (math.degrees(1.0) if f >= RX else 1.0 for f in (coupling.freedom, term.freedom))
@@ -110,13 +123,17 @@ def _write(
         prim.relation(f"{prefix}referenceJoint", leader)
         prim.attribute(f"{prefix}referenceJointAxis", "Token", other, uniform=True)
         prim.numbers({f"{prefix}gearing": -ratio, f"{prefix}offset": -offset})
+    detail = f"a mimic of {instance} by {other} stands there, which Kinefab reads and no engine yet"
     if newton or (physx and leader != prim.path):
-        report.kept(f"coupling {coupling.id}", coupling.where)
-        return
+        if prim.path in trees and trees[prim.path] == trees.get(leader):
+            for typed in (own, led) if newton else ():
+                typed.prim.finite(BOUNDS)
+            report.kept(f"coupling {coupling.id}", coupling.where)
+            return
+        detail = "a mimic stands there; PhysX wants both its joints in one articulation, as which they are not written"
     report.approximated(
-        f"coupling {coupling.id}", "TARGET_FEATURE_APPROXIMATED", coupling.where, target=ending,
-        detail=f"a mimic of {instance} by {other} stands there, which Kinefab reads and no engine yet",
-    )  # fmt: skip
+        f"coupling {coupling.id}", "TARGET_FEATURE_APPROXIMATED", coupling.where, target=ending, detail=detail
+    )
 
 
 def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:
@@ -126,7 +143,7 @@ def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:
     for joint in scene.joints:
         if joint.kind is not JointKind.SCREW or joint.id in coupled or joint.id not in joints:
             continue
-        slide, turn = _standing(scene, joint)
+        slide, turn = (standing(scene, joint, freedom) for freedom in (TX, RX))
         ratio = joint.lead / (2.0 * math.pi)
         terms = (Term(joint.id, RX, ratio),)
         offset = slide - ratio * turn
@@ -136,9 +153,10 @@ def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:
     return found
 
 
-def _standing(scene: Scene, joint: Joint) -> tuple[float, float]:
-    """Slide and turn of a screw at the exported pose, metres and radians."""
+def standing(scene: Scene, joint: Joint, freedom: int) -> float:
+    """A joint's coordinate TX..RZ at the exported pose, metres or radians."""
     shape = canonical(joint)
     relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
-    values = read_coordinates(shape, relative).values
-    return float(values[TX]), float(shape.freedoms[RX].nearest_turn(values[RX]))
+    at = shape.name_of.index(freedom)
+    value = float(read_coordinates(shape, relative).values[at])
+    return value if freedom < RX else float(shape.freedoms[at].nearest_turn(value))

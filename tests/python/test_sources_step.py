@@ -17,7 +17,7 @@ from kinefab.model import FaceKind, NodeKind, Scene
 from kinefab.sources import read
 from kinefab.sources.guard import GuardedCrash, GuardedError, guarded
 from kinefab.sources.step import reader
-from kinefab.sources.step.iges_unit import metres_of
+from kinefab.sources.step.iges.unit import metres_of
 from kinefab.sources.step.part21 import Part21
 from kinefab.sources.step.records import Begun
 
@@ -311,6 +311,19 @@ def test_an_operator_that_mirrors_is_told(tmp_path: Path, complex_instance: bool
     _, report = read_whole(tmp_path / "mirror.step")
     assert [d.code for d in report.diagnostics] == told
     assert [o.outcome.value for o in report.outcomes] == ["approximated" for _ in told]
+
+
+def test_an_operator_that_places_nothing_is_not_told(tmp_path: Path):
+    machine = Machine("Top")
+    machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)))
+    write_step(machine, tmp_path / "loose.step")
+    points = "#9001=DIRECTION('',(-1.,0.,0.));\n#9002=DIRECTION('',(0.,1.,0.));\n#9003=CARTESIAN_POINT('',(1.,2.,3.));\n"
+    operator = "#9010=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#9001,#9002,#9003,1.,#9004);\n"
+    text = (tmp_path / "loose.step").read_text("utf-8")
+    text = text.replace("DATA;\n", f"DATA;\n{points}#9004=DIRECTION('',(0.,0.,1.));\n{operator}", 1)
+    (tmp_path / "loose.step").write_text(text, "utf-8")
+    _, report = read_whole(tmp_path / "loose.step")
+    assert not report.diagnostics
 
 
 def test_a_tolerance_that_is_none_is_refused():

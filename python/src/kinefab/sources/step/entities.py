@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from dataclasses import dataclass
 
@@ -12,6 +13,9 @@ _TOKEN = re.compile(
     rb"\s*(?:(?P<text>'(?:[^']|'')*')|#\s*(?P<ref>\d+)|\.(?P<word>\w+)\.|(?P<number>[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)"
     rb"|(?P<name>[A-Za-z_]\w*)|(?P<mark>[(),$*])|/\*.*?\*/)",
     re.DOTALL,
+)
+_DIRECTIVE = re.compile(
+    r"\\X(?P<size>[24])\\(?P<long>[0-9A-Fa-f]*)\\X0\\|\\X\\(?P<short>[0-9A-Fa-f]{2})|\\S\\(?P<shifted>[ -~])|\\\\"
 )
 MOST_LEVELS = 40
 
@@ -107,13 +111,31 @@ def _value(kind: str, text: str) -> Value:
     if kind == "word":
         return Word(text.upper())
     if kind == "text":
-        return text[1:-1].replace("''", "'")
+        return _decoded(text[1:-1].replace("''", "'"))
     if kind == "number":
         value = float(text)
         if not abs(value) <= MAX_NUMBER:
             raise EntityError(f"{text} is out of range")
         return value
     return None
+
+
+def _decoded(text: str) -> str:
+    """A text, given byte for byte, as it reads: UTF-8, or the directives of ISO 10303-21 (``\\X2\\00E4\\X0\\``, ``\\X\\E4``, ``\\S\\d``)."""
+    with contextlib.suppress(UnicodeError):
+        text = text.encode("latin-1").decode("utf-8")
+    return _DIRECTIVE.sub(_directed, text) if "\\" in text else text
+
+
+def _directed(found: re.Match[str]) -> str:
+    if found["long"] is not None:
+        try:
+            return bytes.fromhex(found["long"]).decode("utf-16-be" if found["size"] == "2" else "utf-32-be")
+        except ValueError:  # half a character: as it stands
+            return found[0]
+    if found["short"] is not None:
+        return chr(int(found["short"], 16))
+    return chr(ord(found["shifted"]) + 128) if found["shifted"] is not None else "\\"
 
 
 def ref(arguments: list[Value], index: int) -> int:

@@ -5,6 +5,8 @@ Source: ISO 10303-42, ``base_axis``: the second axis of an operator may point to
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from ...diagnostics import Report
@@ -13,13 +15,16 @@ from .entities import EntityError, Ref, Value, entity
 from .part21 import Part21
 
 NAME = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
+_PLACING = re.compile(rb"\b(?:MAPPED_ITEM|REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION)\s*\([^;]*")
+_REFERENCE = re.compile(rb"#\s*(\d+)")
 
 
 def tell_mirrors(text: Part21, file: str, report: Report) -> None:
-    """Report each operator whose axes are left-handed.  file: name of the source, for places."""
+    """Report each operator that places something and whose axes are left-handed.  file: name of the source, for places."""
     if NAME.encode() not in text.plain:
         return
-    for number in text.instances:
+    placing = {int(n) for found in _PLACING.finditer(text.plain) for n in _REFERENCE.findall(found[0])}
+    for number in sorted(placing & text.instances.keys()):
         if NAME.encode() not in text.text(number):
             continue
         try:

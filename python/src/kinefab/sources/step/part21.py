@@ -19,7 +19,7 @@ _PAIR = re.compile(
     rb"POINT_ON_PLANAR_CURVE|PLANAR_CURVE|SURFACE|LINEAR_FLEXIBLE_AND_PINION|LINEAR_FLEXIBLE_AND_PLANAR_CURVE)"
     rb"_PAIR(?:_WITH_(?:RANGE|PIN(?:_AND_RANGE)?|MOTION_COUPLING))?\s*\("
 )
-_METRES = {
+METRES_OF_PREFIX = {
     b"": 1.0, b"EXA": 1e18, b"PETA": 1e15, b"TERA": 1e12, b"GIGA": 1e9, b"MEGA": 1e6, b"KILO": 1e3, b"HECTO": 1e2,
     b"DECA": 10.0, b"DECI": 0.1, b"CENTI": 1e-2, b"MILLI": 1e-3, b"MICRO": 1e-6, b"NANO": 1e-9, b"PICO": 1e-12,
     b"FEMTO": 1e-15, b"ATTO": 1e-18,
@@ -87,7 +87,7 @@ class Part21:
                 if (name := found[1].strip().upper()) in _CONVERSIONS:
                     return _CONVERSIONS[name]
             if found := _METRE.search(unit):
-                return _METRES.get((found[1] or b"").upper(), 1e-3)
+                return METRES_OF_PREFIX.get((found[1] or b"").upper(), 1e-3)
         return 1e-3
 
     def radians(self) -> float:

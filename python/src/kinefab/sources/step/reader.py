@@ -18,7 +18,9 @@ from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_scene
 from .external import check_external
-from .iges_unit import metres_of
+from .iges.unit import metres_of
+from .iges.untranslated import tell_untranslated
+from .materials import add_densities
 from .mechanism import add_pairs
 from .operators import tell_mirrors
 from .part21 import Part21
@@ -31,6 +33,8 @@ SECONDS, SECONDS_PER_MEGABYTE = 20.0, 60.0
 """How long OpenCASCADE may take."""
 MOST_CRASHES = 5
 """Shapes that may take the reading process along before the file is given up."""
+CONTEXT_COLOR = b"CONTEXT_DEPENDENT_OVER_RIDING_STYLED_ITEM"
+"""A colour for some occurrences alone, which OpenCASCADE reads only where a specified higher usage says of which."""
 MILLIMETRE = 1e-3
 """OpenCASCADE's own unit: it brings every file into it."""
 
@@ -45,6 +49,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     text = Part21(b"" if iges else data)
     if iges:
         _check_iges(data, path, report)
+        tell_untranslated(data, path.name, report)
         length = metres_of(data)
     else:
         length = _check_step(text, path, report)
@@ -56,6 +61,9 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
     _fill(scene, path, iges, tolerance, size, frame, report, request)
     tell_mirrors(text, path.name, report)
+    add_densities(scene, text, report)
+    if count := text.plain.count(CONTEXT_COLOR):
+        report.dropped("colours of occurrences", "STEP_COLOR_CONTEXT", path.name, count=count)
     if text.kinematic_pairs():
         add_pairs(scene, text, frame.turn, length, report)
     report.raise_for_errors()
@@ -80,8 +88,8 @@ def _fill(
             for found in guarded(module, "load", file, iges, tolerance, frozenset(done), seconds=seconds):
                 if isinstance(found, Tree) and shapes is None:
                     tree = found
-                    scene.nodes, placement = scene_nodes(found, frame, path.name, report)
-                    shapes = Shapes(scene, found, placement)
+                    scene.nodes, placement, scales = scene_nodes(found, frame, path.name, iges, report)
+                    shapes = Shapes(scene, found, placement, scales)
                 elif isinstance(found, Begun):
                     begun = found.shape
                 elif isinstance(found, Shape) and shapes is not None and tree is not None:

@@ -16,14 +16,22 @@ from ..reading.placement import SKEWED, Placement, place
 from ..reading.source_frame import SourceFrame
 from .records import Color, Occurrence, Piece, Shape, Tree
 
-NUMBERED = re.compile(r"^(NAUO\d*|=>\[[\d:]*\]|\d*)$")
+NUMBERED = re.compile(r"^(NAUO\d*|=>\[[\d:]*\](:\d+)?|\d*)$")
 """Names of occurrences that writers invent: those of the product say more."""
 
 
-def scene_nodes(tree: Tree, frame: SourceFrame, file: str, report: Report) -> tuple[list[Node], Placement]:
-    """The nodes, without bodies.  file: name of the source, for places."""
+def scene_nodes(
+    tree: Tree, frame: SourceFrame, file: str, scaled: bool, report: Report
+) -> tuple[list[Node], Placement, Array]:
+    """The nodes, without bodies, and by how much each is larger than its shape.
+
+    file: name of the source, for places.  scaled: whether placements may be so; OpenCASCADE reads the scale of an IGES file,
+    and that of a STEP file's operator as its inverse.
+    """
     axes, origins = _world(tree.occurrences)
-    placement = place(axes, origins, frame)
+    scales = np.cbrt(np.abs(np.linalg.det(axes))) if scaled else np.ones(len(axes))
+    scales[(np.abs(scales - 1.0) <= SKEWED) | ~(scales > 0.0)] = 1.0
+    placement = place(axes / scales[:, None, None], origins, frame)
     used: Counter[str] = Counter()
     ids: list[str] = []
     nodes: list[Node] = []
@@ -52,6 +60,10 @@ def scene_nodes(tree: Tree, frame: SourceFrame, file: str, report: Report) -> tu
         elif placement.mirrored[i]:
             report.add("POSE_MIRRORED", where, component=path)
         definition = found.product or found.key
+        if scales[i] != 1.0:
+            definition = f"{definition} (scaled {scales[i]:.6g})"
+            if found.shape is not None:
+                report.add("IGES_SCALED", where, component=path, scale=f"{scales[i]:.6g}")
         nodes.append(
             Node(
                 id=path,
@@ -66,12 +78,12 @@ def scene_nodes(tree: Tree, frame: SourceFrame, file: str, report: Report) -> tu
                 where=where,
             )
         )
-    return nodes, placement
+    return nodes, placement, scales
 
 
 def _label(found: Occurrence) -> str:
     given = found.name if not NUMBERED.match(found.name) else ""
-    name = given or found.product or "Part"
+    name = given or ("" if NUMBERED.match(found.product) else found.product) or "Part"
     return "".join(c if c.isprintable() else " " for c in name).strip().replace("/", "_") or "Part"
 
 
@@ -90,8 +102,8 @@ def _world(occurrences: list[Occurrence]) -> tuple[Array, Array]:
 class Shapes:
     """Meshes and surfaces of the scene while shapes come in; every occurrence of a shape shares its meshes."""
 
-    def __init__(self, scene: Scene, tree: Tree, placement: Placement) -> None:
-        self._scene, self._placement = scene, placement
+    def __init__(self, scene: Scene, tree: Tree, placement: Placement, scales: Array) -> None:
+        self._scene, self._placement, self._scales = scene, placement, scales
         self._users: dict[int, list[int]] = {}
         for i, found in enumerate(tree.occurrences):
             if found.shape is not None:
@@ -104,21 +116,23 @@ class Shapes:
         return self._users.get(shape, [])
 
     def add(self, shape: Shape) -> None:
-        shared: dict[bool, list[tuple[int, tuple[Color | None, ...], tuple[Face, ...]]]] = {}
+        shared: dict[tuple[bool, float], list[tuple[int, tuple[Color | None, ...], tuple[Face, ...]]]] = {}
         for node in self.users(shape.number):
-            mirrored = bool(self._placement.mirrored[node])
-            if mirrored not in shared:
-                shared[mirrored] = [self._mesh(piece, self._placement.local[node]) for piece in shape.pieces]
+            kind = bool(self._placement.mirrored[node]), float(self._scales[node])
+            if kind not in shared:
+                local, length = self._placement.local[node], self._placement.length * kind[1]
+                shared[kind] = [self._mesh(piece, local, length) for piece in shape.pieces]
             own, around = self._tree.occurrences[node].color, self._around(node)
             bodies = tuple(
                 Body(piece.name, mesh, self._colored(looks, own, around), boundary=faces)
-                for piece, (mesh, looks, faces) in zip(shape.pieces, shared[mirrored], strict=True)
+                for piece, (mesh, looks, faces) in zip(shape.pieces, shared[kind], strict=True)
             )
             self._scene.nodes[node] = replace(self._scene.nodes[node], bodies=bodies)
 
-    def _mesh(self, piece: Piece, turn: Array) -> tuple[int, tuple[Color | None, ...], tuple[Face, ...]]:
-        """The piece's mesh in the scene, what its submeshes look like, and its exact faces."""
-        length = self._placement.length
+    def _mesh(
+        self, piece: Piece, turn: Array, length: float
+    ) -> tuple[int, tuple[Color | None, ...], tuple[Face, ...]]:
+        """The piece's mesh in the scene, what its submeshes look like, and its exact faces.  length: metres in its unit."""
         to_node = np.eye(4)
         to_node[:3, :3] = turn * length
         mesh, looks = mesh_of(piece.name, piece.mesh, to_node, piece.looks)

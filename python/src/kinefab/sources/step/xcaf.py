@@ -10,7 +10,7 @@ Runs in the guarded process (``sources.guard``); nothing else imports it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,11 @@ from ..occ.triangles import Tolerance
 from .meshing import KINDS, Colors, linear, meshed_shape
 from .records import Begun, Color, Occurrence, Shape, Tree
 
+try:
+    from OCP.TDF import TDF_LabelSequence as Labels
+except ImportError:  # OCP 8
+    from OCP.collections import Sequence_TDF_Label as Labels
+
 MOST_OCCURRENCES = 1_000_000
 """Occurrences of a tree: a small file can nest assemblies so that they multiply without end."""
 MOST_LEVELS = 200
@@ -50,6 +55,8 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
     reader.SetNameMode(True)
     reader.SetColorMode(True)
     reader.SetLayerMode(True)
+    if not iges:
+        reader.SetSHUOMode(True)
     if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise ValueError("OpenCASCADE cannot parse it")
     if not reader.Transfer(document):
@@ -88,9 +95,15 @@ class _Walk:
         shapes = XCAFDoc_DocumentTool.ShapeTool_s(main)
         for label in _children(shapes.BaseLabel()):
             if XCAFDoc_ShapeTool.IsShape_s(label) and XCAFDoc_ShapeTool.IsFree_s(label):
-                self._add(label, label, None, 0)
+                referred = TDF_Label()  # an instance of an IGES subfigure is in no assembly
+                is_instance = XCAFDoc_ShapeTool.GetReferredShape_s(label, referred)
+                self._add(label, referred if is_instance else label, None, 0, {})
 
-    def _add(self, occurrence: Any, product: Any, parent: int | None, level: int) -> None:
+    def _add(
+        self, occurrence: Any, product: Any, parent: int | None, level: int, usages: Mapping[str, Any]
+    ) -> None:
+        """usages: labels of styles that the assemblies above give to an occurrence within them, by the entries of the usages
+        that lead on from here."""
         if level > MOST_LEVELS or len(self.tree.occurrences) >= MOST_OCCURRENCES:
             raise ValueError("its assemblies nest too deep or multiply too often")
         matrix = np.eye(3, 4)
@@ -99,6 +112,7 @@ class _Walk:
         elif not (location := XCAFDoc_ShapeTool.GetShape_s(product).Location()).IsIdentity():
             matrix = trsf_matrix(location.Transformation())
         is_assembly = XCAFDoc_ShapeTool.IsAssembly_s(product)
+        own, below = self._usages(occurrence, usages)
         loose = [] if is_assembly or not self._iges else _loose_parts(XCAFDoc_ShapeTool.GetShape_s(product))
         record = Occurrence(
             name=_name(occurrence),
@@ -107,9 +121,12 @@ class _Walk:
             product=_name(product),
             key=_entry(product),
             shape=None if is_assembly or loose else self._shape(product),
-            color=self._color(occurrence, product, is_assembly),
+            color=next(filter(None, map(_label_color, own)), None)
+            or self._color(occurrence, product, is_assembly),
             layers=self._layers_of(occurrence) or self._layers_of(product),
-            visible=self.colors.IsVisible_s(occurrence) if hasattr(self.colors, "IsVisible_s") else True,
+            visible=all(map(self.colors.IsVisible_s, (occurrence, *own)))
+            if hasattr(self.colors, "IsVisible_s")
+            else True,
         )
         self.tree.occurrences.append(record)
         place = len(self.tree.occurrences) - 1
@@ -132,7 +149,22 @@ class _Walk:
                     continue
                 referred = TDF_Label()
                 if XCAFDoc_ShapeTool.GetReferredShape_s(component, referred):
-                    self._add(component, referred, place, level + 1)
+                    self._add(component, referred, place, level + 1, below)
+
+    def _usages(self, occurrence: Any, usages: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
+        """Styles that a specified higher usage gives to this very occurrence, outermost first; and those for what is in it."""
+        own: list[Any] = []
+        below: dict[str, Any] = {}
+        for label in _children(occurrence):
+            style = usages.get(_entry(label))
+            if style is None and not _linked(XCAFDoc_ShapeTool.GetSHUOUpperUsage_s, label):
+                style = label
+            if style is not None:
+                nexts = _linked(XCAFDoc_ShapeTool.GetSHUONextUsage_s, label)
+                below.update((_entry(one), style) for one in nexts)
+                if not nexts and style is not label:
+                    own.append(style)
+        return own, below
 
     def _shape(self, product: Any) -> int:
         entry = _entry(product)
@@ -159,6 +191,13 @@ def _children(label: Any) -> Iterator[Any]:
     while children.More():
         yield children.Value()
         children.Next()
+
+
+def _linked(ask: Any, label: Any) -> list[Any]:
+    """The labels that a usage leads to, on the level above or below."""
+    found = Labels()
+    ask(label, found)
+    return [found.Value(i) for i in range(1, found.Length() + 1)]
 
 
 def _name(label: Any) -> str:

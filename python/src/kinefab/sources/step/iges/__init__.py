@@ -1,0 +1,1 @@
+"""What an IGES file says of itself, read from its text."""

@@ -452,6 +452,10 @@ TOLD = {
         "GEARBOX_WITHOUT_JOINT", 5,
         model(PAIR + joint("j", "gearbox", "a", "b", TURN + TURN.replace("axis", "axis2") + "<gearbox_reference_body>a</gearbox_reference_body>")),
     ),
+    "two frictions": (
+        "ELEMENT_DROPPED", 3,
+        model(link("a", inner="<collision name='c'><geometry><sphere/></geometry><surface><friction><ode><mu>.3</mu><mu2>.7</mu2></ode></friction></surface></collision>")),
+    ),
     "mesh": ("MESH_NOT_FOUND", 3, model(link("a", inner="<visual name='v'><geometry><mesh><uri>model://x/a.stl</uri></mesh></geometry></visual>"))),
 }  # fmt: skip
 

@@ -114,6 +114,13 @@ TOLD = {
         2,
         robot(SHAPE.format("<visual><geometry><sphere radius='1'/></geometry><material name='m'/></visual>")),
     ),
+    "mesh of no size": (
+        "SHAPE_EMPTY",
+        2,
+        robot(SHAPE.format("<visual><geometry><mesh filename='a.stl' scale='1 0 1'/></geometry></visual>")),
+    ),
+    "damping of a plane": ("ELEMENT_DROPPED", 5, robot(PAIR + joint("\n<dynamics damping='0.3'/>", "planar"))),
+    "force of a floating one": ("ELEMENT_DROPPED", 5, robot(PAIR + joint("\n<limit effort='7' velocity='2'/>", "floating"))),
     "empty shape": ("SHAPE_EMPTY", 2, robot(SHAPE.format("<visual><geometry><sphere radius='0'/></geometry></visual>"))),
     "no geometry": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<visual><origin/></visual>"))),
     "no shape": ("SHAPE_UNREADABLE", 2, robot(SHAPE.format("<collision><geometry/></collision>"))),
@@ -191,6 +198,28 @@ def test_a_shape_that_cannot_be_read_leaves_the_link_its_others(tmp_path):
     (node,) = (node for node in scene.nodes if node.name == "a")
     assert [body.name for body in node.bodies] == ["ball"]
     assert [o.outcome.value for o in report.outcomes if o.code == "SHAPE_UNREADABLE"] == ["dropped"]
+
+
+@pytest.mark.parametrize(
+    "encoding", ["utf8", "UTF-8", "iso-8859-1", "shift_jis", "GB2312", "euc-kr", "big5", "utf-16"]
+)
+def test_a_file_is_read_in_the_encoding_that_it_states(tmp_path, encoding):
+    """Also by names that expat does not know, and in letters of several bytes."""
+    name = {"iso-8859-1": "Gelenkträger"}.get(encoding, "手")
+    text = f"<?xml version='1.0' encoding='{encoding}'?>\n<robot name='r'><link name='{name}'/></robot>"
+    path = tmp_path / "r.urdf"
+    path.write_bytes(text.encode(encoding))
+    assert [node.name for node in read(path, Report()).nodes] == ["r", name]
+
+
+def test_bytes_that_are_not_of_the_stated_encoding_are_a_finding(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_bytes(
+        b"<?xml version='1.0' encoding='shift_jis'?><robot name='r'><link name='\xff\xff'/></robot>"
+    )
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    assert [d.code for d in refused.value.diagnostics] == ["XML_SYNTAX"]
 
 
 LOOSE = ["<?xml?>", "<?xml verison='1.0'?>", "\n<?xml version='1.0'?>", "<!-- a -- b\n<!-- c -->"]

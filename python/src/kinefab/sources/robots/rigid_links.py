@@ -220,9 +220,13 @@ def _stand_in(scene: Scene, index: int, beside: Sequence[float], report: Report)
 
 
 def unique(names: Mapping[str, object], wanted: str) -> str:
-    """``wanted``, with the first number that makes it new."""
-    name, count = wanted, 1
-    while name in names:
-        count += 1
-        name = f"{wanted}_{count}"
-    return name
+    """``wanted``, with a number that makes it new: where they were given in order the next one."""
+    if wanted not in names:
+        return wanted
+    taken, free = 1, 2
+    while f"{wanted}_{free}" in names:
+        taken, free = free, 2 * free
+    while free - taken > 1:
+        middle = (taken + free) // 2
+        taken, free = (middle, free) if f"{wanted}_{middle}" in names else (taken, middle)
+    return f"{wanted}_{free}"

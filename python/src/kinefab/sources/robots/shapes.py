@@ -116,7 +116,10 @@ def mesh_shape(
     report: Report,
     key: str | None = None,
 ) -> Shape | None:
-    """The shape of a mesh file; None where it is not found, and then it is dropped by name."""
+    """The shape of a mesh file; None where it is not found or scaled to nothing, and then it is dropped by name."""
+    if not all(scale):
+        report.dropped(feature, "SHAPE_EMPTY", where, shape="mesh")
+        return None
     found = packages.find(uri)
     if found.path is not None:
         if (up := stated_up(found.path)) not in ("", "Z_UP"):

@@ -5,22 +5,29 @@ No entity of the file's own is taken, inside or outside: such a file can grow wi
 
 from __future__ import annotations
 
+import codecs
 import difflib
 import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TypeVar
 from xml.parsers import expat
 
-from ...diagnostics import KinefabError, Report, Severity
+from ...diagnostics import MOST_ALIKE, KinefabError, Report, Severity
 from ..reading.record import MAX_NUMBER, is_encodable, shown
 
 T = TypeVar("T")
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_ENCODING = re.compile(rb"\A(?:\xef\xbb\xbf)?<\?xml[^>]*?\bencoding\s*=\s*[\"']([A-Za-z][\w.-]*)[\"']")
+DECODED = frozenset("utf-8 shift_jis cp932 euc_jp gb2312 gbk gb18030 big5 euc_kr cp949".split())
+"""Encodings that Python reads and expat does not, or not by all their names (``utf8``)."""
 _NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
+ABOUT = 5
+"""Letters by which the length of a near match may differ."""
 MAX_DEPTH = 128
 MAX_ELEMENTS = 2_000_000
 
@@ -134,9 +141,13 @@ class Element:
         return None
 
 
-def near_matches(name: str, known: Mapping[str, object] | set[str]) -> str:
-    """For a message: names that look like ``name``, or "none"."""
-    return ", ".join(difflib.get_close_matches(name, list(known), 3)) or "none"
+def near_matches(name: str, known: Mapping[str, object] | set[str], report: Report) -> str:
+    """For a message: names that look like ``name``, or "none".  They are sought among a thousand of about its length, and
+    not for findings beyond those that are listed."""
+    if len(report.diagnostics) >= MOST_ALIKE:
+        return "not sought"
+    alike = (other for other in known if abs(len(other) - len(name)) <= ABOUT)
+    return ", ".join(difflib.get_close_matches(name, list(islice(alike, 1000)), 3)) or "none"
 
 
 def _number(word: str) -> float:
@@ -152,13 +163,13 @@ class _Refused(Exception):
 class _Builder:
     """Takes the parser's events."""
 
-    def __init__(self, name: str, report: Report, faults: Report) -> None:
+    def __init__(self, name: str, report: Report, faults: Report, encoding: str | None) -> None:
         self.name, self.report, self.faults = name, report, faults
         self.root: Element | None = None
         self.open: list[Element] = []
         self.pieces: list[list[str]] = []
         self.count = 0
-        self.parser = expat.ParserCreate()
+        self.parser = expat.ParserCreate(encoding)
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
@@ -212,9 +223,10 @@ def parse_xml(data: bytes, name: str, report: Report) -> Element:
 
 def _built(data: bytes, name: str, report: Report, faults: Report) -> Element | None:
     """None where ``faults`` gets the reason.  report: of the elements."""
-    builder = _Builder(name, report, faults)
     try:
-        builder.parser.Parse(data, True)
+        decoded = _decoded(data)
+        builder = _Builder(name, report, faults, None if decoded is None else "utf-8")
+        builder.parser.Parse(data if decoded is None else decoded, True)
         return builder.root
     except _Refused:
         pass
@@ -224,3 +236,13 @@ def _built(data: bytes, name: str, report: Report, faults: Report) -> Element | 
     except (LookupError, ValueError) as error:  # an encoding that nobody knows, bytes that are none of it
         faults.add("XML_SYNTAX", f"{name}:1", detail=error)
     return None
+
+
+def _decoded(data: bytes) -> bytes | None:
+    """As UTF-8, where expat would not know the encoding that is stated; None where it does.  Raises LookupError and
+    ValueError."""
+    match = _ENCODING.match(data)
+    if match is None or match[1].lower() == b"utf-8":
+        return None
+    name = codecs.lookup(match[1].decode("ascii")).name
+    return data.decode(name).encode() if name in DECODED else None

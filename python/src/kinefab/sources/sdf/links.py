@@ -64,7 +64,7 @@ class Links:
                 pose = own.inverse() @ frame_pose(base, scope, element, feature) @ pose
             surfaces = self.materials.of(element, scope.packages, feature) if tag == "visual" else ()
             material = (
-                physics_material(element, f"{link.attributes.get('name', '')}/{name}")
+                physics_material(element, f"{link.attributes.get('name', '')}/{name}", feature)
                 if tag == "collision"
                 else None
             )

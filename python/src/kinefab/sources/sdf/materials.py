@@ -93,7 +93,7 @@ def _texture(element: Element | None, tag: str, packages: Packages) -> Texture |
     return Texture(PurePosixPath(uri).name, found.path)
 
 
-def physics_material(collision: Element, name: str) -> PhysicsMaterial | None:
+def physics_material(collision: Element, name: str, feature: str) -> PhysicsMaterial | None:
     """Of ``<surface>``: Coulomb friction and restitution; None where it says nothing of them."""
     surface = collision.child("surface")
     friction = None if surface is None else surface.child("friction")
@@ -104,6 +104,11 @@ def physics_material(collision: Element, name: str) -> PhysicsMaterial | None:
     if mu is None and restitution is None:
         return None
     coefficient = 1.0 if mu is None else max(0.0, mu.value(1.0, infinite=True))
+    across = (
+        coefficient if ode is None or (mu2 := ode.child("mu2")) is None else mu2.value(1.0, infinite=True)
+    )
+    if across != coefficient:
+        collision.report.dropped(f"second friction of {feature}", "ELEMENT_DROPPED", collision.where)
     rebound = 0.0 if restitution is None else min(1.0, max(0.0, restitution.value(0.0)))
     bounded = min(coefficient, 1e6)
     return PhysicsMaterial(name, bounded, bounded, rebound)

@@ -104,7 +104,7 @@ def fill_scene(scene: Scene, root: Scope, report: Report) -> None:
     for joint in joints:
         writer.add(joint)
     for joint in joints:
-        writer.couple(joint, joints)
+        writer.couple(joint)
 
 
 def _visible(scope: Scope) -> Scope:
@@ -139,7 +139,8 @@ def _add_middle(joint: SdfJoint, made: list[Link], number: dict[Entry, int], ent
 
 @dataclass(slots=True)
 class _Joints:
-    """Writes joints of the model.  of: for each joint and axis the id and freedom that it became, and its sense."""
+    """Writes joints of the model.  of: for each joint and axis the id and freedom that it became, and its sense.
+    hinges: by the links that they join.  places: index in the scene of each joint by its id."""
 
     scene: Scene
     links: Sequence[Link]
@@ -149,6 +150,10 @@ class _Joints:
     of: dict[tuple[Entry, int], tuple[str, int, float]] = field(
         default_factory=dict[tuple[Entry, int], tuple[str, int, float]]
     )
+    hinges: dict[frozenset[Entry | None], list[SdfJoint]] = field(
+        default_factory=dict[frozenset["Entry | None"], list[SdfJoint]]
+    )
+    places: dict[str, int] = field(default_factory=dict[str, int])
 
     def add(self, joint: SdfJoint) -> None:
         if joint.kind == "gearbox":
@@ -168,6 +173,8 @@ class _Joints:
                 {name: axis.freedom},
                 sides=(joint.parent, joint.child),
             )
+            if kind is JointKind.REVOLUTE:
+                self.hinges.setdefault(frozenset((joint.parent, joint.child)), []).append(joint)
             sense = -1.0 if joint.child is None else 1.0
             self.of[joint.entry, 0] = (joint.id, TX if name == "tx" else RX, sense)
         elif joint.kind == "ball":
@@ -229,6 +236,7 @@ class _Joints:
         world = Pose(TURN @ axes, TURN @ joint.pose.translation)
         frame_a = world if parent is None else self._inside(parent, world)
         a = None if parent is None else self.carriers[self.number[parent]].node
+        self.places[f"{joint.id}{ending}"] = len(self.scene.joints)
         self.scene.joints.append(
             Joint(
                 f"{joint.id}{ending}",
@@ -249,9 +257,9 @@ class _Joints:
     def _inside(self, entry: Entry, world: Pose) -> Pose:
         return self.scene.nodes[self.carriers[self.number[entry]].node].pose.inverse() @ world
 
-    def couple(self, joint: SdfJoint, joints: Sequence[SdfJoint]) -> None:
+    def couple(self, joint: SdfJoint) -> None:
         if joint.kind == "gearbox":
-            self._gearbox(joint, joints)
+            self._gearbox(joint)
         for i, axis in enumerate(joint.axes):
             if (mimic := axis.mimic) is None or joint.kind == "gearbox":
                 continue
@@ -272,25 +280,18 @@ class _Joints:
                 mimic.where,
             )
 
-    def _gearbox(self, joint: SdfJoint, joints: Sequence[SdfJoint]) -> None:
+    def _gearbox(self, joint: SdfJoint) -> None:
         """theta_2 = -ratio theta_1, each the turn of a side against the reference body."""
         feature = f"joint {joint.name}"
-        ends = [self._turn(joint, i, side, joints) for i, side in enumerate((joint.parent, joint.child))]
+        ends = [self._turn(joint, i, side) for i, side in enumerate((joint.parent, joint.child))]
         if ends[0] is None or ends[1] is None:
             self.report.dropped(feature, "GEARBOX_WITHOUT_JOINT", joint.where, joint=joint.name)
             return
         self._add(joint.id, ends[1], ends[0], -joint.ratio, 0.0, joint.where)
 
-    def _turn(
-        self, joint: SdfJoint, axis: int, side: Entry | None, joints: Sequence[SdfJoint]
-    ) -> tuple[str, int, float] | None:
+    def _turn(self, joint: SdfJoint, axis: int, side: Entry | None) -> tuple[str, int, float] | None:
         """The coordinate by which a side turns against the reference body about the gearbox's axis."""
-        for other in joints:
-            if other.kind not in ("revolute", "continuous") or {other.parent, other.child} != {
-                side,
-                joint.reference,
-            }:
-                continue
+        for other in self.hinges.get(frozenset((side, joint.reference)), ()):
             along = float(other.axes[0].direction @ joint.axes[axis].direction)
             if abs(along) > ALONG:
                 name, freedom, sense = self.of[other.entry, 0]
@@ -319,8 +320,7 @@ class _Joints:
         self.scene.couplings.append(Coupling(id, kind, own[0], own[1], (term,), own[2] * offset, where))
 
     def _hold(self, own: tuple[str, int, float], value: float) -> None:
-        for i, joint in enumerate(self.scene.joints):
-            if joint.id == own[0]:
-                freedoms = list(joint.freedoms)
-                freedoms[own[1]] = LOCKED if value == 0.0 else Freedom(Motion.LIMITED, value, value)
-                self.scene.joints[i] = replace(joint, freedoms=tuple(freedoms))
+        joint = self.scene.joints[self.places[own[0]]]
+        freedoms = list(joint.freedoms)
+        freedoms[own[1]] = LOCKED if value == 0.0 else Freedom(Motion.LIMITED, value, value)
+        self.scene.joints[self.places[own[0]]] = replace(joint, freedoms=tuple(freedoms))

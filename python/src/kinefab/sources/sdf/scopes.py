@@ -20,7 +20,7 @@ SCOPE_FRAMES = ("__model__", "__root__")
 @dataclass(slots=True, eq=False)
 class Entry:
     """A named frame of a scope.  kind: link, joint, frame or model.  owner: the scope whose frame its pose is counted from.
-    inner: of a model."""
+    inner: of a model.  link: that it moves with, once somebody has asked."""
 
     kind: str
     name: str
@@ -28,6 +28,7 @@ class Entry:
     owner: Scope
     inner: Scope | None = None
     pose: Pose | None = None
+    link: Entry | None = None
     open: bool = False
 
 
@@ -77,7 +78,9 @@ class Scope:
             found = None if scope is None else scope.entries.get(word)
             if found is None:
                 known = {} if scope is None else scope.entries
-                asking.fault("LINK_UNKNOWN", link=name, feature=feature, near=near_matches(word, known))
+                asking.fault(
+                    "LINK_UNKNOWN", link=name, feature=feature, near=near_matches(word, known, self.report)
+                )
                 return None
             scope = found.inner
         return found
@@ -161,36 +164,57 @@ def entry_pose(entry: Entry) -> Pose:
     """The pose of an entry in its owner's frame."""
     if entry.pose is not None:
         return entry.pose
+    # From the far end, since Python's calls are too few for a chain whose frames count from each other.
+    chain, known = [entry], {entry}
+    while (following := chain[-1].owner.entries.get(_base(chain[-1]))) is not None and following.pose is None:
+        if following in known:
+            following.element.fault("FRAME_CYCLE", feature=f"{following.kind} {following.name}")
+            following.pose = Pose()
+            break
+        chain.append(following)
+        known.add(following)
+    for each in reversed(chain):
+        each.pose = each.pose or _own_pose(each)
+    assert entry.pose is not None
+    return entry.pose
+
+
+def _base(entry: Entry) -> str:
+    """What an entry's pose is counted from; "" for its owner's frame."""
+    base = relative_to(entry.element if entry.inner is None else entry.inner.posed, entry.owner)
+    if not base and entry.kind == "joint":
+        return entry.element.content("child")
+    if not base and entry.kind == "frame":
+        return entry.element.attributes.get("attached_to", "").strip()
+    return base
+
+
+def _own_pose(entry: Entry) -> Pose:
+    """From that of what it is counted from."""
     feature = f"{entry.kind} {entry.name}"
-    if entry.open:
+    if entry.open:  # a cycle by way of other scopes
         entry.element.fault("FRAME_CYCLE", feature=feature)
         return Pose()
     entry.open = True
-    scope = entry.owner
+    scope, base = entry.owner, _base(entry)
     posed = entry.element if entry.inner is None else entry.inner.posed
-    base = relative_to(posed, scope)
-    if not base and entry.kind == "joint":
-        base = entry.element.content("child")
-    elif not base and entry.kind == "frame":
-        base = entry.element.attributes.get("attached_to", "").strip()
     outer = frame_pose(base, scope, posed, feature) if base else Pose()
     pose = outer @ pose_of(posed)
     if entry.inner is not None and entry.inner.placement:
         inner = entry.inner
         pose = pose @ frame_pose(inner.placement, inner, posed, feature).inverse()
     entry.open = False
-    entry.pose = pose
     return pose
 
 
 def link_of(entry: Entry, feature: str) -> Entry | None:
     """The link that a frame moves with; None for the world, and after a fault."""
-    seen: list[Entry] = []
-    while entry.kind != "link":
+    seen: set[Entry] = set()
+    while entry.kind != "link" and entry.link is None:
         if entry in seen:
             entry.element.fault("FRAME_CYCLE", feature=f"{entry.kind} {entry.name}")
             return None
-        seen.append(entry)
+        seen.add(entry)
         if entry.inner is not None:
             following = canonical_link(entry.inner)
         elif entry.kind == "joint":
@@ -206,7 +230,10 @@ def link_of(entry: Entry, feature: str) -> Entry | None:
         if following is None:
             return None
         entry = following
-    return entry
+    link = entry.link or entry
+    for each in seen:
+        each.link = link
+    return link
 
 
 def canonical_link(scope: Scope) -> Entry | None:

@@ -52,6 +52,10 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
     _limits(element, joint, feature, report)
     if (dynamics := element.child("dynamics")) is not None:
         joint.damping, joint.friction = (_not_negative(dynamics, key) for key in ("damping", "friction"))
+    if kind in ("planar", "floating"):  # which of their coordinates is meant nobody says
+        for child in element.all("limit", "dynamics"):
+            if any(_is_number(child, key) and float(child.attributes[key]) for key in child.attributes):
+                report.dropped(f"{child.tag} of {feature}", "ELEMENT_DROPPED", child.where)
     if (mimic := element.child("mimic")) is not None:
         followed, factor, offset = (
             mimic.attributes.get("joint", "").strip(),
@@ -89,7 +93,9 @@ def _link(element: Element, side: str, feature: str, robot: Robot) -> str:
         return ""
     name = child.name("link")
     if name and name not in robot.links:
-        child.fault("LINK_UNKNOWN", link=name, feature=feature, near=near_matches(name, robot.links))
+        child.fault(
+            "LINK_UNKNOWN", link=name, feature=feature, near=near_matches(name, robot.links, child.report)
+        )
         return ""
     return name
 
@@ -129,6 +135,7 @@ def _limits(element: Element, joint: UrdfJoint, feature: str, report: Report) ->
 
 
 def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
+    sound: set[str] = set()
     for joint in joints.values():
         if (mimic := joint.mimic) is None:
             continue
@@ -142,10 +149,8 @@ def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
             joint.mimic = None
             continue
         problem = ""
-        line, other = [joint.name], mimic.joint
-        while not problem and other:
-            if other not in joints:
-                break
+        line, other = {joint.name}, mimic.joint
+        while not problem and other in joints and other not in sound:
             if other in line:
                 problem = (
                     "a joint that follows it in turn" if other != joint.name or len(line) > 1 else "itself"
@@ -153,7 +158,7 @@ def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
                 break
             if joints[other].kind in ("floating", "planar"):
                 problem = f"{joints[other].kind} and has no one coordinate"
-            line.append(other)
+            line.add(other)
             next_mimic = joints[other].mimic
             other = next_mimic.joint if next_mimic is not None else ""
         if problem:
@@ -165,3 +170,5 @@ def _check_mimics(joints: Mapping[str, UrdfJoint], report: Report) -> None:
                 problem=problem,
             )
             joint.mimic = None
+        else:
+            sound |= line

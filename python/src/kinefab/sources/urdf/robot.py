@@ -51,9 +51,10 @@ class UrdfJoint:
 
 @dataclass(slots=True, eq=False)
 class Robot:
-    """links, joints: by name, in the file's order.  surfaces: index in the scene by name of the material."""
+    """links, joints: by name, in the file's order.  starts: of joints that ``tree.start_of`` was asked for."""
 
     name: str
     element: Element
     links: dict[str, Link] = field(default_factory=dict[str, Link])
     joints: dict[str, UrdfJoint] = field(default_factory=dict[str, UrdfJoint])
+    starts: dict[str, float] = field(default_factory=dict[str, float])

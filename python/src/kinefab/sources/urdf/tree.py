@@ -51,18 +51,23 @@ def from_the_root(robot: Robot, root: str) -> list[UrdfJoint]:
 def start_of(joint: UrdfJoint, robot: Robot) -> float:
     """The joint's coordinate at the exported pose, radians or metres: zero, or the end of its range next to zero; of one
     that follows another what that makes of it."""
-    factor, value = 1.0, 0.0
-    while joint.mimic is not None:
-        value += factor * joint.mimic.offset
-        factor *= joint.mimic.multiplier
-        joint = robot.joints[joint.mimic.joint]
-    return value + factor * min(max(0.0, joint.lower), joint.upper)
+    line = [joint]
+    while line[-1].name not in robot.starts and (mimic := line[-1].mimic) is not None:
+        line.append(robot.joints[mimic.joint])
+    last = line[-1]
+    value = robot.starts.setdefault(last.name, min(max(0.0, last.lower), last.upper))
+    for follower in reversed(line[:-1]):
+        assert follower.mimic is not None
+        value = follower.mimic.multiplier * value + follower.mimic.offset
+        robot.starts[follower.name] = value
+    return value
 
 
 def hold_followers(robot: Robot) -> None:
     """A joint that follows one which never moves stands still too."""
+    known: dict[str, bool] = {}
     for joint in robot.joints.values():
-        if joint.mimic is not None and _stands(joint, robot):
+        if joint.mimic is not None and _stands(joint, robot, known):
             value = start_of(joint, robot)
             joint.lower = joint.upper = value
     for joint in robot.joints.values():
@@ -70,12 +75,21 @@ def hold_followers(robot: Robot) -> None:
             joint.mimic = None
 
 
-def _stands(joint: UrdfJoint, robot: Robot) -> bool:
-    while (mimic := joint.mimic) is not None:
-        if mimic.multiplier == 0.0:
-            return True
-        joint = robot.joints[mimic.joint]
-    return not joint.moves
+def _stands(joint: UrdfJoint, robot: Robot, known: dict[str, bool]) -> bool:
+    line: list[str] = []
+    stands: bool | None = None
+    while stands is None:
+        line.append(joint.name)
+        if joint.name in known:
+            stands = known[joint.name]
+        elif (mimic := joint.mimic) is None:
+            stands = not joint.moves
+        elif mimic.multiplier == 0.0:
+            stands = True
+        else:
+            joint = robot.joints[mimic.joint]
+    known.update(dict.fromkeys(line, stands))
+    return stands
 
 
 def place_links(robot: Robot, root: str, ordered: list[UrdfJoint]) -> None:

@@ -150,3 +150,19 @@ def test_what_came_with_2022_is_told_for_2021(tmp_path):
         text = (tmp_path / unity / "A.prefab").read_text()
         assert ("useAcceleration: 1" in text or "m_UseAcceleration: 1" in text) is (unity == "2022")
     assert lost["2022"] == [] and lost["2021"] and any("useAcceleration" in m for m in lost["2021"])
+
+
+@pytest.mark.parametrize("hinges, many", [(63, False), (64, True)])
+def test_more_links_than_physx_counts_are_told(tmp_path, hinges, many):
+    """Links of one articulation: each hinge's, and the base's.  A second, small one is not counted with them."""
+    scene = kinefab.Scene()
+    above = scene.add_part("Base", None, grounded=True)
+    for k in range(hinges):
+        part = scene.add_part(f"P{k}", None, translation=(0.1 * k, 0, 0), mass=mass(1.0))
+        scene.add_hinge(above, part, point=(0.1 * k, 0, 0), axis=(0, k % 2, 1), name=f"H{k}")
+        above = part
+    free = [scene.add_part(name, None, translation=(0, 1, 0), mass=mass(1.0)) for name in ("Left", "Right")]
+    scene.add_hinge(*free, point=(0, 1, 0), axis=(0, 0, 1), name="Apart")
+    _, result = exported(scene, tmp_path, writing={"unity": "2022"})
+    found = [d.message for d in result.report.diagnostics if d.code == "ARTICULATION_LINKS_MANY"]
+    assert len(found) == many and all(f" has {hinges + 1} links" in message for message in found)

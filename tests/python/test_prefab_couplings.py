@@ -149,3 +149,23 @@ def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3
+
+
+def test_a_mimic_that_holds_at_the_pose_has_no_offset(tmp_path):
+    """0.2 m a radian; no noise of its offset, which would change with every machine."""
+    link = '<link name="{}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r">{"".join(map(link.format, "abc"))}'
+        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>'
+        '<limit lower="-0.5" upper="1.2" effort="11" velocity="2"/></joint>'
+        '<joint name="k" type="prismatic"><parent link="a"/><child link="c"/><origin xyz="0 1 0"/><axis xyz="0 1 0"/>'
+        '<limit lower="-0.1" upper="0.4" effort="12" velocity="3"/><mimic joint="j" multiplier="0.2" offset="0.05"/></joint></robot>'
+    )
+    kinefab.export(
+        tmp_path / "r.urdf", tmp_path / "R.prefab", kinefab.ExportOptions(writing={"scripts": True})
+    )
+    (own,) = [
+        d.fields for d in documents((tmp_path / "R.prefab").read_text("utf-8")) if d.kind == "MonoBehaviour"
+    ]
+    assert own["offset"] == "0" and own["drivenCoordinate"] == "1"
+    assert float(own["terms"][0]["ratio"]) == pytest.approx(0.2 * 3.141592654 / 180, rel=1e-6)

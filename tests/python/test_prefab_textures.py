@@ -183,3 +183,18 @@ def test_a_colour_that_is_not_whole_is_seen_through(tmp_path, alpha, mode, shown
     (own,) = documents((tmp_path / "T" / "Materials" / "Pane.mat").read_text("utf-8"))
     floats = {k: v for entry in own.fields["m_SavedProperties"]["m_Floats"] for k, v in entry.items()}
     assert float(floats["_Mode"]) == shown
+
+
+def test_a_texture_s_file_has_one_ending(tmp_path):
+    """That of what it holds, whatever the source calls the image."""
+    scene = model.Scene(meshes=[block("Block", (0.1, 0.1, 0.1), uvs=True)])
+    image = png(tmp_path / "a.png", np.zeros((2, 2, 4)))
+    for i, name in enumerate(("wood.png", "Stone.JPEG", "v1.2", ".png")):
+        texture = model.Texture(name, image)
+        scene.surfaces.append(model.Surface(f"M{i}", color_texture=texture, normal_texture=texture))
+        scene.nodes.append(model.Node(f"N{i}", f"N{i}", bodies=(model.Body("b", 0, (i,)),)))
+    kinefab.export(scene, tmp_path / "T.prefab")
+    found = {path.name for path in (tmp_path / "T" / "Textures").glob("*.png")}
+    plain = ("wood", "Stone", "v1.2")
+    assert found >= {f"{name}.png" for name in plain} | {f"{name} normal.png" for name in plain}
+    assert len(found) == 8

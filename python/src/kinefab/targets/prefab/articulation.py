@@ -6,7 +6,7 @@ a loop stays a joint, on a helper body that is fixed to one of the two links.
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -38,6 +38,9 @@ ARTICULATION_GROUND_ID = "kinefab:articulation ground"
 HELPER_MASS = 0.05
 """Of the link that a helper body is fixed to."""
 
+MOST_LINKS = 64
+"""Of one articulation: DY_ARTICULATION_MAX_SIZE of PhysX 4.1, whose arrays have that size."""
+
 Edge = tuple[int, int]
 """A joint: its object, and its place among the object's components."""
 
@@ -61,6 +64,7 @@ class _Articulation:
     def scene_of_links(self) -> UnityScene:
         self._read()
         parents, closing = self._tree()
+        self._tell_size({child: parent for child, (parent, _) in parents.items()})
         links = {child: self._link(child, parent, edge) for child, (parent, edge) in parents.items()}
         used = {edge for _, edge in parents.values() if edge is not None} | set(closing)
         for index, link in links.items():
@@ -156,6 +160,15 @@ class _Articulation:
                         waiting.append(other)
         inner = {edge for _, edge in found.values()}
         return found, [edge for edge in edges if edge not in inner]
+
+    def _tell_size(self, above: Mapping[int, int | None]) -> None:
+        """above: of each link the one above it, roots first."""
+        roots: dict[int, int] = {}
+        for link, parent in above.items():
+            roots[link] = link if parent is None else roots[parent]
+        for root, count in Counter(roots.values()).items():
+            if count > MOST_LINKS:
+                self.report.add("ARTICULATION_LINKS_MANY", object=self.objects[root].id, count=count)
 
     def _link(self, child: int, parent: int | None, edge: Edge | None) -> ArticulationBody:
         body = self.bodies[child]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import PurePosixPath
 
 from ....diagnostics import Report
 from ....model import Texture, Wrap
@@ -12,12 +13,14 @@ from ....unity.scene import Material
 from ...images import ImageError, bytes_of
 from ..text.metas import texture_meta
 from ..text.yaml import Plain, external
-from .images import Images, content_of, packed
+from .images import ENDINGS, Images, content_of, packed
 from .materials import Map, Maps
 
 TEXTURE_ID = 2800000
 IMPORTED = 3
 """The type of a reference to what an importer made."""
+SUFFIXES = ENDINGS | {".jpeg", ".tiff"}
+"""Of images' names, which their files have anyway."""
 COLOR, NORMAL, DATA = "color", "normal", "data"
 """Uses: sRGB, a normal map, linear numbers."""
 WRAPS = {Wrap.REPEAT: 0, Wrap.CLAMP: 1, Wrap.MIRROR: 2}
@@ -81,7 +84,9 @@ class Textures:
         self._tell_placing(material, slot, texture)
         held = f"|{content_of(texture)}" if texture.name in self.twins else ""
         identity = f"{texture.name}{held}|{use}|{texture.wrap.value}"
-        name = texture.name if use == COLOR else f"{texture.name} {use}"
+        shown = PurePosixPath(texture.name)
+        plain = shown.stem if shown.suffix.lower() in SUFFIXES else texture.name
+        name = plain if use == COLOR else f"{plain} {use}"
         self.files.setdefault(identity, TextureFile(identity, name, use, texture.wrap, ending, texture))
         return identity
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ....unity.scene import Coupling, JointCoordinate
+from ...numbers import DECIMALS
 from ..text.documents import component_head
 from ..text.ids import guid
 from ..text.yaml import Fields, external, local
@@ -46,7 +47,7 @@ def coupling_fields(coupling: Coupling, owner: int, joints: Mapping[tuple[int, i
             }
             for term in coupling.terms
         ],
-        "offset": float(coupling.offset),
+        "offset": round(float(coupling.offset), DECIMALS),
         "stiffness": 10000,
         "damping": 200,
     }

@@ -385,7 +385,7 @@ def test_what_holds_a_mocap_body_where_it_is_led_is_left_out_and_told(tmp_path, 
     path = model(tmp_path, inner, tail=f"<equality><{kind} body1='guide' {other}/></equality>")
     result = kinefab.export(path, tmp_path / "scene.kinefab")
     told = [(o.feature, o.where) for o in result.report.outcomes if o.code == "JOINT_BETWEEN_LED"]
-    assert told == [("joint weld 0" if kind == "weld" else "joint connect", "m.xml")]
+    assert told == [("joint weld 0" if kind == "weld" else "joint connect", "m.xml:5")]
     bodies = json.loads(result.path.read_text("utf-8"))["gameObjects"]
     led = {o["name"] for o in bodies for c in o.get("components", ()) if c.get("isKinematic")}
     assert {"guide", "other"} <= led  # each for itself
@@ -421,6 +421,39 @@ def test_what_has_no_place_is_left_out_by_name(tmp_path):
     assert [d.message for d in report.diagnostics if d.code == "MJCF_LEFT_OUT"] == [
         "The sensor s was left out: Unity's scenes have no place for it."
     ]
+
+
+def test_what_has_no_name_is_told_at_its_line(tmp_path):
+    """A sensor with a name and one without, an equality, an actuator and a tendon without; the head takes a line."""
+    tail = (
+        "<sensor>\n<jointpos name='s' joint='j'/>\n<jointvel joint='j'/></sensor>\n"
+        "<equality><joint joint1='j' joint2='k' polycoef='0 .5 .3 0 0'/></equality>\n"
+        "<actuator><intvelocity joint='j' kp='3' actrange='-1 1'/></actuator>\n"
+        "<tendon><fixed armature='.3' stiffness='7' springlength='.1 .4'><joint joint='k' coef='2'/></fixed></tendon>\n"
+    )
+    inner = f"<body name='a'><joint name='j'/>{BALL}<body name='b'><joint name='k'/>{BALL}</body></body>"
+    _, report = loaded(tmp_path, inner, tail=tail)
+    places = {d.code: d.where for d in report.diagnostics}
+    sensors = [d.where for d in report.diagnostics if d.code == "MJCF_LEFT_OUT"]
+    assert sensors == ["m.xml:6", "m.xml:7"]
+    assert (places["MJCF_POLYNOMIAL"], places["MJCF_ACTUATOR"]) == ("m.xml:8", "m.xml:9")
+    (tendon,) = (d for d in report.diagnostics if d.code == "MJCF_TENDON")
+    assert tendon.where == "m.xml:10"
+    assert all(word in tendon.message for word in ("armature 0.3", "stiffness 7", "springlength 0.1 0.4"))
+
+
+def test_what_mujoco_is_asked_to_leave_away_is_told(tmp_path):
+    head = "<option wind='1 -2 3' viscosity='.01'><flag limit='disable' contact='disable'/></option>"
+    tail = "<custom><numeric name='gains' data='1 2'/></custom>"
+    _, report = loaded(tmp_path, ONE, head=head, tail=tail)
+    told = {(o.feature, o.where) for o in report.outcomes if o.code == "MJCF_LEFT_OUT"}
+    assert told == {
+        ("wind 1 -2 3", "m.xml:2"),
+        ("viscosity 0.01", "m.xml:2"),
+        ("flag limit='disable'", "m.xml:2"),
+        ("flag contact='disable'", "m.xml:2"),
+        ("numeric gains", "m.xml:5"),
+    }
 
 
 def test_plug_ins_are_left_out_by_number(tmp_path):

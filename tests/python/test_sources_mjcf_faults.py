@@ -221,3 +221,43 @@ def test_other_encodings_than_mujocos_are_refused_at_their_line(tmp_path, encodi
     if encoding != "utf-16":
         path.write_bytes(text.encode(encoding))
         assert read(path, Report()).nodes
+
+
+@needs_mujoco
+@pytest.mark.parametrize("head, file", [("", "{far}/box.obj"), ("<compiler meshdir='{far}'/>", "box.obj")])
+def test_meshes_of_soft_bodies_lie_where_meshes_may(tmp_path, head, file):
+    """MuJoCo opens them while it parses, wherever they are."""
+    far, near = tmp_path / "far", tmp_path / "one" / "two" / "near"
+    near.mkdir(parents=True)
+    far.mkdir()
+    for folder in (far, near):
+        (folder / "box.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n", encoding="utf-8")
+    soft = "<body name='a'>\n<flexcomp name='x' type='mesh' file='{}' dim='2' mass='1'/></body>"
+    path = near / "m.xml"
+    text = world(soft.format(file)).replace("<worldbody>", head + "<worldbody>")
+    path.write_text(text.replace("{far}", str(far)), encoding="utf-8")
+    with pytest.raises(KinefabError) as refused:
+        read(path, Report())
+    (found,) = refused.value.diagnostics
+    assert found.code == "MJCF_INCLUDE" and "leads out" in found.message
+    read(path, report := Report(), options={"package_path": [far]})
+    assert "MJCF_LEFT_OUT" in {d.code for d in report.diagnostics}
+
+
+@needs_mujoco
+def test_no_file_of_a_skin_is_opened(tmp_path):
+    tail = "<deformable><skin name='coat' file='/nowhere/coat.skn'/></deformable>"
+    path = tmp_path / "m.xml"
+    path.write_text(world(BODY, tail), encoding="utf-8")
+    report = Report()
+    assert len(read(path, report).nodes) > 1
+    assert [o.feature for o in report.outcomes if o.code == "MJCF_LEFT_OUT"] == ["skin coat"]
+
+
+@needs_mujoco
+def test_a_model_of_nothing_is_told(tmp_path):
+    path = tmp_path / "m.xml"
+    path.write_text("<mujoco/>", encoding="utf-8")
+    report = Report()
+    read(path, report)
+    assert [(d.code, d.where) for d in report.diagnostics] == [("SCENE_WITHOUT_PARTS", "m.xml:1")]

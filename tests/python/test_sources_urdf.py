@@ -401,6 +401,22 @@ def test_xacro_is_expanded_with_arguments_and_packages(tmp_path):
     assert motion.range_of(coordinate) == pytest.approx((-10.0, 80.0))
 
 
+@pytest.mark.parametrize("argument", ["who=elbow", ":=elbow", "elbow"])
+def test_an_argument_without_name_or_value_is_told(tmp_path, argument):
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    path = tmp_path / "r.xacro"
+    path.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:arg name='who' default='x'/>"
+        "<xacro:arg name='side' default='y'/><link name='$(arg who)_$(arg side)'/></robot>",
+        encoding="utf-8",
+    )
+    report = Report()
+    scene = read(path, report, options={"xacro_arg": [argument, "side:=left"]})
+    assert [node.name for node in scene.nodes] == ["r", "x_left"]
+    assert [(d.code, d.severity.value) for d in report.diagnostics] == [("XACRO_ARGUMENT", "warning")]
+    assert argument in report.diagnostics[0].message
+
+
 def test_the_engine_is_given_what_xacro_makes(tmp_path):
     """A package whose folder has another name than its package.xml; without such a package the engine refuses."""
     pytest.importorskip("xacro", reason="xacro is not installed")
@@ -421,7 +437,10 @@ def test_the_engine_is_given_what_xacro_makes(tmp_path):
         .replace("${limits}", "lower='${limits[0]}' upper='${limits[1]}'"),
         encoding="utf-8",
     )  # fmt: skip
-    path = tmp_path / "r.urdf.xacro"
+    path = (
+        tmp_path / "one" / "r.urdf.xacro"
+    )  # the engine looks four folders up, and others write below the fifth
+    path.parent.mkdir()
     path.write_text(
         "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:include filename='$(find arm_of_two)/more.xacro'/>"
         f"<link name='a'>{heavy}</link><xacro:arm n='b' limits='${{[-pi/18, radians(80)]}}'/>"

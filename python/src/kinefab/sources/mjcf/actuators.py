@@ -42,7 +42,7 @@ def read_actuators(compiled: Compiled, report: Report) -> Driven:
     count = int(getattr(m, "nactuator", m.nu))
     for i in range(count):
         name = compiled.name("actuator", i) or f"actuator {i}"
-        where = compiled.where("actuator", name)
+        where = compiled.files.nth("actuator", i, count)
         numbers = _numbers(compiled, i)
         reason = _unlike(compiled, i)
         if reason:

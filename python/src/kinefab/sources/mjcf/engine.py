@@ -95,6 +95,7 @@ class _Library:
         self._mend_textures(spec)
         self._mend_meshes(spec)
         self._mend_heightfields(spec)
+        self._mend_skins(spec)
         model = self._without_hulls(spec)
         self._tell_masses(spec)
         self._check_numbers(model)
@@ -135,7 +136,7 @@ class _Library:
             said = " ".join(str(error).split())
             line = re.search(r"line (\d+)", said)
             where = f"{self.files.path.name}:{line[1]}" if line else self.files.path.name
-            self.report.add("MJCF_REFUSED", where, detail=said[:400] or type(error).__name__)
+            self.report.add("MJCF_REFUSED", where, detail=said[:400].rstrip(".") or type(error).__name__)
         finally:
             if quiet is not None:
                 quiet(None)
@@ -246,6 +247,13 @@ class _Library:
                 self._tell("hfield", field_.name, field_.file, found)
                 field_.file, field_.nrow, field_.ncol = "", 2, 2
                 field_.userdata = [0.0] * 4
+
+    def _mend_skins(self, spec: Any) -> None:
+        """Nothing reads them, so no file of theirs is opened."""
+        for skin in [s for s in spec.skins if s.file]:
+            feature, where = f"skin {skin.name or skin.file}", self.files.where("skin", skin.name)
+            self.report.dropped(feature, "MJCF_LEFT_OUT", where)
+            spec.delete(skin)
 
 
 def _weighs(geom: Any) -> bool:

@@ -47,7 +47,7 @@ class Equalities:
             kind = int(m.eq_type[i])
             word = str(kinds(kind).name).removeprefix("mjEQ_").lower()
             name = self.compiled.name("eq", i) or f"{word} {i}"
-            where = self.compiled.where("equality", name)
+            where = self.compiled.files.nth("equality", i, m.neq)
             active = bool(m.eq_active0[i])
             if kind == int(kinds.mjEQ_CONNECT):
                 a, b, frame_a, frame_b = self._ends(i, False)

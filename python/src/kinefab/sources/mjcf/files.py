@@ -30,7 +30,7 @@ COUNTED = {
     "texture": (("width", "height"), MOST_CELLS),
     "hfield": (("nrow", "ncol"), MOST_CELLS),
 }
-SECTIONS = ("actuator", "equality", "tendon", "contact")
+SECTIONS = ("actuator", "equality", "tendon", "contact", "sensor")
 """Elements whose children, whatever they are called, share one space of names."""
 
 
@@ -44,10 +44,17 @@ class Files:
     read: list[SourceFile] = field(default_factory=list[SourceFile])
     _places: dict[tuple[str, str], str] = field(default_factory=dict[tuple[str, str], str])
     _elements: list[Element] = field(default_factory=list[Element])
+    _sections: dict[str, list[str]] = field(default_factory=dict[str, list[str]])
 
     def where(self, kind: str, name: str) -> str:
         """``file:line`` of a named element; of a name that MuJoCo made (a copy, a prefix) only the main file."""
         return self._places.get((kind, name), self.path.name)
+
+    def nth(self, section: str, index: int, count: int) -> str:
+        """The place of the ``index``-th of a section's elements, named or not, of which MuJoCo has ``count``; the main file
+        where it made some that no file states."""
+        places = self._sections.get(section, [])
+        return places[index] if len(places) == count else self.path.name
 
     def all(self, *tags: str) -> Iterator[Element]:
         """Elements of these names, in all files."""
@@ -56,6 +63,8 @@ class Files:
     def note(self, element: Element, parent: str) -> None:
         self._elements.append(element)
         kind = parent if parent in SECTIONS else "joint" if element.tag == "freejoint" else element.tag
+        if parent in SECTIONS:
+            self._sections.setdefault(parent, []).append(element.where)
         if name := element.attributes.get("name", ""):
             self._places.setdefault((kind, name), element.where)
 
@@ -70,6 +79,7 @@ def scan(path: Path, packages: Packages, report: Report) -> Files:
         report.raise_for_errors()
     files = Files(path, root, hashlib.sha256(data).hexdigest())
     _visit(files, root, (Path(os.path.abspath(path)),), packages, report)
+    _check_soft(files, packages)
     report.raise_for_errors()
     return files
 
@@ -115,6 +125,17 @@ def _include(
     _visit(files, inner, (*line, Path(os.path.abspath(found.path))), packages, report)
 
 
+def _check_soft(files: Files, packages: Packages) -> None:
+    """The meshes of soft bodies, which MuJoCo opens while it parses: they too lie where a mesh may lie."""
+    stated = (e.attributes.get(key, "") for e in files.all("compiler") for key in ("meshdir", "assetdir"))
+    folders = dict.fromkeys(("", *stated))
+    for element in files.all("flexcomp"):
+        name = element.attributes.get("file", "").strip()
+        places = (os.path.join(folder, name) for folder in folders if name)
+        if any(packages.find(p).outside and (files.path.parent / p).is_file() for p in places):
+            element.fault("MJCF_INCLUDE", file=name, problem="leads out of the model's folder")
+
+
 def _parsed(data: bytes, name: str, report: Report) -> Element:
     """MuJoCo's parser minds neither a blank that is missing between attributes nor ``--`` in a comment, and takes every
     file for UTF-8 whatever it declares."""
@@ -137,7 +158,7 @@ def _parsed(data: bytes, name: str, report: Report) -> Element:
     except UnicodeDecodeError as error:
         line = text.count(b"\n", 0, error.start) + 1
         report.add(
-            "MJCF_REFUSED", f"{name}:{line}", detail="the file is no UTF-8, and MuJoCo reads nothing else."
+            "MJCF_REFUSED", f"{name}:{line}", detail="the file is no UTF-8, and MuJoCo reads nothing else"
         )
         report.raise_for_errors()
     for element in _walk(root):

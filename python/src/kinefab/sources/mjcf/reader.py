@@ -47,6 +47,8 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     if compiled.keyframes:
         scene.offers = {"keyframe": compiled.keyframes}
     made, carriers = _add_bodies(scene, compiled, root, report)
+    if len(scene.nodes) == 1:
+        report.add("SCENE_WITHOUT_PARTS", files.root.where)
     scene.joints += made.joints
     equalities = Equalities(compiled, carriers, made, scene, report, frozenset(excluded(compiled)))
     equalities.read()

@@ -29,17 +29,17 @@ GRAMMAR: dict[str, Children] = {
     "link": children(
         "visual collision",
         "pose inertial gravity kinematic self_collide must_be_base_link",
-        "plugin sensor light velocity_decay enable_wind audio_sink audio_source battery particle_emitter projector",
+        "frame plugin sensor light velocity_decay enable_wind audio_sink audio_source battery particle_emitter projector",
     ),
     "inertial": children(
-        one="pose mass inertia", foreign="density frame auto_inertia_params fluid_added_mass"
+        one="pose mass inertia", foreign="frame density auto_inertia_params fluid_added_mass"
     ),
     "visual": children(
         one="pose geometry material transparency",
-        foreign="cast_shadows laser_retro visibility_flags meta plugin",
+        foreign="frame cast_shadows laser_retro visibility_flags meta plugin",
     ),
     "collision": children(
-        one="pose geometry surface", foreign="laser_retro max_contacts density auto_inertia_params"
+        one="pose geometry surface", foreign="frame laser_retro max_contacts density auto_inertia_params"
     ),
     "surface": children(one="friction bounce", foreign="contact soft_contact"),
     "friction": children(one="ode", foreign="torsional bullet"),
@@ -54,7 +54,7 @@ GRAMMAR: dict[str, Children] = {
     "specular": TEXTURED,
     "joint": children(
         one="parent child pose axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body",
-        foreign="physics sensor plugin",
+        foreign="frame physics sensor plugin",
     ),
     "axis": AXIS,
     "axis2": AXIS,

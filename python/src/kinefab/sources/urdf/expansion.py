@@ -57,6 +57,9 @@ def expanded(path: Path, packages: Packages, arguments: Sequence[str], report: R
     if find_spec("xacro") is None:
         report.add("SOURCE_LIBRARY_MISSING", path.name, format="xacro", library="xacro", extra="urdf")
         report.raise_for_errors()
+    for argument in arguments:
+        if not argument.partition(":=")[0].strip() or ":=" not in argument:
+            report.add("XACRO_ARGUMENT", path.name, argument=argument)
     text = b""
     try:
         text = _expand(path, packages, arguments)

@@ -13,7 +13,9 @@ GRAMMAR = {
     "link": children("visual collision", "inertial", "contact sensor gazebo origin"),
     "inertial": children(one="origin mass inertia"),
     "visual": children(one="origin geometry material"),
-    "collision": children(one="origin geometry", foreign="material contact surface verbose"),
+    "collision": children(
+        one="origin geometry", foreign="material contact contact_coefficients surface verbose"
+    ),
     "material": children(one="color texture"),
     "joint": children(
         one="origin parent child axis limit dynamics mimic safety_controller calibration",

@@ -178,15 +178,17 @@ def test_a_reader_that_has_enough_ends_the_program_quietly(tmp_path):
 
 
 @pytest.mark.parametrize("given", [True, False])
-def test_a_mass_that_single_precision_has_no_number_for_is_refused(tmp_path, given):
+@pytest.mark.parametrize(
+    "mass, moment, density", [(1e-46, 1e-47, 1e-46), (3e42, 2e41, 2e43), (2.0, 5e39, 2e43)]
+)
+def test_a_mass_that_single_precision_has_no_number_for_is_refused(tmp_path, given, mass, moment, density):
     import numpy as np
     from kinefab.model import MassProperties
 
     scene = lid_scene()
-    mass = MassProperties(1e-46, np.zeros(3), np.eye(3) * 1e-47)
-    scene.nodes[1] = replace(scene.nodes[1], mass=mass if given else None)
-    if not given:
-        scene.meshes[:] = [replace(mesh, vertices=mesh.vertices * 1e-15) for mesh in scene.meshes]
+    stated = MassProperties(mass, np.zeros(3), np.eye(3) * moment)
+    bodies = tuple(replace(body, density=density) for body in scene.nodes[1].bodies)
+    scene.nodes[1] = replace(scene.nodes[1], mass=stated if given else None, bodies=bodies)
     with pytest.raises(kinefab.KinefabError) as caught:
         kinefab.export(scene, tmp_path / "light.kinefab")
     assert {d.code for d in caught.value.diagnostics} == {"MASS_IMPOSSIBLE"}

@@ -114,6 +114,9 @@ class Shape:
         ({"mesh": "no_such_file.obj"}, "where there is no file"),
         ({"mesh": Shape(), "unit": "parsec"}, "pass one of: m, cm"),
         ({"mesh": Shape(), "collider": "egg"}, "pass one of: auto, none, box"),
+        ({"mesh": Shape(), "collider": []}, "pass 'none' for a part that nothing touches"),
+        ({"name": ""}, "the name is empty"),
+        ({"name": "Lid\ud800"}, "pass text that UTF-8 can hold"),
         ({"rotation": [[1, 0, 0], [0, 1], [0, 0, 1]]}, "is no matrix of numbers"),
         ({"translation": (0, NAN, 0)}, "the translation of Lid is (0, nan, 0); pass three numbers"),
         ({"translation": (INF, 0, 0)}, "pass three numbers"),
@@ -139,7 +142,7 @@ def test_wrong_part_says_what_to_pass(change, says):
     """What Unity cannot place, or no file can hold, is refused where it is given, and nothing is added."""
     scene = kinefab.Scene()
     with pytest.raises(ValueError) as raised:
-        scene.add_part("Lid", **change)
+        scene.add_part(**{"name": "Lid", **change})
     assert says in str(raised.value)
     assert not (scene.nodes or scene.meshes or scene.surfaces)
 

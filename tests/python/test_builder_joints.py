@@ -9,7 +9,17 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
-from kinefab.model import RX, TX, Collider, ColliderKind, JointKind, Motion, PhysicsMaterial, Surface
+from kinefab.model import (
+    RX,
+    TX,
+    Collider,
+    ColliderKind,
+    Freedom,
+    JointKind,
+    Motion,
+    PhysicsMaterial,
+    Surface,
+)
 from kinefab.spatial import rotation_about
 from scenes import BOX
 
@@ -79,6 +89,21 @@ def test_freedoms_by_keyword_are_ranges_in_degrees():
         ("revolute", {"spring": (1, 2, 3)}, TypeError, "(stiffness, rest)"),
         ("revolute", {"damping": -1.0}, ValueError, "not below 0"),
         ("revolute", {"limits": "0, 1"}, TypeError, "pass two numbers"),
+        ("revolute", {"limits": (math.inf, math.inf)}, ValueError, "lower not above upper"),
+        ("prismatic", {"limits": (-1e300, 80)}, ValueError, "none but infinity beyond 1e+09"),
+        ("revolute", {"rx": (-10, 80), "limits": (0, 90)}, ValueError, "rx is stated twice"),
+        ("revolute", {"rx": False, "limits": (0, 90)}, ValueError, "rx is stated twice"),
+        ("general", {"tx": True, "drive": {"rx": {"target": 5}}}, ValueError, "rx is locked; a drive"),
+        ("fixed", {"limits": (0, 1)}, ValueError, "leaves nothing free; it takes no limits"),
+        ("revolute", {"drive": {"targt": 5}}, TypeError, "a drive has no 'targt'; pass acceleration"),
+        ("revolute", {"drive": {"stiffness": -1.5}}, ValueError, "not below 0"),
+        ("revolute", {"drive": {"damping": -1.5}}, ValueError, "not below 0"),
+        ("revolute", {"drive": {"max_force": -1.5, "motor": True}}, ValueError, "not below 0"),
+        ("revolute", {"drive": {"motor": "no"}}, TypeError, "pass True or False"),
+        ("revolute", {"drive": kinefab.Drive(stiffness=-2.5)}, ValueError, "below 0"),
+        ("revolute", {"rx": Freedom(Motion.LIMITED, -0.1, 0.8, restitution=3.0)}, ValueError, "outside 0..1"),
+        ("universal", {"secondary": (0, 0, -3)}, ValueError, "pass a direction across it"),
+        ("revolute", {"name": "a\ud800"}, ValueError, "UTF-8"),
     ],
 )
 def test_a_wrong_joint_says_what_to_pass(kind, options, error, says):
@@ -86,6 +111,14 @@ def test_a_wrong_joint_says_what_to_pass(kind, options, error, says):
     with pytest.raises(error) as raised:
         scene.add_joint(kind, 0, 1, **AT, **options)
     assert says in str(raised.value) and scene.joints == []
+
+
+@pytest.mark.parametrize("collider", [5, ["box"], object()])
+def test_a_collider_that_is_none_says_what_to_pass(collider):
+    scene = kinefab.Scene()
+    with pytest.raises(TypeError, match="the collider of Box is .*; pass a word, a Collider, or several"):
+        scene.add_part("Box", BOX, collider=collider)
+    assert scene.nodes == []
 
 
 def test_joints_of_one_name_are_told_apart(tmp_path):

@@ -8,8 +8,9 @@ from dataclasses import replace
 import kinefab
 import numpy as np
 import pytest
-from kinefab.diagnostics import KinefabError
-from kinefab.model import Drive, Freedom, JointKind, Motion, Passive
+from kinefab.diagnostics import KinefabError, Report
+from kinefab.model import RX, Drive, Freedom, JointKind, Motion, Passive
+from kinefab.pipeline import prepared
 from kinefab.spatial import Pose, rotation_about
 from scenes import BOX, components, exported, lid_scene
 
@@ -91,6 +92,63 @@ def test_reversed_limits_are_an_error(tmp_path):
     with pytest.raises(KinefabError) as caught:
         kinefab.export(scene, tmp_path / "x.kinefab")
     assert [d.code for d in caught.value.diagnostics] == ["JOINT_LIMITS_REVERSED"]
+
+
+@pytest.mark.parametrize("end", [math.inf, -math.inf, math.nan])
+def test_limits_without_a_number_between_them_are_an_error_on_every_road(tmp_path, end):
+    """Before anything is worked out with them; of a URDF they are left out and told, as reversed ones."""
+    scene = lid_scene()
+    freedoms = list(scene.joints[0].freedoms)
+    freedoms[RX] = Freedom(Motion.LIMITED, end, end)
+    scene.joints[0] = replace(scene.joints[0], freedoms=tuple(freedoms))
+    roads = (
+        lambda: kinefab.export(scene, tmp_path / "r.kinefab"),
+        lambda: kinefab.export(scene, tmp_path / "r.glb"),
+        lambda: kinefab.motion(scene),
+        lambda: prepared(scene, kinefab.ExportOptions(), Report()),
+    )
+    for road in roads:
+        with pytest.raises(KinefabError) as caught:
+            road()
+        assert [d.code for d in caught.value.diagnostics] == ["JOINT_LIMITS_REVERSED"]
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="J" type="revolute"><parent link="a"/>'
+        f'<child link="b"/><axis xyz="0 0 1"/><limit lower="{end}" upper="{end}" effort="1" velocity="1"/></joint></robot>'
+    )
+    if math.isinf(end):
+        codes = {o.code for o in kinefab.export(path, tmp_path / "r.kinefab").report.outcomes}
+        assert "LIMITS_REVERSED_DROPPED" in codes
+
+
+@pytest.mark.parametrize(
+    "change, what",
+    [
+        ({"stiffness": -1.5}, "stiffness of -1.5"),
+        ({"damping": -0.25}, "damping of -0.25"),
+        ({"stiffness": 1e300}, "stiffness of 1e+300"),
+        ({"target": -1e300}, "target of -1e+300"),
+        ({"target_velocity": math.nan}, "target velocity of nan"),
+        ({"max_force": -3.0}, "largest force of -3"),
+    ],
+)
+def test_a_drive_that_unity_cannot_hold_is_left_out_and_told(tmp_path, change, what):
+    """A pose as it stands and limits of -10 to 80 stay; beside it a spring below zero that the drive's own outweighs."""
+    scene = lid_scene()
+    hinge = Freedom(Motion.LIMITED, math.radians(-10), math.radians(80), at=0.0)
+    good = Drive(0.3, 0.0, 5.0, 2.0)
+    springs = []
+    for more in ({"drive": replace(good, **change)}, {"passive": Passive(-1.5)}, {}):
+        freedoms = list(scene.joints[0].freedoms)
+        freedoms[RX] = replace(hinge, **{"drive": good, **more})
+        scene.joints[0] = replace(scene.joints[0], freedoms=tuple(freedoms))
+        content, result = exported(scene, tmp_path)
+        (joint,) = components(content, "Lid", "HingeJoint")
+        assert (joint["limits"]["min"], joint["limits"]["max"]) in ((-10, 80), (-80, 10))
+        told = [o.message for o in result.report.outcomes if o.code == "JOINT_DRIVE_IMPOSSIBLE"]
+        assert (len(told) == 1 and what in told[0] and "motor" not in joint) if "drive" in more else not told
+        springs.append(joint.get("spring", {}).get("spring", 0.0))
+    assert springs[0] == 0.0 and springs[1] == pytest.approx(springs[2] * 3.5 / 5.0) != 0.0
 
 
 def test_pose_that_does_not_meet_its_joint_is_reported_in_metres_and_degrees(tmp_path):

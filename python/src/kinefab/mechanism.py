@@ -9,6 +9,7 @@ from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
 from .analysis.driving.mechanism import Branching, Coordinate, Mechanism, Stop, Trajectory
 from .analysis.joints.dof_records import joints_of_dof_records
+from .analysis.joints.ordered import check_limits
 from .analysis.joints.welding import welded
 from .diagnostics import Report
 from .model import Scene
@@ -43,6 +44,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
         from .sources import read
 
         scene = read(Path(source), report)
+    check_limits(scene, report)
     report.raise_for_errors()
     records = joints_of_dof_records(scene, rigid_groups(scene), report)
     found = analyse(replace(scene, joints=[*scene.joints, *records]))

@@ -16,6 +16,7 @@ from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
 from .analysis.joints.dof_records import joints_of_dof_records
+from .analysis.joints.ordered import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
 from .geometry.collision import collision_meshes
@@ -120,6 +121,7 @@ def prepared(
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
     scene = mated(_enabled(scene, report), options.reading, report)
+    check_limits(scene, report)
     scene = with_sound_meshes(load_geometry(scene, files, report, progress), report)
     report.raise_for_errors()
     scene = weigh(scene, options.density, report)

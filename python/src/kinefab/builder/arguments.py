@@ -19,6 +19,8 @@ EXACT = 1e-12
 """Up to here a rotation matrix is taken as it is."""
 LARGEST = 1e9
 """Metres; beyond, single precision has no millimetres, and far beyond no numbers."""
+PARALLEL = 1e-9
+"""Sine of the angle below which two axes span no plane."""
 AXES = dict(zip("XYZ", np.eye(3)))
 
 
@@ -33,10 +35,32 @@ def checked_vector(what: str, values: Any) -> Array:
     return array
 
 
-def checked_name(what: str, name: object) -> None:
-    """Raises TypeError for what is no string."""
+def checked_name(what: str, name: object, empty: bool = True) -> None:
+    """Raises TypeError for what is no string, ValueError for one that no file holds (a lone surrogate) and, unless
+    ``empty``, for one without a character."""
     if not isinstance(name, str):
         raise TypeError(f"{what} is {name!r}; pass a string")
+    if any("\ud800" <= character <= "\udfff" for character in name):
+        raise ValueError(f"{what} is {name!r}; pass text that UTF-8 can hold")
+    if not name and not empty:
+        raise ValueError(f"{what} is empty; pass one, ids are made of it")
+
+
+def checked_axes(axis: Any, secondary: Any) -> tuple[Array, Array | None]:
+    """A joint's axis and, where one is given, the direction beside it, shapes (3,)."""
+    main = checked_vector("the axis", axis)
+    if not np.linalg.norm(main) > 0.0:
+        raise ValueError(
+            f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
+        )
+    near = None if secondary is None else checked_vector("the secondary axis", secondary)
+    if near is not None:
+        lengths = np.linalg.norm(main) * np.linalg.norm(near)
+        if not np.linalg.norm(np.cross(main, near)) > PARALLEL * lengths:
+            raise ValueError(
+                f"the secondary axis {secondary!r} and the axis span no plane; pass a direction across it"
+            )
+    return main, near
 
 
 def checked_flag(what: str, value: object) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -35,7 +36,9 @@ def colliders_of(
             raise ValueError(
                 f"the collider of {name} is {given!r}; pass one of: {words}, or Colliders"
             ) from None
-    items = [given] if isinstance(given, Collider) else list(given)
+    items = [given] if isinstance(given, Collider) else list(given) if isinstance(given, Iterable) else [None]
+    if not items:
+        raise ValueError(f"the collider of {name} is {given!r}; pass 'none' for a part that nothing touches")
     if not all(isinstance(item, Collider) for item in items):
         raise TypeError(f"the collider of {name} is {given!r}; pass a word, a Collider, or several")
     return None, tuple(

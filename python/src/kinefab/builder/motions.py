@@ -21,7 +21,7 @@ from ..model import (
     Passive,
     freedoms_of,
 )
-from .arguments import checked_number
+from .arguments import LARGEST, checked_flag, checked_number
 
 Range = tuple[float, float]
 FreedomLike = Union[Freedom, Range, bool]
@@ -73,6 +73,8 @@ def freedoms_asked(
         given[name] = _freedom(name, asked)
     freedoms = list(freedoms_of(kind, **given))
     for name, value in _by_name(kind, "limits", limits).items():
+        if name in given and given[name].motion is not Motion.FREE:
+            raise ValueError(f"{name} is stated twice, by limits and by {name}=; pass one of them")
         _set(freedoms, name, partial(_limited, name=name, limits=value))
     for name, value in _by_name(kind, "drive", drive).items():
         _set(freedoms, name, partial(replace, drive=_drive(name, value)))
@@ -91,6 +93,10 @@ def angular(name: str) -> bool:
 def _set(freedoms: list[Freedom], name: str, change: Callable[[Freedom], Freedom]) -> None:
     index = FREEDOM_NAMES.index(name)
     freedoms[index] = change(freedoms[index])
+    if freedoms[index].motion is Motion.LOCKED:
+        raise ValueError(
+            f"{name} is locked; a drive, a spring or a damper needs it free: pass {name}=True or a range"
+        )
 
 
 def _checked_name(kind: JointKind, name: str) -> str:
@@ -111,10 +117,12 @@ def _by_name(kind: JointKind, what: str, value: Any) -> dict[str, Any]:
     """A value for each freedom that it is stated for."""
     if value is None:
         return {}
-    if isinstance(value, Mapping) and not DRIVE_WORDS & value.keys():
+    if isinstance(value, Mapping) and (what != "drive" or set(FREEDOM_NAMES) & value.keys()):
         stated = cast("Mapping[Any, Any]", value)
         return {_checked_name(kind, str(name)): each for name, each in stated.items()}
     free = UNLOCKED.get(kind, ())
+    if not free and kind is not JointKind.GENERAL:
+        raise ValueError(f"a {kind.value} joint leaves nothing free; it takes no {what}")
     if len(free) != 1:
         names = ", ".join(FREEDOM_NAMES[i] for i in free) or "none"
         raise ValueError(
@@ -141,7 +149,9 @@ def _limited(freedom: Freedom, name: str, limits: Any) -> Freedom:
         lower, upper = float(lower), float(upper)
     except (TypeError, ValueError):
         raise TypeError(f"limits are {limits!r}; pass two numbers, (lower, upper), or None") from None
-    if not lower <= upper:
+    if any(math.isfinite(end) and abs(end) > LARGEST for end in (lower, upper)):
+        raise ValueError(f"limits are {limits!r}; pass two numbers, none but infinity beyond {LARGEST:g}")
+    if not lower <= upper or lower == math.inf or upper == -math.inf:
         raise ValueError(f"limits are {limits!r}; pass (lower, upper) with lower not above upper")
     unit = math.radians(1.0) if angular(name) else 1.0
     return replace(freedom, motion=Motion.LIMITED, lower=lower * unit, upper=upper * unit)
@@ -159,13 +169,21 @@ def _drive(name: str, drive: Any) -> Drive:
         )
     stated = cast("Mapping[str, Any]", drive)
     if unknown := stated.keys() - DRIVE_WORDS:
-        raise TypeError(f"a drive has no {sorted(unknown)[0]!r}; it has {', '.join(sorted(DRIVE_WORDS))}")
+        raise TypeError(f"a drive has no {sorted(unknown)[0]!r}; pass {', '.join(sorted(DRIVE_WORDS))}")
     unit = math.radians(1.0) if angular(name) else 1.0
     number = {
-        word: checked_number(f"the drive's {word}", stated[word], infinite=word == "max_force")
-        for word in ("target", "target_velocity", "stiffness", "damping", "max_force")
+        word: checked_number(f"the drive's {word}", stated[word], least=least, infinite=word == "max_force")
+        for word, least in (
+            ("target", -math.inf),
+            ("target_velocity", -math.inf),
+            ("stiffness", 0.0),
+            ("damping", 0.0),
+            ("max_force", 0.0),
+        )
         if word in stated
     }
+    for word in ("acceleration", "motor"):
+        checked_flag(f"the drive's {word}", stated.get(word, False))
     return Drive(
         number.get("target", 0.0) * unit,
         number.get("target_velocity", 0.0) * unit,
@@ -201,4 +219,10 @@ def _check_freedom(key: str, freedom: Freedom) -> None:
     if any(map(math.isnan, open_ended)) or not all(map(math.isfinite, finite)):
         raise ValueError(
             f"{key} is {freedom!r}; only a range and a largest force may be infinite, and none NaN"
+        )
+    gains = [freedom.stiffness, freedom.damping]
+    gains += [] if drive is None else [drive.stiffness, drive.damping, drive.max_force]
+    if min(gains) < 0.0 or not 0.0 <= freedom.restitution <= 1.0:
+        raise ValueError(
+            f"{key} is {freedom!r}; no stiffness, damping or force is below 0, no restitution outside 0..1"
         )

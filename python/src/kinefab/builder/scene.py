@@ -27,6 +27,7 @@ from ..options import ColliderShape
 from ..spatial import Pose, frame_from_axes
 from .arguments import (
     Vector,
+    checked_axes,
     checked_color,
     checked_flag,
     checked_mass,
@@ -111,7 +112,7 @@ class Scene(model.Scene):
         weighs = f"the density of {name}"
         if density is not None and not 0.0 < checked_number(weighs, density, infinite=True) < math.inf:
             raise ValueError(f"{weighs} is {density}; it must be a number above zero")
-        checked_name("the name", name)
+        checked_name("the name", name, empty=False)
         checked_flag(f"grounded of {name}", grounded)
         checked_mass(name, mass)
         shapes = [] if mesh is None else shapes_of(name, mesh, unit)
@@ -170,7 +171,7 @@ class Scene(model.Scene):
         >>> scene.nodes[scene.add_part("Finger", parent=gripper)].id
         'Gripper/Finger'
         """
-        checked_name("the name", name)
+        checked_name("the name", name, empty=False)
         checked_flag(f"flexible of {name}", flexible)
         return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
 
@@ -253,12 +254,7 @@ class Scene(model.Scene):
         self._check_index(b, "b")
         if a == b:
             raise ValueError(f"a and b are both {a}; pass two different parts, or None for the world as a")
-        main = checked_vector("the axis", axis)
-        if not np.linalg.norm(main) > 0.0:
-            raise ValueError(
-                f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
-            )
-        near = None if secondary is None else checked_vector("the secondary axis", secondary)
+        main, near = checked_axes(axis, secondary)
         pitch = checked_lead(kind, lead)
         checked_name("the name", name)
         checked_flag("collide", collide)
@@ -392,6 +388,7 @@ class Scene(model.Scene):
         >>> scene.add_coupling(sun, gear, ratio=-0.5).kind.value  # 20 teeth drive 40
         'gear'
         """
+        checked_name("the name", name)
         number = len(self.couplings) + 1
         coupling = coupling_between(self.joints, a, b, ratio, offset, name, number)
         self.couplings.append(coupling)

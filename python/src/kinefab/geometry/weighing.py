@@ -16,6 +16,8 @@ from .mass import are_possible, combined, is_possible, moved, principal_moments,
 
 LEAST = 1.1754944e-38
 """Least normal number of a 32-bit float: a mass or moment below it would be written and read as nothing."""
+MOST = 3.4028234e38
+"""The largest."""
 THIN = 1e-9
 """A volume below this share of the cube of the mesh's size is none."""
 
@@ -31,7 +33,7 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
     unit: dict[int, MassProperties | None] = {}  # of each mesh at density 1, so that copies are weighed once
     nodes = list(scene.nodes)
     meshes = list(scene.meshes)
-    alike: dict[_Kind, tuple[MassProperties, bool]] = {}  # of copies together, and whether it vanishes
+    alike: dict[_Kind, tuple[MassProperties, bool]] = {}  # of copies together, and whether no file holds it
     sound = _sound(nodes)
     for i, node in enumerate(nodes):
         if node.mass is not None:
@@ -57,10 +59,10 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             kind = tuple(map(_told_apart, solids))
             if kind not in alike:
                 mass = combined([_placed(body, unit, density) for body in solids])
-                alike[kind] = mass, _vanishes(mass)
-            mass, vanishes = alike[kind]
+                alike[kind] = mass, _unsayable(mass)
+            mass, unsayable = alike[kind]
             nodes[i] = replace(node, mass=mass)
-            if vanishes:
+            if unsayable:
                 _tell_size(node, mass, report)
     return replace(scene, nodes=nodes, meshes=meshes)
 
@@ -107,9 +109,9 @@ def _sound(nodes: Sequence[Node]) -> frozenset[int]:
     centers = np.array([mass.center for _, mass in given]).reshape(-1, 3)
     inertias = np.array([mass.inertia for _, mass in given]).reshape(-1, 3, 3)
     sound = np.isfinite(centers).all(axis=1) & np.isfinite(inertias).all(axis=(1, 2))
-    sound &= np.isfinite(masses) & (masses > 2.0 * LEAST)
+    sound &= (masses > 2.0 * LEAST) & (masses < MOST)
     moments = principal_moments(np.where(sound[:, None, None], inertias, np.eye(3)))
-    sound &= are_possible(moments) & (moments[:, 0] > 2.0 * LEAST)
+    sound &= are_possible(moments) & (moments[:, 0] > 2.0 * LEAST) & (moments[:, -1] < MOST)
     return frozenset(i for (i, _), good in zip(given, sound.tolist()) if good)
 
 
@@ -120,15 +122,16 @@ def _check_given(node: Node, given: MassProperties, report: Report) -> None:
     elif not is_possible(given.inertia):
         detail = "a principal moment is not positive, or above the sum of the other two"
         report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)
-    elif _vanishes(given):
+    elif _unsayable(given):
         _tell_size(node, given, report)
 
 
-def _vanishes(mass: MassProperties) -> bool:
-    """Whether it, or a moment of it, would be written and read as nothing."""
-    return mass.mass < LEAST or 0.0 < float(np.linalg.eigvalsh(mass.inertia)[0]) < LEAST
+def _unsayable(mass: MassProperties) -> bool:
+    """Whether it, or a moment of it, would be written and read as nothing or as no number."""
+    moments = np.linalg.eigvalsh(mass.inertia)
+    return not LEAST <= mass.mass <= MOST or 0.0 < float(moments[0]) < LEAST or float(moments[-1]) > MOST
 
 
 def _tell_size(node: Node, mass: MassProperties, report: Report) -> None:
-    detail = f"{mass.mass:g} kg, or a moment of it, is nothing in Unity's 32-bit floats"
+    detail = f"{mass.mass:g} kg, or a moment of it, is nothing or beyond all numbers in Unity's 32-bit floats"
     report.add("MASS_IMPOSSIBLE", node.where, node=node.id, detail=detail)

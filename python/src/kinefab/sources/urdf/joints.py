@@ -126,7 +126,7 @@ def _limits(element: Element, joint: UrdfJoint, feature: str, report: Report) ->
         return
     joint.lower = child.number("lower", 0.0, infinite=True)
     joint.upper = child.number("upper", 0.0, infinite=True)
-    if joint.lower > joint.upper:
+    if joint.lower > joint.upper or joint.lower == math.inf or joint.upper == -math.inf:
         values = {"lower": f"{joint.lower:g}", "upper": f"{joint.upper:g}"}
         report.approximated(feature, "LIMITS_REVERSED_DROPPED", child.where, **values)
         joint.lower, joint.upper = -math.inf, math.inf

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import __version__
-from ...model import Joint, Motion, NodeKind
+from ...model import Joint, NodeKind
 from ...rigid import active_nodes
 from ...spatial import Pose
 from ..content import Content
@@ -75,13 +75,9 @@ class Stage:
         """Whether a joint moves something; the report tells of the others."""
         groups, report, feature = self.content.groups, self.content.report, f"joint {joint.id}"
         lost = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
-        wrong = [f for f in joint.freedoms if f.motion is Motion.LIMITED and not f.lower <= f.upper]
         if lost is not None:
             names = {"joint": joint.id, "node": self.content.scene.nodes[lost].id}
             report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, **names)
-        elif wrong:
-            names = {"lower": wrong[0].lower, "upper": wrong[0].upper, "joint": joint.id}
-            report.dropped(feature, "JOINT_LIMITS_REVERSED", joint.where, **names)
         elif not groups.together(joint.a, joint.b):
             return True
         elif joint.unlocked:

@@ -88,8 +88,6 @@ def map_joint(
             feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id
         )
         return None
-    if not _limits_in_order(joint, report):
-        return None
     a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
     # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
     idle = a != b and all(side is None or led(side) for side in (a, b))
@@ -246,12 +244,3 @@ def _report_gap(joint: Joint, coordinates: Coordinates, report: Report) -> bool:
         degrees=f"{math.degrees(coordinates.gap_angle):.3g}",
     )
     return False
-
-
-def _limits_in_order(joint: Joint, report: Report) -> bool:
-    limited = [f for f in joint.freedoms if f.motion is Motion.LIMITED]
-    wrong = next((f for f in limited if not f.lower <= f.upper), None)
-    if wrong is not None:
-        values = {"lower": wrong.lower, "upper": wrong.upper}
-        report.dropped(f"joint {joint.id}", "JOINT_LIMITS_REVERSED", joint.where, joint=joint.id, **values)
-    return wrong is None

@@ -8,17 +8,39 @@ from dataclasses import replace
 from ...diagnostics import Report
 from ...model import FREEDOM_NAMES, Drive, Freedom, Joint, Motion, Passive
 
+MOST = 1e36
+"""Newtons, metres, radians: a 32-bit float holds it in degrees too."""
+
 
 def with_passive_drives(joint: Joint, report: Report) -> Joint:
     """The joint with its passive springs and dampers made part of the drives; the report tells what Unity's joints have
-    no place for (dry friction, armature) and what could not be added up."""
-    if all(freedom.passive is None for freedom in joint.freedoms):
+    no place for (dry friction, armature), what could not be added up, and drives with numbers that none can have."""
+    if all(freedom.passive is None and freedom.drive is None for freedom in joint.freedoms):
         return joint
     freedoms = tuple(
         freedom if freedom.passive is None else _driven(joint, i, freedom, freedom.passive, report)
         for i, freedom in enumerate(joint.freedoms)
     )
+    freedoms = tuple(_without_impossible(joint, i, freedom, report) for i, freedom in enumerate(freedoms))
     return replace(joint, freedoms=freedoms)
+
+
+def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Report) -> Freedom:
+    """The freedom without a drive that would push instead of pull, or is stronger than a 32-bit float can say."""
+    drive = freedom.drive
+    if drive is None:
+        return freedom
+    gains = {"stiffness": drive.stiffness, "damping": drive.damping}
+    aims = {"target": drive.target, "target velocity": drive.target_velocity}
+    wrong = {what: value for what, value in gains.items() if not 0.0 <= value <= MOST}
+    wrong |= {what: value for what, value in aims.items() if not abs(value) <= MOST}
+    wrong |= {} if drive.max_force >= 0.0 else {"largest force": drive.max_force}
+    if not wrong:
+        return freedom
+    what, value = next(iter(wrong.items()))
+    names = {"joint": joint.id, "freedom": joint.freedom_name(index), "what": what, "value": f"{value:g}"}
+    report.dropped(f"joint {joint.id}", "JOINT_DRIVE_IMPOSSIBLE", freedom.where or joint.where, **names)
+    return replace(freedom, drive=None)
 
 
 def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .model import Joint, JointKind, NodeKind, Scene
+from .partition import Partition
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,30 +49,19 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     """
     nodes, active = scene.nodes, active_nodes(scene)
     ground = len(nodes)
-    leader = list(range(ground + 1))
-
-    def find(i: int) -> int:
-        while leader[i] != i:
-            leader[i] = leader[leader[i]]
-            i = leader[i]
-        return i
-
-    def unite(i: int, j: int) -> None:
-        i, j = find(i), find(j)
-        leader[max(i, j)] = min(i, j)
-
+    together = Partition(ground + 1)
     frozen = [False] * len(nodes)
     for i, node in enumerate(nodes):
         inherited = node.parent is not None and frozen[node.parent]
         frozen[i] = inherited or (node.kind is NodeKind.ASSEMBLY and not node.flexible)
         if active[i] and inherited and node.parent is not None:
-            unite(node.parent, i)
+            together.join(node.parent, i)
         if active[i] and node.grounded:
-            unite(i, ground)
+            together.join(i, ground)
     fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j) and not is_between_led(j, scene)]
     for a, b in [*fixed, *also_fixed]:
         if (a is None or active[a]) and (b is None or active[b]):
-            unite(ground if a is None else a, ground if b is None else b)
+            together.join(ground if a is None else a, ground if b is None else b)
 
     is_body = [
         active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded)
@@ -79,14 +69,14 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     ]
     numbers: dict[int, int] = {}
     group_of = tuple(
-        numbers.setdefault(find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes))
+        numbers.setdefault(together.find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes))
     )
     members: list[list[int]] = [[] for _ in numbers]
     for i, group in enumerate(group_of):
         if group is not None:
             members[group].append(i)
     grounded = [False] * len(numbers)
-    if (group := numbers.get(find(ground))) is not None:
+    if (group := numbers.get(together.find(ground))) is not None:
         grounded[group] = True
     return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
 

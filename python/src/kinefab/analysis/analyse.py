@@ -12,6 +12,7 @@ from ..diagnostics import Report
 from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
 from ..options import Closures
+from ..partition import Partition
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
 from .couplings.rehanging import rehung
@@ -185,20 +186,13 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
             continue
         other = link.a if link.b == body else link.b
         branch[body] = body if other == 0 else branch[other]
-    leader = {int(b): int(b) for b in branch if b >= 0}
-
-    def find(i: int) -> int:
-        while leader[i] != i:
-            i = leader[i]
-        return i
-
+    together = Partition(len(branch))
     ties = [(tree.links[i].a, tree.links[i].b) for i in tree.closures]
     ties += [(int(f.bodies[0]), int(b)) for f in assembly.freedoms for b in f.bodies[1:]]
     for a, b in ties:
         if a and b and branch[a] >= 0 and branch[b] >= 0:
-            i, j = sorted((find(int(branch[a])), find(int(branch[b]))))
-            leader[j] = i
-    island = np.array([find(int(b)) if b >= 0 else -1 for b in branch])
+            together.join(int(branch[a]), int(branch[b]))
+    island = np.array([together.find(int(b)) if b >= 0 else -1 for b in branch])
     floating = {int(r) for r in assembly.blocks.island_root[1:]}
     nodes_of: dict[int, list[int]] = {}
     for node in range(len(assembly.scene.nodes)):

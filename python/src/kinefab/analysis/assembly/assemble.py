@@ -9,13 +9,14 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Constraint, ConstraintKind, Coupling, Joint, Scene
+from ...partition import Partition
 from ...rigid import RigidGroups, is_between_led
 from ...spatial import Array, BoolArray, IntArray, Pose, cross
 from ..equations.coupled import COUPLED
 from ..equations.scene_equations import Equations, equations_of
 from ..equations.solve import Solver
 from ..equations.system import State, System
-from ..freedom.bodies import Partition, stated_bodies
+from ..freedom.bodies import stated_bodies
 from ..freedom.first_order import BlockFreedom, block_freedoms
 from ..freedom.motion import FiniteFreedom, displaced, finite_freedoms
 from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows

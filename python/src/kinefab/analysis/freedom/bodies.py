@@ -2,34 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...model import ConstraintKind, Scene
+from ...partition import Partition
 from ...rigid import RigidGroups, rigid_groups
 from ...spatial import IntArray
-
-
-class Partition:
-    """Disjoint sets of 0..n-1 (union by smallest member, so that labels do not depend on order)."""
-
-    def __init__(self, n: int):
-        self._parent = list(range(n))
-
-    def find(self, i: int) -> int:
-        while self._parent[i] != i:
-            self._parent[i] = self._parent[self._parent[i]]
-            i = self._parent[i]
-        return i
-
-    def join(self, i: int, j: int) -> None:
-        i, j = self.find(i), self.find(j)
-        if i != j:
-            self._parent[max(i, j)] = min(i, j)
-
-    def labels(self) -> IntArray:
-        """Shape (n,): 0, 1, ... in order of each set's smallest member."""
-        roots = np.array([self.find(i) for i in range(len(self._parent))])
-        return np.unique(roots, return_inverse=True)[1].reshape(-1)
 
 
 def stated_bodies(scene: Scene) -> tuple[IntArray, RigidGroups]:

@@ -15,10 +15,10 @@ import numpy as np
 from scipy.linalg.lapack import dgeqrf, dgeqrf_lwork, dormqr
 from scipy.sparse import csr_matrix, diags
 
+from ...partition import Partition
 from ...spatial import Array, IntArray, skew
 from ..equations.solve import DENSE, Solver
 from ..equations.system import State, System
-from .bodies import Partition
 from .rank import factored, rank_of
 from .stacks import alike
 

@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 
+from ...partition import Partition
 from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
@@ -21,7 +22,7 @@ from .fasten import PRESSED, Bolted, Parts, bolts_apart, fasten, fasteners, fix_
 from .freedom import RANK, Scale, freedom_of, null_space
 from .inherited import inherit
 from .motions import held_rows, motions_of
-from .pieces import Pieces, parted
+from .pieces import parted
 from .rolling import join_races
 from .shafts import shafts_of
 from .twins import fix_loose
@@ -203,7 +204,7 @@ def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
     resting = sorted(
         (e for e in edges if e.one_sided), key=lambda e: (e.space.shape[1], -round(e.area, 12), e.pair)
     )
-    piece = Pieces(len(bodies.shapes))
+    piece = Partition(len(bodies.shapes))
     for edge in sure:
         piece.join(*edge.pair)
     chosen, inside = list(sure), list[Edge]()

@@ -10,6 +10,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...geometry.mass import combined, moved, solid_properties
 from ...model import Body, Collider, MassProperties, Node, NodeKind, PhysicsMaterial, Scene, Site
+from ...partition import Partition
 from ...spatial import Pose
 from .inertial import STAND_IN_DENSITY, Inertial, weighed_together
 from .robot_frame import placed
@@ -108,18 +109,10 @@ def add_links(
 
 def _groups(count: int, fixed: Iterable[tuple[int, int]]) -> list[int]:
     """For each link the first of those that it is fixed to."""
-    leader = list(range(count))
-
-    def find(i: int) -> int:
-        while leader[i] != i:
-            leader[i] = leader[leader[i]]
-            i = leader[i]
-        return i
-
+    together = Partition(count)
     for a, b in fixed:
-        a, b = find(a), find(b)
-        leader[max(a, b)] = min(a, b)
-    return [find(i) for i in range(count)]
+        together.join(a, b)
+    return [together.find(i) for i in range(count)]
 
 
 def _seen_from(own: Link, link: Link) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ....partition import Partition
 from ..prims import Prim
 
 
@@ -32,21 +33,14 @@ def mark_articulations(
     for each tree that hangs on the world by another joint or on nothing to its first body.
 
     Returns, by the path of each joint that is in a tree, the first body of that tree."""
-    leader: dict[int | None, int | None] = {}
-
-    def find(body: int | None) -> int | None:
-        while (above := leader.setdefault(body, body)) != body:
-            leader[body] = leader.setdefault(above, above)
-            body = above
-        return body
-
+    numbers = {body: i for i, body in enumerate({side: None for edge in edges for side in (edge.a, edge.b)})}
+    together = Partition(len(numbers))
     taken: list[Edge] = []
     for edge in sorted(edges, key=lambda e: e.closing):
         bound = any(body is not None and kinematic(body) for body in (edge.a, edge.b))
-        if not edge.fits or bound or find(edge.a) == find(edge.b):
+        if not edge.fits or bound or not together.join(numbers[edge.a], numbers[edge.b]):
             edge.prim.attribute("physics:excludeFromArticulation", "Bool", True, uniform=True)
             continue
-        leader[find(edge.b)] = find(edge.a)
         taken.append(edge)
     tree_of = _mark_roots(taken, prim_of, base)
     ends = ((edge.prim.path, edge.b if edge.a is None else edge.a) for edge in taken)

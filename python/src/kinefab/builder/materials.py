@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 from ..model import Collider, PhysicsMaterial, Surface
 from ..options import ColliderShape
@@ -36,11 +36,12 @@ def colliders_of(
             raise ValueError(
                 f"the collider of {name} is {given!r}; pass one of: {words}, or Colliders"
             ) from None
-    items = [given] if isinstance(given, Collider) else list(given) if isinstance(given, Iterable) else [None]
+    items = list(cast("Iterable[Any]", given)) if isinstance(given, Iterable) else [given]
+    colliders = [item for item in items if isinstance(item, Collider)]
     if not items:
         raise ValueError(f"the collider of {name} is {given!r}; pass 'none' for a part that nothing touches")
-    if not all(isinstance(item, Collider) for item in items):
+    if len(colliders) < len(items):
         raise TypeError(f"the collider of {name} is {given!r}; pass a word, a Collider, or several")
     return None, tuple(
-        c if c.material is not None or touch is None else replace(c, material=touch) for c in items
+        c if c.material is not None or touch is None else replace(c, material=touch) for c in colliders
     )

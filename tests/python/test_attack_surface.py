@@ -150,13 +150,35 @@ def test_a_name_that_the_reader_would_refuse_is_not_written(tmp_path, name, says
 
 
 @posix
-@pytest.mark.parametrize("ending", [".csv", ".json", ".bundle.json", ".obj"])
-def test_a_pipe_as_a_source_is_not_waited_for(tmp_path, ending):
+@pytest.mark.parametrize(
+    "command, ending",
+    [
+        *(("analyse", ending) for ending in (".csv", ".json", ".bundle.json", ".obj")),
+        *(
+            (command, ".kinefab")
+            for command in ("inspect", "draw -o x.svg", "view -o x.html", "report -o x.html")
+        ),
+        ("capture --replay", ".json"),
+    ],
+)
+def test_a_pipe_as_a_source_is_not_waited_for(tmp_path, command, ending):
     os.mkfifo(tmp_path / f"pipe{ending}")
-    command = [sys.executable, "-m", "kinefab", "analyse", str(tmp_path / f"pipe{ending}")]
+    command = [sys.executable, "-m", "kinefab", *command.split(), str(tmp_path / f"pipe{ending}")]
+    if "--replay" in command:
+        command += ["-o", str(tmp_path / "r.bundle.json")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert "regular file" in done.stderr or "FORMAT_UNKNOWN" in done.stderr
+
+
+@posix
+def test_a_pipe_in_the_place_of_a_scene_s_buffer_is_not_waited_for(tmp_path):
+    path, buffer = kinefab.export(lid_scene(), tmp_path / "lid.kinefab").files
+    buffer.unlink()
+    os.mkfifo(buffer)
+    command = [sys.executable, "-m", "kinefab", "draw", str(path), "-o", str(tmp_path / "lid.svg")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "BUFFER_MISSING" in done.stderr and "regular file" in done.stderr
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
@@ -167,6 +189,24 @@ def test_a_full_disk_behind_stdout_is_a_sentence(tmp_path):
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
     assert done.returncode == 1 and "Traceback" not in done.stderr and "Exception" not in done.stderr
     assert "No space left on device" in done.stderr
+
+
+@posix
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_end_in_no_traceback(tmp_path, closed):
+    """As cron jobs and services start programs; what is written goes to the file that it is meant for."""
+    path = kinefab.export(lid_scene(), tmp_path / "lid.kinefab").path
+    kept, picture = path.read_bytes(), tmp_path / "lid.svg"
+    for command in (f"inspect {path}", f"draw {path} -o {picture}"):
+        done = subprocess.run(
+            f"{sys.executable} -m kinefab {command} {closed}",
+            shell=True,
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert done.returncode == 0 and "Traceback" not in done.stderr + done.stdout
+    assert path.read_bytes() == kept and picture.read_text("utf-8").rstrip().endswith("</svg>")
 
 
 @posix

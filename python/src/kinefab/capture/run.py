@@ -86,6 +86,8 @@ def capture_onshape(
 
 def replay(source: Path, target: Path, report: Report, up: str = "") -> Captured:
     """Capture from a record, without the program.  Raises KinefabError, OSError."""
+    if source.exists() and not source.is_file():  # a pipe may never end
+        raise KinefabError([report.add("CAPTURE_RECORD", source.name, detail="it is no regular file")])
     try:
         program, answers = opened(json.loads(source.read_text(encoding="utf-8")))
         if program not in PROGRAMS:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import math
@@ -17,7 +18,7 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
     """The JSON of a scene.  Raises KinefabError when it is missing, broken, of another major version, or when an index
     in it leads nowhere: Python would count a negative one from the list's end."""
     try:
-        content: Any = json.loads(Path(path).read_bytes(), parse_float=_number, parse_constant=_number)
+        content: Any = json.loads(_content(Path(path)), parse_float=_number, parse_constant=_number)
     except FileNotFoundError:
         raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
     except OSError as error:
@@ -41,6 +42,13 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
     with unsound_as_finding(path):
         _demand_references(scene, path)
     return scene
+
+
+def _content(path: Path) -> bytes:
+    """Of a regular file: a pipe may never end.  Raises OSError."""
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "it is no regular file")
+    return path.read_bytes()
 
 
 def _number(text: str) -> float:
@@ -86,7 +94,7 @@ def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
     for entry in scene.get("buffers", []):
         uri = str(entry["uri"])
         try:
-            content = (Path(path).parent / Path(uri).name).read_bytes()
+            content = _content(Path(path).parent / Path(uri).name)
         except OSError as error:
             raise KinefabError(
                 [diagnostic("BUFFER_MISSING", str(path), uri=uri, detail=error.strerror)]

@@ -106,6 +106,17 @@ def test_frames_in_a_long_circle_are_a_finding(tmp_path):
     assert [d.code for d in refused.value.diagnostics] == ["FRAME_CYCLE"]
 
 
+def test_thousands_of_geoms_of_one_body_are_read_soon(tmp_path):
+    pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+    body = "<body name='a'>" + "<geom size='.1'/>" * 10_000 + "</body>"
+    text = f"<mujoco><worldbody>{body}</worldbody></mujoco>"
+    path, start = written(tmp_path, "m.xml", text), time.process_time()
+    scene = read(path, Report())
+    assert time.process_time() - start < 0.5 * SOON
+    (names,) = ([c.name for c in node.colliders] for node in scene.nodes if node.name == "a")
+    assert len(set(names)) == 10_000 and names[:2] + names[-1:] == ["geom", "geom_2", "geom_10000"]
+
+
 class Counted(dict[str, int]):
     asked = 0
 

@@ -40,10 +40,11 @@ class Bodies:
             inertia = np.diag(np.array(m.body_inertia[body], dtype=np.float64))
             at = pose_of(m.body_ipos[body], m.body_iquat[body])
             link.inertial = Inertial(float(m.body_mass[body]), at, inertia)
+        names: tuple[dict[str, None], dict[str, None]] = ({}, {})
         first = int(m.body_geomadr[body])
         for geom in range(first, first + int(m.body_geomnum[body])):
             if geom not in compiled.lost:
-                self._add_geom(link, geom)
+                self._add_geom(link, geom, *names)
         self._add_frames(link, body)
         self._add_gravity(link, body)
         link.kinematic = int(m.body_mocapid[body]) >= 0
@@ -72,7 +73,8 @@ class Bodies:
                 if name:
                     link.frames[unique(link.frames, name)] = pose_of(positions[i], turns[i])
 
-    def _add_geom(self, link: Link, geom: int) -> None:
+    def _add_geom(self, link: Link, geom: int, seen: dict[str, None], felt: dict[str, None]) -> None:
+        """seen, felt: names of what the link has already that is drawn, and that is touched."""
         m = self.compiled.model
         touches = bool(m.geom_contype[geom] or m.geom_conaffinity[geom]) or self._paired(geom)
         drawn = int(m.geom_group[geom]) < DRAWN_GROUPS and float(m.geom_rgba[geom][3]) > 0.0
@@ -87,15 +89,14 @@ class Bodies:
             return
         if drawn:
             uvs = shape.kind == "plane" or (shape.mesh is not None and bool(self.meshes[shape.mesh].uvs))
-            names = {part.name: part for part in link.drawn}
-            link.drawn.append(Part(unique(names, label), shape, pose, self.looks.of(geom, uvs)))
+            name = unique(seen, label)
+            seen[name] = None
+            link.drawn.append(Part(name, shape, pose, self.looks.of(geom, uvs)))
         if touches:
-            names = {part.name: part for part in link.touched}
-            link.touched.append(
-                Part(
-                    unique(names, label), shape, pose, material=self._material(geom), group=self._group(geom)
-                )
-            )
+            name = unique(felt, label)
+            felt[name] = None
+            material, group = self._material(geom), self._group(geom)
+            link.touched.append(Part(name, shape, pose, material=material, group=group))
         if not (drawn or touches):
             self.report.dropped(feature, "MJCF_GEOM_UNSEEN", where)
 

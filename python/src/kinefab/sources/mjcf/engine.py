@@ -204,6 +204,11 @@ class _Library:
     def _mend_meshes(self, spec: Any) -> None:
         sphere = self.mujoco.mjtGeom.mjGEOM_SPHERE
         lost: list[Any] = []
+        shown: dict[str, list[Any]] = {}
+        names: dict[str, None] = {}
+        for geom in spec.geoms:
+            shown.setdefault(geom.meshname, []).append(geom)
+            names[geom.name] = None
         for mesh in list(spec.meshes):
             if not mesh.file:
                 continue
@@ -212,18 +217,20 @@ class _Library:
                 continue
             name = mesh.name or PurePosixPath(mesh.file).stem
             self._tell("mesh", name, mesh.file, found)
-            for geom in spec.geoms:
-                if geom.meshname == name:
-                    geom.meshname, geom.type, geom.size = "", sphere, [STAND_IN_RADIUS, 0.0, 0.0]
-                    geom.contype = geom.conaffinity = 0
-                    geom.group = HIDDEN
-                    geom.name = geom.name or unique({g.name: g for g in spec.geoms}, f"missing {name}")
-                    self.lost.add(geom.name)
-                    lost.append(geom)
+            for geom in shown.get(name, ()):
+                geom.meshname, geom.type, geom.size = "", sphere, [STAND_IN_RADIUS, 0.0, 0.0]
+                geom.contype = geom.conaffinity = 0
+                geom.group = HIDDEN
+                geom.name = geom.name or unique(names, f"missing {name}")
+                names[geom.name] = None
+                self.lost.add(geom.name)
+                lost.append(geom)
             spec.delete(mesh)
+        weighs: dict[Any, bool] = {}
         for geom in lost:  # nobody knows what it weighs: nothing, where the body has a mass without it
-            others = [g for g in geom.parent.geoms if g.name not in self.lost or not g.name]
-            if np.isnan(geom.mass) and any(_weighs(g) for g in others):
+            if (body := geom.parent) not in weighs:
+                weighs[body] = any(_weighs(g) for g in body.geoms if g.name not in self.lost or not g.name)
+            if np.isnan(geom.mass) and weighs[body]:
                 geom.mass = 0.0
 
     def _tell_masses(self, spec: Any) -> None:

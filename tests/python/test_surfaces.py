@@ -279,6 +279,26 @@ def test_an_obj_s_textures_are_named_or_told(tmp_path):
     assert all(o.outcome is Outcome.DROPPED for o in lost)
 
 
+def test_an_obj_s_library_is_parted_by_tabs_and_words_of_any_case(tmp_path):
+    """Each picture belongs to the material that it stands under, whatever the blanks, and the last statement rules."""
+    for name in ("oak.png", "ash.png", "old.png"):
+        (tmp_path / name).write_bytes(b"\x89PNG")
+    path = write_obj(
+        tmp_path,
+        "o",
+        "0.5 0.5 0.5",
+        "\tmap_Kd\told.png\nMAP_KD\toak.png\nNewMtl\tash  grey\n  KD\t0.25 0.5 0.75\n map_ke \t ash.png \n",
+    )
+    path.write_text(path.read_text("utf-8") + "usemtl ash grey\nf 1/1 2/2 3/3\n", "utf-8")
+    report = Report()
+    surfaces = read_mesh_file(path, report, "here").surfaces
+    paint, ash = surfaces["paint"], surfaces["ash grey"]
+    assert paint.color_texture.path == tmp_path / "oak.png" and paint.emission_texture is None
+    assert ash.emission_texture.path == tmp_path / "ash.png" and ash.color_texture is None
+    assert ash.color == (0.25, 0.5, 0.75, 1.0) and ash.emission == (1.0, 1.0, 1.0)
+    assert [o for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"] == []
+
+
 @pytest.mark.skipif(OLD_TRIMESH, reason="trimesh before 4.6 reads no glTF that lacks a picture")
 def test_a_picture_that_a_gltf_cannot_read_is_told(tmp_path):
     image = pytest.importorskip("PIL.Image", reason="pillow is not installed")

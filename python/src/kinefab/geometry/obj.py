@@ -251,15 +251,16 @@ def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
         except (OSError, ValueError):  # ValueError: a NUL in the name
             report.add("MATERIALS_MISSING", str(path), library=Path(library).name, path=path.name)
             continue
-        textures = library_textures(content, path, report)
-        for name, entry in library_statements(content).items():
-            surfaces[name] = replace(_surface(name, entry, name in textures), **textures.get(name, {}))
+        for name, statements in library_statements(content).items():
+            textures = library_textures(statements, path, report)
+            surfaces[name] = replace(_surface(name, statements, bool(textures)), **textures)
     return surfaces
 
 
-def _surface(name: str, entry: Mapping[str, Sequence[str]], textured: bool) -> Surface:
+def _surface(name: str, statements: Mapping[str, str], textured: bool) -> Surface:
     """Unity's terms for a Phong material: Kd, d (or Tr) and Ns.  textured: it has images, which Kd multiplies."""
-    absent = ("1", "1", "1") if textured else ("0.8", "0.8", "0.8")
+    entry = {word: rest.split() for word, rest in statements.items()}
+    absent = ["1", "1", "1"] if textured else ["0.8", "0.8", "0.8"]
     try:
         red, green, blue = (min(1.0, max(0.0, float(c))) for c in entry.get("kd", absent)[:3])
         opacity = float(entry["d"][0]) if "d" in entry else 1.0 - float(entry.get("tr", ["0"])[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -30,40 +31,32 @@ _MEDIA = {
 }
 
 
-def library_statements(content: bytes) -> dict[str, dict[str, list[str]]]:
+def library_statements(content: bytes) -> dict[str, dict[str, str]]:
     """For each material of a library its statements, by their word in lower case; the last of a word, and of a name, rules."""
-    found: dict[str, dict[str, list[str]]] = {}
-    material: dict[str, list[str]] = {}
+    found: dict[str, dict[str, str]] = {}
+    material: dict[str, str] = {}
     for line in content.decode("utf-8", "replace").splitlines():
-        word, *values = line.split() or [""]
+        word, rest = (*line.split(None, 1), "", "")[:2]
         if word.lower() == "newmtl":
-            material = found[" ".join(values)] = {}
-        elif values:
-            material[word.lower()] = values
+            material = found[" ".join(rest.split())] = {}
+        elif rest:
+            material[word.lower()] = rest
     return found
 
 
-def library_textures(content: bytes, path: Path, report: Report) -> dict[str, dict[str, Any]]:
-    """For each material of a library the fields of its surface that are textures, and the emission they multiply.
+def library_textures(statements: Mapping[str, str], path: Path, report: Report) -> dict[str, Any]:
+    """The fields of a surface that are textures, and the emission they multiply.
 
-    path: the OBJ, beside which the images stand.  What cannot be kept is in the report.
+    statements: of one material.  path: the OBJ, beside which the images stand.  What cannot be kept is in the report.
     """
-    found: dict[str, dict[str, Any]] = {}
-    material = ""
-    for line in content.decode("utf-8", "replace").splitlines():
-        word, _, rest = line.strip().partition(" ")
-        if word == "newmtl":
-            material = " ".join(rest.split())
-        elif word.lower() in MAPS:
-            texture = _texture(rest, path, report)
-            if texture is not None:
-                fields = found.setdefault(material, {})
-                fields[MAPS[word.lower()]] = texture
-                if word.lower() == "map_ke":
-                    fields["emission"] = (1.0, 1.0, 1.0)
-        elif word.lower() in UNREAD and rest.split():
-            name = rest.split()[-1]
-            _told(name, path, f"{word} has no place among the textures of a surface", report)
+    found: dict[str, Any] = {}
+    for word, rest in statements.items():
+        if word in MAPS and (texture := _texture(rest, path, report)) is not None:
+            found[MAPS[word]] = texture
+            if word == "map_ke":
+                found["emission"] = (1.0, 1.0, 1.0)
+        elif word in UNREAD:
+            _told(rest.split()[-1], path, f"{word} has no place among the textures of a surface", report)
     return found
 
 

@@ -6,7 +6,6 @@ Lengths are millimetres, angles of joints degrees, quaternions x y z w; poses he
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -160,9 +159,6 @@ class Document:
             self.report.add(
                 "FREECAD_VALUE", thing.where, object=shown(thing.label), property=shown(name), detail=detail
             )
-
-    def of_type(self, *types: str) -> Iterator[Thing]:
-        return (thing for thing in self.things.values() if thing.type in types)
 
 
 def read_document(path: Path, report: Report) -> Document:

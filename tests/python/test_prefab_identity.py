@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+import shutil
+import zipfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,6 +12,7 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
+from golden import FIXTURES
 from kinefab import model
 from kinefab.spatial import Pose
 from prefab_scenes import block, rich_scene
@@ -210,3 +214,30 @@ def test_prefab_and_package_have_the_same_numbers(tmp_path, suffix):
         assert Path(f"{own}.meta").read_bytes() == held[f"{guid}/asset.meta"]
         assert own.is_dir() or own.read_bytes() == held[f"{guid}/asset"]
         assert own.is_dir() == (f"{guid}/asset" not in held)
+
+
+@pytest.mark.parametrize(
+    "source", ["lever/lever.FCStd", "freecad/linked.FCStd", "freecad/distance_lines.FCStd"]
+)
+def test_a_freecad_document_whose_labels_change_keeps_its_numbers(tmp_path, source):
+    """Labels are what users write; the names that FreeCAD gave stay.  The third has a middle body named after its joint."""
+    label = re.compile(r'(name="Label"[^>]*>\s*<String value=")([^"]*)"')
+    for other in (FIXTURES / source).parent.glob("*.FCStd"):  # documents that it links to
+        shutil.copy(other, tmp_path)
+    changed = tmp_path / Path(source).name
+    with zipfile.ZipFile(FIXTURES / source) as old, zipfile.ZipFile(changed, "w") as new:
+        for item in old.infolist():
+            data = old.read(item)
+            if item.filename == "Document.xml":
+                data = label.sub(lambda found: f'{found[1]}Neu - {found[2][::-1]}"', data.decode()).encode()
+            new.writestr(item, data)
+    found = []
+    for folder, document in (("old", FIXTURES / source), ("new", changed)):
+        (tmp_path / folder).mkdir()
+        prefab = kinefab.export(document, tmp_path / folder / "Machine.prefab").path
+        text = prefab.read_text("utf-8")
+        metas = sorted((tmp_path / folder).rglob("*.meta"))
+        guids = {str(mapping(meta.read_text("utf-8"))["guid"]) for meta in metas}
+        found.append(({(d.kind, d.file_id) for d in documents(text)}, guids))
+        assert ("Neu - " in text) == (folder == "new")
+    assert len(found[0][0]) > 20 and found[0] == found[1]

@@ -57,6 +57,8 @@ class Scene:
 
     offers: what else the source can give, by the name of the option that asks for it: names of its variants
         (``variant``: "set=name"), of its keyframes (``keyframe``).
+    identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
+        the source whatever it is called there.  By it a prefab knows its objects again.
     """
 
     nodes: list[Node] = field(default_factory=list[Node])
@@ -71,6 +73,7 @@ class Scene:
     physics: Physics = field(default_factory=Physics)
     offers: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
+    identities: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def pose(self, node: int | None) -> Pose:
         """World pose of a node; the identity for ground."""

@@ -52,6 +52,7 @@ class JointReader:
         self.statements: list[Statement] = []
         self.grounded: list[int] = []
         self._labels: dict[str, int] = {}
+        self.identities: dict[str, str] = {}
 
     def read(self, assembly: Occurrence) -> None:
         """The joints and grounds of an assembly whose parts move apart."""
@@ -124,7 +125,7 @@ class JointReader:
                 first, second = second, first
             if word == "RackPinion":
                 first = (first[0], rack_frame(first, second))
-        name = self._name(thing)
+        name = self._name(thing, assembly)
         self.statements.append(
             Statement(
                 name, kind, self._marker(first), self._marker(second), value, other,
@@ -134,10 +135,14 @@ class JointReader:
             )
         )  # fmt: skip
 
-    def _name(self, thing: Thing) -> str:
+    def _name(self, thing: Thing, assembly: Occurrence) -> str:
         """The joint's label, which FreeCAD keeps unique in a document, and its number where another one has it too."""
         number = self._labels[thing.label] = self._labels.get(thing.label, 0) + 1
-        return thing.label if number == 1 else f"{thing.label}#{thing.name}:{number}"
+        node = self._parts.node(assembly)
+        holder = "" if node is None else self._parts.identities[self._parts.nodes[node].id]
+        found = thing.label if number == 1 else f"{thing.label}#{thing.name}:{number}"
+        self.identities[found] = f"{holder}/{thing.name}"
+        return found
 
     def _side(self, thing: Thing, number: int, assembly: Occurrence) -> tuple[Reference, Pose] | None:
         """What a side is fixed to, and its frame in the world, millimetres; None after a report."""

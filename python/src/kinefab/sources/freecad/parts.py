@@ -39,11 +39,13 @@ class ShownShape:
 
 @dataclass(slots=True, eq=False)
 class Parts:
-    """nodes: of the scene.  shapes: to be loaded.  of: the node that an occurrence moves with, by its identity."""
+    """nodes: of the scene.  shapes: to be loaded.  of: the node that an occurrence moves with, by its identity.
+    identities: of nodes by their ids, see ``model.Scene``."""
 
     nodes: list[Node] = field(default_factory=list[Node])
     shapes: list[ShownShape] = field(default_factory=list[ShownShape])
     of: dict[int, int] = field(default_factory=dict[int, int])
+    identities: dict[str, str] = field(default_factory=dict[str, str])
     _labels: dict[tuple[int | None, str], int] = field(default_factory=dict[tuple[int | None, str], int])
     _hidden: dict[int, set[str]] = field(default_factory=dict[int, set[str]])
 
@@ -141,6 +143,9 @@ class Parts:
             if here.parent is None
             else here.shown or not here.parent.shown
         )
+        # Users change labels; names stay as FreeCAD gave them.
+        holder = "" if parent is None else f"{self.identities[self.nodes[parent].id]}/"
+        self.identities[above + own] = holder + here.name
         self.nodes.append(
             Node(
                 above + own, label, kind, parent, scene_pose(here.pose), definition,
@@ -155,6 +160,8 @@ class Parts:
             return
         at = within.pose.inverse() @ here.inner
         visible = here is within or here.thing.flag("Visibility", True)
+        own = self.nodes[node].id
+        self.identities[f"{own}/body:{here.label or here.name}"] = f"{self.identities[own]}/body:{here.name}"
         self.shapes.append(
             ShownShape(node, here.label or here.name, here.target, at, here.scale, here, visible)
         )

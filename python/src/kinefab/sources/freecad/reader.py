@@ -53,6 +53,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
             node = parts.of.get(id(below))
             if below.type in (ASSEMBLY, SUB_ASSEMBLY) and node is not None and scene.nodes[node].flexible:
                 reader.read(below)
+    scene.identities = parts.identities | reader.identities
     report_foreign(root, report)
     reader.grounded += [
         parts.of[id(below)]

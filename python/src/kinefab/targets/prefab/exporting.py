@@ -78,7 +78,8 @@ class _Export:
         if not self.options.scripts:
             tell_couplings(scene.couplings, report)
         tell_couplings(self.couplings, report)
-        hierarchy = Hierarchy(scene, self.name, self.dialect, empty_colliders(scene, report))
+        left_out, identities = empty_colliders(scene, report), self.content.scene.identities
+        hierarchy = Hierarchy(scene, self.name, self.dialect, left_out, identities)
         tell_names(scene, hierarchy.scene_names, report)
         references = References(
             self._meshes(), self._materials(), self._physics_materials(), self._clips(hierarchy)

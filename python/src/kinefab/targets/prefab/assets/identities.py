@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from ....model import Node, Scene, Texture
 from ....unity.scene import GameObject, MeshCollider, MeshFilter, UnityScene
+from ..text.lasting import lasting
 from .images import content_of
 
 
@@ -23,19 +24,19 @@ def mesh_identities(scene: UnityScene, model: Scene, origin: Callable[[int], str
     drawn: dict[int, _Told] = {}
     touched: dict[int, _Told] = {}
     for entry in scene.gameObjects:
-        owner, body = _owner(entry, scene, parts)
+        owner, body = _owner(entry, scene, parts, model.identities)
         for component in entry.components:
             if isinstance(component, MeshFilter):
-                one = _told(owner, f"{body}|drawn", origin(component.mesh), parts)
+                one = _told(owner, f"{body}|drawn", origin(component.mesh), parts, model.identities)
                 drawn[component.mesh] = min(drawn.get(component.mesh, one), one)
     found = _each_once(drawn)
     for entry in scene.gameObjects:
-        owner, body = _owner(entry, scene, parts)
+        owner, body = _owner(entry, scene, parts, model.identities)
         shows = next((found[c.mesh] for c in entry.components if isinstance(c, MeshFilter)), None)
         for component in entry.components:
             if isinstance(component, MeshCollider) and component.mesh not in drawn:
                 use = f"collider {component.id}"
-                one = _told(owner, f"{body}|{use}", origin(component.mesh), parts)
+                one = _told(owner, f"{body}|{use}", origin(component.mesh), parts, model.identities)
                 if shows is not None:
                     one = _Told(0, f"{shows}|{use}", one.user)
                 touched[component.mesh] = min(touched.get(component.mesh, one), one)
@@ -51,11 +52,13 @@ class _Told(NamedTuple):
     user: str
 
 
-def _owner(entry: GameObject, scene: UnityScene, parts: Mapping[str, Node]) -> tuple[str, str]:
+def _owner(
+    entry: GameObject, scene: UnityScene, parts: Mapping[str, Node], identities: Mapping[str, str]
+) -> tuple[str, str]:
     """The id of the part that an object is or belongs to, and the name of its body where the part has several."""
     if entry.parent is None or not entry.id.startswith(above := scene.gameObjects[entry.parent].id + "/"):
         return entry.id, ""
-    kind, _, name = entry.id[len(above) :].partition(":")
+    kind, _, name = lasting(entry.id, identities)[len(lasting(above, identities)) :].partition(":")
     if kind not in ("body", "collider"):
         return entry.id, ""
     part = parts.get(above[:-1])
@@ -63,8 +66,10 @@ def _owner(entry: GameObject, scene: UnityScene, parts: Mapping[str, Node]) -> t
     return above[:-1], name if kind == "body" and several else ""
 
 
-def _told(owner: str, use: str, origin: str, parts: Mapping[str, Node]) -> _Told:
-    user = f"part {owner}|{use}"
+def _told(
+    owner: str, use: str, origin: str, parts: Mapping[str, Node], identities: Mapping[str, str]
+) -> _Told:
+    user = f"part {lasting(owner, identities)}|{use}"
     if owner in parts and parts[owner].definition:
         return _Told(0, f"definition {parts[owner].definition}|{use}", user)
     return _Told(1, f"source {origin}", user) if origin else _Told(2, user, user)

@@ -11,7 +11,6 @@ from ....unity.scene import (
     Collider,
     Component,
     FixedJoint,
-    GameObject,
     Joint,
     MeshCollider,
     MeshFilter,
@@ -25,6 +24,7 @@ from ..text.dialects import Dialect
 from ..text.documents import COMPONENT, HEAD, version
 from ..text.forms import BLANK, Form
 from ..text.ids import FileIds
+from ..text.lasting import lasting
 from ..text.yaml import NULL, Fields, Plain, document, local, text, vector
 from ..text.yaml import placed as rounded
 from .articulations import CLASS as ARTICULATION_CLASS
@@ -76,10 +76,12 @@ class Hierarchy:
         scene: UnityScene,
         name: str,
         dialect: Dialect,
-        left_out: frozenset[tuple[int, int]] = frozenset(),
+        left_out: frozenset[tuple[int, int]],
+        identities: Mapping[str, str],
     ):
-        """left_out: components that are not written, by object and component."""
+        """left_out: components that are not written, by object and component.  identities: see ``model.Scene``."""
         self.scene, self.dialect, self.left_out = scene, dialect, left_out
+        self._given = identities
         self.ids = FileIds()
         objects = scene.gameObjects
         roots = [o for o in objects if o.parent is None]
@@ -89,7 +91,8 @@ class Hierarchy:
             (o.parent + shift if o.parent is not None else 0 if self.own_root else None) for o in objects
         ]
         names = [name] * shift + [o.name for o in objects]
-        ids = [ROOT] * shift + [o.id for o in objects]
+        self._identities = [lasting(o.id, identities) for o in objects]
+        ids = [ROOT] * shift + self._identities
         self.names = sibling_names(parents, names, ids)
         self.scene_names = self.names[shift:]
         self._first = shift
@@ -114,13 +117,22 @@ class Hierarchy:
         """Each component's fileID, by the object's index in the scene and its own; Rigidbodies also by the object's alone."""
         objects = self.scene.gameObjects
         all_of_them = [(i, k, c) for i, entry in enumerate(objects) for k, c in enumerate(entry.components)]
-        told = [(type(c).__name__, f"{objects[i].id}{_told(c, objects)}") for i, _, c in all_of_them]
+        told = [(type(c).__name__, f"{self._identities[i]}{self._told(c)}") for i, _, c in all_of_them]
         for (i, k, component), found in zip(all_of_them, self.ids.each(told)):
             self.component_ids[i, k] = found
             if isinstance(component, Rigidbody):
                 self.bodies[i] = found
             elif isinstance(component, ArticulationBody):
                 self.links[i] = found
+
+    def _told(self, component: Component) -> str:
+        """What a component is beside its object and its class: several joints or colliders may stand on one object."""
+        if isinstance(component, FixedJoint) and not component.id:
+            other = component.connectedBody
+            return f"->{self._identities[other]}" if other is not None else ""
+        if isinstance(component, (Joint, Collider)):
+            return f"->{lasting(component.id, self._given)}" if component.id else ""
+        return ""
 
     def game_object_id(self, index: int) -> int:
         return self._placed[index + self._first].file_id
@@ -153,7 +165,7 @@ class Hierarchy:
         for coupling in self.scene.couplings:
             index = coupling.coordinate.gameObject
             fields = coupling_fields(coupling, self.game_object_id(index), self.component_ids)
-            own = self.ids.new("MonoBehaviour", f"coupling {coupling.id}")
+            own = self.ids.new("MonoBehaviour", f"coupling {lasting(coupling.id, self._given)}")
             self.add(index, 114, "MonoBehaviour", own, fields)
 
     def add_clips(self, clips: Sequence[Plain], plays: bool) -> None:
@@ -249,13 +261,3 @@ def _transform_form(children: int, dialect: Dialect) -> Form:
         "m_LocalEulerAnglesHint": vector((0.0, 0.0, 0.0)),
     }
     return Form(4, "Transform", fields)
-
-
-def _told(component: Component, objects: Sequence[GameObject]) -> str:
-    """What a component is beside its object and its class: several joints or colliders may stand on one object."""
-    if isinstance(component, FixedJoint) and not component.id:
-        other = component.connectedBody
-        return f"->{objects[other].id}" if other is not None else ""
-    if isinstance(component, (Joint, Collider)):
-        return f"->{component.id}" if component.id else ""
-    return ""

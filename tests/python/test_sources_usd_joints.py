@@ -116,6 +116,21 @@ def test_ranges_of_a_generic_joint(tmp_path, low, high, motion):
         )
 
 
+def test_a_distance_bounds_the_slides_of_a_generic_joint_that_nothing_else_bounds(tmp_path):
+    """With the drives that they have; its six freedoms stay six."""
+    inside = "float limit:distance:physics:high = 70\nfloat limit:transY:physics:low = -20\nfloat limit:transY:physics:high = 30"
+    inside += "\nfloat drive:transX:physics:stiffness = 8"
+    schemas = '"PhysicsLimitAPI:distance", "PhysicsLimitAPI:transY", "PhysicsDriveAPI:transX"'
+    text = body("B") + joint("PhysicsJoint", inside=inside, schemas=schemas)
+    found, _, report = joint_of(tmp_path, text, metres=0.01)
+    assert not report.diagnostics and len(found.freedoms) == 6
+    ranges = [(f.motion, round(f.lower, 9), round(f.upper, 9)) for f in found.freedoms[:RX]]
+    far = (Motion.LIMITED, -0.7, 0.7)
+    assert ranges == [far, (Motion.LIMITED, -0.2, 0.3), far]
+    assert [f.motion for f in found.freedoms[RX:]] == [Motion.FREE] * 3
+    assert found.freedoms[TX].drive is not None and found.freedoms[TX].drive.stiffness == pytest.approx(8.0)
+
+
 def test_a_locked_value_away_from_zero_moves_the_frame(tmp_path):
     locked = "".join(
         f"float limit:{n}:physics:low = {v}\nfloat limit:{n}:physics:high = {v}\n"

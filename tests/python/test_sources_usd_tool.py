@@ -24,6 +24,7 @@ AXES = '"PhysicsLimitAPI:transX", "PhysicsLimitAPI:transY", "PhysicsLimitAPI:tra
 LOCKED = "; ".join(
     f"float limit:trans{axis}:physics:low = 1; float limit:trans{axis}:physics:high = -1" for axis in "XYZ"
 )
+REACH = "; float limit:rotY:physics:low = -30; float limit:rotY:physics:high = 50"
 LED = "bool physics:kinematicEnabled = 1"
 BARS = {"A": (0.1, 0, 0.5), "B": (1.3, 0, 1.4), "C": (2.8, 0, 0.9)}
 
@@ -46,6 +47,12 @@ WRITTEN = {
     "cone": (3, body("B") + joint("PhysicsSphericalJoint", inside=CONE)),
     "generic": (9, body("A") + body("B") + joint("PhysicsJoint", body0="/A", inside=LOCKED, schemas=AXES)),
     "free": (6, body("B")),
+    "hinge, with a range beside it": (
+        1,
+        body("B", (0.3, 1, 2))
+        + hinge("One", "", (0, 0, 0), "B", (0.3, 1, 2), (0.1, 1, 2), "Y")
+        + joint("PhysicsJoint", "Two", at((0.3, 1, 2), (0, 0, 0)) + REACH, schemas='"PhysicsLimitAPI:rotY"'),
+    ),
     "led, with a chain": (
         4,
         body("K", (0, 0, 2), LED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -10,7 +11,7 @@ import numpy as np
 from ..collector import collector_paused
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import Coupling, Joint, Scene
+from ..model import Coupling, Freedom, Joint, Motion, Scene
 from ..options import Closures
 from ..partition import Partition
 from ..rigid import rigid_groups
@@ -103,7 +104,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         rank=_rank(assembly),
         groups=groups,
         fixed=fixed,
-        islands=_islands(assembly, tree, links, couplings),
+        islands=_islands(assembly, tree, links, found.aside, couplings),
         idle=sorted(_idle(assembly, links, couplings, closed), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
         findings={
@@ -173,10 +174,13 @@ def _idle(
     return idle_freedoms(assemble(welded(scene, _fixed(assembly), joints, couplings), Report()))
 
 
-def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[Coupling]) -> list[Island]:
+def _islands(
+    assembly: Assembly, tree: Tree, links: list[Link], aside: list[Joint], couplings: list[Coupling]
+) -> list[Island]:
     """Connected by joints without ground: on ground, every branch from it is an island of its own.
 
     links: the joints as they are exported; one that removes nothing closes no loop, unless a coupling counts from it.
+    aside: those that remove nothing in the source; one with an end or a drive closes a loop where others join its sides.
     """
     branch = np.full(len(tree.parent), -1)
     for body in tree.order:
@@ -208,6 +212,13 @@ def _islands(assembly: Assembly, tree: Tree, links: list[Link], couplings: list[
             ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
             if ends and ends[0] in loops:
                 loops[ends[0]] += 1
+    for joint in aside:
+        if any(_acts(freedom) for freedom in joint.freedoms):
+            bodies = [0 if node is None else int(assembly.body[node + 1]) for node in (joint.a, joint.b)]
+            low, high = sorted(int(island[body]) for body in bodies)
+            joined = low == high or (0 in bodies and high not in floating)
+            if bodies[0] != bodies[1] and high in loops and joined:
+                loops[high] += 1
     counts = {key: [0, 0, 0, 0] for key in nodes_of}
     for first, finite in zip(assembly.freedoms, assembly.finite):
         key = int(island[first.bodies[0]])
@@ -258,3 +269,11 @@ def _report_outcomes(assembly: Assembly, report: Report) -> None:
         feature = f"constraint {constraint.id}"
         if not constraint.suppressed and feature not in said:
             report.kept(feature, constraint.where)
+
+
+def _acts(freedom: Freedom) -> bool:
+    """Whether a freedom has an end, a drive or a spring, for which Unity needs a joint even where it locks nothing."""
+    ends, passive = (freedom.lower, freedom.upper), freedom.passive
+    limited = freedom.motion is Motion.LIMITED and any(map(math.isfinite, ends))
+    sprung = passive is not None and (passive.stiffness or passive.damping)
+    return bool(limited or freedom.drive is not None or sprung)

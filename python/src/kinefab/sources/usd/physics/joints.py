@@ -316,8 +316,10 @@ class Joints:
             most = self._values.number(prim, "limit:distance:physics:high", math.inf, open_ended=True)
             if self._values.number(prim, "limit:distance:physics:low", -math.inf, open_ended=True) > 0.0:
                 self._approximated(entry, "its least distance was left out")
-            ball = self._ball(prim, most if most >= 0.0 else math.inf)
-            found[:3] = [b if f.motion is Motion.FREE else f for f, b in zip(found, ball)]
+            slides = self._ball(prim, most if most >= 0.0 else math.inf)[:RX]
+            for i, slide in enumerate(slides):
+                if found[i].motion is Motion.FREE:
+                    found[i] = replace(slide, drive=found[i].drive, passive=found[i].passive, at=found[i].at)
         self._other_instances(entry, known)
         return tuple(found)
 

@@ -366,3 +366,23 @@ def test_a_density_of_another_type_than_the_schema_has_is_taken_and_told(tmp_pat
     (mass,) = [n.mass.mass for n in scene.nodes if n.mass is not None]
     assert mass == pytest.approx(7.0 * 4.0 / 3.0 * math.pi * 27.0)
     assert [d.where for d in report.diagnostics if "density" in d.message] == told
+
+
+def test_more_keys_than_a_clip_takes_are_told(tmp_path, monkeypatch):
+    """With the time code up to which it plays; as many as it takes are no loss."""
+    monkeypatch.setattr("kinefab.sources.usd.animation.MAX_KEYS", 5)
+    for count in (5, 6):
+        keys = ", ".join(f"{3 * i}: ({i}, 0, 0)" for i in range(count))
+        inside = f"double3 xformOp:translate.timeSamples = {{ {keys} }}"
+        text = f'def Xform "A" {{\n{inside}\nuniform token[] xformOpOrder = ["xformOp:translate"]\ndef Cube "C" {{}}\n}}\n'
+        scene, report = scene_of(tmp_path, stage(text))
+        assert len(scene.animations[0].times) == 5
+        told = [d.message for d in report.diagnostics if d.code == "USD_FEATURE_APPROXIMATED"]
+        assert len(told) == (count > 5) and all("up to time code 12" in message for message in told)
+
+
+def test_a_size_of_samples_alone_is_the_first_of_them(tmp_path):
+    """Not the schema's own 2, which pxr gives at the default time."""
+    text = 'def Cube "C" {\ndouble size.timeSamples = { 1: 3, 5: 7 }\n}\n'
+    scene, _ = scene_of(tmp_path, stage(text, metres=0.1))
+    assert np.ptp(scene.meshes[0].vertices, axis=0) == pytest.approx([0.3, 0.3, 0.3])

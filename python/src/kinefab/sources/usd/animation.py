@@ -41,6 +41,12 @@ def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: R
             opened.name,
             detail="its held keys are passed through evenly",
         )
+    if len(times) > MAX_KEYS:
+        times = times[:MAX_KEYS]
+        report.approximated(
+            "animation", "USD_FEATURE_APPROXIMATED", opened.name,
+            detail=f"its first {MAX_KEYS} keys were taken, up to time code {times[-1]:g}",
+        )  # fmt: skip
     prims = [group.prim for group in found.groups] + [part.prim for part in found.parts]
     placing = _Placing(found.animated)
     spans = _spans(times, opened)
@@ -152,7 +158,7 @@ class _Placing:
 
 
 def _times(prims: Sequence[Any], opened: OpenStage) -> Array:
-    """Time codes of all samples within the stage's range, and so many between that no angle turns far at once."""
+    """Time codes of all samples within the stage's range, and so many between, up to MAX_KEYS, that no angle turns far at once."""
     low, high = -math.inf, math.inf
     if opened.stage.HasAuthoredTimeCodeRange():
         low, high = opened.stage.GetStartTimeCode(), opened.stage.GetEndTimeCode()
@@ -177,7 +183,7 @@ def _times(prims: Sequence[Any], opened: OpenStage) -> Array:
         most = min(most, STEP * MAX_KEYS)
         count = min(max(1, math.ceil(most / STEP - 1e-9)), max(1, MAX_KEYS - len(times)))
         times += [start + (end - start) * (i + 1) / count for i in range(count)]
-    return np.array(times[:MAX_KEYS])
+    return np.array(times)
 
 
 def _track(

@@ -213,7 +213,14 @@ def _value(prim: Any, name: str) -> Any:
     if not attribute:
         return None
     value = attribute.Get()  # at the default time
-    return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+    if value is None or (attribute.GetNumTimeSamples() and _is_fallback(attribute)):
+        return attribute.Get(Usd.TimeCode.EarliestTime())
+    return value
+
+
+def _is_fallback(attribute: Any) -> bool:
+    """Whether nobody but the schema says what it is at the default time."""
+    return attribute.GetResolveInfo(Usd.TimeCode.Default()).GetSource() == Usd.ResolveInfoSourceFallback
 
 
 def schemas(prim: Any) -> tuple[str, ...]:

@@ -132,3 +132,23 @@ def test_mates_of_a_folder_that_are_listed_behind_it_too_are_read_once(tmp_path)
     answers.append({**folder, "GetFirstSubFeature()": first, "GetNextSubFeature()": first})
     group["GetFirstSubFeature()"] = {"object": len(answers) - 1}
     assert capture("solidworks", answers, tmp_path, values["meta"]["up"]).draft.constraints == sound
+
+
+@pytest.mark.parametrize("what, answer, told", [
+    ("a part", {"GetModelDoc2()": None}, True),
+    ("a flexible sub-assembly", {"Solving": 1}, True),
+    ("a rigid sub-assembly", {}, False),
+])  # fmt: skip
+def test_what_is_lightweight_is_told(what: str, answer: dict, told: bool, tmp_path):
+    """Its document is not in memory: a part's mass and the mates within a flexible sub-assembly cannot be asked for."""
+    values = mechanism("lever/lever.bundle.json")
+    double, report = SolidWorks(described(values)).record(), Report()
+    one = next(
+        held for held in double if "Name2" in held and bool(held["GetModelDoc2()"]) == (what == "a part")
+    )
+    one |= answer
+    capture("solidworks", double, tmp_path, values["meta"]["up"], report)
+    found = [d.message for d in report.diagnostics if d.code == "CAPTURE_LIGHTWEIGHT"]
+    assert len(found) == told
+    assert all("1 components (" in message and one["Name2"] in message for message in found)
+    assert sum(o.feature == "documents of components" for o in report.outcomes) == told

@@ -31,21 +31,24 @@ COLORS = (
 class Occurrences:
     """draft: what is filled.  root: id of the document's own assembly.  flexible: (id, definition) of the assemblies
     whose constraints count: the root and those whose parts move against each other.
+    held: of a flexible assembly that may move the first part that is grounded in it; all others go with that one.
     order: how ``GetMatrixData`` lists its numbers, once a matrix has told: its documentation does not.
     """
 
     draft: Draft
     root: str
     flexible: list[tuple[str, Definition]] = field(default_factory=list[tuple[str, Definition]])
+    held: dict[str, str] = field(default_factory=dict[str, str])
     order: str = ""
     definitions: dict[str, Record] = field(default_factory=dict[str, Record])
 
-    def read(self, occurrences: Collection, parent: str) -> None:
+    def read(self, occurrences: Collection, parent: str, fixed: bool = True) -> None:
+        """fixed: whether what is grounded in this assembly stands still in the open one too."""
         for feature, occurrence in self.draft.each(occurrences.Count, occurrences.Item, "occurrence", parent):
             with self.draft.safely(feature):
-                self._occurrence(cast(Occurrence, occurrence), parent)
+                self._occurrence(cast(Occurrence, occurrence), parent, fixed)
 
-    def _occurrence(self, occurrence: Occurrence, parent: str) -> None:
+    def _occurrence(self, occurrence: Occurrence, parent: str, fixed: bool) -> None:
         name = occurrence.Name
         own = f"{parent}/{name}"
         suppressed = bool(occurrence.Suppressed)
@@ -57,12 +60,14 @@ class Occurrences:
         is_assembly = occurrence.DefinitionDocumentType == ASSEMBLY
         record["kind"] = "assembly" if is_assembly else "part"
         record["pose"] = pose_of_rows(self._rows(occurrence.Transformation))
-        record["grounded"], record["visible"] = bool(occurrence.Grounded), bool(occurrence.Visible)
+        grounded = bool(occurrence.Grounded)  # to its own assembly, which may move
+        record["grounded"], record["visible"] = grounded and fixed, bool(occurrence.Visible)
         extras = {
             word: True
             for word, asked in (
                 ("adaptive", occurrence.Adaptive),
                 ("patternElement", occurrence.IsPatternElement),
+                ("groundedInAssembly", grounded and not fixed),
             )
             if asked
         }
@@ -72,11 +77,16 @@ class Occurrences:
         document = definition.Document
         record["definition"] = self.draft.definition(document.DisplayName, _file(document))
         self.draft.component(record)
+        if grounded and not fixed and any(parent == one for one, _ in self.flexible):
+            first = self.held.setdefault(parent, own)
+            if first != own:
+                joint = self.draft.unique(f"grounded: {name}")
+                self.draft.joints.append({"id": joint, "name": joint, "type": "rigid", "a": first, "b": own})
         if is_assembly:
             record["flexible"] = bool(occurrence.Flexible)
             if record["flexible"]:
                 self.flexible.append((own, definition))
-            self.read(occurrence.SubOccurrences, own)
+            self.read(occurrence.SubOccurrences, own, record["grounded"])
         else:
             record.update(self._definition(record["definition"], definition))
         if not record["grounded"]:

@@ -70,6 +70,11 @@ def _assembly(model: Model, draft: Draft, root: str) -> None:
     found = Components(draft, root)
     top = model.ConfigurationManager.ActiveConfiguration.GetRootComponent3(True)
     found.read(top, root)
+    if found.unloaded:
+        first, count = found.unloaded[0], len(found.unloaded)
+        draft.report.dropped(
+            "documents of components", "CAPTURE_LIGHTWEIGHT", first=first, count=count, program=NAME
+        )
     for own, inner in [(root, model), *found.flexible]:
         frame = "world" if own == root else own
         owner = Owner(draft, own, frame, 1.0)
@@ -83,11 +88,13 @@ def _assembly(model: Model, draft: Draft, root: str) -> None:
 
 @dataclass(slots=True)
 class Components:
-    """flexible: (id, document) of the sub-assemblies whose mates count."""
+    """flexible: (id, document) of the sub-assemblies whose mates count.  unloaded: ids of what SolidWorks has no document of in
+    memory: it is lightweight."""
 
     draft: Draft
     root: str
     flexible: list[tuple[str, Model]] = field(default_factory=list[tuple[str, Model]])
+    unloaded: list[str] = field(default_factory=list[str])
     definitions: dict[str, Record] = field(default_factory=dict[str, Record])
 
     def read(self, parent: Component, own: str) -> None:
@@ -129,8 +136,11 @@ class Components:
         self.draft.component(record)
         if is_assembly:
             record["flexible"] = component.Solving == FLEXIBLE
-            if record["flexible"] and (inner := component.GetModelDoc2()) is not None:
-                self.flexible.append((own, inner))
+            if record["flexible"]:
+                if (inner := component.GetModelDoc2()) is None:
+                    self.unloaded.append(own)
+                else:
+                    self.flexible.append((own, inner))
             self.read(component, own)
         else:
             record.update(self._definition(record["definition"], component))
@@ -149,7 +159,9 @@ class Components:
             with self.draft.safely(f"colours of faces of {name}"):
                 painted(self.draft, name, sum(map(_painted, bodies)))
         with self.draft.safely(f"material and mass of {name}"):
-            if (model := component.GetModelDoc2()) is not None:
+            if (model := component.GetModelDoc2()) is None:
+                self.unloaded.append(f"{self.root}/{component.Name2}")
+            else:
                 self._matter(name, model, found)
         self.definitions[name] = found
         return found

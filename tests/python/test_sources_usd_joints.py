@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import kinefab
 import numpy as np
 import pytest
 from kinefab.model import RX, RY, RZ, TX, TY, TZ, JointKind, Motion
@@ -215,6 +216,26 @@ def test_a_ball_has_the_cone_of_physx_and_a_rope_its_length(tmp_path):
     )
     assert [found.freedoms[i].upper for i in (TX, TY, TZ)] == pytest.approx([0.02] * 3)
     assert codes(report) == {"USD_FEATURE_APPROXIMATED"}
+
+
+def test_a_rope_is_the_radius_that_unity_has_and_a_box_of_slides_is_not(tmp_path):
+    """Both are three slides of -2..2 m; the box reaches further at its corners, which is told."""
+    axes = [f"trans{axis}" for axis in "XYZ"]
+    ends = "".join(f"float limit:{a}:physics:low = -2\nfloat limit:{a}:physics:high = 2\n" for a in axes)
+    schemas = ", ".join(f'"PhysicsLimitAPI:{a}"' for a in axes)
+    rope, box = tmp_path / "rope.usda", tmp_path / "box.usda"
+    rope.write_text(stage(body("B") + joint("PhysicsDistanceJoint", inside="float physics:maxDistance = 2")))
+    box.write_text(stage(body("B") + joint("PhysicsJoint", inside=ends, schemas=schemas)))
+    for source, told in ((rope, set()), (box, {"JOINT_LIMITS_SHARED"})):
+        result = kinefab.export(source, source.with_suffix(".kinefab"))
+        (found,) = [
+            c
+            for o in result.unity.gameObjects
+            for c in o.components
+            if type(c).__name__ == "ConfigurableJoint"
+        ]
+        assert found.linearLimit.limit == 2.0
+        assert {d.code for d in result.report.diagnostics} & {"JOINT_LIMITS_SHARED"} == told
 
 
 def test_what_is_switched_off_or_said_of_loops_and_contacts_is_kept(tmp_path):

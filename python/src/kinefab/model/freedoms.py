@@ -96,6 +96,7 @@ class Freedom:
 
     lower, upper: range of the coordinate when LIMITED, metres or radians; either may be infinite.
     stiffness, damping: of the limit, 0 and 0 for a hard one.  restitution: 0..1, of a hard limit.
+    radial: of a slide, that the range is one for all slides of the joint that have it: how far apart the two frames are at most.
     passive: what the freedom is by itself, None for nothing stated.
     at: the coordinate at the exported pose where the source states it: its frames tell an angle up to whole turns only.
     turns: whole turns by which the source displays more than the coordinate, its limits too.  sign: -1 where it counts by the
@@ -115,6 +116,7 @@ class Freedom:
     stiffness: float = 0.0
     damping: float = 0.0
     restitution: float = 0.0
+    radial: bool = False
     passive: Passive | None = None
     at: float | None = field(default=None, compare=False)
     turns: int = field(default=0, compare=False)

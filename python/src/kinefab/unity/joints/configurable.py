@@ -125,7 +125,7 @@ def _linear_limits(w: _Writing) -> Array:
             upper = lower + OPEN_TRAVEL if math.isinf(upper) else upper
         middle[i] = 0.5 * (lower + upper)
         halves.append(0.5 * (upper - lower))
-    if len(limited) > 1:
+    if len(limited) > 1 and not all(w.shape.freedoms[i].radial for i in limited):
         w.approximated("JOINT_LIMITS_SHARED", radius=f"{max(halves):g}", axes=", ".join(map(w.name, limited)))
     first = _stiffest(w, limited)
     w.fields["linearLimit"] = SoftJointLimit(max(halves), first.restitution)

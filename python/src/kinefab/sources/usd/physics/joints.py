@@ -296,7 +296,7 @@ class Joints:
             return (FREE,) * 6
         if most == 0.0:
             return freedoms_of(JointKind.SPHERICAL)
-        slide = self._freedoms.limited(prim, -most, most, False, "distance")
+        slide = replace(self._freedoms.limited(prim, -most, most, False, "distance"), radial=True)
         stiffness = self._values.number(prim, "physxPhysicsDistanceJoint:springStiffness", 0.0)
         damping = self._values.number(prim, "physxPhysicsDistanceJoint:springDamping", 0.0)
         if self._values.flag(prim, "physxPhysicsDistanceJoint:springEnabled", False):

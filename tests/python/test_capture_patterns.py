@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
@@ -49,7 +50,7 @@ def machine(*parts: dict, patterns: list, joints: list = (), unit: str = "mm", u
     ends = {"type": "revolute", "a": "M/Base", "b": "M/Arm", "frameA": at, "frameB": {**at}, "dof": [dof]}
     meta = {"format": "kinefab.bundle", "version": "1.0", "units": {"length": unit, "angle": "rad"}, "up": up}
     return {
-        "meta": meta, "components": [root, base, arm, *parts], "joints": [{"id": "Hinge", **ends}, *joints],
+        "meta": meta, "components": [root, base, arm, *deepcopy(parts)], "joints": [{"id": "Hinge", **ends}, *joints],
         "patterns": {"M": patterns},
     }  # fmt: skip
 

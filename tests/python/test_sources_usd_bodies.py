@@ -370,7 +370,7 @@ def test_a_density_of_another_type_than_the_schema_has_is_taken_and_told(tmp_pat
 
 def test_more_keys_than_a_clip_takes_are_told(tmp_path, monkeypatch):
     """With the time code up to which it plays; as many as it takes are no loss."""
-    monkeypatch.setattr("kinefab.sources.usd.animation.MAX_KEYS", 5)
+    monkeypatch.setattr("kinefab.sources.usd.keys.MAX_KEYS", 5)
     for count in (5, 6):
         keys = ", ".join(f"{3 * i}: ({i}, 0, 0)" for i in range(count))
         inside = f"double3 xformOp:translate.timeSamples = {{ {keys} }}"

@@ -109,3 +109,24 @@ def test_instances_that_move_by_samples_are_told(tmp_path):
     scene, report = scene_of(tmp_path, stage(text))
     assert scene is not None and not scene.animations
     assert [o.feature for o in report.outcomes if "animation" in o.feature] == ["animation of I"]
+
+
+@pytest.mark.parametrize("above", ['over "Q"', 'class "Q"', 'def Scope "Q"'])
+def test_prototypes_that_nothing_else_draws_are_drawn_by_their_instancer(tmp_path, above):
+    """As usd's documents advise, they lie in an ``over``; instances within them, too."""
+    prototype = 'def Xform "P" {\ndef Sphere "G" {}\ndef Xform "N" (\ninstanceable = true\nreferences = </Lib>\n) {}\n}'
+    text = f'def Xform "Lib" {{\ndef Cube "C" {{}}\n}}\n{instancer("", "I", "/Q/P")}{above} {{\n{prototype}\n}}\n'
+    text = text.replace("</Q/P/Proto>", "</Q/P>")
+    scene, _ = scene_of(tmp_path, stage(text))
+    drawn = {node.id for node in scene.nodes if node.bodies}
+    assert {f"I[{i}]/P/{name}" for i in (0, 1) for name in ("G", "N/C")} == {n for n in drawn if n[0] == "I"}
+    assert any(name.startswith("Q") for name in drawn) == above.startswith("def")
+
+
+def test_speeds_of_instances_are_told(tmp_path):
+    text = instancer(arm("/I/Proto")).replace(
+        "int[] protoIndices", "vector3f[] velocities = [(0, 0, 0), (0, 2, 0)]\nint[] protoIndices", 1
+    )
+    assert "velocities" in text
+    _, report = scene_of(tmp_path, stage(text))
+    assert "velocities of /I" in {o.feature for o in report.outcomes}

@@ -24,6 +24,9 @@ _TYPES: dict[str, Any] = {
 """Of an instancer's arrays; pxr passes over some of another type, and stumbles over others."""
 _MOVING = (*_TYPES, "invisibleIds")
 
+_SPEEDS = ("velocities", "angularVelocities")
+"""Of instances: PhysX starts bodies with them."""
+
 
 def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[int, Any, Array]]:
     """For each shown instance its number, its prototype and what stands between the instancer and the prototype's own
@@ -54,6 +57,13 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
     if moving:
         detail = f"its {', '.join(moving)} change over time; its instances stay as at the exported time"
         report.dropped(f"animation of {str(prim.GetPath())[1:]}", "USD_FEATURE_DROPPED", where, detail=detail)
+    for name in _SPEEDS:
+        speeds = prim.GetAttribute(name).Get(time)
+        if isinstance(speeds, _VECTORS) and np.any(speeds):
+            report.dropped(
+                f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
+                detail="an instance starts at the speed that its prototype states",
+            )  # fmt: skip
     detail = ""
     found: Any = None
     try:

@@ -9,16 +9,18 @@ import numpy as np
 
 from .api import Usd, UsdGeom
 from .transforms import IDENTITY, Local, local_of
-from .values import Traits, Values
+from .values import Traits, Values, value_of
 
 PREDICATE = Usd.TraverseInstanceProxies()
+PROTOTYPED = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
+"""Below prototypes that lie in an ``over`` or a ``class``, so that nothing but their instancers draws them."""
 
 
 @dataclass(slots=True, eq=False)
 class Seen:
     """prim: of an instance's content that of the prototype.  local: its own transform; what is wrong with it does not
     count, and is ``faults``: names of attributes with their values.
-    hidden: it is invisible itself.  purpose: that it states.  children: once somebody asked ``Prims.below``.
+    hidden: it is invisible itself.  flickers: that changes over time.  purpose: that it states.  children: once somebody asked ``Prims.below``.
     """
 
     prim: Any
@@ -27,6 +29,7 @@ class Seen:
     local: Local
     faults: tuple[tuple[str, object], ...] = ()
     hidden: bool = False
+    flickers: bool = False
     purpose: str | None = None
     children: tuple[Seen, ...] | None = None
     _source: str = ""
@@ -43,9 +46,11 @@ class Seen:
         return self.prim.GetStage().GetPrimAtPath(path) if self.prim.IsInPrototype() else self.prim
 
     def tell(self, path: str, values: Values) -> None:
-        """What is wrong with the transform of the prim at a path."""
+        """What is wrong with the transform of the prim at a path, and what of it changes over time unseen."""
         for name, value in self.faults:
             values.wrong(path, name, value)
+        if self.flickers:
+            values.tell_samples(path, "visibility")
 
 
 class Prims:
@@ -61,7 +66,8 @@ class Prims:
         local, faults = _local(prim) if "xformOpOrder" in names else (IDENTITY, ())
         found = Seen(prim, prim.GetName(), traits, local, faults)
         if "visibility" in names and (imageable := UsdGeom.Imageable(prim)):
-            found.hidden = imageable.GetVisibilityAttr().Get() == "invisible"
+            value, found.flickers = value_of(imageable.GetVisibilityAttr())
+            found.hidden = value == "invisible"
         if "purpose" in names and (imageable := UsdGeom.Imageable(prim)):
             attribute = imageable.GetPurposeAttr()
             found.purpose = str(attribute.Get()) if attribute.HasAuthoredValue() else None
@@ -80,7 +86,9 @@ class Prims:
             if seen.prim.IsInstance():
                 seen.children = self.below(self.shared(seen.prim.GetPrototype()))
             else:
-                seen.children = tuple(map(self.seen, seen.prim.GetFilteredChildren(PREDICATE)))
+                drawn = seen.prim.IsDefined() and not seen.prim.IsAbstract()
+                children = seen.prim.GetFilteredChildren(PREDICATE if drawn else PROTOTYPED)
+                seen.children = tuple(map(self.seen, children))
         return seen.children
 
 

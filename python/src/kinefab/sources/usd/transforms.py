@@ -173,8 +173,9 @@ def local_of(prim: Any, time: Any = None) -> Local:
     attributes = [op.GetAttr() for op in ops]  # an inverse operation has that of the one that it undoes
     asked = Usd.TimeCode.Default() if time is None else time
     values = [attribute.Get(asked) for attribute in attributes]
-    if time is None and any(v is None and a.GetNumTimeSamples() for v, a in zip(values, attributes)):
-        asked = Usd.TimeCode.EarliestTime()
+    if time is None and any(v is None and knots_of(a) for v, a in zip(values, attributes)):
+        curves = [knots_of(a)[0] for a in attributes if not a.GetNumTimeSamples() and knots_of(a)]
+        asked = Usd.TimeCode(min(curves)) if curves else Usd.TimeCode.EarliestTime()
         values = [attribute.Get(asked) for attribute in attributes]
     for attribute, value in zip(attributes, values):
         if not _is_typed(attribute, value):
@@ -182,6 +183,14 @@ def local_of(prim: Any, time: Any = None) -> Local:
     moves = any(attribute.ValueMightBeTimeVarying() for attribute in attributes)
     resets = len(ops) < len(order) and xform.GetResetXformStack()
     return Local(matrix(xform.GetLocalTransformation(ops, asked)), resets, moves)
+
+
+def knots_of(attribute: Any) -> list[float]:
+    """Time codes of an attribute's samples, or of the knots of its curve, which young releases of USD have."""
+    times = attribute.GetTimeSamples()
+    if times or not hasattr(attribute, "HasSpline") or not attribute.HasSpline():
+        return list(times)
+    return list(attribute.GetSpline().GetKnots().keys())
 
 
 def _is_typed(attribute: Any, value: Any) -> bool:

@@ -61,6 +61,7 @@ class Values:
     _fallbacks: dict[tuple[Any, ...], dict[str, Any]] = field(
         default_factory=dict[tuple[Any, ...], dict[str, Any]]
     )
+    _sampled: set[str] = field(default_factory=set[str])
 
     def traits(self, prim: Any) -> Traits:
         found = self._of_prim.get(prim)
@@ -91,9 +92,14 @@ class Values:
         """The raw value at the exported time, None where the attribute is missing, blocked or empty."""
         traits = self._of_prim.get(prim) or self.traits(prim)
         if name in traits.names:
-            return _value(prim, name)
+            attribute = prim.GetAttribute(name)
+            value, moves = value_of(attribute) if attribute else (None, False)
+            if moves:
+                self.tell_samples(prim, name)
+            return value
         if name not in traits.fallbacks:
-            traits.fallbacks[name] = _value(prim, name)
+            attribute = prim.GetAttribute(name)
+            traits.fallbacks[name] = attribute.Get() if attribute else None
         return traits.fallbacks[name]
 
     def authored(self, prim: Any, name: str) -> bool:
@@ -177,6 +183,17 @@ class Values:
         relationship = prim.GetRelationship(name)
         return list(relationship.GetForwardedTargets()) if relationship else []
 
+    def tell_samples(self, prim: Any, name: str) -> None:
+        """Once, that a value changes over time, which only places may."""
+        place = self.opened.place(prim, name)
+        if place not in self._sampled:
+            self._sampled.add(place)
+            path = prim if isinstance(prim, str) else str(prim.GetPath())
+            self.report.dropped(
+                f"animation of {path[1:]}.{name}", "USD_FEATURE_DROPPED", place,
+                detail="it stays as at the exported time",
+            )  # fmt: skip
+
     def wrong(self, prim: Any, name: str, value: object) -> None:
         self.report.add(
             "USD_VALUE_IMPOSSIBLE",
@@ -208,14 +225,13 @@ def _numbers(value: Any) -> Array:
     return found.astype(np.float64) if found.dtype.kind in "fiu" else np.zeros(0)
 
 
-def _value(prim: Any, name: str) -> Any:
-    attribute = prim.GetAttribute(name)
-    if not attribute:
-        return None
+def value_of(attribute: Any) -> tuple[Any, bool]:
+    """At the exported time, the default or else the first sample, and whether it changes over time."""
     value = attribute.Get()  # at the default time
-    if value is None or (attribute.GetNumTimeSamples() and _is_fallback(attribute)):
-        return attribute.Get(Usd.TimeCode.EarliestTime())
-    return value
+    moves = attribute.ValueMightBeTimeVarying()
+    if value is None or ((moves or attribute.GetNumTimeSamples()) and _is_fallback(attribute)):
+        value = attribute.Get(Usd.TimeCode.EarliestTime())
+    return value, moves
 
 
 def _is_fallback(attribute: Any) -> bool:

@@ -84,6 +84,15 @@ class Copy:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class CopyAt:
+    """Where such an instance stands.  instancer: path.  prototype: prim.  placing: between the two, shape (4, 4)."""
+
+    instancer: str
+    prototype: Any
+    placing: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class JointPrim:
     """A joint as often as it is there: once for each instance of the prototype that it lies in.
 
@@ -107,7 +116,7 @@ class Found:
     """Everything of interest, in the order of the stage.
 
     animated: prims whose transform has several time samples, by path.  worlds: matrix of each prim by its path, that of
-    each instance by ``Copy.path``.  body_of: for each path below or at a body the part's number.  Of a prototype itself
+    each instance by ``Copy.path``, which ``copies`` has too.  body_of: for each path below or at a body the part's number.  Of a prototype itself
     both have its first instance.
     """
 
@@ -122,6 +131,7 @@ class Found:
     worlds: dict[str, Array] = field(default_factory=dict[str, Array])
     body_of: dict[str, int] = field(default_factory=dict[str, int])
     animated: dict[str, Any] = field(default_factory=dict[str, Any])
+    copies: dict[str, CopyAt] = field(default_factory=dict[str, CopyAt])
 
 
 @dataclass(slots=True, eq=False)
@@ -168,7 +178,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
         if below is None:
             continue
         if seen.traits.kind == "PointInstancer":  # what lies below it is prototypes
-            pending += _instanced(seen, below, prims, opened, report)
+            pending += _instanced(seen, below, found, prims, opened, report)
         else:
             pending += [(child, below) for child in reversed(prims.below(seen))]
     return found
@@ -216,6 +226,10 @@ def _look(
     if "Joint" in ranks or kind.endswith("Joint") or "PhysicsJoint" in kind:
         found.joints.append(JointPrim(seen.at(path), own, context.copies))
         return replace(context, path=path)
+    if kind == "Camera" and context.part < 0:  # of a body it is a site
+        report.dropped(
+            f"camera {path}", "USD_FEATURE_DROPPED", opened.place(path), detail="cameras are not carried over"
+        )
     if kind in LIGHTS:
         report.dropped(
             f"light {path}", "USD_FEATURE_DROPPED", opened.place(path), detail="lights are not carried over"
@@ -242,6 +256,9 @@ def _look(
         group, pending = _outer_group(context, found, groups_of), ()
         found.parts.append(Part(prim, path, own, world, group, True, enabled, visible))
         part = len(found.parts) - 1
+    elif "PhysicsRigidBodyAPI" in applied:
+        detail = f"a RigidBodyAPI stands on a {kind or 'prim without type'}, which has no place to move"
+        report.dropped(f"body {path}", "USD_FEATURE_DROPPED", opened.place(path), detail=detail)
     if part >= 0:
         found.body_of.setdefault(path, part)
         if context.id:
@@ -279,7 +296,7 @@ def _outer_group(context: _Context, found: Found, groups_of: dict[str, int]) -> 
 
 
 def _instanced(
-    seen: Seen, context: _Context, prims: Prims, opened: OpenStage, report: Report
+    seen: Seen, context: _Context, found: Found, prims: Prims, opened: OpenStage, report: Report
 ) -> list[tuple[Seen, _Context]]:
     """The prototypes of a PointInstancer, once for each of its instances, last first."""
     copies: list[tuple[Seen, _Context]] = []
@@ -289,6 +306,7 @@ def _instanced(
         own = f"{context.id or context.path[1:]}[{number}]"
         copied = prims.shared(prototype)
         copy = Copy(str(prototype.GetPath()), f"/{own}/{copied.name}")
+        found.copies[copy.path] = CopyAt(f"/{context.id}" if context.id else context.path, prototype, placing)
         above = _path(prototype.GetParent())
         below = replace(
             context, path=above, world=world, dressed=True, id=own, copies=(*context.copies, copy)

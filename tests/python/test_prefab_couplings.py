@@ -132,7 +132,7 @@ def program(request, tmp_path_factory) -> Path:
     ]
     command += [
         str(FOLDER / SCRIPT),
-        *(str(OWN / f"{name}.cs") for name in ("MotionStandIns", "GearPair", "Slide")),
+        *(str(OWN / f"{name}.cs") for name in ("MotionStandIns", "GearPair", "Slide", "Release")),
     ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -141,7 +141,16 @@ def program(request, tmp_path_factory) -> Path:
 
 @pytest.mark.parametrize(
     "how",
-    ["moved", "hinge", "configurable", "driven slide", "swapped slide", "moved slide", "from slide"],
+    [
+        "moved",
+        "hinge",
+        "configurable",
+        "driven slide",
+        "swapped slide",
+        "moved slide",
+        "from slide",
+        "moved screw",
+    ],
 )
 def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
@@ -149,6 +158,16 @@ def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3
+
+
+@pytest.mark.parametrize(
+    "how", ["free hinge", "free configurable", "free broken hinge", "free broken configurable"]
+)
+def test_a_joint_that_is_driven_no_longer_has_its_own_drives_again(program, how):
+    """The component is disabled, as a clutch opens, or the joint that leads has broken."""
+    done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) == 0
 
 
 def test_a_mimic_that_holds_at_the_pose_has_no_offset(tmp_path):

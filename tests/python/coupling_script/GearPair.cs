@@ -14,7 +14,8 @@ public static partial class GearPair
     {
         CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
         string how = arguments[0];
-        double worst = how.EndsWith("slide", StringComparison.Ordinal) ? Slide.Run(how) : Run(how);
+        Predicate<string> ends = word => how.EndsWith(word, StringComparison.Ordinal);
+        double worst = ends("slide") ? Slide.Run(how) : ends("screw") ? Slide.Screw() : how.StartsWith("free") ? Release.Run(how) : Run(how);
         Console.WriteLine(worst.ToString("R"));
         return 0;
     }

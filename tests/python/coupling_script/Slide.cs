@@ -61,6 +61,38 @@ public static partial class GearPair
             return worst;
         }
 
+        // A nut that somebody turns and nobody pushes, whose axis passes its origin by: millimetres and degrees that it is off.
+        public static double Screw()
+        {
+            const double Pitch = 0.002 / 360;
+            var frame = Body("Frame", true);
+            var nut = Body("Nut", true);
+            var joint = Sliding(nut, frame, false);
+            var coupling = nut.AddComponent<KinefabCoupling>();
+            coupling.driven = joint;
+            coupling.drivenCoordinate = KinefabCoupling.Coordinate.Y;
+            coupling.terms = new[] { new KinefabCoupling.Term { joint = joint, coordinate = KinefabCoupling.Coordinate.AngularY, ratio = (float)Pitch } };
+            Call(coupling, "Start");
+            double worst = 0;
+            for (int i = 1; i <= 1000; i++)
+            {
+                double q = 1.1 * i;
+                frame.transform.rotation = Turn(new double[] { 0, 0.6, 0.8 }, 0.3 * i);
+                frame.transform.position = new Vector3(0.001f * i, 0, -0.002f * i);
+                nut.transform.rotation = Times(frame.transform.rotation, Turn(new double[] { 0, 0, 1 }, q));
+                Call(coupling, "FixedUpdate");
+                double[] there = Point(frame.transform.rotation, new Vector3(-0.09f, 0.22f, (float)(0.33 + Pitch * q)));
+                double[] here = Point(nut.transform.rotation, joint.anchor);
+                Vector3 p = nut.transform.position, o = frame.transform.position;
+                double apart = Math.Abs(p.x + here[0] - o.x - there[0]) + Math.Abs(p.y + here[1] - o.y - there[1]) + Math.Abs(p.z + here[2] - o.z - there[2]);
+                double[] turned = Point(nut.transform.rotation, new Vector3(1, 0, 0)), wanted = Point(Times(frame.transform.rotation, Turn(new double[] { 0, 0, 1 }, q)), new Vector3(1, 0, 0));
+                worst = Math.Max(worst, 1000 * apart);
+                worst = Math.Max(worst, 50 * (Math.Abs(turned[0] - wanted[0]) + Math.Abs(turned[1] - wanted[1]) + Math.Abs(turned[2] - wanted[2])));
+            }
+
+            return worst;
+        }
+
         // Along +Z of both: y of a joint whose x is +Y.
         private static ConfigurableJoint Sliding(GameObject own, GameObject frame, bool swapped)
         {

@@ -7,7 +7,8 @@ namespace Kinefab
     /// Keeps a joint coordinate at a linear function of others: gears, belts, racks, screws, mimics.
     /// q = sum of ratio * q_term + offset, in degrees and metres, each q the motion of the joint's own body against its
     /// connected one, zero at the pose of the prefab. Works one way: the driven joint follows, its load is not passed on.
-    /// A kinematic body is moved to its place; any other is driven there by its joint's spring.
+    /// A kinematic body is moved to its place; any other is driven there by its joint's spring, which is the joint's own again
+    /// while the component is disabled.
     /// </summary>
     public sealed class KinefabCoupling : MonoBehaviour
     {
@@ -43,6 +44,7 @@ namespace Kinefab
 
         private Reading _driven;
         private Reading[] _terms;
+        private Action _release;
         private bool _isReady;
 
         private void Start()
@@ -54,26 +56,47 @@ namespace Kinefab
 
             _driven = new Reading(driven, drivenCoordinate);
             _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.coordinate));
+            _release = Release(driven);
             _isReady = true;
+        }
+
+        private void OnDisable()
+        {
+            if (_isReady && driven != null)
+            {
+                _release();
+            }
         }
 
         private void FixedUpdate()
         {
-            if (!_isReady || driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            if (!_isReady)
             {
-                return; // a joint may have broken
+                return;
             }
 
-            double target = offset;
+            if (driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            {
+                OnDisable(); // a joint has broken: what follows it is free
+                _isReady = false;
+                return;
+            }
+
+            double target = offset, beside = 0;
             for (int i = 0; i < terms.Length; i++)
             {
-                target += terms[i].ratio * _terms[i].Value();
+                double value = _terms[i].Value();
+                target += terms[i].ratio * value;
+                if (terms[i].joint == driven && Math.Abs(terms[i].coordinate - drivenCoordinate) == Coordinate.AngularX - Coordinate.X)
+                {
+                    beside = value; // a screw, whose turn its slide follows
+                }
             }
 
             var body = driven.gameObject.GetComponent<Rigidbody>();
             if (body.isKinematic)
             {
-                _driven.Place(target, out Vector3 position, out Quaternion rotation);
+                _driven.Place(target, beside, out Vector3 position, out Quaternion rotation);
                 body.MovePosition(position);
                 body.MoveRotation(rotation);
             }
@@ -85,6 +108,49 @@ namespace Kinefab
             {
                 Drive(configurable, target);
             }
+        }
+
+        /// <summary>Gives a joint back the drives that it has now.</summary>
+        private static Action Release(Joint joint)
+        {
+            if (joint is HingeJoint hinge)
+            {
+                JointSpring spring = hinge.spring;
+                bool isSprung = hinge.useSpring, isMotor = hinge.useMotor;
+#if UNITY_2022_2_OR_NEWER
+                bool accelerates = hinge.useAcceleration;
+#endif
+                return () =>
+                {
+                    hinge.spring = spring;
+                    hinge.useSpring = isSprung;
+                    hinge.useMotor = isMotor;
+#if UNITY_2022_2_OR_NEWER
+                    hinge.useAcceleration = accelerates;
+#endif
+                };
+            }
+
+            if (!(joint is ConfigurableJoint own))
+            {
+                return () => { };
+            }
+
+            Vector3 position = own.targetPosition;
+            Quaternion rotation = own.targetRotation;
+            RotationDriveMode mode = own.rotationDriveMode;
+            JointDrive x = own.xDrive, y = own.yDrive, z = own.zDrive, twist = own.angularXDrive, swing = own.angularYZDrive;
+            return () =>
+            {
+                own.targetPosition = position;
+                own.targetRotation = rotation;
+                own.rotationDriveMode = mode;
+                own.xDrive = x;
+                own.yDrive = y;
+                own.zDrive = z;
+                own.angularXDrive = twist;
+                own.angularYZDrive = swing;
+            };
         }
 
         private void Drive(HingeJoint hinge, double target)
@@ -184,24 +250,16 @@ namespace Kinefab
                 return _last;
             }
 
-            /// <summary>The own body's pose at a value, all other coordinates as they were at the start.</summary>
-            public void Place(double value, out Vector3 position, out Quaternion rotation)
+            /// <summary>The own body's pose at a value, and at one of the motion along a turn's axis or about a slide's; all other
+            /// coordinates as they were at the start.</summary>
+            public void Place(double value, double beside, out Vector3 position, out Quaternion rotation)
             {
                 Pose(out Quat connected, out Vec connectedAt, out _, out _);
+                double half = (_isAngle ? value : beside) * Math.PI / 360;
                 Quat own = connected * _start;
-                Vec at = connectedAt + connected * _startAt;
-                if (_isAngle)
-                {
-                    double half = value * Math.PI / 360;
-                    Vec anchor = at + own * _anchor;
-                    own = own * new Quat(Math.Sin(half) * _axis, Math.Cos(half));
-                    at = anchor - own * _anchor;
-                }
-                else
-                {
-                    at = at + value * (own * _axis);
-                }
-
+                Vec anchor = connectedAt + connected * _startAt + own * _anchor + (_isAngle ? beside : value) * (own * _axis);
+                own = own * new Quat(Math.Sin(half) * _axis, Math.Cos(half));
+                Vec at = anchor - own * _anchor;
                 position = new Vector3((float)at.X, (float)at.Y, (float)at.Z);
                 rotation = new Quaternion((float)own.V.X, (float)own.V.Y, (float)own.V.Z, (float)own.W);
             }

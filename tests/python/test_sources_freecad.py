@@ -427,3 +427,24 @@ def test_a_link_to_an_array_shows_all_of_its_elements(tmp_path):
     assert ids == [f"Assembly/{name}/E{n}" for name in ("Row", "Again") for n in range(2)]
     ends = [node.pose.translation for node in scene.nodes if node.id.startswith("Assembly/Again/")]
     np.testing.assert_allclose(ends, [[0.0, 0.0, -0.3], [0.05, 0.0, -0.3]], atol=1e-12)
+
+
+@pytest.mark.parametrize("folder", [False, True])
+def test_an_assembly_within_a_part_moves_and_what_stands_beside_it_does_not(tmp_path, folder):
+    """The part's place goes to all of them; a folder between them has none."""
+    held = {"Swing": joint("Revolute", "Base.", "Arm.", Placement1=placement(x=5.0, y=7.0))}
+    turned = placement(x=11.0, y=-3.0, q=(0.0, 0.0, 0.6, 0.8))
+    group = links("Folder", "Stand") if folder else links("Assembly", "Stand")
+    outside = {"Holder": ("App::Part", {"Placement": turned, "Group": group}), "Stand": part()}
+    if folder:
+        outside["Folder"] = ("App::DocumentObjectGroup", {"Group": links("Assembly")})
+    (tmp_path / "a.FCStd").write_bytes(document(assembly({"Base": part(), "Arm": part()}, held, **outside)))
+    scene, report = read(tmp_path / "a.FCStd")
+    (swing,) = scene.joints
+    assert (scene.name(swing.a), scene.name(swing.b)) == ("Holder/Assembly/Base", "Holder/Assembly/Arm")
+    frame = scene.pose(swing.a) @ swing.frame_a
+    x, y = 11.0 + 0.28 * 5.0 - 0.96 * 7.0, -3.0 + 0.96 * 5.0 + 0.28 * 7.0
+    np.testing.assert_allclose(frame.translation, [x * 1e-3, 0.0, -y * 1e-3], atol=1e-12)
+    grounded = {node.id for node in scene.nodes if node.grounded}
+    assert grounded == {"Holder/Assembly/Base", "Holder/Stand"}
+    assert analyse(scene).mobility == 1

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from kinefab import sources
 from kinefab.analysis import analyse
-from kinefab.diagnostics import Report
+from kinefab.diagnostics import Outcome, Report
 from kinefab.model import JointKind
 from kinefab.sources.freecad.document import UNIT
 from kinefab.sources.freecad.parts import TURN, scene_pose
@@ -130,7 +130,7 @@ MOBILITY = {
     "fixed": 0, "revolute": 1, "cylindrical": 2, "slider": 1, "ball": 3, "parallel": 4, "perpendicular": 5, "angle": 5,
     "distance_planes": 3, "distance_lines": 3, "distance_points": 5, "distance_plane_point": 5, "distance_point_line": 5,
     "distance_cylinders": 3, "distance_plane_cylinder": 4, "distance_plane_sphere": 5, "distance_cylinder_sphere": 5,
-    "couplings": 2, "four_bar": 0, "wheel_unit": 1, "linked": 7,
+    "couplings": 2, "four_bar": 0, "wheel_unit": 1, "linked": 7, "stretched": 2,
 }  # fmt: skip
 """6 less the rows of the solver's joint (``*Joint::initializeGlobally``); couplings: six joints, four couplings;
 linked: 1 + 0 + 1 + 3 + 1 + 0 + 0 + 1 of its joints; elements of arrays that no joint holds are no part of an island."""
@@ -278,3 +278,25 @@ def test_the_library_takes_the_scene_and_counts_the_same(tmp_path, name):
         counted is not None
         and [int(number) for number in counted.groups()] == [MOBILITY[name] + UNHELD.get(name, 0)] * 2
     )
+
+
+def test_shapes_lie_where_freecad_has_them_however_links_scale_them():
+    """Boxes in the world: of parts turned within uneven scales, of links to scaled links, of arrays and groups of links."""
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed")
+    report = Report()
+    scene = sources.read(FOLDER / "stretched.FCStd", report)
+    boxes, hidden = [], {node.name for node in scene.nodes if not node.visible}
+    for node in scene.nodes:
+        for body in node.bodies:
+            points = node.pose.point(np.asarray(scene.meshes[body.mesh].vertices)) @ TURN / UNIT
+            boxes.append(np.array([points.min(axis=0), points.max(axis=0)]))
+            hidden |= set() if body.visible else {f"{node.where.partition('#')[2]}.{body.name}"}
+    expected = said_of("stretched")["boxes"]
+    assert len(boxes) == len(expected) == 13
+    for path, box in expected.items():
+        nearest = min(range(len(boxes)), key=lambda index: np.abs(boxes[index] - box).max())
+        assert np.abs(boxes.pop(nearest) - box).max() < 1e-5, (
+            path
+        )  # millimetres; meshes keep single precision
+    assert hidden == {"Folded:1", "Bundle.Cube", "BundleAgain.Cube"}
+    assert not [found for found in report.outcomes if found.outcome is Outcome.DROPPED]

@@ -71,6 +71,10 @@ class Thing:
         value = self.values.get(name)
         return default if value is None else value.get("value", "").lower() == "true"
 
+    def flags(self, name: str) -> str:
+        """A list of flags as "0" and "1", the first one first: FreeCAD saves the last one first."""
+        return self.text(name)[::-1]
+
     def count(self, name: str) -> int:
         return int(max(0.0, min(self.number(name), 1e9)))
 

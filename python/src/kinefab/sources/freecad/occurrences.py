@@ -8,19 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...spatial import Array, Pose, matrix_from_quaternion
+from ...spatial import Pose, matrix_from_quaternion
 from ..reading.record import MAX_NUMBER
 from .archive import ArchiveError
 from .document import Target, Thing
+from .frames import Frame
 from .links import Documents
 
-ASSEMBLY, SUB_ASSEMBLY, LINK, ELEMENT = (
-    "Assembly::AssemblyObject", "Assembly::AssemblyLink", "App::Link", "App::LinkElement",
+ASSEMBLY, SUB_ASSEMBLY, LINK, ELEMENT, LINK_GROUP = (
+    "Assembly::AssemblyObject", "Assembly::AssemblyLink", "App::Link", "App::LinkElement", "App::LinkGroup",
 )  # fmt: skip
-LINKS = frozenset({LINK, ELEMENT, "App::LinkGroup"})
+LINKS = frozenset({LINK, ELEMENT})
 GROUPS = frozenset({"App::DocumentObjectGroup", "App::DocumentObjectGroupPython"})
 """Folders in the tree: they have no place of their own."""
-PARTS = frozenset({"App::Part", ASSEMBLY, SUB_ASSEMBLY})
+PARTS = frozenset({"App::Part", ASSEMBLY, SUB_ASSEMBLY, LINK_GROUP})
 """Containers with a place of their own."""
 NO_PART = (
     "App::Origin", "App::Line", "App::Plane", "App::Point", "App::LocalCoordinateSystem", "App::Datum",
@@ -46,9 +47,10 @@ class Occurrence:
 
     thing: what stands in the tree.  target: what it shows, its links followed; None where they lead nowhere.
     name: by which a path in the document goes through it.  pose: its frame in the world.
-    inner: the frame that its target's insides stand in; another one only through a link that keeps its target's place.
-    jcs: its frame as joints have it: FreeCAD multiplies the placements of a path, and no link's target's.
-    scale: of its link, along its own axes.  shown: whether it and everything above it is visible.
+    inner: the frame that its target's insides stand in, scaled as its links say; at another place than ``pose`` only
+    through a link that keeps its target's place.
+    jcs: its frame as joints have it: FreeCAD multiplies the placements of a path, no link's target's and no scale.
+    visible: by itself.  shown: whether it and everything above it is.
     array: an array of links, its elements below it.  movable: whether its elements can move apart.
     """
 
@@ -56,11 +58,11 @@ class Occurrence:
     target: Thing | None
     name: str
     pose: Pose
-    inner: Pose
+    inner: Frame
     jcs: Pose
     parent: Occurrence | None = None
     children: list[Occurrence] = field(default_factory=list["Occurrence"])
-    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    visible: bool = True
     shown: bool = True
     array: bool = False
     movable: bool = True
@@ -113,20 +115,14 @@ class Tree:
         self._count += 1
         if self._count > MAX_OCCURRENCES or len(above) > MAX_LEVELS:
             raise TooManyError
-        outer = Pose() if parent is None else parent.inner
-        pose = (
-            outer
-            if thing.type in GROUPS
-            else Pose(outer.rotation @ placed.rotation, outer.point(placed.translation * _scale(parent)))
-        )
-        target, inner = self._resolved(thing, pose)
+        frame = Frame() if parent is None else parent.inner
         jcs = Pose() if parent is None else parent.jcs
         if thing.type not in GROUPS:
-            jcs = Pose(jcs.rotation @ placed.rotation, jcs.point(placed.translation * _scale(parent)))
+            frame, jcs = _scaled(frame.at(placed), thing), jcs @ placed
+        target, inner = self._resolved(thing, frame)
         here = Occurrence(
-            thing, target, name, pose, inner, jcs, parent,
-            scale=self._scaled(thing, parent), label=label,
-            shown=visible and (parent is None or parent.shown),
+            thing, target, name, frame.pose, inner, jcs, parent,
+            label=label, visible=visible, shown=visible and (parent is None or parent.shown),
         )  # fmt: skip
         if target is None:
             return here
@@ -135,7 +131,7 @@ class Tree:
             here.target = None
             return here
         path = (*above, target.key)
-        array, base = self._array(thing, pose)
+        array, base = self._array(thing, frame)
         if array is not None and array.key not in above:
             here.movable = array is thing  # a link to an array shows its elements as they stand there
             self._elements(here, array, base, (*above, array.key, target.key))
@@ -143,15 +139,15 @@ class Tree:
             self._children(here, target, path)
         return here
 
-    def _resolved(self, thing: Thing, pose: Pose) -> tuple[Thing | None, Pose]:
-        """What an object shows, and the frame of its insides."""
-        inner, seen = pose, {thing.key}
+    def _resolved(self, thing: Thing, frame: Frame) -> tuple[Thing | None, Frame]:
+        """What an object that stands in a frame shows, and the frame of its insides."""
+        inner, seen = frame, {thing.key}
         shown: Thing | None = thing
         while shown is not None and shown.type in LINKS:
             target = shown.target("LinkedObject")
             below = None if target is None else self._documents.follow(shown, target)
-            if below is not None and shown.flag("LinkTransform"):
-                inner = inner @ below.placement()
+            if below is not None:
+                inner = _through(shown, below, inner)
             if below is not None and below.key in seen:
                 assert target is not None
                 self._documents.broken(thing, target, "which leads back to it")
@@ -162,25 +158,20 @@ class Tree:
         return shown, inner
 
     def _children(self, here: Occurrence, target: Thing, path: tuple[tuple[object, str], ...]) -> None:
-        for entry in target.targets("Group"):
+        grouped = target.type == LINK_GROUP  # which says itself what it shows
+        seen = target.flags("VisibilityList")
+        for number, entry in enumerate(target.targets("ElementList" if grouped else "Group")):
             child = self._documents.follow(target, entry)
             if child is None or child.type.startswith(NO_PART):
                 continue
+            visible = seen[number : number + 1] != "0" if grouped else child.flag("Visibility", True)
             here.children.append(
-                self._build(
-                    child,
-                    here,
-                    child.placement(),
-                    child.name,
-                    child.label,
-                    child.flag("Visibility", True),
-                    path,
-                )
+                self._build(child, here, child.placement(), child.name, child.label, visible, path)
             )
 
-    def _array(self, thing: Thing, pose: Pose) -> tuple[Thing | None, Pose]:
+    def _array(self, thing: Thing, frame: Frame) -> tuple[Thing | None, Frame]:
         """The array that an object is or shows through links, and the frame of its elements; None where it is none."""
-        inner, seen = pose, set[tuple[object, str]]()
+        inner, seen = frame, set[tuple[object, str]]()
         shown: Thing | None = thing
         while shown is not None and shown.type in LINKS and shown.key not in seen:
             if shown.type == LINK and shown.count("ElementCount") > 0:
@@ -188,17 +179,17 @@ class Tree:
             seen.add(shown.key)
             target = shown.target("LinkedObject")
             below = None if target is None else self._documents.follow(shown, target)
-            if below is not None and shown.flag("LinkTransform"):
-                inner = inner @ below.placement()
+            if below is not None:
+                inner = _through(shown, below, inner)
             shown = below
-        return None, pose
+        return None, frame
 
     def _elements(
-        self, here: Occurrence, thing: Thing, base: Pose, path: tuple[tuple[object, str], ...]
+        self, here: Occurrence, thing: Thing, base: Frame, path: tuple[tuple[object, str], ...]
     ) -> None:
         """The elements of an array: objects of their own, or a list of places.  base: the frame that they stand in."""
         here.array = True
-        seen = thing.text("VisibilityList")
+        seen = thing.flags("VisibilityList")
         elements = [self._documents.follow(thing, entry) for entry in thing.targets("ElementList")]
         here.inner = base
         for number, element in enumerate(elements):
@@ -219,30 +210,28 @@ class Tree:
             self._count += 1
             if self._count > MAX_OCCURRENCES:
                 raise TooManyError
-            pose = base @ places[number]
-            target, inner = self._resolved(thing, pose)
-            s = here.scale
+            frame = base.at(places[number]).scaled(*scales[number])
+            target, inner = self._resolved(thing, frame)
+            visible = seen[number : number + 1] != "0"
             child = Occurrence(
-                thing, target, str(number), pose, inner, here.jcs @ places[number], here,
-                scale=(s[0] * scales[number][0], s[1] * scales[number][1], s[2] * scales[number][2]),
-                shown=here.shown and seen[number : number + 1] != "0",
-                label=f"{thing.label}:{number}",
+                thing, target, str(number), frame.pose, inner, here.jcs @ places[number], here,
+                label=f"{thing.label}:{number}", visible=visible, shown=here.shown and visible,
             )  # fmt: skip
             here.children.append(child)
             if target is not None and target.type in PARTS:
                 self._children(child, target, path)
 
-    def _scaled(self, thing: Thing, parent: Occurrence | None) -> tuple[float, float, float]:
-        x, y, z = (1.0, 1.0, 1.0) if parent is None else parent.scale
-        if thing.type not in LINKS or not thing.has("ScaleVector"):
-            return x, y, z
-        value = thing.values["ScaleVector"]
-        own = [_positive(value.get(f"value{axis}", "1")) for axis in "XYZ"]
-        return x * own[0], y * own[1], z * own[2]
+
+def _through(link: Thing, below: Thing, frame: Frame) -> Frame:
+    """The frame of what a link shows: it keeps the scale of a link that it shows, and the place only where it says so."""
+    return _scaled(frame.at(below.placement()) if link.flag("LinkTransform") else frame, below)
 
 
-def _scale(parent: Occurrence | None) -> Array:
-    return np.ones(3) if parent is None else np.array(parent.scale)
+def _scaled(frame: Frame, thing: Thing) -> Frame:
+    if thing.type not in LINKS or not thing.has("ScaleVector"):
+        return frame
+    value = thing.values["ScaleVector"]
+    return frame.scaled(*(_positive(value.get(f"value{axis}", "1")) for axis in "XYZ"))
 
 
 def _positive(text: str) -> float:

@@ -11,7 +11,8 @@ from ...model import Node, NodeKind
 from ...spatial import Array, Pose
 from ..reading.source_frame import DIRECTIONS, FORWARD, turn_to_scene
 from .document import UNIT, Document, Thing
-from .occurrences import ASSEMBLY, LINKS, NO_PART, SUB_ASSEMBLY, Occurrence
+from .frames import Frame
+from .occurrences import ASSEMBLY, LINK_GROUP, LINKS, NO_PART, SUB_ASSEMBLY, Occurrence
 
 TURN: Array = turn_to_scene(DIRECTIONS["Z"], DIRECTIONS[FORWARD["Z"]])
 """FreeCAD's axes to the scene's."""
@@ -24,15 +25,13 @@ SHAPE_KIND = "Part::PropertyPartShape"
 class ShownShape:
     """A shape that a node shows.
 
-    owner: the object whose shape it is.  at: the shape's own frame in the node's, millimetres, FreeCAD's axes.
-    by: the occurrence, for its colours.  scale: along the shape's axes.
+    owner: the object whose shape it is.  at: the shape's own frame in the node's.  by: the occurrence, for its colours.
     """
 
     node: int
     name: str
     owner: Thing
-    at: Pose
-    scale: tuple[float, float, float]
+    at: Frame
     by: Occurrence
     visible: bool
 
@@ -76,7 +75,8 @@ class Parts:
             self._node(here, parent, NodeKind.PART, grounded=ground)
 
     def _container(self, here: Occurrence, parent: int | None, moves: bool, ground: bool) -> None:
-        inside = [child for child in flat(here) if not self.is_source_only(child)]
+        grouped = here.type == LINK_GROUP
+        inside = [child for child in flat(here) if grouped or not self.is_source_only(child)]
         assembly = here.type == ASSEMBLY and here.thing.type not in LINKS
         loose = assembly and (parent is None or ground)
         if here.type == SUB_ASSEMBLY and here.thing.type == SUB_ASSEMBLY:
@@ -89,7 +89,11 @@ class Parts:
             and (parent is None or ground)
         ):
             loose, assembly = True, True
-        plain = not assembly and here.type == "App::Part" and not any(child.is_container for child in inside)
+        plain = (
+            not assembly
+            and here.type in ("App::Part", LINK_GROUP)
+            and not any(child.is_container for child in inside)
+        )
         if plain and not here.array:
             node = self._node(here, parent, NodeKind.PART, grounded=ground)
             for child in inside:
@@ -100,7 +104,7 @@ class Parts:
         node = self._node(here, parent, NodeKind.ASSEMBLY, flexible=loose, grounded=ground and not assembly)
         outside = loose and here.type == "App::Part" and not here.array
         for child in inside:
-            self.add(child, node, loose and not outside, ground=outside and child.type != ASSEMBLY)
+            self.add(child, node, loose and not outside, ground=outside)
 
     def is_source_only(self, here: Occurrence) -> bool:
         """Whether an object is no part itself: hidden, and a shape of its document was made of it, or, where no Assembly
@@ -158,13 +162,11 @@ class Parts:
     def _show(self, here: Occurrence, within: Occurrence, node: int) -> None:
         if here.target is None or not has_shape(here.target):
             return
-        at = within.pose.inverse() @ here.inner
-        visible = here is within or here.thing.flag("Visibility", True)
+        at = Frame(within.pose.inverse() @ here.inner.pose, here.inner.stretch)
+        visible = here is within or here.visible
         own = self.nodes[node].id
         self.identities[f"{own}/body:{here.label or here.name}"] = f"{self.identities[own]}/body:{here.name}"
-        self.shapes.append(
-            ShownShape(node, here.label or here.name, here.target, at, here.scale, here, visible)
-        )
+        self.shapes.append(ShownShape(node, here.label or here.name, here.target, at, here, visible))
 
 
 def flat(here: Occurrence) -> Iterator[Occurrence]:
@@ -212,9 +214,9 @@ def scene_pose(pose: Pose) -> Pose:
     return Pose(TURN @ pose.rotation @ TURN.T, TURN @ pose.translation * UNIT)
 
 
-def scene_matrix(pose: Pose, scale: tuple[float, float, float]) -> Array:
+def scene_matrix(frame: Frame) -> Array:
     """What takes a point of a shape, millimetres, to the node's frame in metres, shape (4, 4)."""
     matrix = np.eye(4)
-    matrix[:3, :3] = TURN @ pose.rotation @ np.diag(scale) * UNIT
-    matrix[:3, 3] = TURN @ pose.translation * UNIT
+    matrix[:3, :3] = TURN @ frame.pose.rotation @ frame.stretch * UNIT
+    matrix[:3, 3] = TURN @ frame.pose.translation * UNIT
     return matrix

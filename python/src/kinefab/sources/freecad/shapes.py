@@ -116,7 +116,7 @@ class Shapes:
                     scene.nodes[one.node] = replace(node, bodies=(*node.bodies, body))
                 continue
             colours = looks.of(one, len(cut.counts))
-            to_node = scene_matrix(one.at, one.scale)
+            to_node = scene_matrix(one.at)
             mesh, order = mesh_of(one.name, cut, to_node, colours)
             key = (
                 one.owner.key,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -11,9 +10,8 @@ import numpy as np
 from ..collector import collector_paused
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import Coupling, Freedom, Joint, Motion, Scene
+from ..model import Coupling, Joint, Scene
 from ..options import Closures
-from ..partition import Partition
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
 from .couplings.rehanging import rehung
@@ -22,13 +20,14 @@ from .couplings.stated import couplings_of
 from .couplings.symmetry import symmetric_couplings
 from .findings.freedoms import check_records, singular_joints
 from .findings.idle import IdleFreedom, idle_freedoms
-from .findings.result import Analysis, Island
+from .findings.islands import islands_of
+from .findings.result import Analysis
 from .findings.still import report_still
 from .joints.jointing import links_of
 from .joints.links import Link, Links
 from .joints.welding import welded
 from .loops.minimal import minimal_closures
-from .loops.spanning import Tree, spanning_tree
+from .loops.spanning import spanning_tree
 from .ranges.limits import found_ranges, with_found_ranges
 from .ranges.stated import with_ranges
 
@@ -104,7 +103,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         rank=_rank(assembly),
         groups=groups,
         fixed=fixed,
-        islands=_islands(assembly, tree, links, found.aside, couplings),
+        islands=islands_of(assembly, tree, links, found.aside, couplings),
         idle=sorted(_idle(assembly, links, couplings, closed), key=lambda idle: idle.nodes),
         joints=[*joints, *found.aside],
         findings={
@@ -174,73 +173,6 @@ def _idle(
     return idle_freedoms(assemble(welded(scene, _fixed(assembly), joints, couplings), Report()))
 
 
-def _islands(
-    assembly: Assembly, tree: Tree, links: list[Link], aside: list[Joint], couplings: list[Coupling]
-) -> list[Island]:
-    """Connected by joints without ground: on ground, every branch from it is an island of its own.
-
-    links: the joints as they are exported; one that removes nothing closes no loop, unless a coupling counts from it.
-    aside: those that remove nothing in the source; one with an end or a drive closes a loop where others join its sides.
-    """
-    branch = np.full(len(tree.parent), -1)
-    for body in tree.order:
-        link = None if tree.parent[body] < 0 else tree.links[int(tree.parent[body])]
-        if link is None:
-            branch[body] = body if body > 0 else -1
-            continue
-        other = link.a if link.b == body else link.b
-        branch[body] = body if other == 0 else branch[other]
-    together = Partition(len(branch))
-    ties = [(tree.links[i].a, tree.links[i].b) for i in tree.closures]
-    ties += [(int(f.bodies[0]), int(b)) for f in assembly.freedoms for b in f.bodies[1:]]
-    for a, b in ties:
-        if a and b and branch[a] >= 0 and branch[b] >= 0:
-            together.join(int(branch[a]), int(branch[b]))
-    island = np.array([together.find(int(b)) if b >= 0 else -1 for b in branch])
-    floating = {int(r) for r in assembly.blocks.island_root[1:]}
-    nodes_of: dict[int, list[int]] = {}
-    for node in range(len(assembly.scene.nodes)):
-        body = int(assembly.body[node + 1])
-        if body and island[body] >= 0:
-            nodes_of.setdefault(int(island[body]), []).append(node)
-    loops = dict.fromkeys(nodes_of, 0)
-    counted = {id for c in couplings for id in c.joints}
-    for link in links:
-        # where the loop holds all of it, Unity has a joint only between two bodies, which must not collide
-        written = link.joint.locked or link.joint.id in counted or (link.finding.freed and link.a and link.b)
-        if link.finding.closure and written:
-            ends = [int(island[b]) for b in (link.a, link.b) if island[b] >= 0]
-            if ends and ends[0] in loops:
-                loops[ends[0]] += 1
-    for joint in aside:
-        if any(_acts(freedom) for freedom in joint.freedoms):
-            bodies = [0 if node is None else int(assembly.body[node + 1]) for node in (joint.a, joint.b)]
-            low, high = sorted(int(island[body]) for body in bodies)
-            joined = low == high or (0 in bodies and high not in floating)
-            if bodies[0] != bodies[1] and high in loops and joined:
-                loops[high] += 1
-    counts = {key: [0, 0, 0, 0] for key in nodes_of}
-    for first, finite in zip(assembly.freedoms, assembly.finite):
-        key = int(island[first.bodies[0]])
-        if key in counts:
-            for k, value in enumerate(
-                (finite.mobility, first.mobility, len(first.rows), len(first.rows) - first.rank)
-            ):
-                counts[key][k] += value
-    return [
-        Island(
-            tuple(nodes),
-            counts[key][0] + (6 if key in floating else 0),
-            counts[key][1] + (6 if key in floating else 0),
-            counts[key][2],
-            counts[key][3],
-            loops[key],
-            key in floating,
-        )
-        for key, nodes in nodes_of.items()
-    ]
-
-
 def _report_whole(analysis: Analysis) -> None:
     scene, assembly, report = analysis.source, analysis.assembly, analysis.report
     _report_singular(assembly, report)
@@ -269,11 +201,3 @@ def _report_outcomes(assembly: Assembly, report: Report) -> None:
         feature = f"constraint {constraint.id}"
         if not constraint.suppressed and feature not in said:
             report.kept(feature, constraint.where)
-
-
-def _acts(freedom: Freedom) -> bool:
-    """Whether a freedom has an end, a drive or a spring, for which Unity needs a joint even where it locks nothing."""
-    ends, passive = (freedom.lower, freedom.upper), freedom.passive
-    limited = freedom.motion is Motion.LIMITED and any(map(math.isfinite, ends))
-    sprung = passive is not None and (passive.stiffness or passive.damping)
-    return bool(limited or freedom.drive is not None or sprung)

@@ -19,22 +19,7 @@ from ..ranges.limits import JointRange
 from .effective import Effective, effective
 from .freedoms import NodeFreedom, node_freedoms
 from .idle import IdleFreedom
-
-
-@dataclass(frozen=True, slots=True)
-class Island:
-    """Rigid groups that hang together by joints, ground left out.
-
-    nodes: in scene order.  floating: nothing joins it to ground, six of its freedoms are its own.
-    """
-
-    nodes: tuple[int, ...]
-    mobility: int
-    first_order: int
-    rows: int
-    redundant: int
-    loops: int
-    floating: bool
+from .islands import Island
 
 
 @dataclass(eq=False)

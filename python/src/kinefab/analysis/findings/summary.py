@@ -22,7 +22,8 @@ def scene_entry(analysis: Analysis) -> dict[str, Any]:
         "firstOrderMobility": analysis.first_order,
         # bodies that only a loop holds together are merged, and what joined them is then held more than once
         "redundant": max(analysis.redundant, sum(island.redundant for island in analysis.islands)),
-        "idle": sum(idle.count for idle in analysis.idle),
+        # what a slack rope leaves idle is a matter of taste: it holds nothing, and yet stands between two parts
+        "idle": None if any(i.slack for i in analysis.islands) else sum(idle.count for idle in analysis.idle),
         "closureGap": {"position": metres, "angle": degrees},
         "islands": [
             {"nodes": list(i.nodes), "mobility": i.mobility, "redundant": i.redundant, "loops": i.loops}

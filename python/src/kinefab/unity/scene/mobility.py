@@ -34,12 +34,15 @@ class ClosureGap:
 
 @dataclass(frozen=True, slots=True)
 class Mobility:
-    """What the analysis found; see ``analysis.findings.result.Analysis``."""
+    """What the analysis found; see ``analysis.findings.result.Analysis``.
+
+    idle: None where a rope closes a loop, see ``analysis.findings.summary.scene_entry``.
+    """
 
     mobility: int
     firstOrderMobility: int
     redundant: int
-    idle: int
+    idle: int | None
     closureGap: ClosureGap
     islands: tuple[Island, ...]
     bodies: tuple[BodyFreedom, ...]

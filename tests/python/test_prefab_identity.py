@@ -15,6 +15,7 @@ import trimesh
 from golden import FIXTURES
 from kinefab import model
 from kinefab.spatial import Pose
+from prefab_reader import Project
 from prefab_scenes import block, rich_scene
 from unity_yaml import documents, mapping
 
@@ -241,3 +242,43 @@ def test_a_freecad_document_whose_labels_change_keeps_its_numbers(tmp_path, sour
         found.append(({(d.kind, d.file_id) for d in documents(text)}, guids))
         assert ("Neu - " in text) == (folder == "new")
     assert len(found[0][0]) > 20 and found[0] == found[1]
+
+
+def test_two_prefabs_of_one_name_in_a_project_share_no_guid(tmp_path):
+    """Unity would give one of them new guids, and its prefab would show the other's meshes.  What each has it keeps, whoever goes."""
+    assets = tmp_path / "Assets"
+    one, two = assets / "One" / "Robot.prefab", assets / "Two" / "Robot.prefab"
+    for target in (one, two):
+        target.parent.mkdir(parents=True)
+        kinefab.export(rich_scene(tmp_path), target)
+    first, second = Project(one.parent).paths, Project(two.parent).paths
+    assert len(first) == len(second) >= 20 and not first.keys() & second.keys()
+    (assets / "x").mkdir()
+    for target in (one, two, assets / "x" / ".." / "One" / "Robot.prefab"):
+        kinefab.export(rich_scene(tmp_path), target)
+    assert (Project(one.parent).paths, Project(two.parent).paths) == (first, second)
+    shutil.rmtree(one.parent)
+    kinefab.export(rich_scene(tmp_path), two)
+    assert Project(two.parent).paths == second
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    assert Project(assets / "Robot").paths.keys() < first.keys()
+
+
+@pytest.mark.parametrize("came", ["renamed", "in a package"])
+def test_a_prefab_keeps_its_guids_to_itself_when_it_is_renamed(tmp_path, came):
+    """In the editor, which keeps guids; a package leaves no manifest."""
+    assets = tmp_path / "Assets"
+    assets.mkdir()
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    old = Project(assets).paths.keys()
+    if came == "renamed":
+        for end in ("", ".meta", ".prefab", ".prefab.meta"):
+            (assets / f"Robot{end}").rename(assets / f"Arm{end}")
+    else:
+        (assets / "Robot" / ".kinefab.json").unlink()
+        (assets / "Kinefab").mkdir()
+        for end in ("", ".meta", ".prefab", ".prefab.meta"):
+            (assets / f"Robot{end}").rename(assets / "Kinefab" / f"Robot{end}")
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    assert old < Project(assets).paths.keys()
+    assert len(Project(assets).paths) == 2 * len(old)

@@ -14,7 +14,7 @@ from .exporting import prefab_files
 from .folder import put_in_place
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
-from .project import has_script
+from .project import has_script, identity_of
 
 ENDING = ".prefab"
 
@@ -38,6 +38,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
     scripts = None if options.scripts and has_script(target) else f"{name}/Scripts"
-    files = prefab_files(content, name, options, scripts)
+    identity = identity_of(target)
+    files = prefab_files(content, name, options, scripts, identity)
     content.refuse_losses()
-    return put_in_place(files, target, report, content.progress)
+    return put_in_place(files, target, identity, report, content.progress)

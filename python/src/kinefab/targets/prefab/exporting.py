@@ -49,20 +49,23 @@ MESHES, MATERIALS, TEXTURES, PHYSICS, ANIMATIONS = (
 
 
 def prefab_files(
-    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None
+    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None, identity: str = ""
 ) -> list[AssetFile]:
     """Everything of the export, the prefab first, folders before what they hold.
 
-    name: of the prefab, without ending.  scripts_folder: where a script goes, None where the project has it already.  The report gets what a prefab cannot say.
+    name: of the prefab, without ending.  scripts_folder: where a script goes, None where the project has it already.  identity: by what
+    guids are told from other exports', "" for the name.  The report gets what a prefab cannot say.
     """
-    return _Export(content, name, options, scripts_folder).files()
+    return _Export(content, name, options, scripts_folder, identity).files()
 
 
 class _Export:
     """Collects the files; ``folder`` is the one beside the prefab."""
 
-    def __init__(self, content: Content, name: str, options: PrefabOptions, scripts_folder: str | None):
-        self.scripts_folder = scripts_folder
+    def __init__(
+        self, content: Content, name: str, options: PrefabOptions, scripts_folder: str | None, identity: str
+    ):
+        self.scripts_folder, self.identity = scripts_folder, identity or name
         self.content, self.name, self.options = content, name, options
         self.scene = content.unity()
         self.couplings = self.scene.couplings if options.articulation else ()
@@ -108,7 +111,7 @@ class _Export:
         return head + self.found
 
     def _guid(self, *identity: str) -> str:
-        return guid(self.name, *identity)
+        return guid(self.identity, *identity)
 
     def _assets(
         self,

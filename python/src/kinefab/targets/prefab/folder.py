@@ -17,14 +17,15 @@ from ...replacing import one_at_a_time, sync_directory
 from .files import AssetFile
 from .manifest import MANIFEST, Manifest, Pending, read_manifest
 from .moment import complete, files_below, meta_of, remove_leftovers, staging_prefix, take_place
+from .text.metas import guid_in
 
 Progress = Callable[[float], None]
 
 
 def put_in_place(
-    files: Sequence[AssetFile], target: Path, report: Report, progress: Progress
+    files: Sequence[AssetFile], target: Path, identity: str, report: Report, progress: Progress
 ) -> tuple[Path, ...]:
-    """files: the prefab first.  Returns it and every other file that has content."""
+    """files: the prefab first.  identity: see ``Manifest``.  Returns the prefab and every other file that has content."""
     parent, folder = target.parent, target.with_name(target.stem)
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
         detail = "it is no folder of its own, and the prefab's assets go there"
@@ -40,7 +41,8 @@ def put_in_place(
             written = _write_all(files, staging, parent, folder, guids, progress)
             gone = ours - written
             _carry_over(folder, staging / folder.name, written | _taken_up(gone, files, guids))
-            take_place(staging, target, folder, Manifest(written, Pending(staging.name, tuple(sorted(gone)))))
+            pending = Pending(staging.name, tuple(sorted(gone)))
+            take_place(staging, target, folder, Manifest(written, pending, identity))
         finally:
             shutil.rmtree(staging, ignore_errors=True)
         sync_directory(parent)
@@ -116,7 +118,7 @@ def _write_all(
 
 def _guids(ours: frozenset[str], parent: Path) -> dict[str, str]:
     """Of each meta that the last export left, by its path."""
-    return {path: _guid_in(parent / path) for path in sorted(ours) if path.endswith(".meta")}
+    return {path: guid_in(parent / path) for path in sorted(ours) if path.endswith(".meta")}
 
 
 def _taken_up(gone: frozenset[str], files: Sequence[AssetFile], guids: Mapping[str, str]) -> frozenset[str]:
@@ -124,15 +126,6 @@ def _taken_up(gone: frozenset[str], files: Sequence[AssetFile], guids: Mapping[s
     Unity would give one of the two a new guid."""
     taken = {file.guid for file in files}
     return frozenset(path for path in gone if guids.get(meta_of(path.removesuffix(".meta"))) in taken)
-
-
-def _guid_in(meta: Path) -> str:
-    """ "" where there is none."""
-    try:
-        lines = meta.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return ""
-    return next((line.removeprefix("guid: ").strip() for line in lines if line.startswith("guid: ")), "")
 
 
 def _carry_over(folder: Path, fresh: Path, but: frozenset[str]) -> None:

@@ -28,10 +28,14 @@ class Pending:
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """files: paths that the export wrote, from the folder that holds the prefab, slashes between."""
+    """files: paths that the export wrote, from the folder that holds the prefab, slashes between.
+
+    identity: by what its guids are told from other exports', "" where that is the prefab's name.
+    """
 
     files: frozenset[str] = frozenset()
     pending: Pending | None = None
+    identity: str = ""
 
     @property
     def ours(self) -> frozenset[str]:
@@ -41,6 +45,8 @@ class Manifest:
     def write(self, folder: Path) -> None:
         """At once, so that it is the old one or the new one.  Raises OSError."""
         content: dict[str, Any] = {"format": FORMAT, "files": sorted(self.files)}
+        if self.identity:
+            content["identity"] = self.identity
         if self.pending is not None:
             content["pending"] = {"staging": self.pending.staging, "leaving": list(self.pending.leaving)}
         text = json.dumps(content, indent=1, ensure_ascii=False) + "\n"
@@ -56,7 +62,7 @@ def read_manifest(folder: Path) -> Manifest:
         pending: Any = read.get("pending")
         if pending is not None:
             pending = Pending(str(pending["staging"]), _paths(pending["leaving"]))
-        return Manifest(frozenset(_paths(read["files"])), pending)
+        return Manifest(frozenset(_paths(read["files"])), pending, str(read.get("identity", "")))
     except (OSError, ValueError, AttributeError, KeyError, TypeError, RecursionError):
         return Manifest()
 

@@ -17,6 +17,7 @@ import os
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from ...replacing import exchanged
@@ -75,7 +76,7 @@ def complete(target: Path, folder: Path) -> None:
             os.replace(staging / target.name, target)
         _rescue(staging / folder.name, folder, manifest)
     _remove(pending.leaving, manifest.files, target.parent, folder)
-    Manifest(manifest.files).write(folder)
+    replace(manifest, pending=None).write(folder)
 
 
 def _bring_in(incoming: Path, folder: Path, manifest: Manifest) -> None:

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
+from .manifest import MANIFEST, read_manifest
 from .objects.couplings import SCRIPT, script_guid
+from .text.ids import guid
+from .text.metas import guid_in
 
 ASSETS = "Assets"
 
@@ -13,21 +17,61 @@ ASSETS = "Assets"
 def has_script(target: Path) -> bool:
     """Whether another export left the script in the project already: a second one of its assembly's name, and of its guid,
     would keep the project from compiling.  False outside a project's ``Assets``."""
-    absolute = target.absolute()
-    assets = next((folder for folder in absolute.parents if folder.name == ASSETS), None)
-    if assets is None:
-        return False
-    own = absolute.with_suffix("")
-    line = f"guid: {script_guid(SCRIPT)}"
+    script = f"{SCRIPT}.meta"
+    return any(
+        script in names and guid_in(where / script) == script_guid(SCRIPT)
+        for where, names in _elsewhere(target)
+    )
+
+
+def identity_of(target: Path) -> str:
+    """By what the prefab's guids are told from those of other exports: "" for its name alone; where another export in the project
+    has that one's guids, its place too.  What an earlier export of the target chose stays.
+
+    The other may have been moved or renamed in the editor, or have come in a package: Unity keeps guids then.
+    """
+    name, meta = target.stem, f"{target.name}.meta"
+    taken: set[str] = set()
+    for where, names in _elsewhere(target):
+        metas = [where / meta] if meta in names else []
+        if MANIFEST in names:
+            metas.append(where.with_name(f"{where.name}{target.suffix}.meta"))
+        taken |= {guid_in(path) for path in metas}
+    known = read_manifest(target.with_name(name)).identity
+    for identity in (known, ""):
+        if guid(identity or name, "prefab") not in taken:
+            return identity
+    place = _absolute(target)
+    return f"{name}|{place.relative_to(_assets(place)).as_posix()}"
+
+
+def _absolute(target: Path) -> Path:
+    return Path(os.path.abspath(target))
+
+
+def _assets(absolute: Path) -> Path:
+    """The project's folder of assets; the file system's root outside any."""
+    return next((folder for folder in absolute.parents if folder.name == ASSETS), Path(absolute.anchor))
+
+
+def _elsewhere(target: Path) -> Iterator[tuple[Path, list[str]]]:
+    """Each folder of the project with its files' names, but the target's own folder and its meta; nothing outside a project."""
+    absolute = _absolute(target)
+    assets, own, meta = _assets(absolute), absolute.with_suffix(""), f"{absolute.name}.meta"
+    if assets.name != ASSETS:
+        return
     for where, folders, names in os.walk(assets):
-        folders[:] = [name for name in folders if not name.startswith(".") and Path(where, name) != own]
-        if f"{SCRIPT}.meta" in names and line in _text(Path(where, f"{SCRIPT}.meta")).splitlines():
-            return True
-    return False
+        here = Path(where)
+        folders[:] = [
+            name
+            for name in folders
+            if not name.startswith(".") and not (name == own.name and _is_one(here / name, own))
+        ]
+        if meta in names and _is_one(here, own.parent):
+            names.remove(meta)
+        yield here, names
 
 
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return ""
+def _is_one(one: Path, other: Path) -> bool:
+    """Whether two paths lead to one folder, through links or not."""
+    return other.exists() and one.samefile(other)

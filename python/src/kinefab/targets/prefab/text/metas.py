@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from .yaml import Fields, Plain, lines
 
 _TAIL: Fields = {"userData": "", "assetBundleName": "", "assetBundleVariant": ""}
@@ -11,6 +13,15 @@ _HEAD: Fields = {"externalObjects": Plain("{}")}
 def _meta(guid: str, importer: str, fields: Fields, before: str = "") -> str:
     block = "\n".join(lines(fields))
     return f"fileFormatVersion: 2\nguid: {guid}\n{before}{importer}:\n{block}\n"
+
+
+def guid_in(meta: Path) -> str:
+    """Of a meta that is there, whoever wrote it; "" where there is none."""
+    try:
+        text = meta.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return ""
+    return next((line.removeprefix("guid: ").strip() for line in text if line.startswith("guid: ")), "")
 
 
 def folder_meta(guid: str) -> str:

@@ -282,6 +282,16 @@ def test_subfigures_within_subfigures_stand_where_freecad_has_them(tmp_path: Pat
     assert first.bodies[0].mesh == second.bodies[0].mesh and first.definition == second.definition == "Bolt"
 
 
+def test_a_turned_subfigure_stands_where_freecad_has_it(tmp_path: Path):
+    """Its matrix acts first, its own translation after that: both OpenCASCADE and FreeCAD read an instance so."""
+    file = Iges(tmp_path)
+    turn = file.add(124, "0.,-1.,0.,7.,1.,0.,0.,8.,0.,0.,1.,9.")
+    file.add(408, file.bolt, "100.,20.,5.,1.", matrix=turn)
+    scene, report = file.read()
+    assert not report.diagnostics
+    assert boxes(scene)["Bolt"] == [87, 107, 28, 38, 14, 44]
+
+
 def test_a_scaled_and_a_mirrored_subfigure_have_meshes_of_their_own(tmp_path: Path):
     file = Iges(tmp_path)
     file.add(408, file.bolt, "100.,20.,5.,2.5")

@@ -13,6 +13,12 @@ class Partition:
     def __init__(self, count: int):
         self._leader = list(range(count))
 
+    def copy(self) -> Partition:
+        """The same sets, to go on apart."""
+        same = Partition(0)
+        same._leader = [*self._leader]
+        return same
+
     def find(self, i: int) -> int:
         """The lowest of the set that i is in."""
         leader = self._leader

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...partition import Partition
 from ...spatial import Array
 from ..shapes.features import Shape
 from ..touching.contact import Contact, ContactKind
@@ -36,25 +37,22 @@ class Bodies:
     shapes: list[Shape]
     contacts: list[Contact]
     fixings: list[Fixing] = field(default_factory=list[Fixing])
-    _leader: list[int] = field(default_factory=list[int])
-    _count: list[int] = field(default_factory=list[int])
+    _sets: Partition = field(init=False)
+    _count: list[int] = field(init=False)
 
     def __post_init__(self) -> None:
-        self._leader = list(range(len(self.shapes)))
+        self._sets = Partition(len(self.shapes))
         self._count = [1] * len(self.shapes)
 
     def copy(self) -> Bodies:
         """The same parts, contacts and fixings, to go on apart."""
         same = Bodies(self.shapes, [*self.contacts], [*self.fixings])
-        same._leader, same._count = [*self._leader], [*self._count]
+        same._sets, same._count = self._sets.copy(), [*self._count]
         return same
 
     def of(self, part: int) -> int:
         """The body of a part: the number of its first part."""
-        while self._leader[part] != part:
-            self._leader[part] = self._leader[self._leader[part]]
-            part = self._leader[part]
-        return part
+        return self._sets.find(part)
 
     def count(self, part: int) -> int:
         """How many parts its body has."""
@@ -66,9 +64,8 @@ class Bodies:
     ) -> bool:  # fmt: skip
         """Make two parts one body; whether they were two."""
         a, b = self.of(first), self.of(second)
-        if a == b:
+        if not self._sets.join(a, b):
             return False
-        self._leader[max(a, b)] = min(a, b)
         self._count[min(a, b)] += self._count[max(a, b)]
         self.fixings.append(Fixing(first, second, reason, confidence, contacts, twin))
         return True

@@ -56,27 +56,11 @@ def islands_of(
             together.join(a, b)
     found = {together.find(own): _Counted() for own in part}
     of_body = [found[together.find(own)] for own in part]
+    _count_loops(of_body, links, slack, couplings)
+    _count_freedoms(of_body, assembly, set(part) & floating)
     bodies: list[int] = assembly.body[1:].tolist()
     for node, body in enumerate(bodies):
         of_body[body].nodes.append(node)
-    counted = {id for c in couplings for id in c.joints}
-    for link in links:
-        # where the loop holds all of it, Unity has a joint only between two bodies, which must not collide
-        written = link.joint.locked or link.joint.id in counted or (link.finding.freed and link.a and link.b)
-        if link.finding.closure and written:
-            of_body[link.b if part[link.a] == GROUND else link.a].loops += 1
-    for own in slack:
-        of_body[own].loops += 1
-        of_body[own].slack += 1
-    for own in set(part) & floating:
-        of_body[own].mobility += 6
-        of_body[own].first_order += 6
-    for first, finite in zip(assembly.freedoms, assembly.finite):
-        own = of_body[int(first.bodies[0])]
-        own.mobility += finite.mobility
-        own.first_order += first.mobility
-        own.rows += len(first.rows)
-        own.redundant += len(first.rows) - first.rank
     return [
         Island(
             tuple(own.nodes),
@@ -104,6 +88,34 @@ class _Counted:
     redundant: int = 0
     loops: int = 0
     slack: int = 0
+
+
+def _count_loops(
+    of_body: list[_Counted], links: list[Link], slack: list[int], couplings: list[Coupling]
+) -> None:
+    """slack: for each rope that closes a loop a body of its island."""
+    counted = {id for c in couplings for id in c.joints}
+    for link in links:
+        # where the loop holds all of it, Unity has a joint only between two bodies, which must not collide
+        written = link.joint.locked or link.joint.id in counted or (link.finding.freed and link.a and link.b)
+        if link.finding.closure and written:
+            of_body[link.b if of_body[link.a] is of_body[GROUND] else link.a].loops += 1
+    for body in slack:
+        of_body[body].loops += 1
+        of_body[body].slack += 1
+
+
+def _count_freedoms(of_body: list[_Counted], assembly: Assembly, floating: set[int]) -> None:
+    """floating: a body of each part that no row holds to the ground, whose six freedoms are no block's."""
+    for body in floating:
+        of_body[body].mobility += 6
+        of_body[body].first_order += 6
+    for first, finite in zip(assembly.freedoms, assembly.finite):
+        own = of_body[int(first.bodies[0])]
+        own.mobility += finite.mobility
+        own.first_order += first.mobility
+        own.rows += len(first.rows)
+        own.redundant += len(first.rows) - first.rank
 
 
 def _held_together(assembly: Assembly, tree: Tree, roped: set[int]) -> list[int]:

@@ -36,6 +36,9 @@ GAP_LENGTH = 1e-5
 GAP_ANGLE = 1e-4
 """Radians, likewise."""
 
+LOSSES = ("JOINT_BETWEEN_LED", "JOINT_REDUNDANT", "JOINT_REMOVES_NOTHING")
+"""Why a joint has no component, where that loses something."""
+
 MappedJoint = HingeJoint | ConfigurableJoint | FixedJoint
 
 
@@ -98,29 +101,16 @@ def map_joint(
     relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
     coordinates = read_coordinates(shape, relative)
     lossless = _report_gap(joint, coordinates, report)
-    if groups.together(joint.a, joint.b):
-        if idle:
-            report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
-        elif not (shape.rotations or shape.translations):
-            report.kept(feature, joint.where)  # one Rigidbody, or a FixedJoint of the group
-        else:
-            report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+    unneeded = _why_none(joint, shape, found, groups, counted is not None, idle)
+    if unneeded in LOSSES:
+        report.dropped(feature, unneeded, joint.where, joint=joint.id)
+    elif unneeded == "CLOSURE_NOT_NEEDED":
+        report.kept(feature, joint.where, unneeded, joint=joint.id, loop=found.loop_names(scene))
+    elif unneeded is not None:
+        report.kept(feature, joint.where)
+    if unneeded is not None:
         return None
-    free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
-    apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
-    # between two bodies it still keeps Unity from letting them collide
-    if free and counted is None and not apart:
-        if found.freed:
-            remark = {"joint": joint.id, "loop": found.loop_names(scene)}
-            report.kept(feature, joint.where, "CLOSURE_NOT_NEEDED", **remark)
-            return None
-        report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
-        return None
-
-    if idle:
-        if counted is None:
-            report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
-            return None
+    if idle and counted is not None:
         report.add("JOINT_BETWEEN_LED_COUNTED", joint.where, joint=joint.id, coupling=counted.id)
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
@@ -129,24 +119,7 @@ def map_joint(
     for i, freedom in enumerate(joint.freedoms):
         if freedom.drive is not None and freedom.motion is Motion.LOCKED:
             report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i))
-    common = _common_fields(joint, found)
-    if placement.on_a and not fits_hinge(shape) and alike_from_both_sides(joint.unlocked):
-        common["extras"] |= frames.COUNTS_CONNECTED
-    if not (shape.rotations or shape.translations):
-        component: MappedJoint = FixedJoint(**common)
-    elif fits_hinge(shape):
-        anchors, basis = _frame_fields(frame_a, frame_b, placement, coordinates)
-        # The axis takes the sense, so that the angle is the CAD angle less that at export.
-        axis = vector3(placement.own.angular[0] * basis[:, 0])
-        component = HingeJoint(
-            **common, **anchors, axis=axis, **hinge_fields(joint, shape, coordinates, report)
-        )
-    else:
-        limits, middle = configurable_fields(joint, shape, coordinates, placement, report)
-        shifted = Pose(frame_a.rotation, frame_a.point(middle))
-        anchors, basis = _frame_fields(shifted, frame_b, placement, coordinates)
-        axes = {"axis": vector3(basis[:, 0]), "secondaryAxis": vector3(basis[:, 1])}
-        component = ConfigurableJoint(**common, **anchors, **axes, **limits)
+    component = _component(joint, shape, found, frame_a, frame_b, placement, coordinates, report)
     owner, connected = (a, b) if placement.on_a else (b, a)
     assert owner is not None, "two parts of the ground are one rigid group"
     if not lossless or any(found.misfit) or len(report.outcomes) > before:
@@ -156,6 +129,54 @@ def map_joint(
     else:
         report.kept(feature, joint.where)
     return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
+
+
+def _why_none(
+    joint: Joint, shape: CanonicalJoint, found: JointFinding, groups: RigidGroups, counted: bool, idle: bool
+) -> str | None:
+    """Why a joint needs no component: a code of the report, "" where one Rigidbody or a FixedJoint of the group is it, or
+    None where it needs one.  counted: whether a coupling counts by it.  idle: whether Unity's solver moves neither side."""
+    if groups.together(joint.a, joint.b):
+        if idle:
+            return "JOINT_BETWEEN_LED"
+        return "JOINT_REDUNDANT" if shape.rotations or shape.translations else ""
+    if counted:
+        return None
+    free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
+    # between two bodies it still keeps Unity from letting them collide
+    apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
+    if free and not apart:
+        return "CLOSURE_NOT_NEEDED" if found.freed else "JOINT_REMOVES_NOTHING"
+    return "JOINT_BETWEEN_LED" if idle else None
+
+
+def _component(
+    joint: Joint,
+    shape: CanonicalJoint,
+    found: JointFinding,
+    frame_a: Pose,
+    frame_b: Pose,
+    placement: Placement,
+    coordinates: Coordinates,
+    report: Report,
+) -> MappedJoint:
+    """The component with all of its fields but the connected body.  frame_a, frame_b: the joint frames in their carriers."""
+    common = _common_fields(joint, found)
+    if placement.on_a and not fits_hinge(shape) and alike_from_both_sides(joint.unlocked):
+        common["extras"] |= frames.COUNTS_CONNECTED
+    if not (shape.rotations or shape.translations):
+        return FixedJoint(**common)
+    if fits_hinge(shape):
+        anchors, basis = _frame_fields(frame_a, frame_b, placement, coordinates)
+        # The axis takes the sense, so that the angle is the CAD angle less that at export.
+        axis = vector3(placement.own.angular[0] * basis[:, 0])
+        turning = hinge_fields(joint, shape, coordinates, report)
+        return HingeJoint(**common, **anchors, axis=axis, **turning)
+    limits, middle = configurable_fields(joint, shape, coordinates, placement, report)
+    shifted = Pose(frame_a.rotation, frame_a.point(middle))
+    anchors, basis = _frame_fields(shifted, frame_b, placement, coordinates)
+    axes = {"axis": vector3(basis[:, 0]), "secondaryAxis": vector3(basis[:, 1])}
+    return ConfigurableJoint(**common, **anchors, **axes, **limits)
 
 
 def _frame_fields(

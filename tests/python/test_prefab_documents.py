@@ -96,11 +96,7 @@ def is_float(value: str) -> bool:
 def all_documents(prefab: Path) -> list[tuple[Path, Document]]:
     files = [
         prefab,
-        *(
-            p
-            for p in sorted(prefab.with_suffix("").rglob("*"))
-            if p.suffix in (*NATIVE, ".physicMaterial", ".physicsMaterial")
-        ),
+        *(p for p in sorted(prefab.with_suffix("").rglob("*")) if p.suffix in (*NATIVE, ".physicMaterial")),
     ]
     return [(path, d) for path in files for d in documents(path.read_text("utf-8"))]
 

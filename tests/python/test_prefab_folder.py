@@ -16,6 +16,7 @@ import pytest
 import trimesh
 from kinefab.targets.prefab.manifest import MANIFEST
 from prefab_reader import read_prefab
+from prefab_scenes import rich_scene
 
 
 def box_scene(*names: str, size: float = 0.1) -> kinefab.Scene:
@@ -282,3 +283,21 @@ def test_each_meta_is_read_once(tmp_path, monkeypatch):
     kinefab.export(box_scene("Base", "Hand", "Foot"), target)
     metas = [path for path in read if path.suffix == ".meta"]
     assert len(metas) == len(set(metas)) >= 8
+
+
+@pytest.mark.parametrize("length", [5, 120])
+def test_long_names_fit_into_a_path_of_windows(tmp_path, length):
+    """260 characters with the project's own path; names that begin alike stay apart, and each is what its file's object is called."""
+    scene = rich_scene(tmp_path)
+    begin = "A part with a name that somebody's script has put together, " * 5
+    surfaces = [replace(s, name=f"{begin}{i}") for i, s in enumerate(scene.surfaces)]
+    kinefab.export(replace(scene, surfaces=surfaces), tmp_path / f"{'x' * length}.unitypackage")
+    with tarfile.open(tmp_path / f"{'x' * length}.unitypackage") as tar:
+        files = {m.name: tar.extractfile(m).read() for m in tar}
+    paths = {n.partition("/")[0]: d.decode() for n, d in files.items() if n.endswith("/pathname")}
+    assert max(map(len, paths.values())) + len(".meta") <= 205
+    materials = {guid: Path(path).stem for guid, path in paths.items() if path.endswith(".mat")}
+    cut = {name for name in materials.values() if name.startswith("A part with a name")}
+    assert len(cut) == len(surfaces)
+    for guid, name in materials.items():
+        assert f"  m_Name: {name}\n" in files[f"{guid}/asset"].decode()

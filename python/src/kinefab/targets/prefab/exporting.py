@@ -21,13 +21,13 @@ from .assets.clips import CLIP_ID, clip_asset
 from .assets.identities import mesh_identities, named_identities
 from .assets.materials import MATERIAL_ID, material_asset
 from .assets.meshes import MESH_ID, mesh_asset
-from .assets.physics_materials import PHYSICS_MATERIAL_ID, physics_material_asset
+from .assets.physics_materials import PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_ID, physics_material_asset
 from .assets.tangents import with_tangents
 from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
-from .names import file_name, folded, unique
+from .names import file_name, folded, most_bytes, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
 from .objects.hierarchy import Hierarchy, References
 from .options import PrefabOptions
@@ -113,6 +113,9 @@ class _Export:
     def _guid(self, *identity: str) -> str:
         return guid(self.identity, *identity)
 
+    def _file_name(self, name: str) -> str:
+        return file_name(name, most_bytes(self.name))
+
     def _assets(
         self,
         folder: str,
@@ -123,7 +126,7 @@ class _Export:
         made: Callable[[int, str], Iterable[bytes]],
     ) -> list[Plain]:
         """Files of one kind in a folder of their own, and the references to them.  made: content by index and name."""
-        plain = unique([(file_name(n), i) for n, i in zip(names, identities)], folded)
+        plain = unique([(self._file_name(n), i) for n, i in zip(names, identities)], folded)
         references: list[Plain] = []
         for k, (identity, title) in enumerate(zip(identities, plain)):
             own = self._guid(folder, identity)
@@ -164,7 +167,7 @@ class _Export:
 
     def _textures(self, files: Sequence[TextureFile]) -> dict[str, Plain]:
         """References by the identities of the files."""
-        plain = unique([(file_name(f.name), f.identity) for f in files], folded)
+        plain = unique([(self._file_name(f.name), f.identity) for f in files], folded)
         found: dict[str, Plain] = {}
         for file, title in zip(files, plain):
             own = self._guid(TEXTURES, file.identity)
@@ -180,9 +183,8 @@ class _Export:
             return [physics_material_asset(materials[k], title, self.dialect)]
 
         names = [material.name or "Physics Material" for material in materials]
-        ending = ".physicMaterial" if self.dialect.physics_material == 1 else ".physicsMaterial"
         references = self._assets(
-            PHYSICS, ending, PHYSICS_MATERIAL_ID, named_identities(materials), names, made
+            PHYSICS, PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_ID, named_identities(materials), names, made
         )
         return dict(enumerate(references))
 

@@ -10,6 +10,9 @@ from collections.abc import Callable, Iterable, Sequence
 
 MOST_BYTES = 120
 """Of a file's name, so that ending, ``.meta`` and a temporary name's ornaments stay below the 255 of file systems."""
+LEAST_BYTES = 24
+TOGETHER_BYTES = 140
+"""Of the prefab's name and a file's: with folders, endings and some for the project's own path they stay below Windows' 260 characters."""
 RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that Windows keeps for devices, whatever follows the dot."""
 UNSEEN = re.compile(r"(\..*|.*~|cvs|.*\.tmp|editor|streamingassets)?", re.IGNORECASE)
@@ -26,11 +29,17 @@ def object_name(name: str) -> str:
     return plain.strip() or "_"
 
 
-def file_name(name: str) -> str:
+def most_bytes(prefab: str) -> int:
+    """Of the files' names in the folder of a prefab of this name."""
+    room = TOGETHER_BYTES - len(prefab.encode("utf-8", "surrogatepass"))
+    return max(LEAST_BYTES, min(MOST_BYTES, room))
+
+
+def file_name(name: str, most: int = MOST_BYTES) -> str:
     """A file's, without ending: nothing that a file system of Windows, macOS or Linux refuses, and none that Unity hides."""
     plain = unicodedata.normalize("NFC", object_name(name))
     plain = re.sub(r'[<>:"\\|?*#%~]', "_", plain).strip(" .")
-    while len(plain.encode("utf-8", "surrogatepass")) > MOST_BYTES:
+    while len(plain.encode("utf-8", "surrogatepass")) > most:
         plain = plain[:-1]
     plain = plain.rstrip(" .") or "_"
     return f"_{plain}" if RESERVED.fullmatch(plain) else plain

@@ -8,6 +8,8 @@ from ..text.documents import HEAD, version
 from ..text.yaml import HEADER, Fields, document
 
 PHYSICS_MATERIAL_ID = 13400000
+PHYSICS_MATERIAL_ENDING = ".physicMaterial"
+"""In every editor: the class got another name in Unity 6, its files did not (``InternalEditorUtility.cs`` of UnityCsReference)."""
 COMBINE = {"Average": 0, "Multiply": 1, "Minimum": 2, "Maximum": 3}
 
 

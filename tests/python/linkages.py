@@ -22,9 +22,14 @@ def tip_2(angle: float, ground: float = 1.5) -> np.ndarray:
 
 def elbow(a: np.ndarray, b: np.ndarray, side: float) -> np.ndarray:
     """Where rods from a (ROD) and b (ROD_2) meet, left of the way from a to b for side 1."""
+    return elbow_of(a, ROD, b, ROD_2, side)
+
+
+def elbow_of(a: np.ndarray, rod: float, b: np.ndarray, rod_2: float, side: float = 1.0) -> np.ndarray:
+    """As ``elbow``, of rods of these lengths."""
     d = float(np.linalg.norm(b - a))
-    x = (d * d + ROD**2 - ROD_2**2) / (2.0 * d)
-    y = math.sqrt(max(0.0, ROD**2 - x * x))
+    x = (d * d + rod**2 - rod_2**2) / (2.0 * d)
+    y = math.sqrt(max(0.0, rod**2 - x * x))
     u = (b - a) / d
     return a + x * u + side * y * np.array([-u[1], u[0], 0.0])
 

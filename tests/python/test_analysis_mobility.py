@@ -12,7 +12,7 @@ from kinefab.analysis.equations.solve import Solver
 from kinefab.analysis.findings.summary import scene_entry
 from kinefab.analysis.freedom.motion import walked
 from kinefab.model import ConstraintKind
-from linkages import flat_ladder
+from linkages import elbow_of, flat_ladder
 from mechanism_cases import analysed, scene, table
 
 EXPECTED = table("mobility")
@@ -155,3 +155,47 @@ def test_a_flat_ladder_of_any_length_has_one_motion(rods, loose):
     found = analyse(flat_ladder(rods, loose))
     arch = max(0, loose - 2)
     assert (found.first_order, found.mobility) == (rods + 1 + arch, 1 + arch)
+
+
+@pytest.mark.parametrize("kinds", [("spherical", "universal"), ("universal", "spherical")])
+@pytest.mark.parametrize("turn", [0.0, 180.0, 37.0])
+def test_a_joint_that_turns_back_is_not_rigid(kinds, turn):
+    """A four-bar without redundant rows, its crank along its frame: coupler and rocker have the same velocity there, and
+    part with the square of the crank's step.  They were taken for one body, and nothing moved."""
+    scene, up = kinefab.Scene(), (0, 0, 1)
+    ground = scene.add_part("Frame", grounded=True)
+    crank, coupler, rocker = (scene.add_part(name) for name in ("Crank", "Coupler", "Rocker"))
+    tip = 0.1 * np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn)), 0.0])
+    corner = elbow_of(tip, 0.35, np.array([0.4, 0.0, 0.0]), 0.25)
+    scene.add_hinge(ground, crank, point=(0, 0, 0), axis=up)
+    scene.add_hinge(ground, rocker, point=(0.4, 0, 0), axis=up)
+    scene.add_joint(kinds[0], crank, coupler, point=tip, axis=up)
+    scene.add_joint(kinds[1], coupler, rocker, point=corner, axis=up)
+    found = analyse(scene)
+    assert (found.first_order, found.mobility, found.redundant) == (1, 1, 0)
+    assert len(found.joints) == 4 and found.fixed == ()
+
+
+def test_legs_that_only_spin_at_the_pose_move_all_the_same():
+    """A platform on six legs whose universal joints' axes lie in one plane with their leg: each leg turns about itself,
+    and its slide stands still to first order alone.  No row is redundant, so all six velocities are motions."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", grounded=True)
+    top = scene.add_part("Top", translation=(0, 0.6, 0))
+    for i in range(6):
+        side = 1 if i % 2 else -1
+        foot, tip = (
+            np.array([radius * np.cos(angle), height, radius * np.sin(angle)])
+            for radius, angle, height in (
+                (0.45, np.radians(60 * i + 10 * side), 0.05),
+                (0.25, np.radians(60 * i - 20 * side), 0.55),
+            )
+        )
+        lower, upper = scene.add_part(f"Lower{i}"), scene.add_part(f"Upper{i}")
+        across = np.cross((1, 0, 0), tip - foot)
+        scene.add_joint("universal", base, lower, point=foot, axis=(1, 0, 0), secondary=across)
+        scene.add_slider(lower, upper, point=0.5 * (foot + tip), axis=tip - foot)
+        scene.add_ball(upper, top, point=tip)
+    found = analyse(scene)
+    assert (found.first_order, found.mobility, found.redundant) == (6, 6, 0)
+    assert len(found.joints) == 18

@@ -121,6 +121,17 @@ class Shape:
         ({"translation": (0, NAN, 0)}, "the translation of Lid is (0, nan, 0); pass three numbers"),
         ({"translation": (INF, 0, 0)}, "pass three numbers"),
         ({"translation": (1, 2)}, "pass three numbers"),
+        ({"translation": ("1", "2", "3")}, "pass three numbers"),
+        ({"translation": (True, False, True)}, "pass three numbers"),
+        ({"translation": np.array([1 + 2j, 0, 3])}, "pass three numbers"),
+        ({"translation": [10**400, 0, 3]}, "000...; pass three numbers"),
+        ({"translation": [10**5000, 0, 3]}, "is a list of many digits; pass three numbers"),
+        ({"rotation": [10**400, 0, 0, 1]}, "is no matrix of numbers"),
+        ({"rotation": np.eye(3) * 1j}, "is no matrix of numbers"),
+        ({"color": [0.1, 10**400, 0.3]}, "pass three or four numbers from 0 to 1"),
+        ({"color": ("0.1", "0.2", "0.3")}, "pass three or four numbers from 0 to 1"),
+        ({"density": 10**400}, "pass a number"),
+        ({"mesh": "x" * 9999}, "xxx..., where there is no file"),
         ({"translation": 5}, "pass three numbers"),
         (
             {"mesh": Shape(vertices=((0, 0, 0), (1, NAN, 0), (0, 2, 0), (0, 0, 3)))},
@@ -148,15 +159,26 @@ def test_wrong_part_says_what_to_pass(change, says):
 
 
 @pytest.mark.parametrize(
-    "change", [{"name": 3}, {"density": "steel"}, {"density": True}, {"grounded": "no"}, {"flexible": 1}]
+    "change",
+    [
+        {"name": 3},
+        {"density": "steel"},
+        {"density": True},
+        {"grounded": "no"},
+        {"flexible": 1},
+        {"material": ""},
+        {"material": 0},
+        {"material": {"color": (1, 0, 0)}},
+        {"mass": "x" * 9999},
+    ],
 )
 def test_a_part_takes_what_its_words_mean(change):
     """A name is a string, a density a number, and "no" is not taken for True."""
     scene = kinefab.Scene()
     add = scene.add_assembly if "flexible" in change else scene.add_part
-    with pytest.raises(TypeError, match="; pass "):
+    with pytest.raises(TypeError, match="; pass ") as raised:
         add(**{"name": "Lid", **change})
-    assert not scene.nodes
+    assert not scene.nodes and len(str(raised.value)) < 300
 
 
 @pytest.mark.parametrize(

@@ -221,3 +221,23 @@ def test_a_part_states_its_colliders_and_materials(tmp_path):
     assert kinds == [["BoxCollider"], [], ["SphereCollider"]]
     assert [m.name for m in result.unity.physicsMaterials] == ["rubber"]
     assert result.unity.materials[0].color == (1, 0, 0, 1)
+
+
+@pytest.mark.parametrize(
+    "ratio, offset, says",
+    [
+        (2e7, 0.0, "the ratio is 20000000.0, 2e+07 in metres and radians"),
+        (-1e-8, 0.0, "Pass one from 1e-06 to 1e+06"),
+        (1e308, 0.0, "the slower of the two would stand still"),
+        (-2.5, 1e300, "the offset is 1e+300; pass a number, none beyond 1e+09"),
+    ],
+)
+def test_a_ratio_that_the_analysis_cannot_see_is_refused(ratio, offset, says):
+    """Both hinges would be fixed, and only a remark would say so."""
+    scene = kinefab.Scene()
+    hinges = [scene.add_hinge(None, scene.add_part(name), **AT) for name in ("Motor", "Hand")]
+    with pytest.raises(ValueError) as raised:
+        scene.add_coupling(*hinges, ratio, offset=offset)
+    assert says in str(raised.value) and scene.couplings == []
+    scene.add_coupling(*hinges, 9e5)
+    assert kinefab.motion(scene).mobility == 1

@@ -9,8 +9,9 @@ import sys
 import kinefab
 
 API = """
-BatchResult Closures ColliderShape Diagnostic Drive ExportOptions ExportResult FeatureOutcome Freedom Joint JointKind
-KinefabError MassProperties Mechanism Motion Outcome Report Scene Severity Trajectory __version__ batch export motion report view
+BatchResult Closures Collider ColliderKind ColliderShape Diagnostic Drive ExportOptions ExportResult FeatureOutcome Freedom Joint
+JointKind KinefabError MassProperties Mechanism Motion Outcome PhysicsMaterial Pose Report Scene Severity Surface Trajectory
+__version__ batch export motion report view
 """.split()
 """A name that is added or gone changes what scripts may rely on: write it in CHANGELOG.md too."""
 

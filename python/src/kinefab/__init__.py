@@ -35,6 +35,11 @@ _HOMES = {
     "Motion": "model",
     "Drive": "model",
     "MassProperties": "model",
+    "Surface": "model",
+    "PhysicsMaterial": "model",
+    "Collider": "model",
+    "ColliderKind": "model",
+    "Pose": "spatial",
     "KinefabError": "diagnostics",
     "Report": "diagnostics",
     "Diagnostic": "diagnostics",
@@ -57,12 +62,16 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .mechanism import Mechanism as Mechanism
     from .mechanism import Trajectory as Trajectory
     from .mechanism import motion as motion
+    from .model import Collider as Collider
+    from .model import ColliderKind as ColliderKind
     from .model import Drive as Drive
     from .model import Freedom as Freedom
     from .model import Joint as Joint
     from .model import JointKind as JointKind
     from .model import MassProperties as MassProperties
     from .model import Motion as Motion
+    from .model import PhysicsMaterial as PhysicsMaterial
+    from .model import Surface as Surface
     from .options import Closures as Closures
     from .options import ColliderShape as ColliderShape
     from .options import ExportOptions as ExportOptions
@@ -70,6 +79,7 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .pipeline import export as export
     from .showing import report as report
     from .showing import view as view
+    from .spatial import Pose as Pose
 
 
 def __getattr__(name: str) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, matrix_from_quaternion, rotation_about, vector
+from ..spatial import Array, matrix_from_quaternion, rotation_about
 
 Vector = Sequence[float]
 ROUNDED = 1e-4
@@ -21,17 +21,35 @@ LARGEST = 1e9
 """Metres; beyond, single precision has no millimetres, and far beyond no numbers."""
 PARALLEL = 1e-9
 """Sine of the angle below which two axes span no plane."""
+LONGEST = 120
+"""Characters of a value that a message shows."""
 AXES = dict(zip("XYZ", np.eye(3)))
+
+
+def shown(value: object) -> str:
+    """A value as a message shows it: what is long ends in dots."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no integer of more than 4,300 digits
+        text = f"a {type(value).__name__} of many digits"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
+
+
+def numbers_in(values: Any) -> Array | None:
+    """Real numbers, as an array of any shape; None for what holds anything else (words, flags, complex numbers)."""
+    try:
+        given = np.asarray(values)
+        flags = any(isinstance(each, bool) for each in np.asarray(values, dtype=object).flat)
+        return given.astype(np.float64) if given.dtype.kind in "iuf" and not flags else None
+    except (TypeError, ValueError, OverflowError):  # lists of lists of unequal length; numbers beyond a float
+        return None
 
 
 def checked_vector(what: str, values: Any) -> Array:
     """Three numbers, shape (3,)."""
-    try:
-        array = vector(values)
-    except (TypeError, ValueError):
-        array = None
-    if array is None or not np.abs(array).max() <= LARGEST:
-        raise ValueError(f"{what} is {values!r}; pass three numbers, none beyond {LARGEST:g}")
+    array = numbers_in(values)
+    if array is None or array.shape != (3,) or not np.abs(array).max() <= LARGEST:
+        raise ValueError(f"{what} is {shown(values)}; pass three numbers, none beyond {LARGEST:g}")
     return array
 
 
@@ -39,9 +57,9 @@ def checked_name(what: str, name: object, empty: bool = True) -> None:
     """Raises TypeError for what is no string, ValueError for one that no file holds (a lone surrogate) and, unless
     ``empty``, for one without a character."""
     if not isinstance(name, str):
-        raise TypeError(f"{what} is {name!r}; pass a string")
+        raise TypeError(f"{what} is {shown(name)}; pass a string")
     if any("\ud800" <= character <= "\udfff" for character in name):
-        raise ValueError(f"{what} is {name!r}; pass text that UTF-8 can hold")
+        raise ValueError(f"{what} is {shown(name)}; pass text that UTF-8 can hold")
     if not name and not empty:
         raise ValueError(f"{what} is empty; pass one, ids are made of it")
 
@@ -51,14 +69,14 @@ def checked_axes(axis: Any, secondary: Any) -> tuple[Array, Array | None]:
     main = checked_vector("the axis", axis)
     if not np.linalg.norm(main) > 0.0:
         raise ValueError(
-            f"the axis {axis!r} has no direction; pass a direction in the world, such as (0, 0, 1)"
+            f"the axis {shown(axis)} has no direction; pass a direction in the world, such as (0, 0, 1)"
         )
     near = None if secondary is None else checked_vector("the secondary axis", secondary)
     if near is not None:
         lengths = np.linalg.norm(main) * np.linalg.norm(near)
         if not np.linalg.norm(np.cross(main, near)) > PARALLEL * lengths:
             raise ValueError(
-                f"the secondary axis {secondary!r} and the axis span no plane; pass a direction across it"
+                f"the secondary axis {shown(secondary)} and the axis span no plane; pass a direction across it"
             )
     return main, near
 
@@ -66,23 +84,26 @@ def checked_axes(axis: Any, secondary: Any) -> tuple[Array, Array | None]:
 def checked_flag(what: str, value: object) -> None:
     """Raises TypeError for what is neither True nor False; a word such as "no" would count as true."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{what} is {value!r}; pass True or False")
+        raise TypeError(f"{what} is {shown(value)}; pass True or False")
 
 
 def checked_mass(name: str, mass: object) -> None:
     """Raises TypeError for what is neither None nor MassProperties; a number alone would leave the inertia open."""
     if mass is not None and not isinstance(mass, MassProperties):
-        raise TypeError(f"the mass of {name} is {mass!r}; pass MassProperties, or a density instead")
+        raise TypeError(f"the mass of {name} is {shown(mass)}; pass MassProperties, or a density instead")
 
 
 def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite: bool = False) -> float:
     """A number, not NaN and, unless ``infinite``, finite."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TypeError(f"{what} is {value!r}; pass a number")
-    number = float(cast("float", value))
+        raise TypeError(f"{what} is {shown(value)}; pass a number")
+    try:
+        number = float(cast("float", value))
+    except OverflowError:  # an integer
+        number = math.nan
     if math.isnan(number) or (math.isinf(number) and not infinite) or number < least:
         bound = "" if math.isinf(least) else f", not below {least:g}"
-        raise ValueError(f"{what} is {value!r}; pass a{'' if infinite else ' finite'} number{bound}")
+        raise ValueError(f"{what} is {shown(value)}; pass a{'' if infinite else ' finite'} number{bound}")
     return number
 
 
@@ -103,10 +124,9 @@ def checked_rotation(name: str, rotation: Any) -> Array:
         f"the rotation of {name} {{}}; pass a rotation matrix, 3 x 3, a quaternion (x, y, z, w) or angles with their"
         ' order, such as ("XYZ", (30, 0, 90))'
     )
-    try:
-        turn = np.asarray(rotation, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(advice.format("is no matrix of numbers")) from None
+    turn = numbers_in(rotation)
+    if turn is None:
+        raise ValueError(advice.format("is no matrix of numbers"))
     if turn.shape == (4,):
         return _from_quaternion(turn, advice)
     if turn.shape != (3, 3):
@@ -138,11 +158,8 @@ def checked_pose(name: str, translation: Any, rotation: Any) -> tuple[Array, Arr
 
 
 def _whole_pose(rotation: Any) -> Array | None:
-    try:
-        matrix = np.asarray(rotation, dtype=np.float64)
-    except (TypeError, ValueError):
-        return None  # what it is instead, ``checked_rotation`` tells
-    return matrix if matrix.shape == (4, 4) else None
+    matrix = numbers_in(rotation)  # what is none, ``checked_rotation`` tells
+    return matrix if matrix is not None and matrix.shape == (4, 4) else None
 
 
 def _from_quaternion(q: Array, advice: str) -> Array:
@@ -154,7 +171,9 @@ def _from_quaternion(q: Array, advice: str) -> Array:
 
 def _from_euler(name: str, order: str, angles: Any) -> Array:
     if len(order) != 3 or set(order.upper()) - set("XYZ") or not (order.isupper() or order.islower()):
-        raise ValueError(f"the order of {name}'s angles is {order!r}; pass three of XYZ, or three of xyz")
+        raise ValueError(
+            f"the order of {name}'s angles is {shown(order)}; pass three of XYZ, or three of xyz"
+        )
     turn = np.eye(3)
     for letter, degrees in zip(order, checked_vector(f"the angles of {name}", angles)):
         step = rotation_about(AXES[letter.upper()], math.radians(degrees))
@@ -164,11 +183,9 @@ def _from_euler(name: str, order: str, angles: Any) -> Array:
 
 def checked_color(name: str, color: Any) -> tuple[float, float, float, float]:
     """Linear red green blue alpha, 0..1."""
-    try:
-        values = () if isinstance(color, str) else tuple(float(c) for c in color)
-    except (TypeError, ValueError):
-        values = ()
+    given = numbers_in(color)
+    values: list[float] = given.tolist() if given is not None and given.ndim == 1 else []
     if len(values) not in (3, 4) or not all(0.0 <= c <= 1.0 for c in values):
-        raise ValueError(f"the color of {name} is {color!r}; pass three or four numbers from 0 to 1")
+        raise ValueError(f"the color of {name} is {shown(color)}; pass three or four numbers from 0 to 1")
     red, green, blue, alpha = (*values, 1.0)[:4]
     return red, green, blue, alpha

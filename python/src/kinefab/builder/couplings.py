@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from typing import Union
 
 from ..model import FREEDOM_NAMES, RX, Coupling, CouplingKind, Joint, Term
-from .arguments import checked_number
+from .arguments import LARGEST, checked_number, shown
 
 JointLike = Union[Joint, str, tuple[Union[Joint, str], str]]
 """A joint or its id; with the name of one of its freedoms where it has several."""
+LARGEST_RATIO = 1e6
+"""Metres and radians; beyond, the analysis cannot tell the slower of the two from one that stands still."""
 
 
 def coupling_between(
@@ -26,14 +28,21 @@ def coupling_between(
     factor, shift = checked_number("the ratio", ratio), checked_number("the offset", offset)
     if factor == 0.0:
         raise ValueError("the ratio is 0; nothing would follow. Pass how far b moves for one of a")
+    if abs(shift) > LARGEST:
+        raise ValueError(f"the offset is {offset}; pass a number, none beyond {LARGEST:g}")
     if (joint_a.id, freedom_a) == (joint_b.id, freedom_b):
         raise ValueError(
             f"a and b are both {FREEDOM_NAMES[freedom_a]} of joint {joint_a.id}; pass two coordinates"
         )
     turns = [freedom >= RX for freedom in (freedom_a, freedom_b)]
     unit_a, unit_b = (math.radians(1.0) if turn else 1.0 for turn in turns)
-    kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR
     term = Term(joint_a.id, freedom_a, factor * unit_b / unit_a)
+    if not 1.0 / LARGEST_RATIO <= abs(term.ratio) <= LARGEST_RATIO:
+        raise ValueError(
+            f"the ratio is {ratio}, {term.ratio:g} in metres and radians; no gear has it and the"
+            f" slower of the two would stand still. Pass one from {1.0 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}"
+        )
+    kind = CouplingKind.GEAR if all(turns) else CouplingKind.RACK if any(turns) else CouplingKind.LINEAR
     return Coupling(name or f"{kind.value}:{number}", kind, joint_b.id, freedom_b, (term,), shift * unit_b)
 
 
@@ -42,12 +51,14 @@ def _coordinate(joints: Sequence[Joint], argument: str, asked: JointLike) -> tup
     wanted = which.id if isinstance(which, Joint) else which
     joint = next((joint for joint in joints if joint.id == wanted), None)
     if joint is None:
-        raise ValueError(f"{argument} is {asked!r}; pass a joint of this scene, or its id")
+        raise ValueError(f"{argument} is {shown(asked)}; pass a joint of this scene, or its id")
     free = [FREEDOM_NAMES[i] for i in joint.unlocked]
     if not name and len(free) != 1:
         raise ValueError(
             f"{argument} is joint {joint.id}, which leaves {', '.join(free) or 'nothing'} free; pass (joint, name)"
         )
     if name and name not in free:
-        raise ValueError(f"{argument} is {name!r} of joint {joint.id}, which leaves {', '.join(free)} free")
+        raise ValueError(
+            f"{argument} is {shown(name)} of joint {joint.id}, which leaves {', '.join(free)} free"
+        )
     return joint, FREEDOM_NAMES.index(name or free[0])

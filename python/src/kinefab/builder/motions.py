@@ -21,7 +21,7 @@ from ..model import (
     Passive,
     freedoms_of,
 )
-from .arguments import LARGEST, checked_flag, checked_number
+from .arguments import LARGEST, checked_flag, checked_number, numbers_in, shown
 
 Range = tuple[float, float]
 FreedomLike = Union[Freedom, Range, bool]
@@ -38,7 +38,7 @@ def kind_of_word(kind: Any) -> JointKind:
         return JointKind(kind)
     except ValueError:
         words = ", ".join(member.value for member in JointKind)
-        raise ValueError(f"the kind is {kind!r}; pass one of: {words}") from None
+        raise ValueError(f"the kind is {shown(kind)}; pass one of: {words}") from None
 
 
 def checked_lead(kind: JointKind, lead: Any) -> float:
@@ -101,7 +101,7 @@ def _set(freedoms: list[Freedom], name: str, change: Callable[[Freedom], Freedom
 
 def _checked_name(kind: JointKind, name: str) -> str:
     if name not in FREEDOM_NAMES:
-        raise TypeError(f"{name!r} is no freedom; pass one of: {', '.join(FREEDOM_NAMES)}")
+        raise TypeError(f"{shown(name)} is no freedom; pass one of: {', '.join(FREEDOM_NAMES)}")
     free = [FREEDOM_NAMES[i] for i in UNLOCKED.get(kind, range(6))]
     if name not in free:
         left = " and ".join(free) or "none"
@@ -142,17 +142,18 @@ def _freedom(name: str, asked: Any) -> Freedom:
 
 def _limited(freedom: Freedom, name: str, limits: Any) -> Freedom:
     """limits: (lower, upper), degrees or metres; an end may be infinite."""
-    try:
-        lower, upper = limits
-        if any(isinstance(end, (str, bool)) for end in (lower, upper)):
-            raise TypeError
-        lower, upper = float(lower), float(upper)
-    except (TypeError, ValueError):
-        raise TypeError(f"limits are {limits!r}; pass two numbers, (lower, upper), or None") from None
+    ends = numbers_in(limits)
+    if ends is None or ends.shape != (2,):
+        raise TypeError(
+            f"limits are {shown(limits)}; pass two numbers, (lower, upper), math.inf for an open end, or None"
+        )
+    lower, upper = ends.tolist()
     if any(math.isfinite(end) and abs(end) > LARGEST for end in (lower, upper)):
-        raise ValueError(f"limits are {limits!r}; pass two numbers, none but infinity beyond {LARGEST:g}")
+        raise ValueError(
+            f"limits are {shown(limits)}; pass two numbers, none but infinity beyond {LARGEST:g}"
+        )
     if not lower <= upper or lower == math.inf or upper == -math.inf:
-        raise ValueError(f"limits are {limits!r}; pass (lower, upper) with lower not above upper")
+        raise ValueError(f"limits are {shown(limits)}; pass (lower, upper) with lower not above upper")
     unit = math.radians(1.0) if angular(name) else 1.0
     return replace(freedom, motion=Motion.LIMITED, lower=lower * unit, upper=upper * unit)
 
@@ -165,11 +166,11 @@ def _drive(name: str, drive: Any) -> Drive:
         return drive
     if not isinstance(drive, Mapping):
         raise TypeError(
-            f"the drive of {name} is {drive!r}; pass a dict such as {{'target_velocity': 90, 'motor': True}}"
+            f"the drive of {name} is {shown(drive)}; pass a dict such as {{'target_velocity': 90, 'motor': True}}"
         )
     stated = cast("Mapping[str, Any]", drive)
     if unknown := stated.keys() - DRIVE_WORDS:
-        raise TypeError(f"a drive has no {sorted(unknown)[0]!r}; pass {', '.join(sorted(DRIVE_WORDS))}")
+        raise TypeError(f"a drive has no {shown(sorted(unknown)[0])}; pass {', '.join(sorted(DRIVE_WORDS))}")
     unit = math.radians(1.0) if angular(name) else 1.0
     number = {
         word: checked_number(f"the drive's {word}", stated[word], least=least, infinite=word == "max_force")
@@ -202,7 +203,9 @@ def _passive(name: str, spring: Any, damping: Any) -> Passive:
     if isinstance(spring, Sequence) and not isinstance(spring, str):
         pair = cast("Sequence[Any]", spring)
         if len(pair) != 2:
-            raise TypeError(f"the spring of {name} is {spring!r}; pass its stiffness, or (stiffness, rest)")
+            raise TypeError(
+                f"the spring of {name} is {shown(spring)}; pass its stiffness, or (stiffness, rest)"
+            )
         spring, rest = pair[0], checked_number(f"the rest of {name}'s spring", pair[1])
     stiffness = 0.0 if spring is None else checked_number(f"the spring of {name}", spring, least=0.0)
     loss = 0.0 if damping is None else checked_number(f"the damping of {name}", damping, least=0.0)
@@ -218,11 +221,11 @@ def _check_freedom(key: str, freedom: Freedom) -> None:
         finite += [drive.target, drive.target_velocity, drive.stiffness, drive.damping]
     if any(map(math.isnan, open_ended)) or not all(map(math.isfinite, finite)):
         raise ValueError(
-            f"{key} is {freedom!r}; only a range and a largest force may be infinite, and none NaN"
+            f"{key} is {shown(freedom)}; only a range and a largest force may be infinite, and none NaN"
         )
     gains = [freedom.stiffness, freedom.damping]
     gains += [] if drive is None else [drive.stiffness, drive.damping, drive.max_force]
     if min(gains) < 0.0 or not 0.0 <= freedom.restitution <= 1.0:
         raise ValueError(
-            f"{key} is {freedom!r}; no stiffness, damping or force is below 0, no restitution outside 0..1"
+            f"{key} is {shown(freedom)}; no stiffness, damping or force is below 0, no restitution outside 0..1"
         )

@@ -35,6 +35,7 @@ from .arguments import (
     checked_number,
     checked_pose,
     checked_vector,
+    shown,
 )
 from .couplings import JointLike, coupling_between
 from .ids import Ids
@@ -200,7 +201,7 @@ class Scene(model.Scene):
         """Raise unless ``node`` is what an ``add_part`` or ``add_assembly`` returned."""
         if isinstance(node, bool) or not isinstance(node, (int, np.integer)):
             raise TypeError(
-                f"{argument} is {node!r}; pass the index that add_part or add_assembly returned"
+                f"{argument} is {shown(node)}; pass the index that add_part or add_assembly returned"
                 + ("" if argument == "b" else ", or None")
             )
         if not 0 <= node < len(self.nodes):
@@ -229,7 +230,8 @@ class Scene(model.Scene):
         """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
 
         kind: a JointKind or its word (``revolute``).
-        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD.  lead: of a screw, metres a turn.
+        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD; Z is across both.  A universal joint
+        turns about X, which stays in ``b``, and Z, which stays in ``a``.  lead: of a screw, metres a turn.
         limits: (lower, upper) in degrees or metres from the present pose.
         drive: a dict with ``target``, ``target_velocity`` (degrees or metres, a second), ``stiffness``, ``damping``,
         ``max_force`` (newtons, metres, radians), ``acceleration``, ``motor``.

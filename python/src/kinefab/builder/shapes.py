@@ -14,7 +14,7 @@ from ..geometry.looks.visuals import look_of
 from ..geometry.pieces import Piece
 from ..model import Mesh, MeshReference, Surface
 from ..spatial import Array
-from .arguments import LARGEST
+from .arguments import LARGEST, shown
 
 METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 
@@ -36,21 +36,28 @@ def shapes_of(name: str, given: Any, unit: str) -> list[Shape]:
     geometries); the path of a mesh file.  unit: of its numbers.
     """
     if unit not in METRES:
-        raise ValueError(f"the unit of {name}'s mesh is {unit!r}; pass one of: {', '.join(METRES)}")
+        raise ValueError(f"the unit of {name}'s mesh is {shown(unit)}; pass one of: {', '.join(METRES)}")
     size = METRES[unit]
     if isinstance(given, (str, os.PathLike)):
         path = Path(cast("str | os.PathLike[str]", given))
-        if not path.is_file():
-            raise ValueError(f"the mesh of {name} is {os.fspath(given)!r}, where there is no file")
+        if not _is_file(path):
+            raise ValueError(f"the mesh of {name} is {shown(os.fspath(given))}, where there is no file")
         return [Shape(name, reference=MeshReference(path, np.diag([size, size, size, 1.0]), where=str(path)))]
     if hasattr(given, "geometry") and hasattr(given, "graph"):
         return _scene_shapes(name, given, size)
     if not (hasattr(given, "vertices") and hasattr(given, "faces")):
         raise TypeError(
-            f"the mesh of {name} is {type(given).__name__} {given!r:.60}; pass a trimesh.Trimesh or trimesh.Scene, anything"
+            f"the mesh of {name} is {type(given).__name__} {shown(given)}; pass a trimesh.Trimesh or trimesh.Scene, anything"
             " with vertices and faces, or the path of a mesh file"
         )
     return [_shape(name, name, given, np.diag([size, size, size, 1.0]))]
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # longer than any name may be; a NUL in it, in older Pythons
+        return False
 
 
 def _scene_shapes(name: str, scene: Any, size: float) -> list[Shape]:

@@ -18,7 +18,7 @@ from ..equations.solve import Solver
 from ..equations.system import State, System
 from ..freedom.bodies import stated_bodies
 from ..freedom.first_order import BlockFreedom, block_freedoms
-from ..freedom.motion import FiniteFreedom, displaced, finite_freedoms
+from ..freedom.motion import STEP, FiniteFreedom, displaced, finite_freedoms
 from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
 from .blocks import Blocks, blocks_of, edges_of, relative_system
 from .canonical import canonical
@@ -26,7 +26,9 @@ from .closing import Closing, closed
 from .duplicates import without_duplicates
 
 SAME = 1e-7
-"""Difference of two bodies' twists (or displacements over a trial step) up to which they move as one."""
+"""Difference of two bodies' twists up to which they move as one."""
+STEP_SAME = 1e-8
+"""The same of their displacements over a trial step, by its size: exact but for what closing it again leaves."""
 
 
 @dataclass(eq=False)
@@ -212,7 +214,8 @@ def _moving_as_one(
     joined: pairs of bodies with something between them beside couplings, shape (edges, 2).
 
     Equal twists are not enough at a dead centre, where a crank's velocity vanishes and its motion does
-    not: a trial step of finite size decides.
+    not, nor where a joint on the way turns back, as between a four-bar's coupler and rocker when its
+    crank lies along the frame: a trial step of finite size decides.
     """
     draw = np.random.default_rng(3)
     partition = Partition(relative.bodies)
@@ -232,8 +235,7 @@ def _moving_as_one(
         elif len(first.bodies) > 1 and last.mobility > 0:
             twist = (first.basis @ draw.standard_normal(first.mobility)).reshape(-1, 6)
             groups[part] = _adjoining(_same_twists(relative, root, first.bodies, twist), neighbours)
-            at_rest = any(root in group for group in groups[part])  # or only at a dead centre
-            if groups[part] and (at_rest or last.singular or len(first.rows) > first.rank):
+            if groups[part]:
                 doubtful[part] = first
     for part, shift in displaced(solver, doubtful, start).items():
         bodies = doubtful[part].bodies
@@ -290,7 +292,19 @@ def _adjoining(groups: list[IntArray], neighbours: dict[int, set[int]]) -> list[
 
 
 def _stays_one(relative: System, root: int, bodies: IntArray, group: IntArray, shift: Array) -> bool:
-    common = dict(zip(bodies.tolist(), _at_origin(relative, bodies, shift.reshape(-1, 6))))
-    common[root] = np.zeros(6)
-    values = np.array([common[int(b)] for b in group])
-    return bool(np.ptp(values, axis=0).max() < 1e-5)
+    """Whether a group of bodies, the root at rest perhaps among them, moved as one over a trial step.
+
+    shift: displacements of the block's bodies, as ``displaced`` tells them, shape (6 n,).
+    """
+    index = {int(body): i for i, body in enumerate(bodies.tolist())}
+    own = np.array([index[int(body)] for body in group if int(body) != root])
+    length = relative.length[bodies[0]]
+    step = STEP * shift.reshape(-1, 6)[own]
+    arm = (relative.center[bodies[0]] - relative.center[bodies[own]]) / length
+    sine = step[:, 3:]
+    once = cross(sine, arm)  # the turn of an arm by Rodrigues' formula, of which first order is not enough
+    twice = cross(sine, once) / (1.0 + np.sqrt(1.0 - (sine**2).sum(axis=1, keepdims=True)))
+    moved = np.concatenate([step[:, :3] + once + twice, sine], axis=1) / STEP
+    if len(own) < len(group):
+        moved = np.concatenate([moved, np.zeros((1, 6))])
+    return bool(np.ptp(moved, axis=0).max() < STEP_SAME)

@@ -241,3 +241,97 @@ def test_a_ratio_that_the_analysis_cannot_see_is_refused(ratio, offset, says):
     assert says in str(raised.value) and scene.couplings == []
     scene.add_coupling(*hinges, 9e5)
     assert kinefab.motion(scene).mobility == 1
+
+
+BOX_KIND, BALL = kinefab.ColliderKind.BOX, kinefab.ColliderKind.SPHERE
+INERTIA = np.diag([0.2, 0.3, 0.4])
+
+
+@pytest.mark.parametrize(
+    "options, error, says",
+    [
+        (
+            {"material": Surface("s", (0.1, math.nan, 0.3, 1))},
+            ValueError,
+            "pass three or four numbers from 0 to 1",
+        ),
+        ({"material": Surface("s", "red")}, ValueError, "the color of Lid is 'red'; pass three"),
+        (
+            {"material": Surface("s", metallic=1.5)},
+            ValueError,
+            "the metallic of Lid is 1.5; pass a number from 0 to 1",
+        ),
+        (
+            {"material": Surface("s", emission=(0, 2, -1))},
+            ValueError,
+            "the emission of Lid is (0, 2, -1); pass three",
+        ),
+        (
+            {"material": PhysicsMaterial("r", -0.5)},
+            ValueError,
+            "the dynamic_friction of Lid is -0.5; pass a finite",
+        ),
+        ({"material": PhysicsMaterial("r", restitution=2.0)}, ValueError, "pass a number from 0 to 1"),
+        ({"collider": Collider("box", size=(1, 2, 3))}, TypeError, "pass a ColliderKind: BOX, SPHERE"),
+        ({"collider": Collider(BOX_KIND)}, ValueError, "is (0.0, 0.0, 0.0); pass three lengths above zero"),
+        ({"collider": Collider(BOX_KIND, size=(1, -2, 3))}, ValueError, "pass three lengths above zero"),
+        (
+            {"collider": Collider(BOX_KIND, size=(1, math.inf, 3))},
+            ValueError,
+            "pass three lengths above zero",
+        ),
+        ({"collider": Collider(BOX_KIND, np.eye(4), (1, 2, 3))}, TypeError, "pass a kinefab.Pose"),
+        (
+            {"collider": Collider(BALL, radius=-0.2)},
+            ValueError,
+            "the radius of Lid's collider is -0.2; pass one above",
+        ),
+        (
+            {"collider": Collider(BALL, radius="2")},
+            TypeError,
+            "the radius of Lid's collider is '2'; pass a number",
+        ),
+        ({"collider": Collider(BALL, radius=0.2, material="ice")}, TypeError, "pass a PhysicsMaterial"),
+        (
+            {"collider": Collider(kinefab.ColliderKind.MESH, mesh=7)},
+            ValueError,
+            "pass an index into the scene's 1 m",
+        ),
+        (
+            {"mass": kinefab.MassProperties(math.nan, (0, 0, 0), INERTIA)},
+            ValueError,
+            "the mass of Lid is nan",
+        ),
+        (
+            {"mass": kinefab.MassProperties(2.0, (0, 0), INERTIA)},
+            ValueError,
+            "the center of Lid's mass is (0, 0); pass",
+        ),
+        (
+            {"mass": kinefab.MassProperties(2.0, (0, 0, 0), (1, 2, 3))},
+            ValueError,
+            "pass a matrix of numbers, 3 x 3",
+        ),
+        (
+            {"mass": kinefab.MassProperties(2.0, (0, 0, 0), np.triu(INERTIA + 0.1))},
+            ValueError,
+            "is not symmetric",
+        ),
+    ],
+)
+def test_what_a_part_states_of_itself_is_looked_at(options, error, says):
+    """Most went through to the file, or ended in an error of numpy's; nothing is added."""
+    scene = kinefab.Scene()
+    with pytest.raises(error) as raised:
+        scene.add_part("Lid", BOX, **options)
+    assert says in str(raised.value)
+    assert not (scene.nodes or scene.surfaces)
+
+
+def test_lists_do_for_arrays_and_three_colours_for_four():
+    scene = kinefab.Scene()
+    stated = kinefab.MassProperties(2, [0, 0.1, 0], INERTIA.tolist())
+    scene.add_part("Lid", BOX, mass=stated, material=Surface("red", (0.9, 0.1, 0.2)))
+    mass = scene.nodes[0].mass
+    assert mass is not None and mass.center.tolist() == [0, 0.1, 0] and np.array_equal(mass.inertia, INERTIA)
+    assert scene.surfaces[0].color == (0.9, 0.1, 0.2, 1.0)

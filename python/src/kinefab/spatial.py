@@ -34,6 +34,11 @@ class Pose:
 
     rotation: proper rotation matrix, shape (3, 3), columns are the inner axes in the outer frame.
     translation: inner origin in the outer frame, metres, shape (3,).
+
+    >>> import kinefab, numpy as np
+    >>> quarter = kinefab.Pose(np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), np.array([5.0, 0.0, 0.0]))
+    >>> (quarter @ quarter).translation.tolist()
+    [5.0, 5.0, 0.0]
     """
 
     rotation: Array = field(default_factory=lambda: np.eye(3))
@@ -43,14 +48,30 @@ class Pose:
         return Pose(self.rotation @ inner.rotation, self.rotation @ inner.translation + self.translation)
 
     def inverse(self) -> Pose:
+        """The outer frame in the inner one.
+
+        >>> import numpy as np
+        >>> kinefab.Pose(translation=np.array([1.0, 2.0, 3.0])).inverse().translation.tolist()
+        [-1.0, -2.0, -3.0]
+        """
         return Pose(self.rotation.T, -self.rotation.T @ self.translation)
 
     def point(self, p: Array) -> Array:
-        """A point, or points of shape (n, 3), from the inner frame to the outer one."""
+        """A point, or points of shape (n, 3), from the inner frame to the outer one.
+
+        >>> import numpy as np
+        >>> kinefab.Pose(np.diag([1.0, -1.0, -1.0]), np.array([5.0, 0.0, 0.0])).point(np.array([1.0, 2.0, 3.0])).tolist()
+        [6.0, -2.0, -3.0]
+        """
         return p @ self.rotation.T + self.translation
 
     def direction(self, d: Array) -> Array:
-        """A direction, or directions of shape (n, 3), from the inner frame to the outer one."""
+        """A direction, or directions of shape (n, 3), from the inner frame to the outer one.
+
+        >>> import numpy as np
+        >>> kinefab.Pose(np.diag([1.0, -1.0, -1.0])).direction(np.array([1.0, 2.0, 3.0])).tolist()
+        [1.0, -2.0, -3.0]
+        """
         return d @ self.rotation.T
 
 

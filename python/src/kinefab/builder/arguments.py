@@ -87,10 +87,20 @@ def checked_flag(what: str, value: object) -> None:
         raise TypeError(f"{what} is {shown(value)}; pass True or False")
 
 
-def checked_mass(name: str, mass: object) -> None:
-    """Raises TypeError for what is neither None nor MassProperties; a number alone would leave the inertia open."""
-    if mass is not None and not isinstance(mass, MassProperties):
+def checked_mass(name: str, mass: object) -> MassProperties | None:
+    """With arrays for what may be lists.  Raises TypeError for what is neither None nor MassProperties (a number alone would
+    leave the inertia open), ValueError for one whose center or inertia has another shape, or whose inertia is not symmetric."""
+    if mass is None:
+        return None
+    if not isinstance(mass, MassProperties):
         raise TypeError(f"the mass of {name} is {shown(mass)}; pass MassProperties, or a density instead")
+    number = checked_number(f"the mass of {name}", mass.mass)
+    inertia = numbers_in(mass.inertia)
+    if inertia is None or inertia.shape != (3, 3) or not np.isfinite(inertia).all():
+        raise ValueError(f"the inertia of {name} is {shown(mass.inertia)}; pass a matrix of numbers, 3 x 3")
+    if np.abs(inertia - inertia.T).max() > ROUNDED * np.abs(inertia).max():
+        raise ValueError(f"the inertia of {name} is not symmetric; pass each product in both its places")
+    return MassProperties(number, checked_vector(f"the center of {name}'s mass", mass.center), inertia)
 
 
 def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite: bool = False) -> float:
@@ -103,7 +113,9 @@ def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite:
         number = math.nan
     if math.isnan(number) or (math.isinf(number) and not infinite) or number < least:
         bound = "" if math.isinf(least) else f", not below {least:g}"
-        raise ValueError(f"{what} is {shown(value)}; pass a{'' if infinite else ' finite'} number{bound}")
+        raise ValueError(
+            f"{what} is {shown(cast(object, value))}; pass a{'' if infinite else ' finite'} number{bound}"
+        )
     return number
 
 

@@ -55,8 +55,8 @@ class PartIndex(int):
 class Scene(model.Scene):
     """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
 
-    A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without
-    length, a number that is not finite, limits in the wrong order) and adds nothing; the message says what to pass.  Frame: right-handed, +Y up, metres, degrees.
+    A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without length,
+    limits in the wrong order) and adds nothing; the message says what to pass.  Frame: right-handed, +Y up, metres, degrees.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -115,29 +115,28 @@ class Scene(model.Scene):
             raise ValueError(f"{weighs} is {density}; it must be a number above zero")
         checked_name("the name", name, empty=False)
         checked_flag(f"grounded of {name}", grounded)
-        checked_mass(name, mass)
+        weight = checked_mass(name, mass)
         shapes = [] if mesh is None else shapes_of(name, mesh, unit)
         looks, touch = materials_of(name, material)
         if color is not None:
             looks = replace(looks or Surface(name), color=checked_color(name, color))
-        shape, own = colliders_of(name, collider, touch)
+        known = len(self.meshes) + sum(each.mesh is not None for each in shapes)
+        shape, own = colliders_of(name, collider, touch, known)
         index = self._add_node(
             name,
             NodeKind.PART,
             parent,
             translation,
             rotation,
-            mass=mass,
+            mass=weight,
             grounded=bool(grounded),
             colliders=own,
             collision=shape,
         )
         if not shapes:
             return index
-        surfaces: tuple[int, ...] = ()
-        if looks is not None:
-            self.surfaces.append(looks)
-            surfaces = (len(self.surfaces) - 1,)
+        surfaces = () if looks is None else (len(self.surfaces),)
+        self.surfaces += () if looks is None else (looks,)
         bodies: list[Body] = []
         for each in shapes:
             number = None

@@ -41,7 +41,7 @@ def shapes_of(name: str, given: Any, unit: str) -> list[Shape]:
     if isinstance(given, (str, os.PathLike)):
         path = Path(cast("str | os.PathLike[str]", given))
         if not _is_file(path):
-            raise ValueError(f"the mesh of {name} is {shown(os.fspath(given))}, where there is no file")
+            raise ValueError(f"the mesh of {name} is {shown(str(path))}, where there is no file")
         return [Shape(name, reference=MeshReference(path, np.diag([size, size, size, 1.0]), where=str(path)))]
     if hasattr(given, "geometry") and hasattr(given, "graph"):
         return _scene_shapes(name, given, size)

@@ -10,6 +10,13 @@ from .meshes import MeshReference
 
 
 class ColliderKind(str, Enum):
+    """The shape of a collider.
+
+    >>> import kinefab
+    >>> kinefab.ColliderKind("capsule") is kinefab.ColliderKind.CAPSULE
+    True
+    """
+
     BOX = "box"
     SPHERE = "sphere"
     CAPSULE = "capsule"
@@ -30,7 +37,12 @@ class Combine(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class PhysicsMaterial:
-    """name; dynamic_friction, static_friction: coefficients, not negative; restitution: 0..1."""
+    """name; dynamic_friction, static_friction: coefficients, not negative; restitution: 0..1.
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> tyre = scene.add_part("Tyre", material=kinefab.PhysicsMaterial("rubber", 0.9, 1.1, restitution=0.2))
+    """
 
     name: str = ""
     dynamic_friction: float = 0.6
@@ -51,6 +63,11 @@ class Collider:
     reference: where that mesh is to be loaded from, or None.
     material: None for the engine's own.  trigger: tells of contacts and stops nothing.
     group: the source's collision group or layer, "" for none; what it means stands in the node's extras.
+
+    >>> import kinefab
+    >>> pin = kinefab.Collider(kinefab.ColliderKind.CAPSULE, kinefab.Pose(translation=(0, 0.1, 0)), radius=0.02, length=0.3)
+    >>> kinefab.Scene().add_part("Pin", collider=pin)
+    0
     """
 
     kind: ColliderKind

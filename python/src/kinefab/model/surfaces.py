@@ -49,6 +49,11 @@ class Surface:
     color_texture: RGBA, sRGB.  normal_texture: tangent space, +Y up (OpenGL).
     metallic_roughness_texture: as glTF has it, roughness in G, metallic in B, linear.
     occlusion_texture: in R, linear.  emission_texture: RGB, sRGB.
+
+    >>> import kinefab
+    >>> brass = kinefab.Surface("brass", (0.7, 0.5, 0.2, 1.0), metallic=1.0, smoothness=0.8)
+    >>> kinefab.Scene().add_part("Bush", material=brass)
+    0
     """
 
     name: str
@@ -67,6 +72,10 @@ class Surface:
 
     @property
     def blending(self) -> AlphaMode:
-        """How alpha is shown: BLEND where a colour that is not whole came without a mode, as most formats have none."""
+        """How alpha is shown: BLEND where a colour that is not whole came without a mode, as most formats have none.
+
+        >>> kinefab.Surface("glass", (0.9, 0.9, 1.0, 0.3)).blending.value
+        'blend'
+        """
         seen_through = self.alpha_mode is AlphaMode.OPAQUE and self.color[3] < 1.0
         return AlphaMode.BLEND if seen_through else self.alpha_mode

@@ -78,6 +78,24 @@ def test_a_project_has_the_script_once(tmp_path):
         )
 
 
+def test_a_project_keeps_the_script_that_others_need(tmp_path):
+    """The export that brought it is made again without it; outside a project it goes."""
+    options = kinefab.ExportOptions(writing={"scripts": True})
+    for assets, stays in ((tmp_path / "Assets", True), (tmp_path / "out", False)):
+        assets.mkdir()
+        for name, asked in (("One", options), ("Two", options), ("One", kinefab.ExportOptions())):
+            kinefab.export(rich_scene(tmp_path), assets / f"{name}.prefab", asked)
+        assert (assets / "One" / "Scripts" / SCRIPT).exists() is stays
+        assert (assets / "Two" / "Scripts" / SCRIPT).exists() is not stays
+        assert "MonoBehaviour" not in (assets / "One.prefab").read_text("utf-8")
+        if stays:
+            scripts = [
+                d for d in documents((assets / "Two.prefab").read_text("utf-8")) if d.kind == "MonoBehaviour"
+            ]
+            project = Project(assets)
+            assert {project.paths[d.fields["m_Script"]["guid"]].name for d in scripts} == {SCRIPT}
+
+
 def test_every_package_has_the_same_script_at_the_same_place(tmp_path):
     """Two classes of one name would not compile."""
     entries = []

@@ -102,6 +102,16 @@ def all_documents(prefab: Path) -> list[tuple[Path, Document]]:
 
 
 @pytest.mark.parametrize("dialect", DIALECTS)
+def test_clips_move_bodies_in_step_with_the_solver(folder, dialect):
+    """By whichever field the editor looks at."""
+    (own,) = [
+        d.fields for _, d in all_documents(exported(folder, dialect, "builtin")) if d.kind == "Animation"
+    ]
+    asked = {name: value for name, value in own.items() if name in ("m_AnimatePhysics", "m_UpdateMode")}
+    assert len(asked) == (2 if dialect == "6" else 1) and set(asked.values()) == {"1"}
+
+
+@pytest.mark.parametrize("dialect", DIALECTS)
 @pytest.mark.parametrize("pipeline", PIPELINES)
 def test_every_document_has_the_fields_of_its_class(folder, dialect, pipeline):
     found = all_documents(exported(folder, dialect, pipeline))

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from ...diagnostics import KinefabError
 from ..content import Content
-from .exporting import prefab_files
+from .exporting import prefab_files, script_files, script_folder
 from .folder import put_in_place
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
-from .project import has_script, identity_of
+from .project import has_script, identity_of, lends_script
 
 ENDING = ".prefab"
 
@@ -37,8 +37,12 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if detail := why_not_shared(name):
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
-    scripts = None if options.scripts and has_script(target) else f"{name}/Scripts"
-    identity = identity_of(target)
-    files = prefab_files(content, name, options, scripts, identity)
+    home = f"{name}/Scripts"
+    identity, lent = identity_of(target), lends_script(target, home)
+    files = prefab_files(
+        content, name, options, None if options.scripts and has_script(target) else home, identity
+    )
+    if lent and not any(file.path == home for file in files):
+        files += [script_folder(home), *script_files(home)]
     content.refuse_losses()
     return put_in_place(files, target, identity, report, content.progress)

@@ -93,7 +93,7 @@ class _Export:
         if self.options.scripts and scene.couplings:
             hierarchy.add_couplings()
             if self.scripts_folder is not None:
-                self._scripts(self.scripts_folder)
+                self.found += script_files(self.scripts_folder)
         folders = sorted({file.path.rpartition("/")[0] for file in self.found} | {self.name})
         head = [
             AssetFile(
@@ -104,10 +104,11 @@ class _Export:
             )
         ]
         for folder in folders:
-            own = (
-                guid("", "folder", folder) if folder == self.scripts_folder else self._guid("folder", folder)
-            )
-            head.append(AssetFile(folder, own, folder_meta(own)))
+            if folder == self.scripts_folder:
+                head.append(script_folder(folder))
+            else:
+                own = self._guid("folder", folder)
+                head.append(AssetFile(folder, own, folder_meta(own)))
         return head + self.found
 
     def _guid(self, *identity: str) -> str:
@@ -188,13 +189,6 @@ class _Export:
         )
         return dict(enumerate(references))
 
-    def _scripts(self, folder: str) -> None:
-        """The script and its assembly, the same in every export."""
-        metas = {SCRIPT: script_meta(script_guid(SCRIPT)), ASSEMBLY: assembly_meta(script_guid(ASSEMBLY))}
-        for name, meta in metas.items():
-            path = f"{folder}/{name}"
-            self.found.append(AssetFile(path, script_guid(name), meta, partial(_bytes_of, name)))
-
     def _clips(self, hierarchy: Hierarchy) -> list[Plain]:
         clips = self.scene.animations
 
@@ -204,6 +198,21 @@ class _Export:
 
         names = [clip.name for clip in clips]
         return self._assets(ANIMATIONS, ".anim", CLIP_ID, named_identities(clips), names, made)
+
+
+def script_folder(folder: str) -> AssetFile:
+    """What ``script_files`` stand in."""
+    own = guid("", "folder", folder)
+    return AssetFile(folder, own, folder_meta(own))
+
+
+def script_files(folder: str) -> list[AssetFile]:
+    """The script and its assembly, the same in every export."""
+    metas = {SCRIPT: script_meta(script_guid(SCRIPT)), ASSEMBLY: assembly_meta(script_guid(ASSEMBLY))}
+    return [
+        AssetFile(f"{folder}/{name}", script_guid(name), meta, partial(_bytes_of, name))
+        for name, meta in metas.items()
+    ]
 
 
 def _bytes_of(name: str) -> list[bytes]:

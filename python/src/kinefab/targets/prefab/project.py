@@ -24,6 +24,16 @@ def has_script(target: Path) -> bool:
     )
 
 
+def lends_script(target: Path, folder: str) -> bool:
+    """Whether the last export of the target left the project its only script, which other prefabs may have come to need.
+    folder: of the script, from the folder that holds the prefab."""
+    if _assets(_absolute(target)).name != ASSETS:
+        return False
+    return f"{folder}/{SCRIPT}" in read_manifest(target.with_name(target.stem)).ours and not has_script(
+        target
+    )
+
+
 def identity_of(target: Path) -> str:
     """By what the prefab's guids are told from those of other exports: "" for its name alone; where another export in the project
     has that one's guids, its place too.  What an earlier export of the target chose stays.

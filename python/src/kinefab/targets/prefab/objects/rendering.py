@@ -10,6 +10,9 @@ from ..text.documents import COMPONENT, component_head, version
 from ..text.forms import BLANK, Form
 from ..text.yaml import NULL, Fields, Plain, local
 
+FIXED = 1
+"""In step with the solver, which kinematic bodies want; newer editors ask by another field."""
+
 _FILTER = Form(33, "MeshFilter", {**COMPONENT, "m_Mesh": BLANK})
 
 
@@ -74,7 +77,7 @@ def _renderer(materials: int, dialect: Dialect) -> Form:
 
 def animation_fields(owner: int, clips: Sequence[Plain], plays: bool, dialect: Dialect) -> Fields:
     """plays: the first of the clips, when the object wakes; each clip says itself how it repeats."""
-    mode: Fields = {"m_UpdateMode": 0} if dialect.animation > 3 else {}
+    mode: Fields = {"m_UpdateMode": FIXED} if dialect.animation > 3 else {}
     return {
         **component_head(owner),
         "m_Enabled": 1,
@@ -83,7 +86,7 @@ def animation_fields(owner: int, clips: Sequence[Plain], plays: bool, dialect: D
         "m_Animations": list(clips),
         "m_WrapMode": 0,
         "m_PlayAutomatically": plays,
-        "m_AnimatePhysics": 1,
+        "m_AnimatePhysics": FIXED,
         **mode,
         "m_CullingType": 0,
     }

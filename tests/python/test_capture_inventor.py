@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 from cad.captures import capture, scene_differences
@@ -39,38 +37,3 @@ def test_inertia_is_read_whatever_its_sign_and_point(tmp_path):
     draft = Draft("Inventor", "cm", "Z")
     mass_record(draft, "X", mass, center.tolist(), [9.0, 1.0, 1.0, 0.0, 0.0, 0.0], [1.0, 2.0, 3.0], "centre")
     assert [entry.code for entry in draft.report.diagnostics] == ["CAPTURE_INERTIA"]
-
-
-@pytest.mark.parametrize("fixed", [False, True])
-@pytest.mark.parametrize("flexible", [False, True])
-def test_what_is_grounded_in_a_sub_assembly_stands_still_only_where_that_does(
-    fixed: bool, flexible: bool, tmp_path
-):
-    """The first part of every assembly is grounded in it by Inventor, and moves with the assembly all the same."""
-
-    def component(name: str, **more) -> dict:
-        axes = {"x": [1.0, 0.0, 0.0], "y": [0.0, 1.0, 0.0], "z": [0.0, 0.0, 1.0]}
-        found = {
-            "id": name,
-            "kind": "part",
-            "definition": name.rpartition("/")[2],
-            "pose": {"o": [3.0, 5.0, 7.0], **axes},
-        }
-        return found | ({"parent": name.rpartition("/")[0]} if "/" in name else {}) | more
-
-    values = {
-        "meta": {"format": "kinefab.bundle", "version": "1.0", "units": {"length": "mm", "angle": "rad"}, "up": "Z"},
-        "components": [
-            component("M", kind="assembly", flexible=True), component("M/Base", grounded=True),
-            component("M/Sub", kind="assembly", flexible=flexible, grounded=fixed),
-            component("M/Sub/First", grounded=True), component("M/Sub/Second", grounded=True), component("M/Sub/Third"),
-        ],
-    }  # fmt: skip
-    found = capture("inventor", Inventor(described(values)).record(), tmp_path, "Z")
-    bundle = json.loads(found.path.read_text("utf-8"))
-    grounded = {c["id"].partition("/")[2] for c in bundle["components"] if c.get("grounded")}
-    assert grounded == {"Base"} | ({"Sub", "Sub/First", "Sub/Second"} if fixed else set())
-    tied = [
-        (j["type"], j["a"].rpartition("/")[2], j["b"].rpartition("/")[2]) for j in bundle.get("joints", [])
-    ]
-    assert tied == ([("rigid", "First", "Second")] if flexible and not fixed else [])

@@ -268,3 +268,31 @@ def test_suppressed_ones_are_kept_as_such(program, tmp_path):
     found = capture(program, DOUBLES[program](described(assembly)).record(), tmp_path, "Z")
     assert [c.get("suppressed", False) for c in found.draft.constraints] == [False, True]
     assert next(c for c in found.draft.components if c["id"] == "M/Sub/Pin")["suppressed"] is True
+
+
+@pytest.mark.parametrize("program", DOUBLES)
+@pytest.mark.parametrize("fixed", [False, True])
+@pytest.mark.parametrize("flexible", [False, True])
+def test_what_is_grounded_in_a_sub_assembly_stands_still_only_where_that_does(
+    program, fixed: bool, flexible: bool, tmp_path
+):
+    """Both programs ground the first part of every assembly in it; it moves with the assembly all the same, and so do the
+    assembly's own planes, to which other parts of it are mated."""
+    plane = {**side("Sub", "plane"), "component": "M/Sub"}
+    assembly = machine(pair("coincident", plane, side("Sub/Arm", "point", [0.9, 0.9, P[2]])))
+    one = assembly["components"][4]
+    assembly["components"] += [
+        {**one, "id": f"M/Sub/{name}", "grounded": True} for name in ("First", "Second")
+    ]
+    assembly["components"][2] |= {"flexible": flexible, "grounded": fixed}
+    found = capture(program, DOUBLES[program](described(assembly)).record(), tmp_path, "Z")
+    grounded = {c["id"].partition("/")[2] for c in found.draft.components if c.get("grounded")}
+    inside = {"Sub/First", "Sub/Second"} if flexible or program == "inventor" else set()
+    assert grounded == {"Base"} | ({"Sub"} | inside if fixed else set())
+    tied = [(j["type"], j["a"], j["b"]) for j in found.draft.joints]
+    loose = flexible and not fixed
+    assert tied == ([("rigid", "M/Sub/First", "M/Sub/Second")] if loose else [])
+    if flexible:
+        (made,) = found.draft.constraints
+        assert (made["a"]["component"], made["a"]["in"]) == ("M/Sub/First" if loose else "ground", "M/Sub")
+        assert residuals(found.draft, constraints=[made])[made["id"]] < 1e-9

@@ -168,15 +168,15 @@ def _mass(record: dict[str, Any] | None, unit: float) -> dict[str, Any] | None:
 
 
 def owned(assembly: Described, owner: str) -> list[dict[str, Any]]:
-    """The constraints that a program states in an assembly: of parts below it, not all of them below a flexible one in it;
-    of what is inside a rigid one nobody is told."""
+    """The constraints that a program states in an assembly: of parts below it, or of its own planes, not all of them below a
+    flexible one in it; of what is inside a rigid one nobody is told."""
     below = {
         p.id: p.flags["flexible"] for p in assembly.parts.values() if p.assembly and p.id != assembly.root
     }
     found = []
     for c in assembly.constraints:
         ends = [c[k]["component"] for k in "abc" if k in c]
-        homes = [p for p in below if all(e.startswith(p + "/") for e in ends)]
+        homes = [p for p in below if all(e == p or e.startswith(p + "/") for e in ends)]
         home = max(homes, key=len, default=assembly.root)
         if home == owner and all(below[p] for p in homes):
             found.append(c)

@@ -65,7 +65,17 @@ class SolidWorks:
         m = np.concatenate([part.rotation.T.ravel(), part.origin, [1.0, 0.0, 0.0, 0.0]])
         model = None
         if part.assembly and part.flags["flexible"]:
-            model = a.made("Model", LengthUnit=0, FirstFeature=self._features(part.id, False))
+            inside = [
+                a.made(
+                    "Component", Name2=child.id.removeprefix(part.id + "/"), IsFixed=child.flags["grounded"]
+                )
+                for child in self.assembly.children(part.id)
+            ]
+            root = a.made("Component", GetChildren=inside)
+            model = a.made(
+                "Model", LengthUnit=0, FirstFeature=self._features(part.id, False),
+                GetConfigurationByName={'"Default"': a.made("Configuration", GetRootComponent3={"true": root})},
+            )  # fmt: skip
         elif not part.assembly:
             look = [v / 255.0 for v in part.look["srgb"]] if part.look else None
             color = [*look[:3], 0.5, 1.0, 0.3, 0.4, 1.0 - look[3], 0.0] if look else None
@@ -78,7 +88,7 @@ class SolidWorks:
             "ReferencedConfiguration": "Default", "Visible": 1 if part.flags["visible"] else 0,
             "Solving": 1 if part.flags["flexible"] else 0 if part.assembly else -1, "GetChildren": children,
             "GetPathName": f"C:\\Work\\{part.definition}.SLD{'ASM' if part.assembly else 'PRT'}", "GetModelDoc2": model,
-            "GetSuppression2": 0 if part.flags["suppressed"] else 2, "IsFixed": part.flags["grounded"],
+            "GetSuppression2": 0 if part.flags["suppressed"] else 2, "IsFixed": part.flags["grounded"] and part.parent == self.assembly.root,
             "IsMirrored": bool(np.linalg.det(part.rotation) < 0.0), "IsPatternInstance": part.id in self.instances,
             "GetBodies2": {"0": self.bodies(self, part) if self.bodies else None},
         })  # fmt: skip

@@ -6,6 +6,7 @@ from typing import cast
 
 from ..channel import methods_of
 from ..draft import Draft, Record
+from ..held import standing
 from . import api
 from .api import (
     Application,
@@ -63,7 +64,7 @@ def capture(application: Application, draft: Draft) -> None:
     found.read(definition.Occurrences, root)
     _statements(Owner(draft, root, "world"), definition)
     for own, inner in found.flexible:
-        _statements(Owner(draft, own, own), inner)
+        _statements(Owner(draft, own, own, standing(found.held, own, own in found.still)), inner)
     with draft.safely("rigid bodies"):
         draft.notes["rigidBodies"] = _rigid_bodies(application, root, definition)
 

@@ -38,11 +38,13 @@ ALONG_NORMAL = {"offset": "along_normal"}
 
 @dataclass(slots=True)
 class Owner:
-    """The assembly whose constraints are read.  id: its component; frame: what a bundle calls its space."""
+    """The assembly whose constraints are read.  id: its component; frame: what a bundle calls its space.
+    itself: what its own planes and axes are on."""
 
     draft: Draft
     id: str
     frame: str
+    itself: str = "ground"
 
     def component(self, occurrence: Occurrence | None) -> str:
         """Id of an occurrence that the owner's constraint names: through its parents, up to the owner."""
@@ -65,7 +67,7 @@ class Owner:
             occurrence = None
         if occurrence is not None:
             return self.component(occurrence)
-        return "ground" if self.frame == "world" else self.id
+        return self.itself
 
 
 def read_constraint(owner: Owner, c: Constraint) -> None:
@@ -107,7 +109,7 @@ def _sides(owner: Owner, c: Constraint, kind: str, record: Record) -> None:
     expected = {INSERT: ("circle",), FLUSH: ("plane",), "Transitional": ("cylinder",)}.get(kind, ())
     both = ((c.OccurrenceOne, "One", "a"), (c.OccurrenceTwo, "Two", "b"))
     for occurrence, side, key in both:
-        component = owner.component(occurrence) if occurrence is not None else "ground"
+        component = owner.component(occurrence) if occurrence is not None else owner.itself
         stated: Record | None = None
         with suppress(MemberFailed):  # none of a kind that states no geometry
             if (geometry := getattr(c, f"Geometry{side}")) is not None:

@@ -29,8 +29,8 @@ def read_joint(owner: Owner, joint: Joint) -> None:
     health, definition = joint.HealthStatus, joint.Definition
     word, slide, turn = TYPES[definition.JointType]
     one, two = joint.OccurrenceOne, joint.OccurrenceTwo
-    a = "ground" if two is None else owner.component(two)
-    b = "ground" if one is None else owner.component(one)
+    a = owner.itself if two is None else owner.component(two)
+    b = owner.itself if one is None else owner.component(one)
     record: Record = {"id": own, "name": name, "type": word, "a": a, "b": b}
     record["frameA"] = _frame(owner, definition.OriginTwo, definition.AlignmentTwo, False, False)
     flipped = bool(definition.FlipAlignmentDirection)

@@ -8,6 +8,7 @@ from typing import cast
 
 from ..channel import MemberFailed
 from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
+from ..held import hold
 from ..looks import look, painted
 from ..masses import mass_record
 from .api import Asset, Body, Collection, Definition, Document, MassProperties, Matrix, Occurrence, Overridden
@@ -32,6 +33,7 @@ class Occurrences:
     """draft: what is filled.  root: id of the document's own assembly.  flexible: (id, definition) of the assemblies
     whose constraints count: the root and those whose parts move against each other.
     held: of a flexible assembly that may move the first part that is grounded in it; all others go with that one.
+    still: the flexible assemblies that stand still in the open one.
     order: how ``GetMatrixData`` lists its numbers, once a matrix has told: its documentation does not.
     """
 
@@ -39,6 +41,7 @@ class Occurrences:
     root: str
     flexible: list[tuple[str, Definition]] = field(default_factory=list[tuple[str, Definition]])
     held: dict[str, str] = field(default_factory=dict[str, str])
+    still: set[str] = field(default_factory=set[str])
     order: str = ""
     definitions: dict[str, Record] = field(default_factory=dict[str, Record])
 
@@ -78,14 +81,13 @@ class Occurrences:
         record["definition"] = self.draft.definition(document.DisplayName, _file(document))
         self.draft.component(record)
         if grounded and not fixed and any(parent == one for one, _ in self.flexible):
-            first = self.held.setdefault(parent, own)
-            if first != own:
-                joint = self.draft.unique(f"grounded: {name}")
-                self.draft.joints.append({"id": joint, "name": joint, "type": "rigid", "a": first, "b": own})
+            hold(self.draft, self.held, parent, own)
         if is_assembly:
             record["flexible"] = bool(occurrence.Flexible)
             if record["flexible"]:
                 self.flexible.append((own, definition))
+                if record["grounded"]:
+                    self.still.add(own)
             self.read(occurrence.SubOccurrences, own, record["grounded"])
         else:
             record.update(self._definition(record["definition"], definition))

@@ -31,6 +31,7 @@ class Model(Protocol):
     def GetPathName(self) -> str: ...  # text | - | IModelDoc2.GetPathName Method
     def GetSaveFlag(self) -> bool: ...  # flag | - | IModelDoc2.GetSaveFlag Method
     def FirstFeature(self) -> Feature | None: ...  # - | - | IModelDoc2.FirstFeature Method
+    def GetConfigurationByName(self, Name: str) -> Configuration | None: ...  # - | - | IModelDoc2.GetConfigurationByName Method
 
 
 class Extension(Protocol):
@@ -67,7 +68,7 @@ class Component(Protocol):
     def GetPathName(self) -> str: ...  # text | - | IComponent2.GetPathName Method
     def GetModelDoc2(self) -> Model | None: ...  # - | - | IComponent2.GetModelDoc2 Method
     def GetSuppression2(self) -> int: ...  # swComponentSuppressionState_e | - | IComponent2.GetSuppression2 Method
-    def IsFixed(self) -> bool: ...  # flag, of the top level | - | IComponent2.IsFixed Method
+    def IsFixed(self) -> bool: ...  # flag, in the document asked | - | IComponent2.IsFixed Method
     def IsMirrored(self) -> bool: ...  # flag | - | IComponent2.IsMirrored Method
     def IsPatternInstance(self) -> bool: ...  # flag | - | IComponent2.IsPatternInstance Method
     def GetBodies2(self, BodyType: int) -> Sequence[Body] | None: ...  # - | part | IComponent2.GetBodies2 Method

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from ..channel import MemberFailed, methods_of
 from ..draft import BodyMesh, Draft, Record, pose
+from ..held import hold, standing
 from ..looks import look, painted
 from ..masses import mass_record
 from . import api
@@ -75,9 +76,12 @@ def _assembly(model: Model, draft: Draft, root: str) -> None:
         draft.report.dropped(
             "documents of components", "CAPTURE_LIGHTWEIGHT", first=first, count=count, program=NAME
         )
-    for own, inner in [(root, model), *found.flexible]:
-        frame = "world" if own == root else own
-        owner = Owner(draft, own, frame, 1.0)
+    for own, inner, configuration in found.flexible:
+        with draft.safely(f"fixed components of {own}"):
+            found.fix(own, inner, configuration)
+    owners = [(own, own, inner) for own, inner, _ in found.flexible]
+    for own, frame, inner in [(root, "world", model), *owners]:
+        owner = Owner(draft, own, frame, 1.0, standing(found.held, own, own in found.still))
         with draft.safely(f"unit of {own}"):
             owner.unit = UNIT[inner.LengthUnit]
         with draft.safely(f"mates of {own}"):
@@ -88,14 +92,37 @@ def _assembly(model: Model, draft: Draft, root: str) -> None:
 
 @dataclass(slots=True)
 class Components:
-    """flexible: (id, document) of the sub-assemblies whose mates count.  unloaded: ids of what SolidWorks has no document of in
-    memory: it is lightweight."""
+    """flexible: (id, document, configuration) of the sub-assemblies whose mates count.  unloaded: ids of what SolidWorks has no
+    document of in memory: it is lightweight.  still: the root and flexible sub-assemblies that stand still in it.
+    held: of one that may move the first component that is fixed in it; all others go with that one."""
 
     draft: Draft
     root: str
-    flexible: list[tuple[str, Model]] = field(default_factory=list[tuple[str, Model]])
+    flexible: list[tuple[str, Model, str]] = field(default_factory=list[tuple[str, Model, str]])
     unloaded: list[str] = field(default_factory=list[str])
     definitions: dict[str, Record] = field(default_factory=dict[str, Record])
+    still: set[str] = field(default_factory=set[str])
+    held: dict[str, str] = field(default_factory=dict[str, str])
+
+    def __post_init__(self) -> None:
+        self.still.add(self.root)
+
+    def fix(self, own: str, model: Model, configuration: str) -> None:
+        """Hold what is fixed in a flexible sub-assembly: its own document knows, in the configuration that is used."""
+        used = model.GetConfigurationByName(configuration)
+        if used is None:
+            raise ValueError(f"no configuration {configuration}")
+        records = {c["id"]: c for c in self.draft.components}
+        for child in used.GetRootComponent3(True).GetChildren() or ():
+            record = records.get(f"{own}/{child.Name2}")
+            if record is None or record.get("suppressed") or not child.IsFixed():
+                continue
+            if own not in self.still:
+                hold(self.draft, self.held, own, record["id"])
+                continue
+            record["grounded"] = True
+            if record.get("flexible"):
+                self.still.add(record["id"])
 
     def read(self, parent: Component, own: str) -> None:
         for child in parent.GetChildren() or ():
@@ -140,7 +167,9 @@ class Components:
                 if (inner := component.GetModelDoc2()) is None:
                     self.unloaded.append(own)
                 else:
-                    self.flexible.append((own, inner))
+                    self.flexible.append((own, inner, component.ReferencedConfiguration))
+                    if record["grounded"]:
+                        self.still.add(own)
             self.read(component, own)
         else:
             record.update(self._definition(record["definition"], component))

@@ -38,12 +38,13 @@ INSTANCE = re.compile(r"-\d+$")
 @dataclass(slots=True)
 class Owner:
     """The assembly whose mates are read.  id: its component; frame: what a bundle calls its space.
-    unit: metres of its document's unit of length."""
+    unit: metres of its document's unit of length.  itself: what its own planes and origin are on."""
 
     draft: Draft
     id: str
     frame: str
     unit: float
+    itself: str = "ground"
 
     def component(self, found: Component | None, own: str) -> str:
         """Id of an entity's component; none, or the assembly itself, is the owner: its planes and origin."""
@@ -51,10 +52,6 @@ class Owner:
         known = f"{self.id}/{name}"
         itself = not name or name == own or (known not in self.draft.parts and not INSTANCE.search(name))
         return self.itself if itself else known
-
-    @property
-    def itself(self) -> str:
-        return "ground" if self.frame == "world" else self.id
 
     def holder(self, entity: MateEntity) -> str:
         """Id of what a mate's entity is on.  One of a component inside may be said to be the assembly's own: its face knows better."""

@@ -285,14 +285,20 @@ def test_what_is_grounded_in_a_sub_assembly_stands_still_only_where_that_does(
         {**one, "id": f"M/Sub/{name}", "grounded": True} for name in ("First", "Second")
     ]
     assembly["components"][2] |= {"flexible": flexible, "grounded": fixed}
+    if program == "inventor":
+        frame = {"in": "world", "o": P, "z": Z, "x": X}
+        swing = {"id": "Swing", "type": "revolute", "a": "M/Sub", "b": "M/Sub/Pin", "owner": "M/Sub"}
+        assembly["joints"] = [swing | {"frameA": frame, "frameB": frame}]
     found = capture(program, DOUBLES[program](described(assembly)).record(), tmp_path, "Z")
     grounded = {c["id"].partition("/")[2] for c in found.draft.components if c.get("grounded")}
     inside = {"Sub/First", "Sub/Second"} if flexible or program == "inventor" else set()
     assert grounded == {"Base"} | ({"Sub"} | inside if fixed else set())
     tied = [(j["type"], j["a"], j["b"]) for j in found.draft.joints]
     loose = flexible and not fixed
-    assert tied == ([("rigid", "M/Sub/First", "M/Sub/Second")] if loose else [])
+    itself = "M/Sub/First" if loose else "ground"
+    swings = [("revolute", itself, "M/Sub/Pin")] if flexible and program == "inventor" else []
+    assert tied == ([("rigid", "M/Sub/First", "M/Sub/Second")] if loose else []) + swings
     if flexible:
         (made,) = found.draft.constraints
-        assert (made["a"]["component"], made["a"]["in"]) == ("M/Sub/First" if loose else "ground", "M/Sub")
+        assert (made["a"]["component"], made["a"]["in"]) == (itself, "M/Sub")
         assert residuals(found.draft, constraints=[made])[made["id"]] < 1e-9

@@ -45,8 +45,7 @@ class Inventor:
         self.joints: list[dict[str, int]] = []
         self.base = assembly.parts[assembly.root]
         top = [self._occurrence(part, None) for part in assembly.children(assembly.root)]
-        for joint in assembly.joints:
-            self.joints.append(self._joint(joint))
+        self.joints = self._joints(self.base)
         self.constraints = self._constraints(self.base)
         self.top, self.major = top, major
 
@@ -142,7 +141,8 @@ class Inventor:
             overridden = a.listed([a.made("Overridden", Type=kind) for kind in kinds])
             self.definitions[part.definition] = a.made(
                 "Definition", Document=document, SurfaceBodies=a.listed(bodies), MassProperties=self._mass(part),
-                Constraints=a.listed(self._constraints(part) if part.flags["flexible"] else []), Joints=a.listed([]),
+                Constraints=a.listed(self._constraints(part) if part.flags["flexible"] else []),
+                Joints=a.listed(self._joints(part)),
                 OccurrencePatterns=a.listed([]), AppearanceOverridesObjects=overridden,
             )  # fmt: skip
         made = a.made("Occurrence")
@@ -176,6 +176,14 @@ class Inventor:
         """Those that an assembly states, in its own space."""
         before, self.base = self.base, owner
         made = [made for c in owned(self.assembly, owner.id) if (made := self._constraint(c))]
+        self.base = before
+        return made
+
+    def _joints(self, owner: Part) -> list[dict[str, int]]:
+        """Those that an assembly states: a description names the ``owner`` of one that is not the root's."""
+        before, self.base = self.base, owner
+        stated = [j for j in self.assembly.joints if j.get("owner", self.assembly.root) == owner.id]
+        made = [self._joint(j) for j in stated]
         self.base = before
         return made
 

@@ -473,12 +473,13 @@ def failing():
 
 
 def test_a_crash_is_told_and_the_next_question_answered():
+    """What a reader itself refuses is a sentence, without the name of an exception."""
     found = []
     with pytest.raises(GuardedCrash):
         for value in guarded(__name__, "crash", seconds=60.0):
             found.append(value)
     assert found == ["before"]
-    with pytest.raises(GuardedError, match="of its own"):
+    with pytest.raises(GuardedError, match="^of its own$"):
         list(guarded(__name__, "failing", seconds=60.0))
 
 

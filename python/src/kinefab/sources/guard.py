@@ -117,7 +117,8 @@ def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
         except (
             Exception
         ) as error:  # whatever the library raises is an answer; the caller makes a finding of it
-            last = ("error", f"{type(error).__name__}: {error}")
+            sentence = isinstance(error, ValueError) and str(error)  # what a reader itself refuses
+            last = ("error", sentence or f"{type(error).__name__}: {error}")
         pickle.dump(last, answers)
         answers.flush()
 

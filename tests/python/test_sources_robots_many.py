@@ -117,6 +117,36 @@ def test_thousands_of_geoms_of_one_body_are_read_soon(tmp_path):
     assert len(set(names)) == 10_000 and names[:2] + names[-1:] == ["geom", "geom_2", "geom_10000"]
 
 
+def test_thousands_of_missing_meshes_are_told_soon(tmp_path):
+    """Each stands for a ball that weighs nothing, and MuJoCo's own delete would walk through the whole model for each."""
+    pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+    count = 1200
+    assets = "".join(f"<mesh name='m{i}' file='m{i}.stl'/>" for i in range(count))
+    shapes = "<geom size='.1' mass='3'/><geom type='mesh' mesh='m{0}'/>"
+    bodies = "".join(f"<body name='b{i}'><joint/>{shapes.format(i)}</body>" for i in range(count))
+    text = f"<mujoco><asset>{assets}</asset><worldbody>{bodies}</worldbody></mujoco>"
+    path, start = written(tmp_path, "m.xml", text), time.process_time()
+    scene = read(path, report := Report())
+    assert time.process_time() - start < 0.5 * SOON
+    assert sum(d.code == "MESH_NOT_FOUND" for d in report.diagnostics) == count
+    assert [mesh.name for mesh in scene.meshes] == ["sphere"]
+    masses = [node.mass.mass for node in scene.nodes if node.mass is not None]
+    assert len(masses) == count and masses == pytest.approx([3.0] * count)
+
+
+def test_each_of_many_held_joints_is_held_at_its_own_value(tmp_path):
+    """Joints that equalities hold are found by their names, not by a walk through all of them for each."""
+    mujoco = pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+    count = 400
+    bodies = "".join(f"<body name='b{i}'><joint name='j{i}'/><geom size='.1'/></body>" for i in range(count))
+    held = "".join(f"<joint joint1='j{i}' polycoef='.{i + 1:03} 0 0 0 0'/>" for i in range(count))
+    text = f"<mujoco><worldbody>{bodies}</worldbody><equality>{held}</equality></mujoco>"
+    assert mujoco.MjModel.from_xml_string(text).neq == count
+    scene = read(written(tmp_path, "m.xml", text), Report())
+    ranges = [(f.lower, f.upper) for joint in scene.joints for f in joint.freedoms if f.lower > -math.inf]
+    assert ranges == [(pytest.approx((i + 1) / 1000),) * 2 for i in range(count)]
+
+
 class Counted(dict[str, int]):
     asked = 0
 

@@ -58,6 +58,7 @@ LOST = {
     "a word in a model": ("m.sdf", sdf("<link name='a'/>\n<lnik name='b'/>"), "lnik b of model m", "ELEMENT_UNKNOWN", 3),
     "a plugin": ("m.sdf", sdf("<link name='a'/>\n<plugin name='p'/>"), "plugin p of model m", "ELEMENT_DROPPED", 3),
     "a word in a link": ("m.sdf", in_sdf_link("<inertal/>"), "inertal of link m/a", "ELEMENT_UNKNOWN", 2),
+    "Bullet's contact": ("m.sdf", in_sdf_link("<contact><lateral_friction>.8</lateral_friction></contact>"), "contact of link m/a", "ELEMENT_DROPPED", 2),
     "a sensor of a link": ("m.sdf", in_sdf_link("<sensor name='s'/>"), "sensor s of link m/a", "ELEMENT_DROPPED", 2),
     "a visual's shadows": ("m.sdf", in_sdf_link(f"<visual name='v'>{SDF_SPHERE}<cast_shadows>0</cast_shadows></visual>"), "cast_shadows of visual v of link m/a", "ELEMENT_DROPPED", 2),
     "a material's": (

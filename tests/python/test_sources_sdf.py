@@ -499,6 +499,24 @@ def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
     ]
 
 
+def test_a_mimic_that_is_many_sizes_of_its_mechanism_off_is_no_contradiction(tmp_path):
+    """A kneecap beside its knee: all joints within 5 mm, and one slide that its mimic puts 26 mm away."""
+    text = model(
+        link("a")
+        + link("b", "<pose>.004 .003 0 0 0 0</pose>")
+        + link("c", "<pose>0 .002 .001 0 0 0</pose>")
+        + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz></axis>")
+        + joint("k", "prismatic", "a", "c", "<axis><xyz>0 1 0</xyz><mimic joint='j'><multiplier>.0003</multiplier><offset>.026</offset><reference>0</reference></mimic></axis>")
+    )  # fmt: skip
+    made = kinefab.export(written(tmp_path, text), tmp_path / "s.kinefab")
+    told = [d for d in made.report.diagnostics if d.code.startswith("CONSTRAINT")]
+    assert [d.code for d in told] == ["CONSTRAINT_GAP"] and "0.026 m" in told[0].message
+    solved = kinefab.ExportOptions(solve=True)
+    made = kinefab.export(tmp_path / "m.sdf", tmp_path / "t.kinefab", solved)
+    (entry,) = json.loads(made.path.read_text(encoding="utf-8"))["couplings"]
+    assert "offset" not in entry  # the pose meets the law
+
+
 def test_a_mimic_that_is_off_at_the_pose_keeps_its_offset_and_is_told(tmp_path):
     """The stated pose is where Gazebo and Drake begin, and the law is the file's; once told, and ``--solve`` meets both."""
     inner = (

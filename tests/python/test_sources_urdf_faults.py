@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 import random
 import time
 from pathlib import Path
 
 import kinefab
+import numpy as np
 import pytest
-from kinefab.diagnostics import KinefabError, Report
+from kinefab.diagnostics import KinefabError, Report, Severity
 from kinefab.model import RX, Motion
 from kinefab.sources import read
 
@@ -352,6 +354,42 @@ def test_a_xacro_reads_what_lies_in_a_package_alone(tmp_path, inner, found):
         assert "--package-path" in why.remedy
     scene = read(path, Report(), options={} if found else {"package_path": [far]})
     assert [node.name for node in scene.nodes] == ["r", "l7"]
+
+
+def test_an_inertia_of_which_only_rounding_is_left_is_none(tmp_path):
+    """iCub's head: no moments, its mass off the origin, and a frame that weighs nothing; sums leave 1e-19 kg m^2 of it."""
+    nothing = "<inertia ixx='0' ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial></link>"
+    head = "<link name='b'><inertial><mass value='1.33687'/><origin xyz='.0225 -.1005 .0333'/>" + nothing
+    frame = "<link name='c'><inertial><mass value='0'/>" + nothing
+    held = joint("<origin xyz='.0225 -.1005 .0066' rpy='1.5708 0 0'/>", "fixed", "k", "b", "c")
+    path = tmp_path / "r.urdf"
+    path.write_text(robot(A + head + frame + joint() + held), encoding="utf-8")
+    made = kinefab.export(path, tmp_path / "s.kinefab")
+    assert [d.code for d in made.report.diagnostics if "INERTIA" in d.code] == ["INERTIA_MENDED"]
+    (found,) = (node.mass for node in read(path, Report()).nodes if node.name == "b")
+    radius = (3.0 * 1.33687 / (4.0 * math.pi * 1000.0)) ** (1.0 / 3.0)
+    assert found.inertia == pytest.approx(0.4 * 1.33687 * radius**2 * np.eye(3))
+
+
+@pytest.mark.parametrize(
+    "name, text",
+    [
+        ("r.urdf", "<robot name='r'><link name='a'/></robot>"),
+        ("m.sdf", "<sdf version='1.9'><model name='m'><link name='a'/></model></sdf>"),
+        ("m.xml", "<mujoco><worldbody><body name='a'><geom size='.1'/></body></worldbody></mujoco>"),
+    ],
+)
+def test_a_package_path_that_is_no_folder_is_told(tmp_path, name, text):
+    """Beside it the others are used; nothing else of the file says that the folder is missing."""
+    if name == "m.xml":
+        pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    given = [tmp_path, tmp_path / "gone", path]
+    assert read(path, report := Report(), options={"package_path": given}).nodes
+    told = [d for d in report.diagnostics if d.code == "PACKAGE_PATH_NOT_FOUND"]
+    assert [str(folder) in d.message for d, folder in zip(told, given[1:])] == [True, True]
+    assert all(d.severity is Severity.WARNING and d.remedy for d in told)
 
 
 def mutated(text: str, chance: random.Random) -> bytes:

@@ -188,7 +188,7 @@ class Solver:
         for _ in range(iterations):
             if not open_.any():
                 break
-            bodies, twists = self._steps(open_, residual, block_a, block_b, damp)
+            bodies, twists, short = self._steps(open_, residual, block_a, block_b, damp)
             trial = system.moved(state, bodies, twists)
             values = system.linearise(trial)
             now = self.worst(values[0])
@@ -201,7 +201,8 @@ class Solver:
                 values = system.linearise(trial)
                 now = self.worst(values[0])
             damp[~worse] = np.minimum(1.0, damp[~worse] * 2.0)
-            slow = np.where(now > STALLED * worst, slow + 1, 0)
+            # A step cut short comes nearer by what it was cut to, however far the part still is from its floor.
+            slow = np.where((now > STALLED * worst) & ~(short & (now < worst)), slow + 1, 0)
             state, worst = trial, now
             residual, block_a, block_b = values
             open_ = open_ & (worst > target) & (slow < 3 + 8 * (damp < 1.0))
@@ -209,9 +210,11 @@ class Solver:
 
     def _steps(
         self, open_: BoolArray, residual: Array, block_a: Array, block_b: Array, damp: Array
-    ) -> tuple[IntArray, Array]:
+    ) -> tuple[IntArray, Array, BoolArray]:
+        """Bodies and their twists, and the parts, shape (parts,), whose step was cut to the largest."""
         bodies: list[IntArray] = []
         twists: list[Array] = []
+        short = np.zeros(self.parts, dtype=bool)
         for group in self.groups:
             take = open_[group.members]
             if not take.any():
@@ -226,9 +229,10 @@ class Solver:
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
             largest = np.abs(step).max(axis=(1, 2), initial=0.0)
             step *= np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None, None]
+            short[group.members[take]] = largest > LARGEST_STEP
             bodies.append(group.bodies[take].ravel())
             twists.append(step.reshape(-1, 6))
-        return np.concatenate(bodies), np.concatenate(twists)
+        return np.concatenate(bodies), np.concatenate(twists), short
 
 
 def minimum_norm(jacobian: Array, residual: Array) -> Array:

@@ -25,6 +25,8 @@ from .files import Files
 STAND_IN_RADIUS = 0.05
 """Metres of the ball that stands in for a mesh whose file is missing, so that a body without other shapes has a mass."""
 FOLDERS = ("meshdir", "texturedir", "assetdir")
+SOLID = ([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3])
+"""Corners and faces of a mesh that nothing draws."""
 HIDDEN = 5
 """Group of geoms that are not drawn."""
 
@@ -225,7 +227,9 @@ class _Library:
                 names[geom.name] = None
                 self.lost.add(geom.name)
                 lost.append(geom)
-            spec.delete(mesh)
+            # Nothing draws it any more; taking it out of the model would cost a walk through all of it for each.
+            mesh.name, mesh.file = name, ""
+            mesh.uservert, mesh.userface = SOLID
         weighs: dict[Any, bool] = {}
         for geom in lost:  # nobody knows what it weighs: nothing, where the body has a mass without it
             if (body := geom.parent) not in weighs:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -31,7 +31,8 @@ APART = 1e-6
 @dataclass(slots=True, eq=False)
 class Equalities:
     """carriers: by MuJoCo's id of a body; None for the world where nothing of it is a node.
-    apart: pairs of bodies that do not collide."""
+    apart: pairs of bodies that do not collide.  Its own: the index in the scene of each joint by its id, and the
+    coordinates that couplings give."""
 
     compiled: Compiled
     carriers: Sequence[Carrier | None]
@@ -39,9 +40,12 @@ class Equalities:
     scene: Scene
     report: Report
     apart: frozenset[frozenset[int]] = frozenset()
+    _places: dict[str, int] = field(default_factory=dict[str, int])
+    _given: set[tuple[str, int]] = field(default_factory=set[tuple[str, int]])
 
     def read(self) -> None:
         m, kinds = self.compiled.model, self.compiled.mujoco.mjtEq
+        self._places |= {joint.id: i for i, joint in enumerate(self.scene.joints)}
         anchored: dict[tuple[int, int, bool], list[tuple[str, str, Array, Array]]] = {}
         for i in range(m.neq):
             kind = int(m.eq_type[i])
@@ -143,11 +147,11 @@ class Equalities:
         frames = [shape_placed(frame_a), shape_placed(frame_b)]
         frames = [f if c is None else c.pose @ f for c, f in zip(ends, frames)]
         nodes = [None if c is None else c.node for c in ends]
-        known = {joint.id: joint for joint in self.scene.joints}
-        ident = unique(known, "+".join(names))
+        ident = unique(self._places, "+".join(names))
         if nodes[0] == nodes[1]:
             self.report.dropped(f"equality {ident} (within one body)", "MJCF_LEFT_OUT", where)
             return
+        self._places[ident] = len(self.scene.joints)
         self.scene.joints.append(
             Joint(
                 ident,
@@ -243,8 +247,7 @@ class Equalities:
     def _couple(self, name: str, where: str, terms: dict[int, float], constant: float) -> None:
         """sum of factor * coordinate = constant, as the first coordinate that no other coupling gives."""
         terms = {j: c for j, c in terms.items() if c != 0.0}
-        given = {(c.joint, c.freedom) for c in self.scene.couplings}
-        free = [j for j in terms if self.made.coordinate[j] not in given]
+        free = [j for j in terms if self.made.coordinate[j] not in self._given]
         if not free:
             self.report.dropped(f"equality {name} (nothing follows)", "MJCF_LEFT_OUT", where)
             return
@@ -254,6 +257,7 @@ class Equalities:
             self._hold(leader, constant / factor)
             return
         joint, freedom = self.made.coordinate[leader]
+        self._given.add((joint, freedom))
         self.scene.couplings.append(
             Coupling(
                 name,
@@ -269,11 +273,10 @@ class Equalities:
     def _hold(self, j: int, value: float) -> None:
         """A coordinate that never moves: a range of one value."""
         ident, index = self.made.coordinate[j]
-        for k, joint in enumerate(self.scene.joints):
-            if joint.id == ident:
-                freedoms = list(joint.freedoms)
-                freedoms[index] = replace(freedoms[index], motion=Motion.LIMITED, lower=value, upper=value)
-                self.scene.joints[k] = replace(joint, freedoms=tuple(freedoms))
+        joint = self.scene.joints[self._places[ident]]
+        freedoms = list(joint.freedoms)
+        freedoms[index] = replace(freedoms[index], motion=Motion.LIMITED, lower=value, upper=value)
+        self.scene.joints[self._places[ident]] = replace(joint, freedoms=tuple(freedoms))
 
 
 def _off(axis: Array, v: Array) -> Array:

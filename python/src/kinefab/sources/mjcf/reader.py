@@ -15,7 +15,7 @@ from ...model import Node, NodeKind, Physics, Scene, Source
 from ...spatial import Pose
 from ..reading.request import Request
 from ..reading.xml_text import root_name
-from ..robots.packages import Packages
+from ..robots.packages import packages_of
 from ..robots.rigid_links import Carrier, Link, add_links, unique
 from ..robots.robot_frame import direction
 from .actuators import read_actuators
@@ -37,7 +37,7 @@ def sniff(head: bytes) -> bool:
 
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     """The scene of an ``.xml`` or ``.mjcf``.  Raises KinefabError with every error found."""
-    packages = Packages(path.parent, request.paths("package_path"))
+    packages = packages_of(path, request, report)
     files = scan(path, packages, report)
     compiled = compile_model(files, packages, request.text("keyframe"), report)
     root = files.root.attributes.get("model", "").strip() or path.name.split(".")[0]

@@ -18,6 +18,8 @@ THIN = 1e-3
 """Smallest moment against the largest that stands in for one that is zero or negative."""
 ROUNDING = 1e-9
 """Share of the largest moment that is lost in sums and turns."""
+POINT = 1e-6
+"""Metres of the radius of gyration up to which a link states no inertia at all."""
 STAND_IN_DENSITY = 1000.0
 """kg/m^3 of the ball that stands in for an inertia that is not stated at all."""
 
@@ -68,7 +70,7 @@ def _mended(inertia: Array, mass: float) -> Array:
     """The possible inertia next to one that is none: moments positive, none above the sum of the others."""
     moments, axes = np.linalg.eigh(inertia)
     largest = float(moments[2])
-    if not largest > 0.0:
+    if not largest > POINT * POINT * mass:  # zero, or what is left of it by the sums
         radius = math.cbrt(3.0 * mass / (4.0 * math.pi * STAND_IN_DENSITY))
         return 0.4 * mass * radius * radius * np.eye(3)
     moments = np.maximum(moments, THIN * largest)

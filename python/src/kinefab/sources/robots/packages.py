@@ -13,7 +13,9 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
+from ...diagnostics import Report
 from ...options import FormatOption
+from ..reading.request import Request
 
 PACKAGE_PATH = FormatOption(
     "package_path",
@@ -107,6 +109,15 @@ class Packages:
             if any((above / manifest).is_file() for manifest in MANIFESTS):
                 return above
         return line[min(BESIDE, len(line) - 1)]
+
+
+def packages_of(source: Path, request: Request, report: Report) -> Packages:
+    """Where the files lie that a source names; a finding for each ``--package-path`` that is no folder."""
+    given = request.paths(PACKAGE_PATH.name)
+    for folder in given:
+        if not folder.is_dir():
+            report.add("PACKAGE_PATH_NOT_FOUND", source.name, path=folder)
+    return Packages(source.parent, given)
 
 
 def _is_name(name: str) -> bool:

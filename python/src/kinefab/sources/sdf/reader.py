@@ -14,7 +14,7 @@ from ...model import Physics, Scene, Source
 from ..reading.file import read_bytes
 from ..reading.request import Request
 from ..reading.xml_text import root_name
-from ..robots.packages import Packages
+from ..robots.packages import packages_of
 from ..robots.robot_frame import direction
 from ..robots.xml_elements import Element, parse_xml
 from .includes import read_models, version_of
@@ -36,7 +36,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
         report.add("XML_ROOT", root.where, found=root.tag, wanted="sdf", format="SDF")
         report.raise_for_errors()
     version = version_of(root)
-    packages = Packages(path.parent, request.paths("package_path"))
+    packages = packages_of(path, request, report)
     scene = Scene(source=Source(path.name, "Z", 1.0, hashlib.sha256(data).hexdigest()))
     worlds = list(root.all("world"))
     holder = worlds[0] if worlds else root

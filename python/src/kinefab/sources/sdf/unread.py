@@ -29,7 +29,7 @@ GRAMMAR: dict[str, Children] = {
     "link": children(
         "visual collision",
         "pose inertial gravity kinematic self_collide must_be_base_link",
-        "frame plugin sensor light velocity_decay enable_wind audio_sink audio_source battery particle_emitter projector",
+        "frame plugin sensor light contact velocity_decay enable_wind audio_sink audio_source battery particle_emitter projector",
     ),
     "inertial": children(
         one="pose mass inertia", foreign="frame density auto_inertia_params fluid_added_mass"

@@ -13,7 +13,7 @@ from ...diagnostics import Report
 from ...model import Scene, Source
 from ..reading.file import read_bytes
 from ..reading.request import Request
-from ..robots.packages import Packages
+from ..robots.packages import packages_of
 from ..robots.xml_elements import parse_xml
 from .expansion import expanded, expanded_leftovers, is_xacro
 from .joints import read_joints
@@ -27,7 +27,7 @@ from .unread import tell_unread
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     """The scene of a ``.urdf`` or ``.xacro``.  Raises KinefabError with every error found."""
     data = read_bytes(path, report)
-    packages = Packages(path.parent, request.paths("package_path"))
+    packages = packages_of(path, request, report)
     root = parse_xml(data, path.name, report)
     if is_xacro(path):
         root = expanded(path, packages, request.texts("xacro_arg"), report)

@@ -5,6 +5,7 @@ Precedence: mass before density; a collider's own before the body's, before its 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,17 +15,19 @@ import numpy as np
 from ....diagnostics import Report
 from ....geometry.closure import is_skin
 from ....geometry.hulls import hull_of_points
-from ....geometry.mass import combined, moved, principal, solid_properties
+from ....geometry.mass import combined, moved, solid_properties
 from ....model import Collider, ColliderKind, MassProperties, Mesh
-from ....spatial import Array, Pose
+from ....spatial import Array, Pose, rotation_about
 from ..looks.gprims import axis_turn
 from ..stage import OpenStage
-from ..transforms import Stand
+from ..transforms import Stand, rotation_of
 from ..values import Values, identity
 from .stated import MassApis, Stated
 
 WATER = 1000.0
 """kg/m^3 of what states nothing."""
+ROUNDING = 1e-7
+"""Share of an inertia that is none: pxr reckons in 32 bits."""
 POINT = 0.1
 """Metres: radius of the sphere whose inertia a body without colliders has."""
 
@@ -49,7 +52,7 @@ def body_mass(
     if stated.whole is not None:
         return stated.whole
     counted = [s for s in solids if s.collider.enabled]
-    parts = [_solid(s, stated.density, meshes, apis, values, opened) for s in counted]
+    parts = [_solid(s, stated.density, stand, meshes, apis, values, opened) for s in counted]
     parts = [p for p in parts if p is not None and p.mass > 0.0]
     if not parts:
         return _without_solids(prim, stated, opened, report)
@@ -60,10 +63,29 @@ def body_mass(
     if stated.center is not None:
         inertia = inertia + _steiner(mass, stated.center - center)
         center = stated.center
-    moments, axes = principal(inertia)
+    turn = opened.frame.turn  # moments are stated along the stage's axes
+    moments, axes = _diagonal(turn.T @ inertia @ turn)
+    axes = turn @ axes
     moments = moments if stated.moments is None else stated.moments
     axes = axes if stated.axes is None else stated.axes
     return MassProperties(mass, center, axes @ np.diag(moments) @ axes.T)
+
+
+def _diagonal(inertia: Array) -> tuple[Array, Array]:
+    """Principal moments and axes (columns) in the order that pxr has them, as PhysX's PxDiagonalize finds them: moments
+    that are stated without axes are along these."""
+    axes = np.eye(3)
+    for _ in range(24):
+        turned = axes.T @ inertia @ axes
+        off = np.abs([turned[1, 2], turned[0, 2], turned[0, 1]])
+        axis = 0 if off[0] > off[1] and off[0] > off[2] else 1 if off[1] > off[2] else 2
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        if off[axis] <= ROUNDING * np.trace(turned):
+            break
+        cotangent = (turned[i, i] - turned[j, j]) / (2.0 * turned[i, j])  # of twice the angle
+        tangent = math.copysign(1.0 / (abs(cotangent) + math.hypot(cotangent, 1.0)), cotangent)
+        axes = axes @ rotation_about(np.eye(3)[axis], math.atan(tangent))
+    return np.diag(axes.T @ inertia @ axes), axes
 
 
 def _without_solids(prim: Any, stated: Stated, opened: OpenStage, report: Report) -> MassProperties:
@@ -81,7 +103,7 @@ def _without_solids(prim: Any, stated: Stated, opened: OpenStage, report: Report
 
 
 def _solid(
-    solid: Weighed, body_density: float | None, meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage
+    solid: Weighed, body_density: float | None, stand: Stand, meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage
 ) -> MassProperties | None:  # fmt: skip
     """Of one collider in the node's frame; None where it has no volume."""
     if solid.solid in ROUND:
@@ -99,9 +121,8 @@ def _solid(
     else:
         mass, inertia = unit.mass * density, unit.inertia * density
     own = Pose(
-        solid.collider.pose.rotation @ _to_prim(solid.collider, solid, frame.turn),
-        solid.collider.pose.translation,
-    )
+        stand.axes(rotation_of(solid.world[:3, :3]) @ frame.turn.T), stand.point(solid.world[:3, 3])
+    )  # of the prim: its shape may be turned, or stand elsewhere
     if stated.moments is not None:
         axes = np.eye(3) if stated.axes is None else frame.turn.T @ stated.axes
         turned = own.rotation @ (frame.turn @ axes)
@@ -113,14 +134,6 @@ def _solid(
         return placed
     at = own.point(stated.center)
     return MassProperties(mass, at, placed.inertia + _steiner(mass, at - placed.center))
-
-
-def _to_prim(collider: Collider, solid: Weighed, turn: Array) -> Array:
-    """Rotation from the prim's (turned) axes to the collider's, whose Z may be another axis of the prim."""
-    if collider.kind not in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
-        return np.eye(3)
-    word = str(solid.prim.GetAttribute("axis").Get() or "Z")
-    return (turn @ axis_turn(word)).T
 
 
 def unit_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str = "") -> MassProperties | None:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from kinefab.model import ColliderKind, NodeKind
 from scene_kinematics import angle_between
-from usd_stages import BODY, body, codes, scene_of, stage
+from usd_stages import BODY, body, codes, joint, scene_of, stage
 
 pxr = pytest.importorskip("pxr", reason="usd-core is not installed")
 sys.path.append(str(Path(__file__).resolve().parents[2] / "python" / "bench"))
@@ -178,6 +178,26 @@ def test_bodies_within_bodies_stand_beside_them_where_pxr_has_them(tmp_path):
     for node in scene.nodes:
         x, y, z = cache.GetLocalToWorldTransform(opened.GetPrimAtPath(f"/{node.id}")).ExtractTranslation()
         assert np.allclose(node.pose.translation, (y, z, x))
+
+
+def test_a_disabled_body_within_a_body_moves_with_it(tmp_path):
+    """As pxr's parser has it; one within nothing stands still."""
+    off = 'def Xform "N" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {\nbool physics:rigidBodyEnabled = 0\ndef Sphere "S" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {}\n}\n'
+    hinge = joint("PhysicsRevoluteJoint", body1="/B/N")
+    scene, _ = scene_of(tmp_path, stage(body("B", inside=off) + off + hinge))
+    places = {node.id: (node.grounded, [c.name for c in node.colliders or ()]) for node in scene.nodes}
+    assert places == {"B": (False, ["B/N/S"]), "N": (True, ["N/S"])}
+    (held,) = scene.joints
+    assert held.a is None and scene.nodes[held.b].id == "B"
+
+
+def test_scenes_and_collision_groups_beside_the_root_hold_for_it(tmp_path):
+    group = 'def PhysicsCollisionGroup "G" (prepend apiSchemas = ["CollectionAPI:colliders"]) {\nrel collection:colliders:includes = </R/S>\n}\n'
+    solid = 'def Xform "R" {\ndef Sphere "S" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {}\n}\n'
+    text = solid + group + 'def PhysicsScene "P" {\nfloat physics:gravityMagnitude = 3\n}\n'
+    scene, _ = scene_of(tmp_path, stage(text), root="/R")
+    assert scene.physics.gravity == (0.0, -3.0, 0.0)
+    assert [c.group for node in scene.nodes for c in node.colliders or ()] == ["G"]
 
 
 def test_kinematic_disabled_moving_and_damped_bodies(tmp_path):

@@ -118,3 +118,17 @@ def test_display_colours_are_a_surface_or_the_vertices_own(tmp_path):
     assert scene.surfaces[cube.surfaces[0]].color == (1, 0, 0, 0.5)
     assert scene.surfaces[mesh.surfaces[0]].color == (1, 1, 1, 1)
     assert scene.meshes[mesh.mesh].colors[1].tolist() == [0, 1, 0, 1]
+
+
+def test_images_that_are_counted_or_packed_otherwise_are_told(tmp_path):
+    """A base colour of raw numbers, and an occlusion in green."""
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    text = stage(MATERIAL.replace(
+        "   float inputs:metallic", "   float inputs:occlusion.connect = </Looks/Paint/Image.outputs:g>\n   float inputs:metallic"
+    ).replace('   float2 inputs:st', '   token inputs:sourceColorSpace = "raw"\n   float outputs:g\n   float2 inputs:st') + BOUND)  # fmt: skip
+    scene, report = scene_of(tmp_path, text)
+    paint = next(surface for surface in scene.surfaces if surface.name == "Paint")
+    assert paint.color_texture is not None and paint.occlusion_texture is None
+    told = {(o.feature, o.outcome.value) for o in report.outcomes}
+    assert ("occlusion of /Looks/Paint/Shader", "dropped") in told
+    assert ("texture /Looks/Paint/Image", "approximated") in told

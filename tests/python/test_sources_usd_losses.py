@@ -92,6 +92,26 @@ def test_what_is_not_kept_is_told(code, tmp_path):
     assert found.where.startswith("stage.usda")
 
 
+@pytest.mark.parametrize("wrong", [
+    joint("PhysicsRevoluteJoint", inside='uniform token physics:axis = "z"'),
+    joint("PhysicsRevoluteJoint", inside='uniform token drive:angular:physics:type = "speed"\nfloat drive:angular:physics:damping = 3', schemas='"PhysicsDriveAPI:angular"'),
+    'def Cylinder "C" {\nuniform token axis = "-Y"\n}\n',
+])  # fmt: skip
+def test_a_word_that_a_schema_does_not_know_is_no_other_word(tmp_path, wrong):
+    scene, report = scene_of(tmp_path, stage(body("B") + wrong))
+    assert scene is None and codes(report) == {"USD_VALUE_IMPOSSIBLE"}
+
+
+def test_what_vendors_state_and_nothing_reads_is_told_once_a_name(tmp_path):
+    """Not what stands beside a name that says the same and is read."""
+    inside = "int physxRigidBody:lockedPosAxis = 3\nfloat physxRigidBody:linearDamping = 0.5"
+    bodies = body("A", inside=inside) + body("B", (1, 0, 0), inside=inside)
+    both = joint("PhysicsRevoluteJoint", body0="/A", inside="float newton:armature = 2\ndouble mjc:armature = 2\nfloat state:angular:physics:velocity = 3")  # fmt: skip
+    _, report = scene_of(tmp_path, stage(bodies + both))
+    told = [o.feature for o in report.outcomes if o.outcome.value == "dropped"]
+    assert told == ["physxRigidBody:lockedPosAxis of A and 1 more", "state:angular:physics:velocity of J"]
+
+
 def test_what_pxr_says_is_told_in_one_order():
     """Its threads compose, and some of what they say comes in another order at each run."""
     from kinefab.sources.usd.stage import tell
@@ -153,3 +173,13 @@ def test_no_mutation_of_a_stage_is_a_traceback(tmp_path, fuzz_count):
     assert done.returncode == 0, done.stderr[-2000:]
     accepted, refused = map(int, done.stdout.split())
     assert accepted + refused == count and min(accepted, refused) > 0
+
+
+def test_a_pair_that_is_filtered_from_both_sides_is_one(tmp_path):
+    pair = body("A") + body("B", (1, 0, 0))
+    pair = pair.replace('"PhysicsMassAPI"]', '"PhysicsMassAPI", "PhysicsFilteredPairsAPI"]')
+    text = stage(
+        pair.replace("float physics:mass", "rel physics:filteredPairs = [</A>, </B>]\n float physics:mass")
+    )
+    scene, _ = scene_of(tmp_path, text)
+    assert scene.extras["ignoreCollision"] == [["A", "B"]]

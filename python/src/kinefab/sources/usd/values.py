@@ -20,6 +20,12 @@ from .stage import OpenStage
 UNBOUNDED = 0.99e30
 """From here on a bound is none (physics:lowerLimit and the like): FLT_MAX in files, 1e30 where infinity is not allowed."""
 
+VENDORS = ("physx", "newton:", "mjc:", "urdf:", "state:")
+"""Beginnings of the names of vendors' properties."""
+KNOWN = ("physxTendon",)
+"""Of those that are told with their schemas."""
+WHOLE = ("Physx", "Newton", "Mjc")
+"""Beginnings of types that vendors make; what is not read of them is told as a whole."""
 
 RANKS: dict[str, Any] = {
     "Scene": UsdPhysics.Scene,
@@ -61,6 +67,7 @@ class Values:
     _fallbacks: dict[tuple[Any, ...], dict[str, Any]] = field(
         default_factory=dict[tuple[Any, ...], dict[str, Any]]
     )
+    _asked: set[str] = field(default_factory=set[str])
     _sampled: set[str] = field(default_factory=set[str])
 
     def traits(self, prim: Any) -> Traits:
@@ -92,6 +99,7 @@ class Values:
         """The raw value at the exported time, None where the attribute is missing, blocked or empty."""
         traits = self._of_prim.get(prim) or self.traits(prim)
         if name in traits.names:
+            self._asked.add(name)
             attribute = prim.GetAttribute(name)
             value, moves = value_of(attribute) if attribute else (None, False)
             if moves:
@@ -103,6 +111,7 @@ class Values:
         return traits.fallbacks[name]
 
     def authored(self, prim: Any, name: str) -> bool:
+        self._asked.add(name)
         return name in self.traits(prim).names and prim.GetAttribute(name).HasAuthoredValue()
 
     def number(self, prim: Any, name: str, default: float, open_ended: bool = False) -> float:
@@ -138,6 +147,14 @@ class Values:
             self.wrong(prim, name, value)
             return default
         return value
+
+    def token(self, prim: Any, name: str, known: Sequence[str], default: str) -> str:
+        """One of the words that the schema knows."""
+        found = self.word(prim, name, default)
+        if found not in known:
+            self.wrong(prim, name, found)
+            return default
+        return found
 
     def vector(self, prim: Any, name: str, default: Sequence[float]) -> Array:
         """Three finite numbers."""
@@ -180,8 +197,27 @@ class Values:
 
     def targets(self, prim: Any, name: str) -> list[Any]:
         """Paths that a relationship leads to, forwarded."""
+        self._asked.add(name)
         relationship = prim.GetRelationship(name)
         return list(relationship.GetForwardedTargets()) if relationship else []
+
+    def tell_unasked(self) -> None:
+        """What vendors state of prims and nobody asked for, each attribute once."""
+        found: dict[str, list[str]] = {}
+        for prim, traits in self._of_prim.items():
+            if not traits.kind.startswith(WHOLE):
+                for name in traits.names:
+                    if name.startswith(VENDORS) and name not in self._asked and not name.startswith(KNOWN):
+                        shared = prim.IsInPrototype()  # whose own path is another at each run
+                        path = prim.GetPrimStack()[0].path if shared else prim.GetPath()
+                        found.setdefault(name, []).append(str(path))
+        for name in sorted(found):
+            first, *others = sorted(found[name])
+            more = f" and {len(others)} more" if others else ""
+            self.report.dropped(
+                f"{name} of {first[1:]}{more}", "USD_FEATURE_DROPPED", self.opened.place(first, name),
+                detail="nothing of the scene is like it",
+            )  # fmt: skip
 
     def tell_samples(self, prim: Any, name: str) -> None:
         """Once, that a value changes over time, which only places may."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array
+from .api import UsdPhysics
 from .instancer import instances
 from .prims import Prims, Seen
 from .stage import OpenStage
@@ -161,6 +162,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
         dressed |= seen.traits.dressed
         seen.tell(str(prim.GetPath()), values)
         above = placed(above, seen.local)
+    _beside(root, found)
     path = "" if root.IsPseudoRoot() else _path(root.GetParent())
     start = _Context(path, above, (), -1, -1, True, "default", dressed, "")
     seen = prims.seen(root)
@@ -182,6 +184,17 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
         else:
             pending += [(child, below) for child in reversed(prims.below(seen))]
     return found
+
+
+def _beside(root: Any, found: Found) -> None:
+    """Scenes and collision groups hold for the whole stage, also those that do not lie below the root."""
+    if not root.IsPseudoRoot():
+        for prim in root.GetStage().Traverse():
+            if not prim.GetPath().HasPrefix(root.GetPath()):
+                if prim.IsA(UsdPhysics.Scene):
+                    found.scenes.append(prim)
+                elif prim.IsA(UsdPhysics.CollisionGroup):
+                    found.collision_groups.append(prim)
 
 
 def _path(prim: Any) -> str:
@@ -253,9 +266,11 @@ def _look(
     if "PhysicsRigidBodyAPI" in applied and "Xformable" in ranks:
         prim = seen.at(path)
         enabled = values.flag(prim, "physics:rigidBodyEnabled", True)
-        group, pending = _outer_group(context, found, groups_of), ()
-        found.parts.append(Part(prim, path, own, world, group, True, enabled, visible))
-        part = len(found.parts) - 1
+        outer = found.parts[part] if part >= 0 else None
+        if enabled or outer is None or not outer.enabled:  # else it moves with the body that it lies in
+            group, pending = _outer_group(context, found, groups_of), ()
+            found.parts.append(Part(prim, path, own, world, group, True, enabled, visible))
+            part = len(found.parts) - 1
     elif "PhysicsRigidBodyAPI" in applied:
         detail = f"a RigidBodyAPI stands on a {kind or 'prim without type'}, which has no place to move"
         report.dropped(f"body {path}", "USD_FEATURE_DROPPED", opened.place(path), detail=detail)

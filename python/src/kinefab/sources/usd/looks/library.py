@@ -143,7 +143,7 @@ def shape_of(prim: Any, values: Values) -> gprims.Surface3:
     def size(name: str, default: float) -> float:
         return abs(values.number(prim, name, default)) or 1e-9
 
-    axis = values.word(prim, "axis", "Z")
+    axis = values.token(prim, "axis", tuple("XYZ"), "Z")
     if kind == "Cube":
         return gprims.box(size("size", 2.0))
     if kind == "Sphere":

@@ -164,7 +164,10 @@ class Surfaces:
         if inputs.number("useSpecularWorkflow", 0.0):
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
-        emissive = inputs.sampler("emissiveColor")
+        emissive, occlusion = inputs.sampler("emissiveColor"), inputs.sampler("occlusion")
+        if occlusion is not None and occlusion.output not in ("r", "rgb"):
+            inputs.lost("occlusion", f"Unity's map has it in r, the texture gives {occlusion.output}")
+            occlusion = None
         mode = (
             AlphaMode.MASK
             if threshold > 0.0
@@ -189,7 +192,7 @@ class Surfaces:
             diffuse.texture if diffuse else None,
             _texture(inputs.sampler("normal")),
             packed,
-            _texture(inputs.sampler("occlusion")),
+            _texture(occlusion),
             emissive.texture if emissive else None,
         )
 
@@ -245,8 +248,21 @@ class _Inputs:
         for attribute in given.GetValueProducingAttributes():
             source = UsdShade.Shader(attribute.GetPrim())
             if source and source.GetIdAttr().Get() == "UsdUVTexture":
+                self._tell_space(name, source)
                 return read_sampler(source, attribute.GetBaseName(), self.uv_names, self.opened, self.report)
         return None
+
+    def _tell_space(self, name: str, source: Any) -> None:
+        """That an image is said to be counted otherwise than Unity counts what it is used for."""
+        given = source.GetInput("sourceColorSpace")
+        space = given.Get() if given else None
+        usual = "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"
+        if space in ("raw", "sRGB") and space != usual and name != "opacity":  # alpha is never sRGB
+            prim = source.GetPrim()
+            self.report.approximated(
+                f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self.opened.place(prim, "inputs:sourceColorSpace"),
+                detail=f"as {name} it is taken as {usual}, not as {space}",
+            )  # fmt: skip
 
     def lost(self, name: str, detail: str) -> None:
         prim = self.shader.GetPrim()

@@ -81,8 +81,7 @@ class Colliders:
             radius = self._size(prim, "radius", 1.0) * scale.max() * length
             return replace(common, kind=ColliderKind.SPHERE, pose=at, radius=float(radius))
         if kind in ("Capsule", "Cylinder"):
-            word = self._values.word(prim, "axis", "Z")
-            axis = "XYZ".find(word) if len(word) == 1 and word in "XYZ" else 2
+            axis = "XYZ".index(self._values.token(prim, "axis", tuple("XYZ"), "Z"))
             across = np.delete(scale, axis)
             if np.ptp(across) > EVEN * across.max():
                 self._approximated(
@@ -101,8 +100,7 @@ class Colliders:
     def _plane(self, prim: Any, common: Collider, at: Pose, scale: Array) -> Collider:
         """A thin box below the plane."""
         length, turn = self._opened.frame.length, self._opened.frame.turn
-        word = self._values.word(prim, "axis", "Z")
-        axis = "XYZ".find(word) if len(word) == 1 and word in "XYZ" else 2
+        axis = "XYZ".index(self._values.token(prim, "axis", tuple("XYZ"), "Z"))
         extents = np.zeros(3)
         width, long = self._size(prim, "width", 2.0), self._size(prim, "length", 2.0)
         extents[2 if axis == 0 else 0] = width

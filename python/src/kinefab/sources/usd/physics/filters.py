@@ -47,7 +47,9 @@ def filters(found: Found, opened: OpenStage, values: Values, report: Report) -> 
                     path=str(target),
                 )
                 continue
-            pairs.append([str(prim.GetPath())[1:], str(target)[1:]])
+            pair = [str(prim.GetPath())[1:], str(target)[1:]]
+            if pair[0] != pair[1] and pair not in pairs and pair[::-1] not in pairs:
+                pairs.append(pair)
     for first, second in pairs:
         report.approximated(
             f"filtered pair {first} and {second}", "USD_COLLISION_FILTER", opened.place(f"/{first}")

@@ -110,7 +110,9 @@ class Freedoms:
             return freedom
         prefix = f"drive:{instance}:physics:"
         get = self._values.number
-        acceleration = self._values.word(prim, prefix + "type", "force") == "acceleration"
+        acceleration = (
+            self._values.token(prim, prefix + "type", ("force", "acceleration"), "force") == "acceleration"
+        )
         gain, unit = self.units.gain(turns, acceleration), self.units.coordinate(turns)
         stiffness = get(prim, prefix + "stiffness", 0.0, open_ended=True)
         damping = get(prim, prefix + "damping", 0.0, open_ended=True)

@@ -230,8 +230,7 @@ class Joints:
 
     def _draft(self, entry: JointPrim) -> _Draft | None:
         prim = entry.prim
-        axis = self._values.word(prim, "physics:axis", "X")
-        order = MAIN.get(axis, MAIN["X"])
+        order = MAIN[self._values.token(prim, "physics:axis", tuple(MAIN), "X")]
         extras: dict[str, object] = {}
         if prim.IsA(UsdPhysics.FixedJoint):
             return _Draft(freedoms_of(JointKind.FIXED), MAIN["X"], extras)

@@ -22,10 +22,8 @@ def passive_of(
     inertia = force if turns else units.opened.frame.mass  # kg m^2, or kg
 
     def first(*names: str) -> float | None:
-        for name in names:
-            if values.authored(prim, name):
-                return values.number(prim, name, 0.0, open_ended=True)
-        return None
+        stated = [name for name in names if values.authored(prim, name)]  # the others say the same
+        return values.number(prim, stated[0], 0.0, open_ended=True) if stated else None
 
     axis = f"physxJointAxis:{instance}:"
     armature = first("newton:armature", axis + "armature", "physxJoint:armature", "mjc:armature")

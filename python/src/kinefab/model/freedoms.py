@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from typing import TypeVar
 
 from ..spatial import Array
 
@@ -14,6 +15,7 @@ FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
 """Their names, by index."""
 
 
+Amount = TypeVar("Amount", float, Array)
 SEAM = 1e-6
 """Turns by which half a turn outside of a range may be the rounding of half a turn inside."""
 
@@ -124,13 +126,21 @@ class Freedom:
     name: str = field(default="", compare=False)
     where: str = field(default="", compare=False)
 
-    def displayed(self, *values: float) -> tuple[float, ...]:
-        """Values of the coordinate, radians or metres, as the source shows them.
+    def displayed(self, *values: Amount) -> tuple[Amount, ...]:
+        """Values of the coordinate, or arrays of them, radians or metres, as the source shows them.
 
         >>> kinefab.Freedom(kinefab.Motion.FREE).displayed(0.25)
         (0.25,)
         """
         return tuple(0.0 + self.sign * (value + 2.0 * math.pi * self.turns) for value in values)  # no -0
+
+    def counted(self, displayed: Amount) -> Amount:
+        """What ``displayed`` undoes.
+
+        >>> kinefab.Freedom(sign=-1.0).counted(0.25)
+        -0.25
+        """
+        return self.sign * displayed - 2.0 * math.pi * self.turns
 
     def displayed_range(self, lower: float, upper: float) -> tuple[float, float]:
         """A range of the coordinate as the source shows it: where that counts by the other hand, its ends change places.

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ...model import RX, Joint, Motion, Scene
+from ...model.freedoms import Amount
 from ...spatial import Array, quaternions_from_matrices
 from ..assembly.assemble import Assembly
 from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
@@ -297,7 +298,7 @@ class Mechanism:
         return Stop(
             "dead point" if way.limit is None else "limit",
             coordinate.name,
-            float(_shown(joint, freedom, value)),
+            _shown(joint, freedom, value),
             coordinate.unit,
             frames,
         )
@@ -308,7 +309,7 @@ class Mechanism:
             coordinate = self._coordinates[self.name_of(run.block, run.driven[0])]
             joint, freedom = run.block.joint(run.driven[0])
             for frames, held in run.crossings():
-                value = float(_shown(joint, freedom, float(held[0])))
+                value = _shown(joint, freedom, float(held[0]))
                 found.append(Branching(coordinate.name, value, coordinate.unit, frames))
         return tuple(found)
 
@@ -338,7 +339,7 @@ class Mechanism:
             if run is None:
                 column: Array = np.full(frames, self._coordinates[name].value)
             else:
-                column = np.asarray(_shown(joint, freedom, run.column(i, frames)))
+                column = _shown(joint, freedom, run.column(i, frames))
             coordinates[name] = column
         gap = max((run.gap for run in runs), default=0.0)
         return Trajectory(self.parts, poses, coordinates, stop, gap, self._branchings(runs))
@@ -365,22 +366,20 @@ def _continuous(q: Array) -> Array:
 def _coordinate(name: str, joint: Joint, freedom: int, value: float) -> Coordinate:
     own = joint.freedoms[freedom]
     limits = (own.lower, own.upper) if own.motion is Motion.LIMITED else (-math.inf, math.inf)
-    lower, upper = sorted(float(_shown(joint, freedom, x)) for x in limits)
-    at = float(_shown(joint, freedom, value))
+    lower, upper = sorted(_shown(joint, freedom, x) for x in limits)
+    at = _shown(joint, freedom, value)
     return Coordinate(name, joint.id, "deg" if freedom >= RX else "m", at, lower, upper)
 
 
-def _shown(joint: Joint, freedom: int, value: Array | float):
-    """Metres or radians of a coordinate as the source shows it."""
-    own = joint.freedoms[freedom]
-    return 0.0 + own.sign * (value if freedom < RX else np.degrees(value + 2.0 * math.pi * own.turns))
+def _shown(joint: Joint, freedom: int, value: Amount) -> Amount:
+    """Metres or degrees of a coordinate as the source shows it."""
+    (shown,) = joint.freedoms[freedom].displayed(value)
+    return shown if freedom < RX else shown * math.degrees(1.0)
 
 
-def _counted(joint: Joint, freedom: int, shown: Array | float):
+def _counted(joint: Joint, freedom: int, shown: Amount) -> Amount:
     """What ``_shown`` undoes: metres or radians from where the joint's frames meet."""
-    own = joint.freedoms[freedom]
-    value = own.sign * shown
-    return value if freedom < RX else np.radians(value) - 2.0 * math.pi * own.turns
+    return joint.freedoms[freedom].counted(shown if freedom < RX else shown * math.radians(1.0))
 
 
 def _check_numbers(start: object, stop: object, frames: object) -> None:

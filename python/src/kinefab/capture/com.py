@@ -46,7 +46,7 @@ def attached(
         bridge: Any = import_module("win32com.client.dynamic")
         com: Any = import_module("pythoncom")
     except ImportError:
-        place = "" if sys.platform == "win32" else ", on Windows"
+        place = "" if sys.platform == "win32" else "; it runs on Windows alone"
         raise KinefabError([report.add("CAPTURE_LIBRARY", program=program, place=place)]) from None
     com.CoInitialize()
     try:

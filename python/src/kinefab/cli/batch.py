@@ -55,7 +55,8 @@ def batch(
     from ..batching.watching import summary, watched
 
     if f".{to}" not in known_endings():
-        raise typer.BadParameter(f"{to!r} is no output", param_hint="--to")
+        kinds = ", ".join(ending[1:] for ending in known_endings())
+        raise typer.BadParameter(f"{to!r} is no output; there are {kinds}", param_hint="--to")
     quiet = quiet or console.verbosity < 0
     bytes_allowed = None if memory is None else int(memory * 2**20)
     try:

@@ -30,7 +30,7 @@ TARGET = ".bundle.json"
 HELP_COM = f"""Capture the assembly that is open in {{name}} (Windows).
 
 \b
-1. On the computer that runs {{name}}, with 64-bit Python: pip install "kinefab[com]"
+1. On the computer that runs {{name}}, with 64-bit Python, in a clone: pip install "./python[com]"
 2. Open the assembly in {{name}}, save it and end every command and dialog.
 3. kinefab capture {{word}} -o robot.bundle.json
 4. Read what it says: what did not close at the captured pose is named.

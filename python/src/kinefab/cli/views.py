@@ -90,7 +90,7 @@ def report(
     output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
     as_json: bool = AS_JSON,
 ) -> None:
-    """Write the page of ``view`` with the analysis in words, plots of each freedom and what was lost."""
+    """Write the page of view with the analysis in words, plots of each freedom and what was lost."""
     demand_ending(output, ".html")
     from ..showing import report as run
 

@@ -66,14 +66,17 @@ FORMATS = (
         (".usd", ".usda", ".usdc", ".usdz"),
         "usd.reader",
         options=(
-            FormatOption("root", "Read this prim and what is below it.", metavar="PRIM"),
+            FormatOption("root", "USD: read this prim and what is below it.", metavar="PRIM"),
             FormatOption(
-                "variant", "Choose a variant: set=name, or /Prim:set=name.", repeated=True, metavar="SET=NAME"
+                "variant",
+                "USD: choose a variant: set=name, or /Prim:set=name.",
+                repeated=True,
+                metavar="SET=NAME",
             ),
-            FormatOption("load", "Load payloads or leave them out.", words=("all", "none")),
+            FormatOption("load", "USD: load payloads or leave them out.", words=("all", "none")),
             FormatOption(
                 "purpose",
-                "Draw geometry of this purpose too, beside default and render.",
+                "USD: draw geometry of this purpose too, beside default and render.",
                 repeated=True,
                 words=("proxy", "guide"),
             ),

@@ -36,11 +36,17 @@ class Target:
 
 
 UNITY = FormatOption(
-    "unity", "Editor that the files are for; newer ones upgrade them.", words=("2021", "2022", "6")
+    "unity",
+    "Editor that the files are for, 2022 unless said; newer ones upgrade them.",
+    words=("2021", "2022", "6"),
 )
-PIPELINE = FormatOption("pipeline", "Render pipeline of the materials.", words=("builtin", "urp", "hdrp"))
+PIPELINE = FormatOption(
+    "pipeline", "Render pipeline of the materials, builtin unless said.", words=("builtin", "urp", "hdrp")
+)
 SCRIPTS = FormatOption("scripts", "Add a script that keeps the couplings (gears, racks, screws).", bool)
-PHYSICS = FormatOption("physics", "What moves the bodies.", words=("rigidbody", "articulation"))
+PHYSICS = FormatOption(
+    "physics", "What moves the bodies, rigidbody unless said.", words=("rigidbody", "articulation")
+)
 PREFAB_OPTIONS = (UNITY, PIPELINE, SCRIPTS, PHYSICS)
 
 TARGETS = (

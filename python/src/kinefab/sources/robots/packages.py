@@ -11,11 +11,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from ...diagnostics import Report
 from ...options import FormatOption
-from ..reading.request import Request
+
+if TYPE_CHECKING:  # the command line lists the formats without numpy
+    from ..reading.request import Request
 
 PACKAGE_PATH = FormatOption(
     "package_path",

@@ -6,7 +6,7 @@ By name because vendor schemas (Physx*, Newton*, Mjc*) are not registered in pla
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -200,6 +200,10 @@ class Values:
         self._asked.add(name)
         relationship = prim.GetRelationship(name)
         return list(relationship.GetForwardedTargets()) if relationship else []
+
+    def pass_over(self, names: Iterable[str]) -> None:
+        """Names of what is stated once more in other words, so that nobody asks for it."""
+        self._asked.update(names)
 
     def tell_unasked(self) -> None:
         """What vendors state of prims and nobody asked for, each attribute once."""

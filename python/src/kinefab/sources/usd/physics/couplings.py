@@ -22,6 +22,8 @@ GEAR, RACK = COUPLINGS
 POLYNOMIAL = ("mjc:coef2", "mjc:coef3", "mjc:coef4")
 TOLD = ("PhysxTendon", "MjcEquality", "PhysxVehicle", "PhysxAuto", "PhysxForceAPI", "PhysxSurfaceVelocity")
 """Beginnings of schemas that say how things move and that nothing of the scene can."""
+PHYSX_MIMIC = ("gearing", "offset", "referenceJoint", "referenceJointAxis")
+"""What its properties are called after their axis."""
 
 
 class Couplings:
@@ -52,14 +54,13 @@ class Couplings:
             elif kind == RACK:
                 found.append(self._rack(entry))
             applied = schemas(entry.prim)
+            mimics = [s.partition(":")[2] for s in applied if s.startswith("PhysxMimicJointAPI:")]
             if "NewtonMimicAPI" in applied:
                 found.append(self._newton(entry))
+                for axis in mimics:  # the same in PhysX's words
+                    self._values.pass_over(f"physxMimicJoint:{axis}:{name}" for name in PHYSX_MIMIC)
             else:
-                found += [
-                    self._physx(entry, s.partition(":")[2])
-                    for s in applied
-                    if s.startswith("PhysxMimicJointAPI:")
-                ]
+                found += [self._physx(entry, axis) for axis in mimics]
         return [coupling for coupling in found if coupling is not None]
 
     def _newton(self, entry: JointPrim) -> Coupling | None:

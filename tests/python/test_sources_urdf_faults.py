@@ -392,6 +392,16 @@ def test_a_package_path_that_is_no_folder_is_told(tmp_path, name, text):
     assert all(d.severity is Severity.WARNING and d.remedy for d in told)
 
 
+@pytest.mark.parametrize("kind", [str, Path])
+def test_one_package_path_needs_no_list(tmp_path, kind):
+    """A word was taken letter by letter, and each was a folder that is missing."""
+    path = tmp_path / "r.urdf"
+    path.write_text("<robot name='r'><link name='a'/></robot>", encoding="utf-8")
+    assert read(path, report := Report(), options={"package_path": kind(tmp_path / "gone")}).nodes
+    (told,) = report.diagnostics
+    assert str(tmp_path / "gone") in told.message
+
+
 def mutated(text: str, chance: random.Random) -> bytes:
     """The text with a few bytes, words or lines changed, doubled, cut or exchanged."""
     data = bytearray(text.encode("utf-8"))

@@ -36,8 +36,13 @@ class Request:
 
     def texts(self, name: str) -> tuple[str, ...]:
         """Of a repeated option."""
-        return tuple(str(value) for value in self.options.get(name, ()))
+        return tuple(str(value) for value in self._each(name))
 
     def paths(self, name: str) -> tuple[Path, ...]:
         """Of a repeated option."""
-        return tuple(Path(value) for value in self.options.get(name, ()))
+        return tuple(Path(value) for value in self._each(name))
+
+    def _each(self, name: str) -> tuple[Any, ...]:
+        """A single word or path is the only one; it would be taken letter by letter."""
+        value = self.options.get(name, ())
+        return (value,) if isinstance(value, (str, Path)) else tuple(value)

@@ -59,13 +59,13 @@ def key_times(
     return np.array(times)
 
 
-def _knots(prims: Sequence[Any], opened: OpenStage) -> tuple[list[float], list[Any]]:
-    """Time codes of all samples within the stage's range, and the operations that turn or are curves."""
+def _knots(prims: Sequence[Any], opened: OpenStage) -> tuple[list[float], list[tuple[Any, bool]]]:
+    """Time codes of all samples within the stage's range, and the operations that turn or are curves, and which of both."""
     low, high = -math.inf, math.inf
     if opened.stage.HasAuthoredTimeCodeRange():
         low, high = opened.stage.GetStartTimeCode(), opened.stage.GetEndTimeCode()
     samples: set[float] = set()
-    ops: list[Any] = []
+    ops: list[tuple[Any, bool]] = []
     for prim in prims:
         for op in UsdGeom.Xformable(prim).GetOrderedXformOps():
             its = knots_of(op.GetAttr())
@@ -73,16 +73,16 @@ def _knots(prims: Sequence[Any], opened: OpenStage) -> tuple[list[float], list[A
             if its:
                 samples.update(t for t in (low, high) if math.isfinite(t))
             turns = op.GetOpName().removeprefix("!invert!").split(":")[1]
-            bends = turns.startswith(("rotate", "orient", "transform")) or not op.GetTimeSamples()
-            if len(its) > 1 and bends:
-                ops.append(op)
+            is_curve = not op.GetTimeSamples()
+            if len(its) > 1 and (is_curve or turns.startswith(("rotate", "orient", "transform"))):
+                ops.append((op, is_curve))
     return sorted(samples), ops
 
 
-def _turned(ops: Sequence[Any], start: float, end: float) -> tuple[float, bool]:
-    """Degrees that the angle which changes most does, and whether the way may be other than straight."""
+def _turned(ops: Sequence[tuple[Any, bool]], start: float, end: float) -> tuple[float, bool]:
+    """Degrees that the angle which changes most does, and whether the way may be other than straight.  ops: see ``_knots``."""
     most, bends = 0.0, False
-    for op in ops:
+    for op, is_curve in ops:
         first, last = op.Get(start), op.Get(end)
         kind = op.GetOpType()
         if kind == UsdGeom.XformOp.TypeOrient:
@@ -94,7 +94,7 @@ def _turned(ops: Sequence[Any], start: float, end: float) -> tuple[float, bool]:
             turned = float(np.abs(change).max()) if np.isfinite(change).all() else 0.0
             if "rotate" in op.GetOpName():
                 most = max(most, min(turned, STEP * MAX_KEYS))
-        bends |= turned > STRAIGHT or not op.GetTimeSamples()
+        bends |= turned > STRAIGHT or is_curve
     return most, bends
 
 

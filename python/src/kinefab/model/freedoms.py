@@ -126,6 +126,17 @@ class Freedom:
     name: str = field(default="", compare=False)
     where: str = field(default="", compare=False)
 
+    @property
+    def acts(self) -> bool:
+        """Whether it has an end, a drive or a spring: what a joint is there for that locks nothing.
+
+        >>> kinefab.Freedom(kinefab.Motion.FREE).acts, kinefab.Freedom(kinefab.Motion.LIMITED, upper=0.5).acts
+        (False, True)
+        """
+        limited = self.motion is Motion.LIMITED and not (math.isinf(self.lower) and math.isinf(self.upper))
+        sprung = self.passive is not None and (self.passive.stiffness or self.passive.damping)
+        return bool(limited or self.drive is not None or sprung)
+
     def displayed(self, *values: Amount) -> tuple[Amount, ...]:
         """Values of the coordinate, or arrays of them, radians or metres, as the source shows them.
 

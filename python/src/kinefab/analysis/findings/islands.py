@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
-from ...model import Coupling, Freedom, Joint, Motion
+from ...model import Coupling, Joint
 from ...partition import Partition
 from ..assembly.assemble import Assembly
 from ..joints.links import Link
@@ -42,7 +41,7 @@ def islands_of(
     aside: those that remove nothing in the source; one with an end or a drive joins its two sides all the same, as Unity
     needs a joint for it: a rope from one arm to another makes one island of both, with a loop.
     """
-    ropes = [_bodies(assembly, joint) for joint in aside if any(_acts(f) for f in joint.freedoms)]
+    ropes = [_bodies(assembly, joint) for joint in aside if any(f.acts for f in joint.freedoms)]
     part = _held_together(assembly, tree, {body for pair in ropes for body in pair})
     floating = {int(root) for root in assembly.blocks.island_root[1:]}
     together, hanging = Partition(len(part)), Partition(len(part))
@@ -139,11 +138,3 @@ def _held_together(assembly: Assembly, tree: Tree, roped: set[int]) -> list[int]
 
 def _bodies(assembly: Assembly, joint: Joint) -> tuple[int, int]:
     return assembly.body_of(joint.a), assembly.body_of(joint.b)
-
-
-def _acts(freedom: Freedom) -> bool:
-    """Whether a freedom has an end, a drive or a spring, for which Unity needs a joint even where it locks nothing."""
-    ends, passive = (freedom.lower, freedom.upper), freedom.passive
-    limited = freedom.motion is Motion.LIMITED and any(map(math.isfinite, ends))
-    sprung = passive is not None and (passive.stiffness or passive.damping)
-    return bool(limited or freedom.drive is not None or sprung)

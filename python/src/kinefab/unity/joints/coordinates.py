@@ -40,8 +40,7 @@ class CanonicalJoint:
 
     def plain(self, which: Iterable[int]) -> bool:
         """Whether none of these freedoms has a limit or a drive."""
-        chosen = [self.freedoms[i] for i in which]
-        return all(f.motion is not Motion.LIMITED and f.drive is None for f in chosen)
+        return not any(self.freedoms[i].acts for i in which)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

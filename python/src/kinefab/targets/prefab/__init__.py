@@ -14,7 +14,7 @@ from .exporting import prefab_files, script_files, script_folder
 from .folder import put_in_place
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
-from .project import has_script, identity_of, lends_script
+from .project import elsewhere_in_project, has_script, identity_of, lends_script
 
 ENDING = ".prefab"
 
@@ -38,10 +38,10 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
     home = f"{name}/Scripts"
-    identity, lent = identity_of(target), lends_script(target, home)
-    files = prefab_files(
-        content, name, options, None if options.scripts and has_script(target) else home, identity
-    )
+    elsewhere = elsewhere_in_project(target)
+    identity, lent = identity_of(target, elsewhere), lends_script(target, elsewhere, home)
+    scripts = None if options.scripts and has_script(elsewhere) else home
+    files = prefab_files(content, name, options, scripts, identity)
     if lent and not any(file.path == home for file in files):
         files += [script_folder(home), *script_files(home)]
     content.refuse_losses()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
 
 from .manifest import MANIFEST, read_manifest
@@ -12,29 +12,51 @@ from .text.ids import guid
 from .text.metas import guid_in
 
 ASSETS = "Assets"
+Elsewhere = Sequence[tuple[Path, list[str]]]
+"""Folders of a project with their files' names."""
 
 
-def has_script(target: Path) -> bool:
+def elsewhere_in_project(target: Path) -> Elsewhere:
+    """Where scripts and prefabs of the target's name are in its project, without the target's own; nothing outside a project."""
+    absolute = _absolute(target)
+    assets, own, meta = _assets(absolute), absolute.with_suffix(""), f"{absolute.name}.meta"
+    asked = (f"{SCRIPT}.meta", meta, MANIFEST)
+    if assets.name != ASSETS:
+        return []
+    found: list[tuple[Path, list[str]]] = []
+    for where, folders, names in os.walk(assets):
+        here = Path(where)
+        folders[:] = [
+            name
+            for name in folders
+            if not name.startswith(".") and not (name == own.name and _is_one(here / name, own))
+        ]
+        if meta in names and _is_one(here, own.parent):
+            names.remove(meta)
+        if names := [name for name in names if name in asked]:
+            found.append((here, names))
+    return found
+
+
+def has_script(elsewhere: Elsewhere) -> bool:
     """Whether another export left the script in the project already: a second one of its assembly's name, and of its guid,
     would keep the project from compiling.  False outside a project's ``Assets``."""
     script = f"{SCRIPT}.meta"
     return any(
-        script in names and guid_in(where / script) == script_guid(SCRIPT)
-        for where, names in _elsewhere(target)
+        script in names and guid_in(where / script) == script_guid(SCRIPT) for where, names in elsewhere
     )
 
 
-def lends_script(target: Path, folder: str) -> bool:
+def lends_script(target: Path, elsewhere: Elsewhere, folder: str) -> bool:
     """Whether the last export of the target left the project its only script, which other prefabs may have come to need.
     folder: of the script, from the folder that holds the prefab."""
     if _assets(_absolute(target)).name != ASSETS:
         return False
-    return f"{folder}/{SCRIPT}" in read_manifest(target.with_name(target.stem)).ours and not has_script(
-        target
-    )
+    ours = read_manifest(target.with_name(target.stem)).ours
+    return f"{folder}/{SCRIPT}" in ours and not has_script(elsewhere)
 
 
-def identity_of(target: Path) -> str:
+def identity_of(target: Path, elsewhere: Elsewhere) -> str:
     """By what the prefab's guids are told from those of other exports: "" for its name alone; where another export in the project
     has that one's guids, its place too.  What an earlier export of the target chose stays.
 
@@ -42,7 +64,7 @@ def identity_of(target: Path) -> str:
     """
     name, meta = target.stem, f"{target.name}.meta"
     taken: set[str] = set()
-    for where, names in _elsewhere(target):
+    for where, names in elsewhere:
         metas = [where / meta] if meta in names else []
         if MANIFEST in names:
             metas.append(where.with_name(f"{where.name}{target.suffix}.meta"))
@@ -62,24 +84,6 @@ def _absolute(target: Path) -> Path:
 def _assets(absolute: Path) -> Path:
     """The project's folder of assets; the file system's root outside any."""
     return next((folder for folder in absolute.parents if folder.name == ASSETS), Path(absolute.anchor))
-
-
-def _elsewhere(target: Path) -> Iterator[tuple[Path, list[str]]]:
-    """Each folder of the project with its files' names, but the target's own folder and its meta; nothing outside a project."""
-    absolute = _absolute(target)
-    assets, own, meta = _assets(absolute), absolute.with_suffix(""), f"{absolute.name}.meta"
-    if assets.name != ASSETS:
-        return
-    for where, folders, names in os.walk(assets):
-        here = Path(where)
-        folders[:] = [
-            name
-            for name in folders
-            if not name.startswith(".") and not (name == own.name and _is_one(here / name, own))
-        ]
-        if meta in names and _is_one(here, own.parent):
-            names.remove(meta)
-        yield here, names
 
 
 def _is_one(one: Path, other: Path) -> bool:

@@ -26,12 +26,13 @@ def materials_of(name: str, given: Any) -> tuple[Surface | None, PhysicsMaterial
     """How a part looks and what it touches with."""
     if given is None:
         return None, None
-    wrong = f"the material of {name} is {shown(given)}; pass a Surface, a PhysicsMaterial, or one of each"
     items = _listed(given)
     looks = [item for item in items if isinstance(item, Surface)]
     touch = [item for item in items if isinstance(item, PhysicsMaterial)]
     if len(looks) + len(touch) < len(items) or len(looks) > 1 or len(touch) > 1:
-        raise TypeError(wrong)
+        raise TypeError(
+            f"the material of {name} is {shown(given)}; pass a Surface, a PhysicsMaterial, or one of each"
+        )
     looks = [_checked_surface(name, surface) for surface in looks]
     for material in touch:
         _check_touch(name, material)
@@ -44,19 +45,22 @@ def colliders_of(
     """The shape asked for, and the colliders stated.  meshes: how many the scene has."""
     if given is None:
         return None, None
-    wrong = f"the collider of {name} is {shown(given)}; pass "
     if isinstance(given, (str, ColliderShape)):
         try:
             return ColliderShape(given), None
         except ValueError:
             words = ", ".join(member.value for member in ColliderShape)
-            raise ValueError(f"{wrong}one of: {words}, or Colliders") from None
+            raise ValueError(
+                f"the collider of {name} is {shown(given)}; pass one of: {words}, or Colliders"
+            ) from None
     items = _listed(given)
     colliders = [item for item in items if isinstance(item, Collider)]
     if not items:
-        raise ValueError(f"{wrong}'none' for a part that nothing touches")
+        raise ValueError(
+            f"the collider of {name} is {shown(given)}; pass 'none' for a part that nothing touches"
+        )
     if len(colliders) < len(items):
-        raise TypeError(f"{wrong}a word, a Collider, or several")
+        raise TypeError(f"the collider of {name} is {shown(given)}; pass a word, a Collider, or several")
     colliders = [_checked_collider(name, collider, meshes) for collider in colliders]
     return None, tuple(
         c if c.material is not None or touch is None else replace(c, material=touch) for c in colliders

@@ -199,11 +199,13 @@ def _drive(name: str, drive: Any) -> Drive:
 def _passive(name: str, spring: Any, damping: Any) -> Passive:
     """spring: stiffness (N/m or N m/rad), or (stiffness, rest) with the rest in degrees or metres.  damping: N s/m or
     N m s/rad."""
-    rest, wrong = 0.0, f"the spring of {name} is {shown(spring)}; pass its stiffness, or (stiffness, rest)"
+    rest = 0.0
     if isinstance(spring, Sequence) and not isinstance(spring, str):
         pair = cast("Sequence[Any]", spring)
         if len(pair) != 2:
-            raise TypeError(wrong)
+            raise TypeError(
+                f"the spring of {name} is {shown(pair)}; pass its stiffness, or (stiffness, rest)"
+            )
         spring, rest = pair[0], checked_number(f"the rest of {name}'s spring", pair[1])
     stiffness = 0.0 if spring is None else checked_number(f"the spring of {name}", spring, least=0.0)
     loss = 0.0 if damping is None else checked_number(f"the damping of {name}", damping, least=0.0)

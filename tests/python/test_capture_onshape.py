@@ -264,6 +264,64 @@ def nested(held: dict) -> dict:
     }  # fmt: skip
 
 
+def fixed_inside(still: bool) -> dict:
+    """An assembly inside that stands off the root's origin: two of its parts are fixed in it, a third turns on its origin."""
+    key = {
+        "documentId": "d" * 24,
+        "documentMicroversion": "m" * 24,
+        "elementId": "ESub",
+        "configuration": "default",
+    }
+    parts = [
+        of_onshape(
+            "Instance", id=i, name=i, type="Part", suppressed=False, partId=i, **{**key, "elementId": "EP"}
+        )
+        for i in ("A", "B", "C")
+    ]
+    sub_at, part_at = np.eye(4), np.eye(4)
+    sub_at[:3, :3] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    sub_at[:3, 3], part_at[:3, 3] = [0.31, 0.07, -0.13], [0.02, 0.05, 0.11]
+    occurrences = [
+        of_onshape("Occurrence", path=p, transform=t.ravel().tolist(), fixed=f, hidden=False)
+        for p, t, f in (
+            (["S"], sub_at, still), (["S", "A"], sub_at @ part_at, True), (["S", "B"], sub_at, True),
+            (["S", "C"], sub_at, False),
+        )
+    ]  # fmt: skip
+    cs = of_onshape(
+        "MatedCS",
+        origin=[0.17, 0.0, 0.03],
+        xAxis=[0.0, 1.0, 0.0],
+        yAxis=[0.0, 0.0, 1.0],
+        zAxis=[1.0, 0.0, 0.0],
+    )
+    sides = [of_onshape("MatedEntity", matedOccurrence=p, matedCS=cs) for p in (["C"], [])]
+    turn = {"name": "Turn", "mateType": "REVOLUTE", "matedEntities": sides}
+    mate = of_onshape("Feature", id="M", featureType="mate", suppressed=False, featureData=turn)
+    sub = of_onshape("Assembly", instances=parts, features=[mate], patterns=[], **key)
+    instance = of_onshape("Instance", id="S", name="Sub", type="Assembly", suppressed=False, **key)
+    root = of_onshape("Assembly", instances=[instance], occurrences=occurrences, features=[], patterns=[])
+    return {
+        "definition": of_onshape("Definition", rootAssembly=root, subAssemblies=[sub], parts=[]),
+        "features": of_onshape("Features", features=[]),
+        "matevalues": of_onshape("MateValues", mateValues=[]),
+        f"limits {'d' * 24} {'m' * 24} ESub - default": of_onshape("Features", features=[]),
+    }
+
+
+@pytest.mark.parametrize("still", [False, True])
+def test_what_is_fixed_in_an_assembly_inside_stands_still_only_with_it(still, tmp_path):
+    draft = capture("onshape", fixed_inside(still), tmp_path, "Z").draft
+    sub, a, b, _ = [c["id"] for c in draft.components[1:]]
+    assert {c["id"] for c in draft.components if c.get("grounded")} == ({sub, a, b} if still else set())
+    ties = [(j["a"], j["b"]) for j in draft.joints if j["type"] == "rigid"]
+    assert ties == ([] if still else [(a, b)])
+    (turn,) = [j for j in draft.joints if j["type"] == "revolute"]
+    assert turn["a"] == ("ground" if still else a)
+    assert turn["frameA"]["in"] == sub and turn["frameA"]["o"] == [0.17, 0.0, 0.03]
+    assert not [d for d in draft.report.diagnostics if "Turn" in str(d)]
+
+
 def limited() -> dict:
     values = only_joints("gears")
     values["joints"][0]["dof"] = [{"name": "rz", "value": 0.0, "min": -0.5, "minEnabled": True}]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..draft import Draft, Record, pose_of_rows
+from ..held import hold, standing
 from .parts import Parts
 
 Json = dict[str, Any]
@@ -14,7 +15,11 @@ IDENTITY = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
 
 @dataclass(slots=True)
 class Definition:
-    """An assembly definition.  ids: component of each path of instance ids.  subs: sub-assemblies by what they are of."""
+    """An assembly definition.  ids: component of each path of instance ids.
+    owners: the root and each sub-assembly, by path.
+    still: the paths of the assemblies that stand still in the root.
+    held: of one that may move the first instance that is fixed in it; all others go with that one.
+    """
 
     parts: Parts
     draft: Draft
@@ -22,6 +27,8 @@ class Definition:
     values: Json
     ids: dict[tuple[str, ...], str] = field(default_factory=dict[tuple[str, ...], str])
     owners: list[tuple[tuple[str, ...], Json]] = field(default_factory=list[tuple[tuple[str, ...], Json]])
+    still: set[tuple[str, ...]] = field(default_factory=lambda: {()})
+    held: dict[str, str] = field(default_factory=dict[str, str])
 
     def read(self) -> None:
         """Fill the draft's components; ``owners`` becomes the root and every occurrence of a sub-assembly."""
@@ -70,12 +77,17 @@ class Definition:
             return
         record["pose"] = pose_of_rows([float(v) for v in occurrence["transform"]])
         self.ids[own_path] = own
-        record["grounded"] = bool(occurrence.get("fixed", False))
+        fixed = bool(occurrence.get("fixed", False))  # to its own assembly, which may move
+        record["grounded"] = fixed and path in self.still
         record["visible"] = not occurrence.get("hidden", False)
         record["definition"] = " ".join(str(v) for v in (*_key(instance), instance.get("partId", "")))
         self.draft.component(record)
+        if fixed and not record["grounded"]:
+            hold(self.draft, self.held, parent, own)
         if is_assembly:
             record["flexible"] = True  # nothing in the answers says that one is rigid
+            if record["grounded"]:
+                self.still.add(own_path)
             sub = subs.get(_key(instance))
             if sub is not None:
                 self.owners.append((own_path, sub))
@@ -86,7 +98,7 @@ class Definition:
     def component(self, owner: tuple[str, ...], path: list[str]) -> str:
         """Id of what a feature of ``owner`` names; an empty path is the assembly itself.  Raises KeyError."""
         if not path:
-            return self.ids[owner] if owner else "ground"
+            return standing(self.held, self.ids[owner] if owner else self.root, owner in self.still)
         return self.ids[(*owner, *path)]
 
 

@@ -142,7 +142,8 @@ class Mates:
     def _side(self, path: tuple[str, ...], entity: Json) -> tuple[str, Record]:
         component = self.definition.component(path, entity["matedOccurrence"])
         cs = entity["matedCS"]
-        inside = "world" if component == "ground" else "part"
+        own = self.definition.ids[path] if path else "world"
+        inside = "part" if entity["matedOccurrence"] else own  # what stands for an assembly has other axes
         return component, frame(inside, cs["origin"], cs["zAxis"], cs["xAxis"])
 
     def _limits(self, own: str, coordinate: str, stated: Json) -> tuple[float | None, float | None]:

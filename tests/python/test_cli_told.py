@@ -48,6 +48,8 @@ def test_inspect_reads_scenes_and_says_so(tmp_path: Path):
     assert run("export", ARM, "-o", target).exit_code == 0
     done = run("inspect", target)
     assert done.exit_code == 2 and "is no NAME.kinefab" in done.stderr
+    done = run("inspect", ARM)
+    assert done.exit_code == 2 and "'kinefab analyse'" in done.stderr, "a source, not a broken scene"
 
 
 def test_mates_asks_for_what_it_uses():

@@ -7,6 +7,7 @@ from pathlib import Path
 import typer
 
 from ..diagnostics import KinefabError
+from ..sources import format_of
 from ..targets import known_endings
 from .console import fail
 from .declared import AS_JSON
@@ -17,7 +18,8 @@ def inspect(
     as_json: bool = AS_JSON,
 ) -> None:
     """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
-    if file.name.endswith(tuple(ending for ending in known_endings() if ending != ".kinefab")):
+    exported = file.name.endswith(tuple(ending for ending in known_endings() if ending != ".kinefab"))
+    if exported or format_of(file) is not None:
         told = f"{file} is no NAME.kinefab; export to one, or read the source by 'kinefab analyse'"
         raise typer.BadParameter(told, param_hint="FILE")
     from ..views.overview import overview

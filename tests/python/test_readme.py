@@ -22,13 +22,16 @@ READMES = [
 @pytest.mark.parametrize("readme", READMES, ids=lambda path: path.parent.name)
 def test_readme_code_runs(readme, tmp_path):
     """The blocks of one README, one after the other, run without an error and write what they say."""
+    (tmp_path / "fixtures").symlink_to(ROOT / "fixtures")
     code = "\n".join(BLOCK.findall(readme.read_text(encoding="utf-8")))
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 0, done.stderr
     written = list(tmp_path.glob("*.kinefab"))
-    assert written and all(read(path)["gameObjects"] for path in written)
+    wanted = set(re.findall(r'"(\w+\.kinefab)"', code))
+    assert wanted and {path.name for path in written} == wanted
+    assert all(read(path)["gameObjects"] for path in written)
 
 
 def test_python_readme_has_code():

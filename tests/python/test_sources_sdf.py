@@ -535,6 +535,21 @@ def test_a_mimic_that_is_off_at_the_pose_keeps_its_offset_and_is_told(tmp_path):
     assert "offset" not in entry
 
 
+def test_a_mimic_follows_a_joint_of_a_model_inside(tmp_path):
+    """As sdformat's JointByName: names of joints have scopes too."""
+    law = "<multiplier>-2.5</multiplier><offset>.3</offset><reference>.1</reference>"
+    inside = "<model name='n'>" + link("a") + link("b") + joint("k", "revolute", "a", "b", TURN) + "</model>"
+    inner = (
+        link("base") + link("c") + inside + joint("g", "fixed", "base", "n::a", "")
+        + joint("j", "revolute", "base", "c", f"<axis><xyz>0 1 0</xyz><mimic joint='n::k'>{law}</mimic></axis>")
+    )  # fmt: skip
+    scene = read(written(tmp_path, model(inner)), Report())
+    (coupling,) = scene.couplings
+    leader = next(joint.id for joint in scene.joints if joint.id.endswith("n/k"))
+    assert [(term.joint, term.ratio) for term in coupling.terms] == [(leader, -2.5)]
+    assert coupling.offset == pytest.approx(0.3 + 2.5 * 0.1)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "iso-8859-1"])
 def test_the_encoding_that_a_file_states_is_its_own(tmp_path, encoding):
     path = written(tmp_path, "")

@@ -197,7 +197,7 @@ def _mimic(axis: Element, scope: Scope, feature: str) -> Mimic | None:
     element = axis.child("mimic")
     if element is None:
         return None
-    leader = scope.entries.get(name := element.name("joint"))
+    leader = scope.named(name := element.name("joint"))  # also of a model inside
     if leader is None or leader.kind != "joint":
         element.fault("MIMIC_UNKNOWN", feature=feature, joint=name, problem="no joint")
         return None

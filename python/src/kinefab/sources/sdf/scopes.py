@@ -69,21 +69,30 @@ class Scope:
             scope = scope.above if scope.merged else None
 
     def find(self, name: str, asking: Element, feature: str) -> Entry | None:
-        """The entry of a name, with ``::`` between scopes; None after a fault."""
+        """As ``named``; None after a fault."""
+        found, word, known = self._down(name)
+        if found is None:
+            near = near_matches(word, known, self.report)
+            asking.fault("LINK_UNKNOWN", link=name, feature=feature, near=near)
+        return found
+
+    def named(self, name: str) -> Entry | None:
+        """The entry of a name, with ``::`` between scopes, if there is one."""
+        return self._down(name)[0]
+
+    def _down(self, name: str) -> tuple[Entry | None, str, dict[str, Entry]]:
+        """The entry, or None with the word that is unknown and those that are known in its place."""
         if name in self.entries:
-            return self.entries[name]
+            return self.entries[name], name, self.entries
         scope: Scope | None = self
         found: Entry | None = None
         for word in name.split("::"):
-            found = None if scope is None else scope.entries.get(word)
+            known = {} if scope is None else scope.entries
+            found = known.get(word)
             if found is None:
-                known = {} if scope is None else scope.entries
-                asking.fault(
-                    "LINK_UNKNOWN", link=name, feature=feature, near=near_matches(word, known, self.report)
-                )
-                return None
+                return None, word, known
             scope = found.inner
-        return found
+        return found, name, self.entries
 
     def all_entries(self, kind: str) -> list[Entry]:
         """Its own and those of nested models, in the file's order."""

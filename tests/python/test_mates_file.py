@@ -111,6 +111,14 @@ def test_without_mates_a_file_of_parts_is_told_so(lever: Scene):
     assert [d.code for d in report.diagnostics] == ["MATES_NOT_ASKED"]
 
 
+def test_mates_that_are_neither_auto_nor_a_file_are_refused_and_both_are_named(lever):
+    with pytest.raises(KinefabError) as refused:
+        mated(lever, {"mates": "atuo"}, Report())
+    (told,) = refused.value.diagnostics
+    assert told.code == "MATES_NOT_FOUND" and "atuo" in told.message
+    assert "auto" in told.remedy and ".mates.json" in told.remedy
+
+
 def test_a_mate_below_the_threshold_is_left_out(lever: Scene):
     from kinefab.mates.apply import with_found
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..diagnostics import Report
+from ..diagnostics import KinefabError, Report
 from ..model import Scene
 
 
@@ -13,7 +13,7 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     """The scene with the mates asked for; where none are, and the scene states nothing that moves, that is told.
 
     asked: the source's options; ``mates`` ("auto" or a path) and ``ground`` are looked at.
-    Raises KinefabError for a mates file that is wrong.
+    Raises KinefabError for a mates file that is wrong or not there.
     """
     choice, ground = str(asked.get("mates", "")), str(asked.get("ground", ""))
     # what finds and reads mates is imported where they are asked for: few exports do, and all would wait for it
@@ -28,7 +28,9 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     if choice:
         from .mates_file import with_file
 
-        return with_file(scene, Path(choice), report)
+        if not (path := Path(choice)).exists():
+            raise KinefabError([report.add("MATES_NOT_FOUND", scene.source.uri, asked=choice)])
+        return with_file(scene, path, report)
     silent = not (scene.joints or scene.constraints or scene.dof_records)
     exact = sum(any(body.boundary for body in node.bodies) for node in scene.nodes)
     if silent and exact > 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -320,6 +321,31 @@ def test_what_is_fixed_in_an_assembly_inside_stands_still_only_with_it(still, tm
     assert turn["a"] == ("ground" if still else a)
     assert turn["frameA"]["in"] == sub and turn["frameA"]["o"] == [0.17, 0.0, 0.03]
     assert not [d for d in draft.report.diagnostics if "Turn" in str(d)]
+
+
+def test_a_mate_of_an_assembly_inside_itself_is_on_what_is_fixed_in_it(tmp_path):
+    """Its origin moves with the parts that are fixed to it; its frame is stated in its own axes."""
+    held = fixed_inside(still=False)
+    root = held["definition"]["rootAssembly"]
+    mate = copy.deepcopy(held["definition"]["subAssemblies"][0]["features"][0])
+    lift = {**mate["featureData"], "name": "Lift", "mateType": "SLIDER"}
+    lift["matedEntities"] = copy.deepcopy(lift["matedEntities"])
+    lift["matedEntities"][0]["matedOccurrence"] = ["S"]
+    lift["matedEntities"][1]["matedCS"] = lift["matedEntities"][0]["matedCS"] | {
+        "origin": [0.31, 0.24, -0.10], "xAxis": [-1.0, 0.0, 0.0], "yAxis": [0.0, 0.0, 1.0], "zAxis": [0.0, 1.0, 0.0],
+    }  # fmt: skip
+    group = {"name": "All", "occurrences": [{"occurrence": path} for path in (["S"], ["S", "A"], ["S", "C"])]}
+    root["features"] = [
+        of_onshape("Feature", id="L", featureType="mate", suppressed=False, featureData=lift),
+        of_onshape("Feature", id="G", featureType="mateGroup", suppressed=False, featureData=group),
+    ]
+    draft = capture("onshape", held, tmp_path, "Z").draft
+    sub, a, b, c = [c["id"] for c in draft.components[1:]]
+    (slide,) = [j for j in draft.joints if j["type"] == "slider"]
+    assert (slide["a"], slide["b"]) == ("ground", a)
+    assert (slide["frameA"]["in"], slide["frameB"]["in"]) == ("world", sub)
+    assert [(j["a"], j["b"]) for j in draft.joints if j["type"] == "rigid"] == [(a, b), (a, c)]
+    assert not [d for d in draft.report.diagnostics if "Lift" in str(d)]
 
 
 def limited() -> dict:

@@ -111,7 +111,7 @@ def test_what_writes_says_that_it_did(scene, tmp_path, command, ending):
     "arguments",
     [
         ("analyse", "IN"),
-        ("inspect", "IN"),
+        ("inspect", "SCENE"),
         ("mates", "IN", "-o", "OUT.mates.json"),
         ("draw", "IN", "-o", "OUT.svg"),
         ("view", "IN", "-o", "OUT.html"),
@@ -125,6 +125,7 @@ def test_what_writes_says_that_it_did(scene, tmp_path, command, ending):
 def test_what_fails_says_why(tmp_path, arguments):
     (tmp_path / "empty").mkdir()
     words = {"IN": str(broken(tmp_path, "x.bundle.json")), "FOLDER": str(tmp_path / "empty")}
+    words["SCENE"] = str(broken(tmp_path, "x.kinefab"))
     given = [words.get(a, a.replace("OUT", str(tmp_path / "out"))) for a in arguments]
     values = printed("findings", *given, status=1)
     assert values["errors"] == len([d for d in values["diagnostics"] if d["severity"] == "error"]) >= 1

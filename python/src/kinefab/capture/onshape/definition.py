@@ -95,11 +95,16 @@ class Definition:
         else:
             self.parts.want(record["definition"], record["name"], instance)
 
-    def component(self, owner: tuple[str, ...], path: list[str]) -> str:
-        """Id of what a feature of ``owner`` names; an empty path is the assembly itself.  Raises KeyError."""
-        if not path:
-            return standing(self.held, self.ids[owner] if owner else self.root, owner in self.still)
-        return self.ids[(*owner, *path)]
+    def component(self, owner: tuple[str, ...], path: list[str]) -> tuple[str, str]:
+        """Id of what moves as what a feature of ``owner`` names does, and of what its frame is stated in.
+
+        An empty path is ``owner`` itself; for an assembly, which is no body, stands what is fixed in it.  Raises KeyError.
+        """
+        whole = (*owner, *path)
+        own = self.ids[whole] if whole else self.root
+        if whole not in (known for known, _ in self.owners):
+            return own, "part"
+        return standing(self.held, own, whole in self.still), own if whole else "world"
 
 
 def _key(entry: Json) -> tuple[Any, ...]:

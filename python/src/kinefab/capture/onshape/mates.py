@@ -140,10 +140,8 @@ class Mates:
         self.draft.joints.append(record)
 
     def _side(self, path: tuple[str, ...], entity: Json) -> tuple[str, Record]:
-        component = self.definition.component(path, entity["matedOccurrence"])
+        component, inside = self.definition.component(path, entity["matedOccurrence"])
         cs = entity["matedCS"]
-        own = self.definition.ids[path] if path else "world"
-        inside = "part" if entity["matedOccurrence"] else own  # what stands for an assembly has other axes
         return component, frame(inside, cs["origin"], cs["zAxis"], cs["xAxis"])
 
     def _limits(self, own: str, coordinate: str, stated: Json) -> tuple[float | None, float | None]:
@@ -186,7 +184,7 @@ class Mates:
 
     def _group(self, path: tuple[str, ...], feature: Json, data: Json) -> None:
         entries = [entry.get("occurrence", entry) for entry in data["occurrences"]]
-        members = [self.definition.component(path, entry) for entry in entries]
+        members = list(dict.fromkeys(self.definition.component(path, entry)[0] for entry in entries))
         for member in members[1:]:
             own = self._id(path, f"{data.get('name', feature['id'])}: {member.rpartition('/')[2]}")
             record: Record = {"id": own, "type": "rigid", "a": members[0], "b": member}

@@ -210,6 +210,16 @@ def test_a_name_that_usd_cannot_show_is_told(tmp_path):
     assert all(changed in message for changed, message in zip(filter(None, names.values()), messages))
 
 
+def test_a_name_with_spaces_and_joiners_of_other_scripts_stays(tmp_path):
+    """isprintable() says no to an ideographic space, and the part was then called ``___1``."""
+    names = ["部品\u30001", "Pièce\u00a02", "\u0646\u0645\u06cc\u200c\u062e"]
+    scene = Scene(nodes=[kinefab.model.Node(f"N{i}", name) for i, name in enumerate(names)])
+    result = kinefab.export(scene, tmp_path / "a.usda")
+    assert not [o for o in result.report.outcomes if o.code == "TARGET_NAME_CHANGED"]
+    back = kinefab.export(result.path, tmp_path / "a.kinefab")
+    assert set(names) <= {o.name for o in back.unity.gameObjects}
+
+
 def test_what_is_coupled_has_ends_that_engines_take_and_kinefab_reads_as_none(tmp_path: Path):
     """PhysX refuses a mimic of joints without finite ranges, of any that the articulation excludes, and across articulations."""
     scene = kinefab.Scene()

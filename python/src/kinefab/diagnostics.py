@@ -7,6 +7,7 @@ a wrong *call* (a programmer's mistake) gives an ordinary exception.
 from __future__ import annotations
 
 import json
+import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -87,6 +88,12 @@ class FeatureOutcome:
     severity: Severity = Severity.INFO
     message: str = ""
     where: str = ""
+
+
+def readable(text: str) -> bool:
+    """Whether people can be shown the text as it is: spaces of every script and joiners (U+200C, U+200D), but nothing that
+    controls or turns round the line."""
+    return all(c.isprintable() or unicodedata.category(c) == "Zs" or c in "\u200c\u200d" for c in text)
 
 
 def printable(text: str) -> str:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, readable
 from ...spatial import Array, matrix_from_quaternion
 from .api import Usd, UsdGeom, UsdPhysics
 from .stage import OpenStage
@@ -287,7 +287,7 @@ def schemas(prim: Any) -> tuple[str, ...]:
 def title(prim: Any) -> str:
     """The name that a user sees."""
     shown = prim.GetDisplayName()
-    return shown if shown and shown.isprintable() else prim.GetName()
+    return shown if shown and readable(shown) else prim.GetName()
 
 
 def identity(prim: Any) -> str:

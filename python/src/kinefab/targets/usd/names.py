@@ -6,6 +6,8 @@ import hashlib
 import re
 from collections.abc import Iterable, Sequence
 
+from ...diagnostics import readable
+
 _DIGITS = 6
 
 
@@ -17,7 +19,7 @@ def prim_name(name: str) -> str:
 
 def display_name(name: str) -> str:
     """What users are shown, "" where USD could not hold it."""
-    return name if name.isprintable() and name.strip() else ""
+    return name if readable(name) and name.strip() else ""
 
 
 class PrimNames:

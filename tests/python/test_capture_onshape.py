@@ -348,6 +348,17 @@ def test_a_mate_of_an_assembly_inside_itself_is_on_what_is_fixed_in_it(tmp_path)
     assert not [d for d in draft.report.diagnostics if "Lift" in str(d)]
 
 
+def test_an_assembly_inside_that_is_not_listed_is_told(tmp_path):
+    """Its parts stand among the occurrences alone; no mate names them, so that nothing else would tell of them."""
+    held, report = fixed_inside(still=False), Report()
+    held["definition"]["subAssemblies"][0]["configuration"] = "another"
+    draft = capture("onshape", held, tmp_path, "Z", report).draft
+    assert [c["name"] for c in draft.components[1:]] == ["Sub"]
+    (told,) = report.diagnostics
+    assert told.code == "CAPTURE_MEMBER_FAILED"
+    assert draft.components[1]["id"] in told.message and "subAssemblies" in told.message
+
+
 def limited() -> dict:
     values = only_joints("gears")
     values["joints"][0]["dof"] = [{"name": "rz", "value": 0.0, "min": -0.5, "minEnabled": True}]

@@ -42,7 +42,7 @@ def capture(root: Answers, draft: Draft) -> None:
 
 def _inner_limits(root: Answers, definition: Definition, features: Limits) -> None:
     """Those of the assemblies inside, each asked once; what was not saved of them is told."""
-    for path, assembly in definition.owners:
+    for path, assembly in definition.owners.items():
         stated = any(feature.get("featureType") == "mate" for feature in assembly.get("features", []))
         if path and stated and (question := limits_question(assembly)) not in features:
             features[question] = {}

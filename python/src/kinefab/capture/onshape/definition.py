@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from ..channel import MemberFailed
 from ..draft import Draft, Record, pose_of_rows
 from ..held import hold, standing
 from .parts import Parts
@@ -26,7 +27,7 @@ class Definition:
     root: str
     values: Json
     ids: dict[tuple[str, ...], str] = field(default_factory=dict[tuple[str, ...], str])
-    owners: list[tuple[tuple[str, ...], Json]] = field(default_factory=list[tuple[tuple[str, ...], Json]])
+    owners: dict[tuple[str, ...], Json] = field(default_factory=dict[tuple[str, ...], Json])
     still: set[tuple[str, ...]] = field(default_factory=lambda: {()})
     held: dict[str, str] = field(default_factory=dict[str, str])
 
@@ -35,7 +36,7 @@ class Definition:
         top = self.values["rootAssembly"]
         subs = {_key(sub): sub for sub in self.values.get("subAssemblies", [])}
         occurrences = {tuple(o["path"]): o for o in top.get("occurrences", [])}
-        self.owners.append(((), top))
+        self.owners[()] = top
         self._level(top, (), self.root, subs, occurrences)
         self.parts.read()
         for component in self.draft.components:
@@ -89,9 +90,12 @@ class Definition:
             if record["grounded"]:
                 self.still.add(own_path)
             sub = subs.get(_key(instance))
-            if sub is not None:
-                self.owners.append((own_path, sub))
-                self._level(sub, own_path, own, subs, found)
+            if sub is None:
+                lost = MemberFailed("subAssemblies", "this one is not listed")
+                self.draft.failed(f"what is in {own}", lost)
+                return
+            self.owners[own_path] = sub
+            self._level(sub, own_path, own, subs, found)
         else:
             self.parts.want(record["definition"], record["name"], instance)
 
@@ -102,7 +106,7 @@ class Definition:
         """
         whole = (*owner, *path)
         own = self.ids[whole] if whole else self.root
-        if whole not in (known for known, _ in self.owners):
+        if whole not in self.owners:
             return own, "part"
         return standing(self.held, own, whole in self.still), own if whole else "world"
 

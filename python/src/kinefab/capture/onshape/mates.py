@@ -79,13 +79,12 @@ class Mates:
     def __init__(self, definition: Definition, features: Limits, values: dict[str, Json]) -> None:
         self.definition, self.features, self.values = definition, features, values
         self.draft: Draft = definition.draft
-        self.assemblies = dict(definition.owners)
         self.joints: dict[tuple[tuple[str, ...], str], tuple[str, str]] = {}
 
     def read(self) -> None:
         kinds = {"mate": self._mate, "mateGroup": self._group, "mateRelation": self._relation}
         for wanted, build in kinds.items():  # relations name mates
-            for path, assembly in self.definition.owners:
+            for path, assembly in self.definition.owners.items():
                 for feature in assembly.get("features", []):
                     if feature.get("featureType") == wanted:
                         data = feature.get("featureData", {})
@@ -97,7 +96,7 @@ class Mates:
 
     def _mate(self, path: tuple[str, ...], feature: Json, data: Json) -> None:
         """The first entity moves against the second: it is b."""
-        assembly = self.assemblies[path]
+        assembly = self.definition.owners[path]
         name, kind = str(data.get("name", feature["id"])), data["mateType"]
         own = self._id(path, name)
         sides = [self._side(path, entity) for entity in data["matedEntities"]]

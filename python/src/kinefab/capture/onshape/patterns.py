@@ -10,7 +10,7 @@ from .definition import Definition
 
 def read_patterns(definition: Definition) -> None:
     """Fix the instances of every assembly's patterns to their seeds; those without a place among the instances are told."""
-    for path, assembly in definition.owners:
+    for path, assembly in definition.owners.items():
         patterns: list[dict[str, Any]] = assembly.get("patterns") or []
         for pattern in patterns:
             with definition.draft.safely(f"pattern {pattern.get('name', pattern.get('id'))}"):

@@ -210,7 +210,8 @@ def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suff
 
 
 @pytest.mark.parametrize(
-    "name", ["", ".hidden", "Robot~", "cvs", "CVS", "old.tmp", "Editor", "StreamingAssets"]
+    "name",
+    ["", ".hidden", "Robot~", "cvs", "CVS", "old.tmp", "Editor", "StreamingAssets", "arm.bundle", "a.Plugin"],
 )
 def test_a_folder_that_unity_does_not_import_is_refused(tmp_path, name):
     """The prefab's meshes would be missing without a word; a package names its prefab itself."""
@@ -223,7 +224,9 @@ def test_a_folder_that_unity_does_not_import_is_refused(tmp_path, name):
         paths = [packed.extractfile(m).read().decode() for m in packed if m.name.endswith("/pathname")]
     parts = {part.casefold() for path in paths for part in path.split("/")}
     assert not parts & {"cvs", "editor", "streamingassets", ""}
-    assert not any(part.startswith(".") or part.endswith(("~", ".tmp")) for part in parts)
+    assert not any(
+        part.startswith(".") or part.endswith(("~", ".tmp", ".bundle", ".plugin")) for part in parts
+    )
 
 
 @pytest.mark.parametrize("name", ["Mein Röbot v1.2", "日本語", "Q#[x]", " lead", "x" * 200])
@@ -259,7 +262,10 @@ def test_what_a_yaml_parser_takes_for_a_word_of_its_own_is_quoted(tmp_path):
     assert {n.replace("\u2028", "_") for n in names} <= found
 
 
-@pytest.mark.parametrize("name", ["CON", "nul", "Aux.v2", "com1", "a:b", "what?", "Robot.", "Robot "])
+@pytest.mark.parametrize(
+    "name",
+    ["CON", "nul", "Aux.v2", "com1", "a:b", "what?", "Robot.", "Robot ", "COM²", "conin$.x", "lpt1 .b"],
+)
 def test_a_prefab_has_no_name_that_windows_refuses(tmp_path, name):
     """A project is shared between systems; in a package the prefab gets another name."""
     scene = kinefab.Scene()

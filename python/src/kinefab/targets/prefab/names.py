@@ -13,10 +13,12 @@ MOST_BYTES = 120
 LEAST_BYTES = 24
 TOGETHER_BYTES = 140
 """Of the prefab's name and a file's: with folders, endings and some for the project's own path they stay below Windows' 260 characters."""
-RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[\d¹²³]) *(\..*)?", re.IGNORECASE)
 """Names that Windows keeps for devices, whatever follows the dot."""
-UNSEEN = re.compile(r"(\..*|.*~|cvs|.*\.tmp|editor|streamingassets)?", re.IGNORECASE)
-"""Folders whose assets Unity leaves alone, or out of what it builds; and no name at all."""
+UNSEEN = re.compile(
+    r"(\..*|.*~|cvs|.*\.(tmp|bundle|framework|plugin|androidlib)|editor|streamingassets)?", re.IGNORECASE
+)
+"""Folders whose assets Unity leaves alone, takes for parts of a plug-in, or leaves out of what it builds; and no name at all."""
 NOT_IN_WINDOWS = re.compile(r'[<>:"\\|?*\x00-\x1f]')
 _DIGITS = 6
 

@@ -14,13 +14,13 @@ from .asking import asking
 from .console import demand_ending, fail, tell, write
 from .declared import AS_JSON
 
+SOURCE: Path = typer.Argument(..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False)
+
 
 @asking(("reading", source_options()))
 def draw(
     reading: dict[str, Any],
-    file: Path = typer.Argument(
-        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
-    ),
+    file: Path = SOURCE,
     output: Path = typer.Option(
         ..., "--output", "-o", help="Picture to write: NAME.svg, .png, .gif or .webp.", show_default=False
     ),
@@ -53,9 +53,7 @@ def draw(
 @asking(("reading", source_options()))
 def view(
     reading: dict[str, Any],
-    source: Path = typer.Argument(
-        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
-    ),
+    source: Path = SOURCE,
     output: Optional[Path] = typer.Option(
         None,
         "--output",
@@ -84,9 +82,7 @@ def view(
 @asking(("reading", source_options()))
 def report(
     reading: dict[str, Any],
-    source: Path = typer.Argument(
-        ..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False
-    ),
+    source: Path = SOURCE,
     output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
     as_json: bool = AS_JSON,
 ) -> None:

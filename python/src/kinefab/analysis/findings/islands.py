@@ -14,7 +14,7 @@ GROUND = 0
 """The body that never moves."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Island:
     """Rigid groups that hang together by joints, ground left out.
 
@@ -22,14 +22,14 @@ class Island:
     loops: of the joints that are exported.  slack: how many of these a joint closes that removes nothing, such as a rope.
     """
 
-    nodes: tuple[int, ...]
-    mobility: int
-    first_order: int
-    rows: int
-    redundant: int
-    loops: int
-    slack: int
     floating: bool
+    nodes: list[int] = field(default_factory=list[int])
+    mobility: int = 0
+    first_order: int = 0
+    rows: int = 0
+    redundant: int = 0
+    loops: int = 0
+    slack: int = 0
 
 
 def islands_of(
@@ -53,44 +53,19 @@ def islands_of(
             slack.append(max(a, b))
         if GROUND not in (a, b):
             together.join(a, b)
-    found = {together.find(own): _Counted() for own in part}
+    found = {key: Island(hanging.find(key) != GROUND) for key in {together.find(own) for own in part}}
     of_body = [found[together.find(own)] for own in part]
     _count_loops(of_body, links, slack, couplings)
     _count_freedoms(of_body, assembly, set(part) & floating)
     bodies: list[int] = assembly.body[1:].tolist()
     for node, body in enumerate(bodies):
         of_body[body].nodes.append(node)
-    return [
-        Island(
-            tuple(own.nodes),
-            own.mobility,
-            own.first_order,
-            own.rows,
-            own.redundant,
-            own.loops,
-            own.slack,
-            hanging.find(key) != GROUND,
-        )
-        for key, own in sorted(found.items(), key=lambda item: item[1].nodes[:1])
-        if key != GROUND and own.nodes
-    ]
-
-
-@dataclass(slots=True)
-class _Counted:
-    """An island while it is counted."""
-
-    nodes: list[int] = field(default_factory=list[int])
-    mobility: int = 0
-    first_order: int = 0
-    rows: int = 0
-    redundant: int = 0
-    loops: int = 0
-    slack: int = 0
+    moving = [island for key, island in found.items() if key != GROUND and island.nodes]
+    return sorted(moving, key=lambda island: island.nodes[0])
 
 
 def _count_loops(
-    of_body: list[_Counted], links: list[Link], slack: list[int], couplings: list[Coupling]
+    of_body: list[Island], links: list[Link], slack: list[int], couplings: list[Coupling]
 ) -> None:
     """slack: for each rope that closes a loop a body of its island."""
     counted = {id for c in couplings for id in c.joints}
@@ -104,7 +79,7 @@ def _count_loops(
         of_body[body].slack += 1
 
 
-def _count_freedoms(of_body: list[_Counted], assembly: Assembly, floating: set[int]) -> None:
+def _count_freedoms(of_body: list[Island], assembly: Assembly, floating: set[int]) -> None:
     """floating: a body of each part that no row holds to the ground, whose six freedoms are no block's."""
     for body in floating:
         of_body[body].mobility += 6

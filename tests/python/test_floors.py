@@ -62,8 +62,8 @@ FLOORS: dict[str, list[set[str]]] = {
     "targets/prefab": [
         {"text", "files", "names", "manifest"},
         {"options", "assets", "objects", "moment", "links", "meshes"},
-        {"losses", "articulation", "project", "folder"},
-        {"exporting"},
+        {"losses", "articulation", "project"},
+        {"folder", "exporting"},
         {"__init__"},
     ],
     "targets/usd": [

@@ -15,7 +15,7 @@ import trimesh
 from golden import FIXTURES
 from kinefab import model
 from kinefab.spatial import Pose
-from prefab_reader import Project
+from prefab_reader import BUILT_IN, Project
 from prefab_scenes import block, rich_scene
 from unity_yaml import documents, mapping
 
@@ -283,3 +283,70 @@ def test_a_prefab_keeps_its_guids_to_itself_when_it_is_renamed(tmp_path, came):
     kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
     assert old < Project(assets).paths.keys()
     assert len(Project(assets).paths) == 2 * len(old)
+
+
+def whole(assets: Path) -> Project:
+    """The project, in which no guid stands twice and every reference leads to a file."""
+    project = Project(assets)
+    for path in (p for p in project.paths.values() if p.suffix in (".prefab", ".mat")):
+        guids = set(re.findall(r"guid: (\w+)", path.read_text("utf-8")))
+        assert guids <= project.paths.keys() | set(BUILT_IN), path
+    return project
+
+
+def moved(assets: Path, old: str, new: str) -> None:
+    """As the editor moves: the meta goes along."""
+    (assets / new).parent.mkdir(exist_ok=True)
+    for end in ("", ".meta"):
+        (assets / f"{old}{end}").rename(assets / f"{new}{end}")
+
+
+@pytest.mark.parametrize(
+    "old, new",
+    [
+        ("Robot.prefab", "Prefabs/Robot.prefab"),
+        ("Robot.prefab", "Robot 2.prefab"),
+        ("Robot/Materials/Lamp.mat", "Shared/Lamp.mat"),
+        ("Robot/Meshes/Arm.asset", "Robot/Meshes/Boom.asset"),
+        ("Robot/Meshes", "Robot/Shapes"),
+    ],
+)
+def test_what_was_moved_in_the_editor_is_not_written_a_second_time(tmp_path, old, new):
+    """Unity would give one of the two another guid; and the prefab that was moved lost its meshes to one of other guids."""
+    assets = tmp_path / "Assets"
+    assets.mkdir()
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    moved(assets, old, new)
+    before = {p: p.read_bytes() for p in assets.rglob("*") if p.is_file()}
+    with pytest.raises(kinefab.KinefabError) as caught:
+        kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    (found,) = caught.value.diagnostics
+    assert found.code == "TARGET_ASSET_MOVED"
+    assert found.message.startswith(f"{assets / new} ") and f"{assets / old}," in found.message
+    assert {p: p.read_bytes() for p in assets.rglob("*") if p.is_file()} == before
+    moved(assets, new, old)
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    whole(assets)
+
+
+@pytest.mark.parametrize(
+    "old, new, target",
+    [
+        ("Robot.prefab", "Prefabs/Robot.prefab", "Prefabs/Robot.prefab"),
+        ("Robot", "Data/Robot", "Robot.prefab"),
+        ("Robot", "Old", "Robot.prefab"),
+    ],
+)
+def test_a_prefab_without_its_folder_gets_another(tmp_path, old, new, target):
+    """The one that stays behind keeps its guids, the prefab its own, by which scenes know it."""
+    assets = tmp_path / "Assets"
+    assets.mkdir()
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    guid = (assets / "Robot.prefab.meta").read_text()
+    moved(assets, old, new)
+    before = Project(assets).paths
+    for _ in range(2):
+        kinefab.export(rich_scene(tmp_path), assets / target)
+        after = whole(assets).paths
+        assert before.items() <= after.items() and len(after) == 2 * len(before) - 1  # the prefab
+    assert (assets / f"{target}.meta").read_text() == guid

@@ -17,6 +17,7 @@ from ...replacing import one_at_a_time, sync_directory
 from .files import AssetFile
 from .manifest import MANIFEST, Manifest, Pending, read_manifest
 from .moment import complete, files_below, meta_of, remove_leftovers, staging_prefix, take_place
+from .project import moved_away
 from .text.metas import guid_in
 
 Progress = Callable[[float], None]
@@ -35,6 +36,8 @@ def put_in_place(
         remove_leftovers(parent, folder)
         ours = read_manifest(folder).ours
         _refuse_foreign(files, parent, folder, ours, report)
+        if moved := moved_away(files, target, ours):
+            raise KinefabError([report.add("TARGET_ASSET_MOVED", path=p, asset=parent / a) for p, a in moved])
         staging = Path(tempfile.mkdtemp(prefix=staging_prefix(folder), dir=parent))
         try:
             guids = _guids(ours, parent)

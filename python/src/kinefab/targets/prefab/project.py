@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from .manifest import MANIFEST, read_manifest
+from .files import AssetFile
+from .manifest import MANIFEST, Manifest, read_manifest
+from .moment import meta_of
 from .objects.couplings import SCRIPT, script_guid
 from .text.ids import guid
 from .text.metas import guid_in
@@ -60,21 +62,51 @@ def identity_of(target: Path, elsewhere: Elsewhere) -> str:
     """By what the prefab's guids are told from those of other exports: "" for its name alone; where another export in the project
     has that one's guids, its place too.  What an earlier export of the target chose stays.
 
-    The other may have been moved or renamed in the editor, or have come in a package: Unity keeps guids then.
+    The other may have been moved or renamed in the editor, its prefab alone or its folder, or have come in a package: Unity keeps
+    guids then.
     """
     name, meta = target.stem, f"{target.name}.meta"
     taken: set[str] = set()
     for where, names in elsewhere:
-        metas = [where / meta] if meta in names else []
+        if meta in names:
+            taken.add(guid_in(where / meta))
         if MANIFEST in names:
-            metas.append(where.with_name(f"{where.name}{target.suffix}.meta"))
-        taken |= {guid_in(path) for path in metas}
-    known = read_manifest(target.with_name(name)).identity
-    for identity in (known, ""):
+            taken.add(_prefab_guid(read_manifest(where)))
+    own = read_manifest(target.with_name(name))
+    if own.files and not target.exists():
+        return (
+            own.identity
+        )  # its prefab may be one of those, which shows what is in the folder: see ``moved_away``
+    for identity in (own.identity, ""):
         if guid(identity or name, "prefab") not in taken:
             return identity
     place = _absolute(target)
     return f"{name}|{place.relative_to(_assets(place)).as_posix()}"
+
+
+def _prefab_guid(manifest: Manifest) -> str:
+    """Of the prefab that an export wrote beside its folder, wherever the two are by now; "" where it wrote none."""
+    prefab = next((path for path in manifest.files if "/" not in path and path.endswith(".prefab")), "")
+    return guid(manifest.identity or prefab.removesuffix(".prefab"), "prefab") if prefab else ""
+
+
+def moved_away(files: Sequence[AssetFile], target: Path, ours: Collection[str]) -> list[tuple[Path, str]]:
+    """What somebody moved or renamed in the editor, which keeps guids, and the path at which this export would write it again;
+    a folder stands for all in it.  ours: paths that the last export wrote; the project is searched only where one of them is gone.
+    """
+    target = _absolute(target)
+    if all((target.parent / path).exists() for path in ours if path.endswith(".meta")):
+        return []
+    assets = _assets(target)
+    base = assets if assets.name == ASSETS else target.with_name(target.stem)
+    wanted, found = {file.guid: file.path for file in files}, dict[Path, str]()
+    for where, folders, names in os.walk(base):
+        for path in (Path(where) / name for name in names if name.endswith(".meta")):
+            own, place = wanted.get(guid_in(path)), Path(os.path.relpath(path, target.parent)).as_posix()
+            if own is not None and place not in ours and place != meta_of(own):
+                found[path.with_suffix("")] = own
+        folders[:] = [name for name in folders if name[0] != "." and Path(where) / name not in found]
+    return sorted(found.items())
 
 
 def _absolute(target: Path) -> Path:

@@ -65,6 +65,21 @@ def test_part_fixed_to_the_ground_is_static(tmp_path):
     assert len(components(content, "Plate", "MeshCollider")) == 1
 
 
+@pytest.mark.parametrize("ground", ["body", "world"])
+def test_what_is_grounded_below_what_moves_stays(ground, tmp_path):
+    """In the source's tree only: without a Rigidbody of its own Unity would carry it, and make it a part of the other body."""
+    scene = kinefab.Scene()
+    arm = scene.add_part("Arm", BOX, translation=(0, 1, 0))
+    post = scene.add_part("Post", BOX, parent=arm, grounded=True)
+    scene.add_part("Foot", BOX, parent=post, grounded=True, translation=(0, -1, 0))
+    scene.add_hinge(post, arm, point=(0, 0.5, 0), axis=(0, 0, 1), limits=(-10, 80))
+    content, _ = exported(scene, tmp_path, ground=ground)
+    (body,) = components(content, "Post", "Rigidbody")
+    assert body["isKinematic"] and components(content, "Foot", "Rigidbody") == []
+    (moved,) = components(content, "Arm", "Rigidbody")
+    assert not moved.get("isKinematic", False)
+
+
 def test_breakable_fixed_joint_stays_a_joint(tmp_path):
     """A fixed joint that may break is a FixedJoint between two Rigidbodies, not one group."""
     scene = kinefab.Scene()

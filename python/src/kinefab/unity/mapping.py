@@ -215,8 +215,7 @@ class _Builder:
             because = tuple(self.holding.get(own, ()))
             joint = FixedJoint(connectedBody=self.object_of[connected], because=because)
             self.components[self.object_of[own]].append(joint)
-        if self.ground is not None:
-            self._hold_grounded_below_others()
+        self._hold_grounded_below_others()
 
     def _hold_grounded_below_others(self) -> None:
         """A grounded node in the tree below a moving body would move with it: it is kinematic by itself."""

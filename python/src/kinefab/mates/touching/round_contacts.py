@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -48,57 +49,84 @@ def round_contacts(
                 yield from _on_flat(first, second, r, flat, flip, near, touch)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Pair:
+    """A round of one part beside a hollow round of the other.
+
+    first, second: the parts.  a, b: the round of each.  shaft, bore: the same two, the full one and the hollow one.
+    inner: the part whose round is the shaft.  size: of the smaller part, metres.
+    """
+
+    first: int
+    second: int
+    a: Round
+    b: Round
+    shaft: Round
+    bore: Round
+    inner: int
+    size: float
+
+
 def _between(first: int, second: int, a: Round, b: Round, size: float, touch: float) -> Iterator[Contact]:
     inner = first if b.hollow else second
     shaft, bore = (a, b) if b.hollow else (b, a)
-    kinds = (shaft.kind, bore.kind)
-    if kinds == (FaceKind.CYLINDER, FaceKind.CYLINDER):
-        yield from _fit(first, second, a, b, shaft, bore, inner, size, touch)
-    elif kinds == (FaceKind.CONE, FaceKind.CONE):
-        yield from _cone(first, second, a, b, shaft, bore, inner, size, touch)
-    elif kinds == (FaceKind.SPHERE, FaceKind.SPHERE):
-        gap = bore.radius - shaft.radius
-        apart = float(np.linalg.norm(shaft.point - bore.point))
-        if apart <= COAXIAL * size and -0.01 * bore.radius <= gap <= WIDEST * bore.radius:
-            points = np.repeat(shaft.point[None], 3, axis=0)
-            yield Contact(
-                ContactKind.BALL, first, second, _side(a, FeatureKind.SPHERE), _side(b, FeatureKind.SPHERE),
-                gap, gap <= touch, points, np.eye(3), True, inner,
-            )  # fmt: skip
-    elif kinds == (FaceKind.SPHERE, FaceKind.TORUS):
-        offset = shaft.point - bore.point
-        height = float(offset @ bore.direction)
-        radial = offset - bore.direction * height
-        off = math.hypot(height, float(np.linalg.norm(radial)) - bore.radius)
-        if (
-            off <= 10.0 * COAXIAL * size + abs(bore.minor - shaft.radius)
-            and -0.01 * bore.minor <= bore.minor - shaft.radius <= WIDEST * bore.minor
-        ):
-            within = bore.corners - bore.point
-            radii = np.linalg.norm(within - np.outer(within @ bore.direction, bore.direction), axis=1)
-            outward = radial / max(float(np.linalg.norm(radial)), 1e-300)
-            push = outward if float(radii.mean()) < bore.radius else -outward  # from the race into the ball
-            race = Side(FeatureKind.CIRCLE, bore.point, bore.direction, bore.radius, bore.faces)
-            ball = _side(shaft, FeatureKind.POINT)
-            yield Contact(
-                ContactKind.GROOVE, first, second, *((ball, race) if inner == first else (race, ball)),
-                bore.minor - shaft.radius, True, shaft.point[None], (-push if inner == first else push)[None], False, inner,
-            )  # fmt: skip
-    elif kinds == (FaceKind.SPHERE, FaceKind.CYLINDER) and bore.is_round:
-        offset = shaft.point - bore.point
-        height = float(offset @ bore.direction)
-        gap = bore.radius - shaft.radius
-        off = float(np.linalg.norm(offset - bore.direction * height))
-        if (
-            off <= COAXIAL * size
-            and -0.01 * bore.radius <= gap <= WIDEST * bore.radius
-            and bore.span[0] <= height <= bore.span[1]
-        ):
-            points, normals = axial_rows(shaft.point, bore.direction, (0.0, 0.0))
-            yield Contact(
-                ContactKind.TUBE, first, second, _side(a, FeatureKind.POINT if a is shaft else FeatureKind.LINE),
-                _side(b, FeatureKind.POINT if b is shaft else FeatureKind.LINE), gap, gap <= touch, points[:2], normals[:2], True, inner,
-            )  # fmt: skip
+    contacts = _BETWEEN.get((shaft.kind, bore.kind))
+    if contacts is not None:
+        yield from contacts(_Pair(first, second, a, b, shaft, bore, inner, size), touch)
+
+
+def _ball(pair: _Pair, touch: float) -> Iterator[Contact]:
+    shaft, bore = pair.shaft, pair.bore
+    gap = bore.radius - shaft.radius
+    apart = float(np.linalg.norm(shaft.point - bore.point))
+    if apart <= COAXIAL * pair.size and -0.01 * bore.radius <= gap <= WIDEST * bore.radius:
+        sides = _side(pair.a, FeatureKind.SPHERE), _side(pair.b, FeatureKind.SPHERE)
+        points = np.repeat(shaft.point[None], 3, axis=0)
+        yield Contact(
+            ContactKind.BALL, pair.first, pair.second, *sides, gap, gap <= touch, points, np.eye(3), True, pair.inner
+        )  # fmt: skip
+
+
+def _race(pair: _Pair, touch: float) -> Iterator[Contact]:
+    """A ball in the groove of a bearing's ring."""
+    ball, ring = pair.shaft, pair.bore
+    offset = ball.point - ring.point
+    height = float(offset @ ring.direction)
+    radial = offset - ring.direction * height
+    off = math.hypot(height, float(np.linalg.norm(radial)) - ring.radius)
+    gap = ring.minor - ball.radius
+    if off > 10.0 * COAXIAL * pair.size + abs(gap) or not -0.01 * ring.minor <= gap <= WIDEST * ring.minor:
+        return
+    within = ring.corners - ring.point
+    radii = np.linalg.norm(within - np.outer(within @ ring.direction, ring.direction), axis=1)
+    outward = radial / max(float(np.linalg.norm(radial)), 1e-300)
+    push = outward if float(radii.mean()) < ring.radius else -outward  # from the race into the ball
+    race = Side(FeatureKind.CIRCLE, ring.point, ring.direction, ring.radius, ring.faces)
+    held = _side(ball, FeatureKind.POINT)
+    sides, normal = ((held, race), -push) if pair.inner == pair.first else ((race, held), push)
+    yield Contact(
+        ContactKind.GROOVE, pair.first, pair.second, *sides, gap, True, ball.point[None], normal[None], False, pair.inner
+    )  # fmt: skip
+
+
+def _tube(pair: _Pair, touch: float) -> Iterator[Contact]:
+    ball, bore = pair.shaft, pair.bore
+    if not bore.is_round:
+        return
+    offset = ball.point - bore.point
+    height = float(offset @ bore.direction)
+    gap = bore.radius - ball.radius
+    off = float(np.linalg.norm(offset - bore.direction * height))
+    if (
+        off <= COAXIAL * pair.size
+        and -0.01 * bore.radius <= gap <= WIDEST * bore.radius
+        and bore.span[0] <= height <= bore.span[1]
+    ):
+        a, b = (_side(r, FeatureKind.POINT if r is ball else FeatureKind.LINE) for r in (pair.a, pair.b))
+        points, normals = axial_rows(ball.point, bore.direction, (0.0, 0.0))
+        yield Contact(
+            ContactKind.TUBE, pair.first, pair.second, a, b, gap, gap <= touch, points[:2], normals[:2], True, pair.inner
+        )  # fmt: skip
 
 
 def _side(r: Round, kind: FeatureKind) -> Side:
@@ -140,19 +168,10 @@ def _meeting(a: Round, b: Round) -> tuple[tuple[float, float], ...]:
     return tuple(found)
 
 
-def _fit(
-    first: int,
-    second: int,
-    a: Round,
-    b: Round,
-    shaft: Round,
-    bore: Round,
-    inner: int,
-    size: float,
-    touch: float,
-) -> Iterator[Contact]:
+def _fit(pair: _Pair, touch: float) -> Iterator[Contact]:
+    a, b, shaft, bore = pair.a, pair.b, pair.shaft, pair.bore
     gap = bore.radius - shaft.radius
-    if not -TIGHTEST * bore.radius <= gap <= WIDEST * bore.radius or not _coaxial(a, b, size):
+    if not -TIGHTEST * bore.radius <= gap <= WIDEST * bore.radius or not _coaxial(a, b, pair.size):
         return
     spans = _meeting(a, b)
     if sum(high - low for low, high in spans) < SHORTEST * bore.radius:
@@ -163,7 +182,7 @@ def _fit(
     if sum(high - low for low, high in common) >= math.radians(200.0):
         points, normals = axial_rows(a.point, a.direction, span)
         yield Contact(
-            ContactKind.FIT, first, second, *sides, gap, gap <= touch, points, normals, True, inner, spans,
+            ContactKind.FIT, pair.first, pair.second, *sides, gap, gap <= touch, points, normals, True, pair.inner, spans,
             shaft_span=_in_terms_of(a, shaft),
         )  # fmt: skip
         return
@@ -175,9 +194,19 @@ def _fit(
     points = np.concatenate([a.point + a.direction * height + shaft.radius * outward for height in span])
     away = np.concatenate([outward, outward])
     # what is inside is pushed inwards: towards the second part where that is the shaft
-    normals = -away if inner == second else away
+    normals = -away if pair.inner == pair.second else away
     yield Contact(
-        ContactKind.ARC, first, second, *sides, gap, gap <= touch, points, normals, False, inner, spans
+        ContactKind.ARC,
+        pair.first,
+        pair.second,
+        *sides,
+        gap,
+        gap <= touch,
+        points,
+        normals,
+        False,
+        pair.inner,
+        spans,
     )
 
 
@@ -196,37 +225,40 @@ def _common_arcs(a: Round, b: Round) -> list[tuple[float, float]]:
     return found
 
 
-def _cone(
-    first: int,
-    second: int,
-    a: Round,
-    b: Round,
-    shaft: Round,
-    bore: Round,
-    inner: int,
-    size: float,
-    touch: float,
-) -> Iterator[Contact]:
+def _cone(pair: _Pair, touch: float) -> Iterator[Contact]:
+    a, b, shaft, bore = pair.a, pair.b, pair.shaft, pair.bore
     if (
         abs(a.half_angle - b.half_angle) > 1e-4
-        or not _coaxial(a, b, size)
+        or not _coaxial(a, b, pair.size)
         or float(a.direction @ b.direction) < 0.0
     ):
         return
     height = float((shaft.point - bore.point) @ bore.direction)
     gap = height * math.sin(bore.half_angle)
     spans = _meeting(a, b)
-    if abs(gap) > max(touch, 1e-3 * size) or not spans:
+    if abs(gap) > max(touch, 1e-3 * pair.size) or not spans:
         return
     span = spans[0][0], spans[-1][1]
     points, normals = axial_rows(a.point, a.direction, span)
     sides = _side(a, FeatureKind.LINE), _side(b, FeatureKind.LINE)
-    yield Contact(ContactKind.CONE, first, second, *sides, gap, True, points, normals, True, inner, spans)
-    leaving = bore.direction if inner == second else -bore.direction
     yield Contact(
-        ContactKind.FLAT, first, second, _seat(a), _seat(b), gap, True, a.point[None] + a.direction * span[1], leaving[None],
-        False, inner, spans,
+        ContactKind.CONE, pair.first, pair.second, *sides, gap, True, points, normals, True, pair.inner, spans
+    )
+    leaving = bore.direction if pair.inner == pair.second else -bore.direction
+    yield Contact(
+        ContactKind.FLAT, pair.first, pair.second, _seat(a), _seat(b), gap, True, a.point[None] + a.direction * span[1], leaving[None],
+        False, pair.inner, spans,
     )  # fmt: skip
+
+
+_BETWEEN: dict[tuple[FaceKind, FaceKind], Callable[[_Pair, float], Iterator[Contact]]] = {
+    (FaceKind.CYLINDER, FaceKind.CYLINDER): _fit,
+    (FaceKind.CONE, FaceKind.CONE): _cone,
+    (FaceKind.SPHERE, FaceKind.SPHERE): _ball,
+    (FaceKind.SPHERE, FaceKind.TORUS): _race,
+    (FaceKind.SPHERE, FaceKind.CYLINDER): _tube,
+}
+"""Of a shaft's face and a bore's: the contacts that they make."""
 
 
 def _seat(r: Round) -> Side:

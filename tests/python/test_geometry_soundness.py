@@ -10,8 +10,10 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.geometry.contact import decomposition
 from kinefab.geometry.primitives import box
 from kinefab.model import Body, Collider, ColliderKind, Mesh, Node, Scene
+from kinefab.unity.scene import BoxCollider
 
 BOX = box((1.0, 2.0, 3.0))
 assert BOX.normals is not None
@@ -119,3 +121,56 @@ def test_an_obj_with_numbers_that_are_none(tmp_path):
     assert told == {"normals", "uvs"}
     mesh = result.unity.meshes[0]
     assert mesh.normals is not None and np.isfinite(mesh.normals).all() and not mesh.uvs
+
+
+STRAY = np.vstack([BOX.vertices, [[7.0, -8.0, 9.0]]])
+
+
+def of_a_file(folder: Path) -> Scene:
+    """As parts in glTF have it that share one list of vertices; here a PLY with one vertex too many."""
+    head = f"ply\nformat ascii 1.0\nelement vertex {COUNT + 1}\nproperty float x\nproperty float y\nproperty float z\n"
+    head += f"element face {len(BOX.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = [" ".join(map(str, v)) for v in STRAY] + [" ".join(map(str, (3, *f))) for f in BOX.faces]
+    (folder / "part.ply").write_text(head + "\n".join(rows) + "\n")
+    scene = kinefab.Scene()
+    scene.add_part("Part", folder / "part.ply", translation=(0, 5, 0))
+    return scene
+
+
+def of_nouns(_: Path) -> Scene:
+    one = np.ones(COUNT + 1)
+    mesh = Mesh(
+        "M",
+        STRAY,
+        BOX.faces,
+        np.outer(one, (0, 0, 1)),
+        (np.outer(one, (0.5, 1)),),
+        None,
+        np.outer(one, (1, 0, 0, 1)),
+    )
+    return Scene(nodes=[Node("Part", "Part", bodies=(Body("b", 0),))], meshes=[mesh])
+
+
+@pytest.mark.parametrize("made", [of_a_file, of_nouns])
+@pytest.mark.parametrize("shape", ["hull", "box"])
+def test_a_vertex_that_no_triangle_names_is_left_out(tmp_path, made, shape):
+    """What collides would go round it."""
+    found = kinefab.export(made(tmp_path), tmp_path / "a.kinefab", kinefab.ExportOptions(colliders=shape))
+    for mesh in found.unity.meshes:
+        vertices = np.reshape(mesh.vertices, (-1, 3))
+        assert len(vertices) in (COUNT, 8) and np.abs(vertices).max(axis=0).tolist() == [0.5, 1.0, 1.5]
+        assert mesh.normals is None or len(mesh.normals) == len(mesh.vertices)
+    sizes = [c.size for o in found.unity.gameObjects for c in o.components if isinstance(c, BoxCollider)]
+    assert sizes == ([(1.0, 2.0, 3.0)] if shape == "box" else [])
+
+
+def test_lines_are_not_cut_into_pieces(tmp_path, monkeypatch):
+    """Triangles that are none, as wires are drawn: CoACD ends the process where it is handed nothing."""
+    monkeypatch.setattr(decomposition, "_libraries", lambda: ["coacd"])
+    monkeypatch.setattr(decomposition, "_by_coacd", lambda *given: pytest.fail("there is nothing to cut"))
+    corners = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 5]], dtype=float)
+    wires = Mesh("wires", corners, np.array([[0, 0, 1], [1, 1, 2], [2, 2, 3], [3, 3, 0]]))
+    options = kinefab.ExportOptions(colliders="decompose")
+    scene = replace(machine(wires), nodes=[Node("Bad", "Bad", bodies=(Body("b", 0),))])
+    result = kinefab.export(scene, tmp_path / "a.kinefab", options)
+    assert "COLLIDER_HOLLOW_AS_HULL" in [d.code for d in result.report.diagnostics]

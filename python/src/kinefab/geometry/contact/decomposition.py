@@ -99,6 +99,8 @@ def _decomposed(mesh: Mesh) -> tuple[Mesh, ...]:
     vertices = mesh.vertices[mesh.faces.reshape(-1)[first]].astype(np.float32).astype(np.float64)
     faces = np.searchsorted(kept, numbers).reshape(-1, 3)
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]  # not those that welding made a line
+    if not len(faces):
+        return ()
     size = float(np.ptp(vertices, axis=0).max())
     middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     scaled = (vertices - middle) / size

@@ -21,9 +21,10 @@ def with_sound_meshes(scene: Scene, report: Report) -> Scene:
 
     Vertices that are no numbers are errors.  A mesh without triangles, or of which one names a vertex that is not there, is left
     out of the bodies and colliders that name it; normals, texture coordinates, tangents and colours are, where they do not fit
-    the vertices or hold what is no number.  The report tells each.  Colours are clipped to 0..1, which is not told.
+    the vertices or hold what is no number.  The report tells each.  Colours are clipped to 0..1 and vertices that no triangle
+    names left out, which is not told.
     """
-    found = [_sound(mesh, report) for mesh in scene.meshes]
+    found = [_without_loose(_sound(mesh, report)) for mesh in scene.meshes]
     if all(new is old for new, old in zip(found, scene.meshes)):
         return scene
     kept = [i for i, mesh in enumerate(found) if mesh is not None]
@@ -57,6 +58,22 @@ def _sound(mesh: Mesh, report: Report) -> Mesh | None:
         found = {**found, "colors": np.clip(mesh.colors, 0.0, 1.0)}
         lost.append("colors")
     return replace(mesh, **found) if lost else mesh  # type: ignore[arg-type]
+
+
+def _without_loose(mesh: Mesh | None) -> Mesh | None:
+    """With the vertices that its triangles name alone: files whose parts share one list of vertices give each part all of
+    them, and whoever cuts triangles away leaves theirs.  Its hull and box would go round them."""
+    if mesh is None:
+        return None
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[mesh.faces] = True
+    if used.all():
+        return mesh
+    lists = {
+        n: None if (of := getattr(mesh, n)) is None else of[used] for n in ("normals", "tangents", "colors")
+    }
+    uvs, faces = tuple(uv[used] for uv in mesh.uvs), (np.cumsum(used) - 1)[mesh.faces]
+    return replace(mesh, vertices=mesh.vertices[used], faces=faces, uvs=uvs, **lists)
 
 
 def _of_no_use(mesh: Mesh) -> str:

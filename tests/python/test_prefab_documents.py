@@ -12,9 +12,10 @@ import kinefab
 import numpy as np
 import pytest
 from golden import FIXTURES
+from kinefab import model
 from kinefab.targets.prefab.text.ids import FileIds, guid, imported_id, xxh64
 from kinefab.targets.prefab.text.yaml import number, text
-from prefab_reader import BUILT_IN, Project
+from prefab_reader import BUILT_IN, Project, vector
 from prefab_scenes import rich_scene
 from unity_yaml import Document, Scalar, documents, mapping
 
@@ -272,3 +273,30 @@ def test_fixtures_of_every_kind_keep_to_the_table(tmp_path):
         kinefab.export(FIXTURES / f"{name}.bundle.json", target)
         for path, document in all_documents(target):
             assert disagreements(document.fields, TABLE["2022"][document.kind]["fields"], path.name) == []
+
+
+def test_between_two_keys_a_turn_runs_along_the_great_arc(tmp_path):
+    """As Unity plays the curves: each number a cubic of Hermite, the quaternion made one again."""
+    times, half = np.array([0.5, 2.5, 3.0]), np.radians([0.0, 80.0, -5.0])  # of the angles 0, 160 and -10
+    axis = np.array([2.0, -3.0, 6.0]) / 7.0
+    turns = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
+    clip = model.AnimationClip("Turn", times, (model.Track(0, rotations=turns),))
+    scene = model.Scene([model.Node("A", "A")], animations=[clip])
+    kinefab.export(scene, tmp_path / "a.prefab")
+    (found,) = documents(next(tmp_path.rglob("*.anim")).read_text("utf-8"))
+    (curve,) = found.fields["m_RotationCurves"]
+    keys = curve["curve"]["m_Curve"]
+    assert [float(key["time"]) for key in keys] == times.tolist()
+    numbers = {n: np.array([vector(key[n]) for key in keys]) for n in ("value", "inSlope", "outSlope")}
+    for i, (start, end) in enumerate(zip(times, times[1:])):
+        for u in np.linspace(0.0, 1.0, 17):
+            played = (
+                (2 * u**3 - 3 * u**2 + 1) * numbers["value"][i]
+                + (u**3 - 2 * u**2 + u) * (end - start) * numbers["outSlope"][i]
+                + (3 * u**2 - 2 * u**3) * numbers["value"][i + 1]
+                + (u**3 - u**2) * (end - start) * numbers["inSlope"][i + 1]
+            )
+            at = half[i] + u * (half[i + 1] - half[i])
+            wanted = np.append(np.sin(at) * axis * (1.0, -1.0, -1.0), np.cos(at))
+            cosine = abs(played @ wanted) / np.linalg.norm(played)
+            assert 2 * np.degrees(np.arccos(min(1.0, cosine))) < 0.3, (i, u)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 from ....unity.scene import AnimationClip
 from ..text.dialects import Dialect
@@ -15,6 +16,12 @@ SAMPLE_RATE = 60
 """Hz, of Unity's own clips; the keys stand at the source's own times."""
 THIRD = 1 / 3
 ROTATION_ORDER = 4
+STRAIGHT = 1e-3
+"""Radians: an arc shorter than this is its chord in the digits of a file."""
+
+Slopes = tuple[list[float], list[float]]
+"""Of the four or three numbers, per second: leaving a key and arriving at the next."""
+Way = Callable[[Sequence[float], Sequence[float], float], Slopes]
 
 
 def clip_asset(clip: AnimationClip, name: str, paths: Mapping[int, str], dialect: Dialect) -> bytes:
@@ -29,10 +36,10 @@ def clip_asset(clip: AnimationClip, name: str, paths: Mapping[int, str], dialect
         "m_Legacy": 1,
         "m_Compressed": 0,
         "m_UseHighQualityCurve": 1,
-        "m_RotationCurves": [_curve(clip.times, _continuous(v), paths[o]) for o, v in turning],
+        "m_RotationCurves": [_curve(clip.times, _continuous(v), paths[o], _along_arc) for o, v in turning],
         "m_CompressedRotationCurves": [],
         "m_EulerCurves": [],
-        "m_PositionCurves": [_curve(clip.times, v, paths[o]) for o, v in moving],
+        "m_PositionCurves": [_curve(clip.times, v, paths[o], _straight) for o, v in moving],
         "m_ScaleCurves": [],
         "m_FloatCurves": [],
         "m_PPtrCurves": [],
@@ -87,19 +94,24 @@ def _continuous(rotations: Values) -> Values:
     return found
 
 
-def _curve(times: Sequence[float], values: Values, path: str) -> Fields:
+def _curve(times: Sequence[float], values: Values, path: str, way: Way) -> Fields:
     weight = _components([THIRD] * len(values[0]))
+    still = [0.0] * len(values[0])
+    slopes = [
+        way(a, b, end - start) if end > start else (still, still)
+        for a, b, start, end in zip(values, values[1:], times, times[1:])
+    ] or [(still, still)]
     keys: list[Fields] = []
     for i, (time, value) in enumerate(zip(times, values)):
-        before = _slope(times, values, i - 1)
-        after = _slope(times, values, i)
+        before = slopes[i - 1][1] if i else slopes[0][0]
+        after = slopes[i][0] if i < len(slopes) else slopes[-1][1]
         keys.append(
             {
                 "serializedVersion": 3,
                 "time": float(time),
                 "value": _components(value),
-                "inSlope": _components(before or after or [0.0] * len(value)),
-                "outSlope": _components(after or before or [0.0] * len(value)),
+                "inSlope": _components(before),
+                "outSlope": _components(after),
                 "tangentMode": 0,
                 "weightedMode": 0,
                 "inWeight": weight,
@@ -120,9 +132,17 @@ def _components(values: Sequence[float]) -> Plain:
     return placed(values)
 
 
-def _slope(times: Sequence[float], values: Values, i: int) -> list[float] | None:
-    """Of the straight line from key i to the next, per second; None beyond the ends."""
-    if not 0 <= i < len(values) - 1 or times[i + 1] <= times[i]:
-        return None
-    step = times[i + 1] - times[i]
-    return [(b - a) / step for a, b in zip(values[i], values[i + 1])]
+def _straight(a: Sequence[float], b: Sequence[float], seconds: float) -> Slopes:
+    slope = [(y - x) / seconds for x, y in zip(a, b)]
+    return slope, slope
+
+
+def _along_arc(a: Sequence[float], b: Sequence[float], seconds: float) -> Slopes:
+    """Of the great arc between unit quaternions.  Unity makes cubic curves of the four numbers: with the slopes of the chord a turn
+    of 160 degrees would be 6 degrees off on its way."""
+    cosine = min(1.0, sum(x * y for x, y in zip(a, b)))
+    angle = math.acos(cosine)
+    if angle < STRAIGHT:
+        return _straight(a, b, seconds)
+    rate = angle / math.sin(angle) / seconds
+    return [rate * (y - cosine * x) for x, y in zip(a, b)], [rate * (cosine * y - x) for x, y in zip(a, b)]

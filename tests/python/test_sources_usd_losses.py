@@ -59,6 +59,17 @@ def test_what_a_joint_names_beside_the_root_stands_somewhere(tmp_path):
     assert scene is None and codes(report) == {"USD_VALUE_IMPOSSIBLE"}
 
 
+def test_a_joint_beside_the_root_is_told_where_it_holds_what_is_read(tmp_path):
+    """As programs write them that keep all joints in a scope of their own."""
+    bodies = f'def Xform "R" {{\n{body("B")}{body("C", (1, 0, 0))}}}\n{body("Other")}'
+    inner = joint("PhysicsRevoluteJoint", "J", "", "/R/B", "/R/C")
+    other = joint("PhysicsRevoluteJoint", "K", "", "", "/Other")
+    scene, report = scene_of(tmp_path, stage(f'{bodies}def Scope "Joints" {{\n{inner}{other}}}'), root="/R")
+    assert scene is not None and not scene.joints
+    assert [(o.feature, o.outcome.value) for o in report.outcomes] == [("joint /Joints/J", "dropped")]
+    assert "holds /R/B" in report.diagnostics[0].message
+
+
 TOLD = {
     "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
     "USD_WITHOUT_BODIES": 'def Sphere "S" {}',

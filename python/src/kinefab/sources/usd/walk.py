@@ -20,6 +20,7 @@ from .values import Values
 MAX_PRIMS = 5_000_000
 """Most prims that are looked at: a small file may multiply itself by nested instances."""
 LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderProduct RenderVar".split())
+BODIES = ("physics:body0", "physics:body1")
 SKIPPED = frozenset("Skeleton SkelAnimation BlendShape".split())
 LIGHTS = frozenset(
     "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight".split()
@@ -162,7 +163,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
         dressed |= seen.traits.dressed
         seen.tell(str(prim.GetPath()), values)
         above = placed(above, seen.local)
-    _beside(root, found)
+    _beside(opened, found, report)
     path = "" if root.IsPseudoRoot() else _path(root.GetParent())
     start = _Context(path, above, (), -1, -1, True, "default", dressed, "")
     seen = prims.seen(root)
@@ -186,15 +187,26 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
     return found
 
 
-def _beside(root: Any, found: Found) -> None:
-    """Scenes and collision groups hold for the whole stage, also those that do not lie below the root."""
-    if not root.IsPseudoRoot():
-        for prim in root.GetStage().Traverse():
-            if not prim.GetPath().HasPrefix(root.GetPath()):
-                if prim.IsA(UsdPhysics.Scene):
-                    found.scenes.append(prim)
-                elif prim.IsA(UsdPhysics.CollisionGroup):
-                    found.collision_groups.append(prim)
+def _beside(opened: OpenStage, found: Found, report: Report) -> None:
+    """Scenes and collision groups hold for the whole stage, also those that do not lie below the root.  Joints that lie
+    there are told where they hold what is read."""
+    if opened.root.IsPseudoRoot():
+        return
+    root = opened.root.GetPath()
+    for prim in opened.stage.Traverse():
+        if prim.GetPath().HasPrefix(root):
+            continue
+        if prim.IsA(UsdPhysics.Scene):
+            found.scenes.append(prim)
+        elif prim.IsA(UsdPhysics.CollisionGroup):
+            found.collision_groups.append(prim)
+        elif prim.IsA(UsdPhysics.Joint):
+            held = [path for name in BODIES for path in prim.GetRelationship(name).GetForwardedTargets()]
+            if inside := [path for path in held if path.HasPrefix(root)]:
+                report.dropped(
+                    f"joint {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim),
+                    detail=f"it lies beside {root}, which alone is read, and holds {inside[0]}",
+                )  # fmt: skip
 
 
 def _path(prim: Any) -> str:

@@ -383,6 +383,31 @@ def test_a_copied_joint_that_names_its_own_file_is_followed_to_the_copy(tmp_path
     assert ends == {("Assembly/Unit/Frame", "Assembly/Unit/Arm")}
 
 
+@pytest.mark.parametrize("kind", ["Assembly::AssemblyLink", "App::Link"])
+def test_joints_of_a_rigid_sub_assembly_are_remarked_on_and_no_loss(tmp_path, kind):
+    """FreeCAD keeps them in the sub-assembly's own file; they hold nothing here, a ground among them neither."""
+    inner = assembly({"Frame": part(), "Arm": part(), "Tip": part()}, {
+        "M": joint("Revolute", "Frame.", "Arm."), "N": joint("Slider", "Arm.", "Tip.")})  # fmt: skip
+    (tmp_path / "unit.FCStd").write_bytes(document(inner))
+    below = {
+        name: ("App::Link", {"LinkedObject": link(name, "unit.FCStd"), "Placement": placement()})
+        for name in (("Frame", "Arm", "Tip") if kind == "Assembly::AssemblyLink" else ())
+    }
+    unit = {"LinkedObject": link("Assembly", "unit.FCStd"), "Group": links(*below), "Placement": placement()}
+    if below:
+        unit["Rigid"] = flag(True)
+    held = {"Held": joint("Revolute", "Base.", "Unit.Frame.")}
+    (tmp_path / "whole.FCStd").write_bytes(
+        document(assembly({"Base": part(), "Unit": (kind, unit)}, held, **below))
+    )
+    scene, report = read(tmp_path / "whole.FCStd")
+    assert [j.id for j in scene.joints] == ["Held"]
+    (told,) = [found for found in report.diagnostics if found.code == "FREECAD_RIGID"]
+    assert (told.severity, told.where) == (Severity.INFO, "whole.FCStd#Unit")
+    assert "Unit (2)" in told.message
+    assert {entry.outcome.value for entry in report.outcomes} == {"kept"}
+
+
 def grid(**more):
     """An assembly of a base and an array of two carriages, each of a plate and a post; the carriage stands 40 mm up."""
     at = {"Plate": placement(x=1.0), "Post": placement(y=2.0)}

@@ -56,7 +56,7 @@ class JointReader:
 
     def read(self, assembly: Occurrence) -> None:
         """The joints and grounds of an assembly whose parts move apart."""
-        joints = list(joints_of(assembly))
+        joints = list(joints_of(assembly.target))
         for thing in joints:
             if thing.has("ObjectToGround"):
                 self._ground(thing, assembly)
@@ -199,9 +199,8 @@ class JointReader:
         self._report.dropped(f"joint {label}", "FREECAD_JOINT_DROPPED", thing.where, reason=reason)
 
 
-def joints_of(assembly: Occurrence) -> Iterator[Thing]:
+def joints_of(target: Thing | None) -> Iterator[Thing]:
     """Joints and grounds of an assembly, in its joint group's order."""
-    target = assembly.target
     if target is None or target.type not in (ASSEMBLY, SUB_ASSEMBLY):
         return
     document = target.document

@@ -15,10 +15,10 @@ from ..occ.asked import tolerance_of
 from ..reading.record import shown
 from ..reading.request import Request
 from .document import UNIT, Thing
-from .joints import JointReader
+from .joints import JointReader, joints_of
 from .links import Documents
 from .looks import Looks
-from .occurrences import ASSEMBLY, NO_PART, SUB_ASSEMBLY, TooManyError, Tree
+from .occurrences import ASSEMBLY, NO_PART, SUB_ASSEMBLY, Occurrence, TooManyError, Tree
 from .parts import Parts, has_assembly, has_shape, linked
 from .shapes import Shapes
 from .workbenches import is_held, report_foreign
@@ -51,8 +51,12 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     for occurrence in roots:
         for below in occurrence.walk():
             node = parts.of.get(id(below))
-            if below.type in (ASSEMBLY, SUB_ASSEMBLY) and node is not None and scene.nodes[node].flexible:
+            if below.type not in (ASSEMBLY, SUB_ASSEMBLY) or node is None:
+                continue
+            if scene.nodes[node].flexible:
                 reader.read(below)
+            else:
+                tell_rigid(below, documents)
     scene.identities = parts.identities | reader.identities
     report_foreign(root, report)
     reader.grounded += [
@@ -77,6 +81,18 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
 
 def left(report: Report, statement: Statement, reason: str) -> None:
     report.dropped(f"joint {shown(statement.name)}", "FREECAD_JOINT_DROPPED", statement.where, reason=reason)
+
+
+def tell_rigid(assembly: Occurrence, documents: Documents) -> None:
+    """Remark on the joints of an assembly whose parts move as one: FreeCAD keeps them where the assembly was made."""
+    made = assembly.target
+    source = None if made is None else made.target("LinkedObject")
+    if made is not None and source is not None:
+        made = documents.follow(made, source)
+    count = sum(thing.has("JointType") for thing in joints_of(made))
+    if count:
+        feature = f"joints of rigid assembly {shown(assembly.label)}"
+        documents.report.kept(feature, assembly.thing.where, "FREECAD_RIGID", count=count)
 
 
 def top(documents: Documents) -> list[Thing]:

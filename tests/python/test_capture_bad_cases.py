@@ -380,3 +380,20 @@ def test_what_leads_back_to_itself_ends(tmp_path):
     report = Report()
     capture("solidworks", answers, tmp_path, "Z", report)
     assert any("after itself" in d.message for d in report.diagnostics)
+
+
+def test_an_output_asked_of_fusion_leads_to_the_add_in_and_its_record(tmp_path):
+    """Every other program takes -o."""
+    done = run("capture", "fusion", "-o", tmp_path / "x.bundle.json")
+    assert done.returncode == 2 and list(tmp_path.iterdir()) == []
+    for words in ("--install FOLDER", "capture --replay RECORD -o", "x.bundle.json"):
+        assert words in " ".join(done.stderr.split()), done.stderr
+
+
+@pytest.mark.parametrize(
+    "before", [("--replay", "r.json"), ("-o", "x.bundle.json"), ("--up", "Z"), ("--json",)]
+)
+def test_options_before_a_programs_name_are_not_passed_over(tmp_path, before):
+    done = run("capture", *before, "fusion", "--install", tmp_path)
+    assert done.returncode == 2 and list(tmp_path.iterdir()) == []
+    assert "--replay stands without a program" in " ".join(done.stderr.split()), done.stderr

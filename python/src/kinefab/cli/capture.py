@@ -87,6 +87,10 @@ def capture_commands() -> typer.Typer:
         as_json: bool = AS_JSON,
     ) -> None:
         if context.invoked_subcommand is not None:
+            if replay is not None or output is not None or up is not None or as_json:
+                raise typer.BadParameter(
+                    "--replay stands without a program, and a program's options stand behind its name"
+                )
             return
         if replay is None or output is None:
             raise typer.BadParameter("--replay needs a record, and --output the bundle to write")
@@ -136,6 +140,7 @@ def capture_commands() -> typer.Typer:
         install: Path = typer.Option(
             ..., "--install", help="Folder for add-ins to write ours into.", show_default=False
         ),
+        output: Optional[Path] = typer.Option(None, "--output", "-o", hidden=True, callback=_no_output),
         as_json: bool = AS_JSON,
     ) -> None:
         from ..capture.fusion.install import install as run
@@ -148,6 +153,15 @@ def capture_commands() -> typer.Typer:
     _ = onshape, fusion
     _ = from_record
     return group
+
+
+def _no_output(output: Path | None) -> None:
+    """What works with every other program is asked of Fusion too."""
+    if output is not None:
+        raise typer.BadParameter(
+            "Fusion is captured inside it: write the add-in with --install FOLDER, run it there, "
+            f"then: kinefab capture --replay RECORD -o {output}"
+        )
 
 
 def _axis(up: str | None) -> str:

@@ -132,3 +132,17 @@ def test_images_that_are_counted_or_packed_otherwise_are_told(tmp_path):
     told = {(o.feature, o.outcome.value) for o in report.outcomes}
     assert ("occlusion of /Looks/Paint/Shader", "dropped") in told
     assert ("texture /Looks/Paint/Image", "approximated") in told
+
+
+def test_the_fallback_of_an_image_that_is_not_there_is_taken(tmp_path):
+    """The image of the base colour, and of the opacity by its alpha."""
+    image = "   asset inputs:file = @paint.png@\n   float4 inputs:fallback = (0.7, 0.2, 0.1, 0.4)\n   float outputs:a\n"
+    opacity = "   float inputs:opacity.connect = </Looks/Paint/Image.outputs:a>\n   float inputs:metallic"
+    text = MATERIAL.replace("   asset inputs:file = @paint.png@\n", image).replace(
+        "   float inputs:metallic", opacity
+    )
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + text, up="Y"))
+    paint = next(surface for surface in scene.surfaces if surface.name == "Paint")
+    assert paint.color == pytest.approx((0.7, 0.2, 0.1, 0.4)) and paint.color_texture is None
+    assert paint.alpha_mode.value == "blend"
+    assert {o.code for o in report.outcomes if o.outcome.value == "dropped"} == {"USD_TEXTURE_MISSING"}

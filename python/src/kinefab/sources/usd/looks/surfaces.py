@@ -14,7 +14,7 @@ from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values, shown, title
 from ..walk import Piece
-from .textures import Sampler, read_sampler
+from .textures import Sampler, read_fallback, read_sampler
 
 T = TypeVar("T")
 
@@ -199,15 +199,20 @@ class Surfaces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Inputs:
-    """Inputs of one shader: constants, and what is connected to them."""
+    """Inputs of one shader: constants, and what is connected to them.  fallbacks: of images that are not there."""
 
     shader: Any
     uv_names: tuple[str, ...]
     opened: OpenStage
     values: Values
     report: Report
+    fallbacks: dict[str, float | tuple[float, ...]] = field(
+        default_factory=dict[str, float | tuple[float, ...]]
+    )
 
     def _value(self, name: str) -> Any:
+        if name in self.fallbacks:
+            return self.fallbacks[name]
         given = self.shader.GetInput(name)
         if not given:
             return None
@@ -249,7 +254,13 @@ class _Inputs:
             source = UsdShade.Shader(attribute.GetPrim())
             if source and source.GetIdAttr().Get() == "UsdUVTexture":
                 self._tell_space(name, source)
-                return read_sampler(source, attribute.GetBaseName(), self.uv_names, self.opened, self.report)
+                output = attribute.GetBaseName()
+                found = read_sampler(source, output, self.uv_names, self.opened, self.report)
+                if found is None:
+                    value = read_fallback(source, output, self.opened, self.report)
+                    if value is not None:
+                        self.fallbacks[name] = value
+                return found
         return None
 
     def _tell_space(self, name: str, source: Any) -> None:

@@ -27,6 +27,7 @@ MEDIA = {
 }
 """Media type and first bytes by ending: what Unity imports."""
 MAX_BYTES = 256 * 2**20
+CHANNELS = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
 WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "black": Wrap.CLAMP}
 
 
@@ -79,6 +80,16 @@ def read_sampler(
         tint = [1.0, 1.0, 1.0]
     texture = Texture(name, path, data, media, wrap, uv_set, scale, offset, rotation)
     return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha)
+
+
+def read_fallback(
+    shader: Any, output: str, opened: OpenStage, report: Report
+) -> float | tuple[float, ...] | None:
+    """What the shader says to take where its image is not there, None for nothing."""
+    if _input(shader, "fallback") is None or output not in CHANNELS:
+        return None
+    found = _floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), opened, report)[CHANNELS[output]]
+    return found[0] if len(found) == 1 else found
 
 
 def _input(shader: Any, name: str) -> Any:

@@ -70,6 +70,29 @@ def test_a_joint_beside_the_root_is_told_where_it_holds_what_is_read(tmp_path):
     assert "holds /R/B" in report.diagnostics[0].message
 
 
+def test_physics_materials_of_subsets_are_one_and_the_others_are_told(tmp_path):
+    """Faces of brass and of steel, and one whose mesh has a material of its own."""
+    materials = "".join(
+        f'def Material "{name}" (prepend apiSchemas = ["PhysicsMaterialAPI"]) {{ float physics:dynamicFriction = {friction}\n}}\n'
+        for name, friction in (("Brass", 0.3), ("Steel", 0.7), ("Wood", 0.9))
+    )
+    subset = 'def GeomSubset "{0}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{ uniform token elementType = "face"\n int[] indices = [{1}]\n rel material:binding:physics = </{0}>\n }}\n'
+    faces = "int[] faceVertexCounts = [3, 3, 3, 3]; int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]; point3f[] points = [(0,0,0),(1,0,0),(0,2,0),(0,0,3)]\n"
+    mesh = 'def Mesh "{0}" (prepend apiSchemas = ["PhysicsCollisionAPI", "PhysicsMeshCollisionAPI", "MaterialBindingAPI"]) {{\n{1}{2}}}\n'
+    both = (
+        faces
+        + 'uniform token subdivisionScheme = "none"\nuniform token physics:approximation = "convexHull"\n'
+        + subset.format("Brass", "0, 1")
+        + subset.format("Steel", "2")
+    )
+    inside = mesh.format("M", both, "") + mesh.format("N", both, "rel material:binding:physics = </Wood>\n")
+    scene, report = scene_of(tmp_path, stage(body("B", inside=inside) + materials))
+    assert [c.material.dynamic_friction for c in scene.nodes[0].colliders] == pytest.approx([0.3, 0.9])
+    assert [o.feature for o in report.outcomes if o.outcome.value == "dropped"] == [
+        "physics material Steel of /B/M/Steel", "physics material Brass of /B/N/Brass", "physics material Steel of /B/N/Steel",
+    ]  # fmt: skip
+
+
 TOLD = {
     "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
     "USD_WITHOUT_BODIES": 'def Sphere "S" {}',

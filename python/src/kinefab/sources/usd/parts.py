@@ -11,7 +11,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Body, Collider, Combine, Dynamics, Node, NodeKind, Physics, PhysicsMaterial, Site
 from ...spatial import Array, Pose
-from .api import UsdShade
+from .api import UsdGeom, UsdShade
 from .looks.library import Library
 from .looks.surfaces import Surfaces
 from .physics.colliders import Colliders
@@ -126,6 +126,8 @@ class Parts:
             if not piece.collides:
                 continue
             material, density = self._material(piece.path)
+            if piece.seen.traits.kind == "Mesh":
+                material = self._of_subsets(piece, material)
             group = self._groups.get(piece.path, "")
             made = self._colliders.of(piece, at, fit, pushed, material, group)
             colliders += made
@@ -180,6 +182,22 @@ class Parts:
         if key not in self._materials:
             self._materials[key] = self._read_material(material)
         return self._materials[key]
+
+    def _of_subsets(self, piece: Piece, chosen: PhysicsMaterial | None) -> PhysicsMaterial | None:
+        """The material of a collider whose faces may have some of their own.  chosen: that of the whole, else it is the
+        first; others are told."""
+        for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Mesh(piece.prim)):
+            path = str(subset.GetPath())
+            bound = UsdShade.MaterialBindingAPI(subset).ComputeBoundMaterial("physics")[0]
+            self._bound[path] = bound.GetPrim() if bound else None
+            material, _ = self._material(path)
+            chosen = chosen or material
+            if material is not None and chosen is not None and material != chosen:
+                self._report.dropped(
+                    f"physics material {material.name} of {path}", "USD_FEATURE_DROPPED", self._opened.place(path),
+                    detail=f"a collider of Unity has one material, this one {chosen.name}",
+                )  # fmt: skip
+        return chosen
 
     def _read_material(self, prim: Any) -> tuple[PhysicsMaterial, float]:
         get = self._values.number

@@ -93,6 +93,21 @@ def test_physics_materials_of_subsets_are_one_and_the_others_are_told(tmp_path):
     ]  # fmt: skip
 
 
+def test_a_mass_of_what_does_not_weigh_is_told(tmp_path):
+    """Of a wall, of a group within a body and of what is only drawn there; not of a collider, nor where none is stated."""
+    prim = 'def {} "{}" (prepend apiSchemas = [{}"PhysicsMassAPI"]) {{ float physics:{} = {}\n{}\n}}\n'
+    collider = prim.format("Cube", "Weighed", '"PhysicsCollisionAPI", ', "mass", 3, "")
+    inside = prim.format("Xform", "Group", "", "mass", 7, collider) + prim.format(
+        "Cube", "Drawn", "", "density", 500, ""
+    )
+    wall = prim.format("Cube", "Wall", '"PhysicsCollisionAPI", ', "mass", 9, "")
+    unset = prim.format("Cube", "Unset", '"PhysicsCollisionAPI", ', "mass", 0, "")
+    scene, report = scene_of(tmp_path, stage(body("B", inside=inside, mass="") + wall + unset))
+    assert next(node for node in scene.nodes if node.id == "B").mass.mass == pytest.approx(3.0)
+    told = [o.feature for o in report.outcomes if o.outcome.value == "dropped"]
+    assert told == ["mass of /B/Group", "mass of /B/Drawn", "mass of /Wall"]
+
+
 TOLD = {
     "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
     "USD_WITHOUT_BODIES": 'def Sphere "S" {}',

@@ -21,6 +21,7 @@ MAX_PRIMS = 5_000_000
 """Most prims that are looked at: a small file may multiply itself by nested instances."""
 LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderProduct RenderVar".split())
 BODIES = ("physics:body0", "physics:body1")
+WEIGHTS = ("physics:mass", "physics:density")
 SKIPPED = frozenset("Skeleton SkelAnimation BlendShape".split())
 LIGHTS = frozenset(
     "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight".split()
@@ -290,6 +291,12 @@ def _look(
         found.body_of.setdefault(path, part)
         if context.id:
             found.body_of[f"/{own}"] = part
+    weighs = "PhysicsRigidBodyAPI" in applied or (collides and part >= 0)
+    if "PhysicsMassAPI" in applied and not weighs and any(values.get(seen.at(path), key) for key in WEIGHTS):
+        report.dropped(
+            f"mass of {path}", "USD_FEATURE_DROPPED", opened.place(path),
+            detail="only rigid bodies and colliders of theirs weigh, and it is neither",
+        )  # fmt: skip
     if "Gprim" in ranks:
         if part < 0:
             outer = _outer_group(context, found, groups_of)

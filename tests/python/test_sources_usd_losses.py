@@ -108,6 +108,23 @@ def test_a_mass_of_what_does_not_weigh_is_told(tmp_path):
     assert told == ["mass of /B/Group", "mass of /B/Drawn", "mass of /Wall"]
 
 
+def test_a_name_that_cannot_be_shown_is_told_once(tmp_path):
+    """Of a material with two looks, a body and a joint."""
+    steering = '"A\\x1b[31mb"'
+    shapes = "".join(
+        f'def {kind} "{kind}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{ rel material:binding = </M>\n }}\n'
+        for kind in ("Sphere", "Cube")
+    )
+    paint = f'def Material "M" (displayName = {steering}) {{ token outputs:surface.connect = </M/S.outputs:surface>\n def Shader "S" {{ uniform token info:id = "UsdPreviewSurface"; token outputs:surface\n }}\n }}\n'
+    moving = body("B", inside=shapes).replace("(prepend", f"(displayName = {steering}\nprepend", 1)
+    hinge = HINGE.replace('"J" ', f'"J" (displayName = {steering})', 1)
+    scene, report = scene_of(tmp_path, stage(moving + hinge + paint))
+    assert (scene.nodes[0].name, scene.joints[0].name, scene.surfaces[0].name) == ("B", "J", "M")
+    told = [o.feature for o in report.outcomes if o.code == "USD_FEATURE_APPROXIMATED"]
+    assert sorted(told) == ["name of /B", "name of /J", "name of /M"]
+    assert all("A\\x1b[31mb" in o.message for o in report.outcomes if o.feature in told)
+
+
 TOLD = {
     "USD_COMPOSITION": 'def Xform "A" (references = @missing.usda@) {}\n' + body("B"),
     "USD_WITHOUT_BODIES": 'def Sphere "S" {}',

@@ -20,7 +20,7 @@ from .physics.mass import ROUND, Weighed, body_mass
 from .physics.stated import MassApis
 from .stage import OpenStage
 from .transforms import HOME, Fit, Stand, fits, rotation_of, stands
-from .values import Traits, Values, title
+from .values import Traits, Values
 from .walk import Found, Part, Piece
 
 DEFAULT_PURPOSES = ("default", "render")
@@ -74,7 +74,7 @@ class Parts:
         for group, (_, pose) in zip(found.groups, standing):
             nodes.append(
                 Node(
-                    group.id, title(group.prim), NodeKind.ASSEMBLY, None if group.parent < 0 else group.parent,
+                    group.id, self._values.title(group.prim), NodeKind.ASSEMBLY, None if group.parent < 0 else group.parent,
                     pose, flexible=True, where=self._opened.place(group.prim),
                 )
             )  # fmt: skip
@@ -141,11 +141,11 @@ class Parts:
             meshes, apis = self.library.meshes, self._masses
             mass = body_mass(prim, part.world, at, weighed, meshes, apis, values, opened, self._report)
         return Node(
-            part.id, title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
+            part.id, values.title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
             bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),
             dynamics=self._dynamics(prim, at, kinematic) if moves else STILL,
             sites=tuple(
-                Site(title(p), Pose(at.axes(rotation_of(w[:3, :3]) @ opened.frame.turn.T), at.point(w[:3, 3])), opened.place(p))
+                Site(values.title(p), Pose(at.axes(rotation_of(w[:3, :3]) @ opened.frame.turn.T), at.point(w[:3, 3])), opened.place(p))
                 for p, w in part.sites
             ),
             where=opened.place(part.path),
@@ -227,7 +227,7 @@ class Parts:
                 detail=f"its restitution {bounce:g} became 1",
             )  # fmt: skip
         material = PhysicsMaterial(
-            title(prim), max(0.0, found["dynamicFriction"]), max(0.0, found["staticFriction"]),
+            self._values.title(prim), max(0.0, found["dynamicFriction"]), max(0.0, found["staticFriction"]),
             min(1.0, max(0.0, bounce)), combine[0], combine[1],
         )  # fmt: skip
         return material, max(0.0, found["density"])

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report, readable
+from ...diagnostics import Report, printable, readable
 from ...spatial import Array, matrix_from_quaternion
 from .api import Usd, UsdGeom, UsdPhysics
 from .stage import OpenStage
@@ -68,7 +68,7 @@ class Values:
         default_factory=dict[tuple[Any, ...], dict[str, Any]]
     )
     _asked: set[str] = field(default_factory=set[str])
-    _sampled: set[str] = field(default_factory=set[str])
+    _told: set[str] = field(default_factory=set[str])
 
     def traits(self, prim: Any) -> Traits:
         found = self._of_prim.get(prim)
@@ -223,11 +223,25 @@ class Values:
                 detail="nothing of the scene is like it",
             )  # fmt: skip
 
+    def title(self, prim: Any) -> str:
+        """The name that a user sees; once, that it is not the one that the stage gives."""
+        name, own = prim.GetDisplayName(), prim.GetName()
+        if not name or readable(name):
+            return name or own
+        place = self.opened.place(prim, "displayName")
+        if place not in self._told:
+            self._told.add(place)
+            self.report.approximated(
+                f"name of {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", place,
+                detail=f"'{printable(name)}' would steer the line that it stands in; it is called {own}",
+            )  # fmt: skip
+        return own
+
     def tell_samples(self, prim: Any, name: str) -> None:
         """Once, that a value changes over time, which only places may."""
         place = self.opened.place(prim, name)
-        if place not in self._sampled:
-            self._sampled.add(place)
+        if place not in self._told:
+            self._told.add(place)
             path = prim if isinstance(prim, str) else str(prim.GetPath())
             self.report.dropped(
                 f"animation of {path[1:]}.{name}", "USD_FEATURE_DROPPED", place,
@@ -282,12 +296,6 @@ def _is_fallback(attribute: Any) -> bool:
 def schemas(prim: Any) -> tuple[str, ...]:
     """All applied API schemas, also those that no plug-in registers."""
     return tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
-
-
-def title(prim: Any) -> str:
-    """The name that a user sees."""
-    shown = prim.GetDisplayName()
-    return shown if shown and readable(shown) else prim.GetName()
 
 
 def identity(prim: Any) -> str:

@@ -14,7 +14,7 @@ from ....model import Mesh
 from ....spatial import Array
 from ..prims import source_path
 from ..stage import OpenStage
-from ..values import Values, title
+from ..values import Values
 from ..walk import Piece
 from . import gprims
 from .meshes import Polygons, read_mesh
@@ -67,7 +67,7 @@ class Library:
             polygons = self._polygons[source]
         if polygons is None:
             return None
-        name = title(prim)
+        name = self.values.title(prim)
         index = self._added(name, polygons, bake)
         mesh, origin = self.meshes[index], _origin(prim)
         if not mesh.origin or origin < mesh.origin:  # of prims alike, whichever is read first

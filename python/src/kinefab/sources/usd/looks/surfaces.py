@@ -12,7 +12,7 @@ from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
 from ..prims import source_path
 from ..stage import OpenStage
-from ..values import Values, shown, title
+from ..values import Values, shown
 from ..walk import Piece
 from .textures import Sampler, read_fallback, read_sampler
 
@@ -133,7 +133,7 @@ class Surfaces:
         self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind or "none")
         color = found.get("color", (0.8, 0.8, 0.8))
         return Surface(
-            self._unique(title(material)), (_unit(color[0]), _unit(color[1]), _unit(color[2]), 1.0),
+            self._unique(self.values.title(material)), (_unit(color[0]), _unit(color[1]), _unit(color[2]), 1.0),
             _unit(found.get("metallic", 0.0)), 1.0 - _unit(found.get("roughness", 0.5)),
         )  # fmt: skip
 
@@ -176,7 +176,7 @@ class Surfaces:
             else AlphaMode.OPAQUE
         )
         return Surface(
-            self._unique(title(material)),
+            self._unique(self.values.title(material)),
             (
                 _unit(base[0]),
                 _unit(base[1]),

@@ -30,7 +30,7 @@ from ....spatial import Array, Pose, rotation_about, rotation_exp, rotation_log
 from ..api import UsdPhysics
 from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
-from ..values import Values, schemas, title
+from ..values import Values, schemas
 from ..walk import Found, JointPrim, body_above, world_of
 from .freedoms import DOFS, Freedoms, Units, turned_round
 from .vendor import passive_of
@@ -143,7 +143,7 @@ class Joints:
             entry.id, kind,
             None if first.node == GROUND else first.node, second.node,
             self._frame(first), self._frame(second), freedoms,
-            name=title(prim),
+            name=self._values.title(prim),
             break_force=breaks[0], break_torque=breaks[1],
             enabled=self._values.flag(prim, "physics:jointEnabled", True),
             collide=self._values.flag(prim, "physics:collisionEnabled", False),

@@ -41,7 +41,7 @@ def by_schema(values: object) -> list:
 
 
 def test_init_writes_a_bundle_that_exports(tmp_path):
-    """Valid by the schema and without remark; a 10 x 20 x 30 mm box with Z up is 10 x 30 x 20 mm with Y up."""
+    """Valid by the schema, with the one remark that mesh files state no density; a 10 x 20 x 30 mm box with Z up is 10 x 30 x 20 mm with Y up."""
     folder = tmp_path / "my parts"
     box(folder / "Base.stl", 10, 20, 30)
     box(folder / "Ärm.obj", 1, 2, 3)
@@ -51,7 +51,7 @@ def test_init_writes_a_bundle_that_exports(tmp_path):
     values = json.loads(target.read_text(encoding="utf-8"))
     assert by_schema(values) == []
     assert [c["id"] for c in values["components"]] == ["Base", "Ärm"]
-    assert check(target)[0].diagnostics == []
+    assert [d.code for d in check(target)[0].diagnostics] == ["DENSITY_ASSUMED"]
     told = run("bundle", "check", target).stdout
     assert "2 parts, none of them grounded; 0 joints; mobility 12." in told
     meshes = prepared(target, ExportOptions(), Report()).meshes
@@ -147,7 +147,7 @@ def test_files_without_unit_and_frame_are_refused(tmp_path):
 
 
 def test_the_example_of_the_bundle_page(tmp_path):
-    """It begins with a bundle that exports without remark: a hinge about the vertical's cross axis, -10 to 80 degrees."""
+    """It begins with a bundle that exports without loss: a hinge about the vertical's cross axis, -10 to 80 degrees."""
     text = (schema_directory() / "BUNDLE.md").read_text(encoding="utf-8")
     block = re.search(r"```json\n(.*?)```", text, re.DOTALL).group(1)
     assert text.index(block) < text.index("## Units")
@@ -156,7 +156,7 @@ def test_the_example_of_the_bundle_page(tmp_path):
     path.write_text(block, encoding="utf-8")
     box(tmp_path / "base.stl", 60, 40, 20)
     box(tmp_path / "arm.stl", 10, 10, 30)
-    assert check(path)[0].diagnostics == []
+    assert [d.code for d in check(path)[0].diagnostics] == ["DENSITY_ASSUMED"]
     result = kinefab.export(path, tmp_path / "two.kinefab")
     assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [("joint Hinge:1", "kept")]
 

@@ -53,7 +53,7 @@ def test_strict_refuses_what_would_be_approximated(tmp_path):
 def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp_path):
     """Each loss has its code and marks the component as not exact."""
     scene = kinefab.Scene()
-    part = scene.add_part("P", BOX)
+    part = scene.add_part("P", BOX, density=1000.0)
     scene.add_joint(kind, None, part, point=(0, 0, 0), axis=(1, 0, 0), name="J", **freedoms)
     content, result = exported(scene, tmp_path)
     (joint,) = components(content, "P", "ConfigurableJoint")
@@ -181,7 +181,7 @@ def test_mass_that_nobody_gives_is_reported(tmp_path):
     assert components(content, "Ghost", "Rigidbody") == [{"type": "Rigidbody"}]
     scene = kinefab.Scene()
     pair = scene.add_assembly("Pair", flexible=False)
-    scene.add_part("Solid", BOX, parent=pair)
+    scene.add_part("Solid", BOX, parent=pair, density=1000.0)
     scene.add_part("Label", parent=pair)
     content, result = exported(scene, tmp_path)
     assert [d.code for d in result.report.diagnostics] == ["MASS_LEFT_OUT"]
@@ -201,7 +201,7 @@ def test_asymmetric_swing_takes_its_larger_side(tmp_path):
 def test_drive_on_a_locked_freedom_is_mentioned(tmp_path):
     """A drive that cannot move anything is left out with a remark."""
     scene = kinefab.Scene()
-    part = scene.add_part("P", BOX)
+    part = scene.add_part("P", BOX, density=1000.0)
     held = Freedom(drive=Drive(stiffness=3.0))
     scene.add_joint(JointKind.PRISMATIC, None, part, point=(0, 0, 0), name="J", ty=held)
     content, result = exported(scene, tmp_path)

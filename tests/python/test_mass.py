@@ -23,7 +23,9 @@ def volume(mesh: Mesh) -> float:
 def weighed(vertices, faces, **body):
     report = Report()
     mesh = Mesh("m", np.array(vertices, float), np.array(faces))
-    scene = Scene(nodes=[Node("P", "P", bodies=(Body("b", 0, **body),))], meshes=[mesh])
+    scene = Scene(
+        nodes=[Node("P", "P", bodies=(Body("b", 0, **{"density": 1000.0, **body}),))], meshes=[mesh]
+    )
     return weigh(scene, 1000.0, report), report
 
 
@@ -160,3 +162,26 @@ def test_a_fine_tube_without_ends_is_weighed_as_its_hull():
     assert mass.mass == pytest.approx(1000.0 * area * 0.4, rel=1e-6)
     assert np.allclose(mass.center, (0.0, 0.0, 0.2), atol=1e-6)
     assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
+
+
+def test_parts_that_move_without_a_stated_density_are_told_once():
+    """The density taken for them, how many and the first; what states a mass or a density, or stands still, is not counted."""
+    shape = trimesh.creation.box((0.1, 0.2, 0.3))
+    mesh = Mesh("m", np.array(shape.vertices, float), np.array(shape.faces))
+    stated = MassProperties(2.0, np.zeros(3), np.eye(3) * 0.02)
+    nodes = [
+        Node("Ground", "Ground", grounded=True, bodies=(Body("b", 0),)),
+        Node("Steel", "Steel", bodies=(Body("b", 0, density=7850.0),)),
+        Node("Given", "Given", mass=stated, bodies=(Body("b", 0),)),
+        Node("Half", "Half", bodies=(Body("b", 0, density=7850.0), Body("c", 0)), where="robot.step:7"),
+        Node("None", "None", bodies=(Body("b", 0),)),
+    ]
+    report = Report()
+    scene = weigh(Scene(nodes=nodes, meshes=[mesh]), 2700.0, report)
+    (told,) = report.diagnostics
+    assert (told.code, told.severity.value, told.where) == ("DENSITY_ASSUMED", "info", "robot.step:7")
+    assert "2 part(s)" in told.message and "Half" in told.message and "2700 kg/m^3" in told.message
+    assert scene.nodes[4].mass is not None and scene.nodes[4].mass.mass == pytest.approx(0.006 * 2700)
+    others = Report()
+    weigh(Scene(nodes=nodes[:3], meshes=[mesh]), 2700.0, others)
+    assert others.diagnostics == []

@@ -35,6 +35,7 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
     meshes = list(scene.meshes)
     alike: dict[_Kind, tuple[MassProperties, bool]] = {}  # of copies together, and whether no file holds it
     sound = _sound(nodes)
+    assumed: list[Node] = []
     for i, node in enumerate(nodes):
         if node.mass is not None:
             if i not in sound:
@@ -56,6 +57,8 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             if unit[body.mesh] is not None:
                 solids.append(body)
         if solids:
+            if not node.grounded and any(body.density is None for body in solids):
+                assumed.append(node)
             kind = tuple(map(_told_apart, solids))
             if kind not in alike:
                 mass = combined([_placed(body, unit, density) for body in solids])
@@ -64,6 +67,9 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             nodes[i] = replace(node, mass=mass)
             if unsayable:
                 _tell_size(node, mass, report)
+    if assumed:
+        first = assumed[0]
+        report.add("DENSITY_ASSUMED", first.where, node=first.id, count=len(assumed), density=f"{density:g}")
     return replace(scene, nodes=nodes, meshes=meshes)
 
 

@@ -70,6 +70,20 @@ def test_a_joint_beside_the_root_is_told_where_it_holds_what_is_read(tmp_path):
     assert "holds /R/B" in report.diagnostics[0].message
 
 
+def test_a_joint_below_the_root_to_a_body_beside_it_is_told(tmp_path):
+    """The world stands in for the body; for what stands still beside the root it does so rightly."""
+    inner = joint("PhysicsRevoluteJoint", "J", "", "/Other", "/R/B")
+    still = joint("PhysicsRevoluteJoint", "K", "", "/Wall", "/R/C")
+    inside = f'def Xform "R" {{\n{body("B")}{body("C", (1, 0, 0))}{inner}{still}}}\n'
+    scene, report = scene_of(tmp_path, stage(inside + body("Other") + 'def Cube "Wall" {}\n'), root="/R")
+    assert scene is not None and [j.a for j in scene.joints] == [None, None]
+    (told,) = report.outcomes
+    assert (told.feature, told.outcome.value) == ("joint R/J", "approximated")
+    assert "the world stands in for /Other" in report.diagnostics[0].message
+    whole, report = scene_of(tmp_path, stage(inside + body("Other") + 'def Cube "Wall" {}\n'))
+    assert whole is not None and not report.outcomes
+
+
 def test_physics_materials_of_subsets_are_one_and_the_others_are_told(tmp_path):
     """Faces of brass and of steel, and one whose mesh has a material of its own."""
     materials = "".join(

@@ -15,7 +15,7 @@ from .instancer import instances
 from .prims import Prims, Seen
 from .stage import OpenStage
 from .transforms import placed
-from .values import Values
+from .values import Values, schemas
 
 MAX_PRIMS = 5_000_000
 """Most prims that are looked at: a small file may multiply itself by nested instances."""
@@ -356,6 +356,15 @@ def body_above(path: str, found: Found) -> int:
             return part
         path = path.rpartition("/")[0]
     return -1
+
+
+def moves_beside(prim: Any, root: Any) -> bool:
+    """Whether a prim is of a body that does not lie below the root."""
+    while prim and not root.GetPath().HasPrefix(prim.GetPath()):
+        if "PhysicsRigidBodyAPI" in schemas(prim):
+            return not prim.GetPath().HasPrefix(root.GetPath())
+        prim = prim.GetParent()
+    return False
 
 
 def world_of(path: Any, found: Found, opened: OpenStage, values: Values) -> Array:

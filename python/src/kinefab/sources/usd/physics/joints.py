@@ -31,7 +31,7 @@ from ..api import UsdPhysics
 from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
 from ..values import Values, schemas
-from ..walk import Found, JointPrim, body_above, world_of
+from ..walk import Found, JointPrim, body_above, moves_beside, world_of
 from .freedoms import DOFS, Freedoms, Units, turned_round
 from .vendor import passive_of
 
@@ -210,6 +210,11 @@ class Joints:
         ):
             detail = f"{name} names the prototype of a PointInstancer; its first instance was taken"
             self._approximated(entry, detail)
+        if part < 0 and moves_beside(target, self._opened.root):
+            self._approximated(
+                entry,
+                f"{name} is beside {self._opened.root.GetPath()}, which alone is read; the world stands in for {path}",
+            )
         node = GROUND if part < 0 else self._nodes[part]
         return Side(node, rotation_of(world[:3, :3]) @ rotation, world[:3, :3] @ position + world[:3, 3])
 

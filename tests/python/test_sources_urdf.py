@@ -417,6 +417,29 @@ def test_an_argument_without_name_or_value_is_told(tmp_path, argument):
     assert argument in report.diagnostics[0].message
 
 
+def test_arguments_beside_a_urdf_are_used_or_told(tmp_path):
+    """A plain one has no use for them; one in which elements of xacro stand takes them, and tells one without a value."""
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    plain, left = tmp_path / "plain.urdf", tmp_path / "left.urdf"
+    plain.write_text("<robot name='r'><link name='l'/></robot>", encoding="utf-8")
+    left.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:arg name='side' default='y'/>"
+        "<link name='$(arg side)'/></robot>",
+        encoding="utf-8",
+    )
+    for path, names, code in (
+        (plain, ["r", "l"], "SOURCE_OPTION_UNUSED"),
+        (left, ["r", "left"], "XACRO_ARGUMENT"),
+    ):
+        report = Report()
+        scene = read(path, report, options={"xacro_arg": ["who=elbow", "side:=left"]})
+        assert [node.name for node in scene.nodes] == names
+        assert [d.code for d in report.diagnostics] == [code]
+    report = Report()
+    read(plain, report)
+    assert report.diagnostics == []
+
+
 def test_the_engine_is_given_what_xacro_makes(tmp_path):
     """A package whose folder has another name than its package.xml; without such a package the engine refuses."""
     pytest.importorskip("xacro", reason="xacro is not installed")

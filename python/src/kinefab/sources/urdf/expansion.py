@@ -42,6 +42,7 @@ def expanded_leftovers(
     them: then they are left over from an expansion, and told like other elements that have no place."""
     if not any(child.tag.startswith("xacro:") for child in root.children) or find_spec("xacro") is None:
         return None
+    _tell_malformed(arguments, path, report)
     try:
         text = _expand(path, packages, arguments)
     except ExpansionFailed:
@@ -57,9 +58,7 @@ def expanded(path: Path, packages: Packages, arguments: Sequence[str], report: R
     if find_spec("xacro") is None:
         report.add("SOURCE_LIBRARY_MISSING", path.name, format="xacro", library="xacro", extra="urdf")
         report.raise_for_errors()
-    for argument in arguments:
-        if not argument.partition(":=")[0].strip() or ":=" not in argument:
-            report.add("XACRO_ARGUMENT", path.name, argument=argument)
+    _tell_malformed(arguments, path, report)
     text = b""
     try:
         text = _expand(path, packages, arguments)
@@ -67,6 +66,12 @@ def expanded(path: Path, packages: Packages, arguments: Sequence[str], report: R
         report.add("XACRO_FAILED", path.name, detail=failed)
     report.raise_for_errors()
     return parse_xml(text, f"{path.name} (expanded)", report)
+
+
+def _tell_malformed(arguments: Sequence[str], path: Path, report: Report) -> None:
+    for argument in arguments:
+        if not argument.partition(":=")[0].strip() or ":=" not in argument:
+            report.add("XACRO_ARGUMENT", path.name, argument=argument)
 
 
 def _mappings(arguments: Sequence[str]) -> dict[str, str]:

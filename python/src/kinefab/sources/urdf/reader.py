@@ -29,10 +29,14 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     data = read_bytes(path, report)
     packages = packages_of(path, request, report)
     root = parse_xml(data, path.name, report)
+    arguments = request.texts("xacro_arg")
     if is_xacro(path):
-        root = expanded(path, packages, request.texts("xacro_arg"), report)
-    elif whole := expanded_leftovers(path, root, packages, request.texts("xacro_arg"), report):
+        root = expanded(path, packages, arguments, report)
+    elif whole := expanded_leftovers(path, root, packages, arguments, report):
         root = whole
+    elif arguments:
+        form = "a URDF that xacro does not expand"
+        report.add("SOURCE_OPTION_UNUSED", path.name, option="xacro-arg", format=form)
     if root.tag != "robot":
         report.add("XML_ROOT", root.where, found=root.tag, wanted="robot", format="URDF")
         report.raise_for_errors()

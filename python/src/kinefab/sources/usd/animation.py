@@ -16,11 +16,11 @@ from ...diagnostics import Report
 from ...model import AnimationClip, Node, Repeat, Track
 from ...spatial import Array, quaternion_from_matrix
 from .api import Usd, UsdGeom
+from .found import Found
 from .keys import key_times, pose_at
 from .placing import Placing
 from .stage import OpenStage
 from .transforms import knots_of, local_of
-from .walk import Found
 
 GROWN = 1e-5
 """Share of a scale that it may change by unnoticed: files carry float32."""

@@ -12,6 +12,7 @@ from ...diagnostics import Report
 from ...model import Body, Collider, Combine, Dynamics, Node, NodeKind, Physics, PhysicsMaterial, Site
 from ...spatial import Array, Pose
 from .api import UsdGeom, UsdShade
+from .found import Found, Part, Piece
 from .looks.library import Library
 from .looks.surfaces import Surfaces
 from .physics.colliders import Colliders
@@ -21,7 +22,6 @@ from .physics.stated import MassApis
 from .stage import OpenStage
 from .transforms import HOME, Fit, Stand, fits, rotation_of, stands
 from .values import Traits, Values
-from .walk import Found, Part, Piece
 
 DEFAULT_PURPOSES = ("default", "render")
 STILL = Dynamics()

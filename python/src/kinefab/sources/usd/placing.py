@@ -8,8 +8,8 @@ import numpy as np
 
 from ...spatial import Array
 from .api import Usd
+from .found import Found
 from .transforms import Local, local_of, placed
-from .walk import Found
 
 
 class Placing:

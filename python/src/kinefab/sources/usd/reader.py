@@ -10,6 +10,7 @@ from ...model import Scene, Source
 from ..reading.request import Request
 from .animation import read_clips
 from .api import Tf, UsdUtils
+from .found import Found
 from .parts import DEFAULT_PURPOSES, Parts, physics_of
 from .physics.actuators import KIND, Actuators
 from .physics.couplings import Couplings, tell_prims, tell_vendors
@@ -19,7 +20,7 @@ from .physics.joints import Joints
 from .physics.stacks import stacked
 from .stage import OpenStage, examine, open_file, reason, tell
 from .values import Values
-from .walk import Found, walk
+from .walk import walk
 
 
 def read(path: Path, report: Report, request: Request = Request()) -> Scene:

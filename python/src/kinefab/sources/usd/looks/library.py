@@ -12,10 +12,10 @@ import numpy as np
 from ....diagnostics import Report
 from ....model import Mesh
 from ....spatial import Array
+from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values
-from ..walk import Piece
 from . import gprims
 from .meshes import Polygons, read_mesh
 

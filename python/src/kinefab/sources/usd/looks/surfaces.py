@@ -10,10 +10,10 @@ from typing import Any, TypeVar
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
+from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values, shown
-from ..walk import Piece
 from .textures import Sampler, read_fallback, read_sampler
 
 T = TypeVar("T")

@@ -11,12 +11,12 @@ from ....diagnostics import Report
 from ....model import Collider, ColliderKind, PhysicsMaterial
 from ....spatial import Array, Pose
 from ..api import Vt
+from ..found import Piece
 from ..looks.gprims import axis_turn
 from ..looks.library import Library
 from ..stage import OpenStage
 from ..transforms import Fit, Stand, Stretch
 from ..values import Values, identity, shown
-from ..walk import Piece
 
 THICKNESS = 0.01
 """Metres of the box that stands for a plane."""

@@ -12,9 +12,9 @@ import numpy as np
 
 from ....diagnostics import Report
 from ....model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Scene, Term, unlocked_of
+from ..found import JointPrim
 from ..stage import OpenStage
 from ..values import Values, identity, schemas
-from ..walk import JointPrim
 from .freedoms import DOFS
 from .joints import COUPLINGS, Readings
 

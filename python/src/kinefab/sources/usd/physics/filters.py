@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ....diagnostics import Report
 from ..api import UsdPhysics
+from ..found import Found
 from ..stage import OpenStage
 from ..values import Values
-from ..walk import Found
 
 
 def collision_groups(found: Found) -> dict[str, str]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..api import UsdPhysics
+from ..found import Found, body_above
 from ..values import Values
-from ..walk import Found, body_above
 
 WORLD = -1
 

@@ -28,10 +28,10 @@ from ....model import (
 )
 from ....spatial import Array, Pose, rotation_about, rotation_exp, rotation_log
 from ..api import UsdPhysics
+from ..found import Found, JointPrim, body_above, moves_beside, world_of
 from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
 from ..values import Values, schemas
-from ..walk import Found, JointPrim, body_above, moves_beside, world_of
 from .freedoms import DOFS, Freedoms, Units, turned_round
 from .vendor import passive_of
 

@@ -66,13 +66,12 @@ def test_contributing_names_what_exists():
     assert tests - known == set() and len(tests) > 10 and len(paths) > 20
 
 
-def test_every_decision_is_in_the_index_by_subject():
-    """DECISIONS.md grows at its end; the index at its head names each once."""
+def test_decisions_stand_by_subject_in_the_order_of_their_dates():
+    """A decision is one entry, dated, below its subject; a later one on the same matter takes its place."""
     text = (ROOT / "DECISIONS.md").read_text(encoding="utf-8")
-    index, _, decisions = text.partition("\n## 20")
-    titles = [
-        title.replace("`", "")
-        for title in re.findall(r"^## \d{4}-\d\d-\d\d (.+)$", "## 20" + decisions, re.MULTILINE)
-    ]
-    named = re.findall(r"\[([^\]]+)\]\(#", index)
-    assert sorted(named) == sorted(titles) and len(titles) > 50
+    _, *subjects = re.split(r"^## .+$", text, flags=re.MULTILINE)
+    entries = [re.findall(r"^### (\d{4}-\d\d-\d\d) (.+)$", subject, re.MULTILINE) for subject in subjects]
+    assert [len(found) for found in entries] == [subject.count("\n#") for subject in subjects]
+    assert all(found == sorted(found, key=lambda entry: entry[0]) for found in entries)
+    titles = [title for found in entries for _, title in found]
+    assert len(set(titles)) == len(titles) > 50

@@ -12,22 +12,21 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Node, NodeKind, Physics, Scene, Source
-from ...spatial import Pose
 from ..reading.request import Request
 from ..reading.xml_text import root_name
 from ..robots.packages import packages_of
-from ..robots.rigid_links import Carrier, Link, add_links, unique
+from ..robots.rigid_links import Carrier, add_links
 from ..robots.robot_frame import direction
 from .actuators import read_actuators
 from .bodies import Bodies
 from .contacts import excluded, filters
-from .engine import Compiled, compile_model, pose_of
+from .engine import Compiled, compile_model
 from .equalities import Equalities
 from .files import scan
-from .joints import Made, add_free, add_joint, is_free, planned
+from .joints import Made, add_free, add_joint, is_free
 from .looks import Looks
 from .losses import tell_losses
-from .stacks import Step
+from .tree import Tree
 
 
 def sniff(head: bytes) -> bool:
@@ -69,74 +68,17 @@ def _physics(compiled: Compiled) -> Physics:
 def _add_bodies(
     scene: Scene, compiled: Compiled, root: str, report: Report
 ) -> tuple[Made, list[Carrier | None]]:
-    """Links of all bodies, with light ones between the steps of a body's joints; then the joints between them."""
-    m = compiled.model
+    """Nodes of all bodies and the joints between them; where each body went."""
     bodies = Bodies(compiled, root, scene.meshes, Looks(compiled, scene.surfaces, report), report)
-    links: list[Link] = []
-    fixed: list[tuple[int, int]] = []
-    joined: list[tuple[int, int]] = []
-    index: list[int | None] = []
-    planned_steps: list[tuple[int, Step, Pose, int | None, int]] = []
-    labels = {name: name for name in compiled.bodies}
-    for body in range(m.nbody):
-        if body == 0 and not _has_something(compiled):
-            index.append(None)
-            continue
-        parent = index[int(m.body_parentid[body])] if body else None
-        steps = planned(compiled, body)
-        base = Pose() if not body else compiled.body_pose(int(m.body_parentid[body]))
-        local = pose_of(m.body_pos[body], m.body_quat[body])
-        before, last, placed_at = local, parent, base @ local
-        for number, step in enumerate(steps):
-            for axis in step.axes:
-                placed_at = placed_at @ axis.moved()
-            if number < len(steps) - 1:
-                label = unique(labels, f"{compiled.bodies[body]} {compiled.joints[step.axes[-1].index]}")
-                labels[label] = label
-                middle = Link(
-                    f"{root}/{label}", label, placed_at, compiled.where("body", compiled.name("body", body))
-                )
-                middle.parent = 0
-                links.append(middle)
-                report.approximated(
-                    f"joints of {compiled.bodies[body]}", "MJCF_MIDDLE_BODY", middle.where,
-                    body=compiled.bodies[body], middle=label,
-                )  # fmt: skip
-            else:
-                links.append(bodies.link(body, compiled.bodies[body], compiled.body_pose(body)))
-            here = len(links) - 1
-            planned_steps.append((body, step, before, last, here))
-            if last is not None:
-                joined.append((last, here))
-            before, last = Pose(), here
-        if not steps:
-            link = bodies.link(body, compiled.bodies[body], compiled.body_pose(body))
-            links.append(link)
-            here = len(links) - 1
-            free = is_free(compiled, body)
-            if not free and not link.kinematic:
-                ground = int(m.body_parentid[body]) == 0
-                link.grounded = ground
-                if not ground and parent is not None:
-                    fixed.append((parent, here))
-        index.append(len(links) - 1)
-    carriers = add_links(scene, links, fixed, joined, report)
+    tree = Tree(compiled, bodies, report)
+    carriers = add_links(scene, tree.links, tree.fixed, tree.joined, report)
     made = Made()
     driven = read_actuators(compiled, report)
-    by_body = [None if i is None else carriers[i] for i in index]
-    for _, step, before, last, here in planned_steps:
-        add_joint(
-            made,
-            compiled,
-            step,
-            before,
-            None if last is None else carriers[last],
-            carriers[here],
-            driven,
-            report,
-        )
-    for body in range(m.nbody):
-        carrier = by_body[body]
+    for hung in tree.hung:
+        a = None if hung.a is None else carriers[hung.a]
+        add_joint(made, compiled, hung.step, hung.before, a, carriers[hung.b], driven, report)
+    by_body = [None if link is None else carriers[link] for link in tree.of]
+    for body, carrier in enumerate(by_body):
         if carrier is not None and is_free(compiled, body):
             add_free(made, compiled, body, carrier)
     return made, by_body
@@ -149,9 +91,3 @@ def _joined(scene: Scene, carriers: list[Carrier | None]) -> set[frozenset[int]]
         bodies.setdefault(None if carrier is None else carrier.node, []).append(body)
     apart = [joint for joint in scene.joints if not joint.collide]
     return {frozenset((a, b)) for j in apart for a in bodies.get(j.a, ()) for b in bodies.get(j.b, ())}
-
-
-def _has_something(compiled: Compiled) -> bool:
-    """Whether the world has shapes or frames of its own."""
-    m = compiled.model
-    return bool(m.body_geomnum[0]) or bool(np.any(np.asarray(m.site_bodyid) == 0))

@@ -44,50 +44,16 @@ def fill_scene(scene: Scene, root: Scope, report: Report) -> None:
 
     Raises KinefabError with every error found.
     """
-    assembly: dict[Scope, int] = {}
-    for scope in root.scopes():
-        if scope is root:
-            continue
-        above = scope.above
-        while above is not None and above.merged:
-            above = above.above
-        assembly[scope] = len(scene.nodes)
-        parent = None if above is None else assembly.get(above)
-        pose = placed(world_pose(scope))
-        scene.nodes.append(
-            Node(
-                scope.path,
-                scope.name,
-                NodeKind.ASSEMBLY,
-                parent,
-                pose,
-                flexible=True,
-                where=scope.element.where,
-            )
-        )
+    assembly = _add_assemblies(scene, root)
     links = Links(Materials(scene.surfaces), report)
     entries = root.all_entries("link")
     made = [links.link(entry, assembly.get(_visible(entry.owner))) for entry in entries]
     number = {entry: i for i, entry in enumerate(entries)}
     joints = [j for e in root.all_entries("joint") if (j := read_joint(e, report)) is not None]
     report.raise_for_errors()
-    for entry in root.all_entries("frame"):
-        link = link_of(entry, f"frame {entry.name}")
-        if link is not None:
-            made[number[link]].frames[entry.name] = entry_world_pose(link).inverse() @ entry_world_pose(entry)
+    _place_frames(root, made, number)
     for joint in joints:
-        if joint.kind == "fixed" and None in (joint.parent, joint.child):
-            other = joint.child if joint.parent is None else joint.parent
-            if other is not None:
-                made[number[other]].grounded = True
-    for joint in joints:
-        for end in (
-            joint.parent,
-            joint.child,
-        ):  # its joints move it, which a kinematic body of Unity's would not let them
-            if end is not None and made[number[end]].kinematic:
-                made[number[end]].kinematic = False
-                report.dropped(f"kinematic of link {end.name}", "ELEMENT_DROPPED", end.element.where)
+        _settle_ends(joint, made, number, report)
         if joint.kind == "revolute2" and not _square(joint):
             _add_middle(joint, made, number, entries)
     report.raise_for_errors()
@@ -105,6 +71,44 @@ def fill_scene(scene: Scene, root: Scope, report: Report) -> None:
         writer.add(joint)
     for joint in joints:
         writer.couple(joint)
+
+
+def _add_assemblies(scene: Scene, root: Scope) -> dict[Scope, int]:
+    """A node for each scope below the root; their indices."""
+    assembly: dict[Scope, int] = {}
+    for scope in root.scopes():
+        if scope is root:
+            continue
+        above = scope.above
+        while above is not None and above.merged:
+            above = above.above
+        assembly[scope] = len(scene.nodes)
+        parent = None if above is None else assembly.get(above)
+        pose, where = placed(world_pose(scope)), scope.element.where
+        scene.nodes.append(
+            Node(scope.path, scope.name, NodeKind.ASSEMBLY, parent, pose, flexible=True, where=where)
+        )
+    return assembly
+
+
+def _place_frames(root: Scope, made: list[Link], number: dict[Entry, int]) -> None:
+    """Give each link the frames that are fixed to it."""
+    for entry in root.all_entries("frame"):
+        link = link_of(entry, f"frame {entry.name}")
+        if link is not None:
+            made[number[link]].frames[entry.name] = entry_world_pose(link).inverse() @ entry_world_pose(entry)
+
+
+def _settle_ends(joint: SdfJoint, made: list[Link], number: dict[Entry, int], report: Report) -> None:
+    """What a joint says of its links: fixed to the world one stands still, and none is kinematic, since a kinematic body
+    of Unity's would not let the joint move it."""
+    ends = [end for end in (joint.parent, joint.child) if end is not None]
+    if joint.kind == "fixed" and len(ends) == 1:
+        made[number[ends[0]]].grounded = True
+    for end in ends:
+        if made[number[end]].kinematic:
+            made[number[end]].kinematic = False
+            report.dropped(f"kinematic of link {end.name}", "ELEMENT_DROPPED", end.element.where)
 
 
 def _visible(scope: Scope) -> Scope:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -41,7 +41,7 @@ from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .materials import colliders_of, materials_of
 from .motions import FreedomLike, Range, checked_lead, freedoms_asked, kind_of_word
-from .shapes import shapes_of
+from .shapes import Shape, shapes_of
 
 _numbers = itertools.count()
 
@@ -133,8 +133,14 @@ class Scene(model.Scene):
             colliders=own,
             collision=shape,
         )
-        if not shapes:
-            return index
+        if shapes:  # the node is there first, as a wrong parent or pose adds nothing
+            self.nodes[-1] = replace(self.nodes[-1], bodies=self._bodies(shapes, looks, density))
+        return index
+
+    def _bodies(
+        self, shapes: Sequence[Shape], looks: Surface | None, density: float | None
+    ) -> tuple[Body, ...]:
+        """Bodies of a part, once their meshes and surfaces are added.  looks: of all of them, in the place of their own."""
         surfaces = () if looks is None else (len(self.surfaces),)
         self.surfaces += () if looks is None else (looks,)
         bodies: list[Body] = []
@@ -145,8 +151,7 @@ class Scene(model.Scene):
                 number = len(self.meshes) - 1
             own = surfaces * max(1, len(each.surfaces)) or tuple(map(self._surface, each.surfaces))
             bodies.append(Body(each.name, number, own, density, each.reference))
-        self.nodes[-1] = replace(self.nodes[-1], bodies=tuple(bodies))
-        return index
+        return tuple(bodies)
 
     def _surface(self, surface: Surface) -> int:
         """The index of a surface of a mesh, added where no other looks the same."""

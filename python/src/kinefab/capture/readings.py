@@ -34,8 +34,8 @@ def poses_of(components: list[Record]) -> Poses:
 
 def readings(record: Record, owner: str, poses: Poses) -> Iterator[tuple[str, Record]]:
     """Every alternative of a record with its name, the plainest first.  owner: the assembly that states it, or 'world'."""
-    framed, turned = _frame_changes(record, owner, poses), _turns(record)
-    scaled = _scalings(record)
+    framed, turned = _frame_changes(owner, poses), _turns()
+    scaled = _scalings()
     singles: list[tuple[Change, ...]] = [(change,) for change in (*framed, *turned, *scaled)]
     doubles: list[tuple[Change, ...]] = [(f, t) for f in framed for t in (*turned, *scaled)]
     for changes in (*singles, *doubles):
@@ -54,7 +54,7 @@ def _vectors(record: Record) -> list[tuple[Record, str, str]]:
     ]
 
 
-def _frame_changes(record: Record, owner: str, poses: Poses) -> list[Change]:
+def _frame_changes(owner: str, poses: Poses) -> list[Change]:
     def inside(frame: str, only_points: bool) -> Callable[[Record], bool]:
         def change(copied: Record) -> bool:
             changed = False
@@ -84,75 +84,80 @@ def _frame_changes(record: Record, owner: str, poses: Poses) -> list[Change]:
     return changes
 
 
-def _turns(record: Record) -> list[Change]:
-    def reversed_of(index: int, keys: tuple[str, ...]) -> Callable[[Record], bool]:
-        def change(copied: Record) -> bool:
-            parts = _vectors(copied)
-            if index >= len(parts):
-                return False
-            part = parts[index][0]
-            present = [key for key in keys if key in part]
-            for key in present:
-                part[key] = [-v for v in part[key]]
-            return bool(present)
-
-        return change
-
-    def negated(copied: Record) -> bool:
-        if copied.get("value"):
-            copied["value"] = -copied["value"]
-            return True
-        bounded = [copied] if "kind" in copied and ("min" in copied or "max" in copied) else []
-        values = [*bounded, *(dof for dof in copied.get("dof", []) if dof.get("value"))]
-        for dof in values:
-            dof["value"] = -dof.get("value", 0.0)
-            low, high = dof.pop("min", None), dof.pop("max", None)
-            flags = dof.pop("minEnabled", None), dof.pop("maxEnabled", None)
-            for key, end, flag in (("min", high, flags[1]), ("max", low, flags[0])):
-                if end is not None:
-                    dof[key] = -end
-                    if dof is not copied:
-                        dof[f"{key}Enabled"] = bool(flag)
-        return bool(values)
-
-    def relative(copied: Record) -> bool:
-        found = [d for d in copied.get("dof", []) if d.get("value") and ("min" in d or "max" in d)]
-        if "value" in copied and ("min" in copied or "max" in copied):
-            found.append(copied)
-        for dof in found:
-            for key in ("min", "max"):
-                if key in dof:
-                    dof[key] += dof["value"]
-        return bool(found)
-
-    def displaced(copied: Record) -> bool:
-        gap = copied.get("extras", {}).get("gap")
-        if gap:
-            part = _vectors(copied)[0][0]
-            z = np.array(part["z"]) / np.linalg.norm(part["z"])
-            part["o"] = (np.array(part["o"]) + gap * z).tolist()
-        return bool(gap)
-
-    def placed(copied: Record) -> bool:
-        turning = [dof for dof in copied.get("dof", []) if dof["name"] == "rz" and "value" in dof]
-        return bool(turning) and copied.get("frameB", {}).pop("x", None) is not None
-
+def _turns() -> list[Change]:
     sides = (("z", "d"), "direction"), (("x",), "zero direction")
-    changes: list[Change] = [
-        (f"{words} of {('the first', 'the second')[i]} side reversed", reversed_of(i, keys))
+    reversals: list[Change] = [
+        (f"{words} of {('the first', 'the second')[i]} side reversed", _reversed_of(i, keys))
         for keys, words in sides
         for i in (0, 1)
     ]
     return [
-        ("value with the other sign", negated),
-        ("limits counted from the value", relative),
-        *changes,
-        ("gap along the first axis", displaced),
-        ("zero direction placed by the displayed value", placed),
+        ("value with the other sign", _negated),
+        ("limits counted from the value", _counted_from_value),
+        *reversals,
+        ("gap along the first axis", _displaced),
+        ("zero direction placed by the displayed value", _placed_by_value),
     ]
 
 
-def _scalings(record: Record) -> list[Change]:
+def _reversed_of(index: int, keys: tuple[str, ...]) -> Callable[[Record], bool]:
+    def change(copied: Record) -> bool:
+        parts = _vectors(copied)
+        if index >= len(parts):
+            return False
+        part = parts[index][0]
+        present = [key for key in keys if key in part]
+        for key in present:
+            part[key] = [-v for v in part[key]]
+        return bool(present)
+
+    return change
+
+
+def _negated(copied: Record) -> bool:
+    if copied.get("value"):
+        copied["value"] = -copied["value"]
+        return True
+    bounded = [copied] if "kind" in copied and ("min" in copied or "max" in copied) else []
+    values = [*bounded, *(dof for dof in copied.get("dof", []) if dof.get("value"))]
+    for dof in values:
+        dof["value"] = -dof.get("value", 0.0)
+        low, high = dof.pop("min", None), dof.pop("max", None)
+        flags = dof.pop("minEnabled", None), dof.pop("maxEnabled", None)
+        for key, end, flag in (("min", high, flags[1]), ("max", low, flags[0])):
+            if end is not None:
+                dof[key] = -end
+                if dof is not copied:
+                    dof[f"{key}Enabled"] = bool(flag)
+    return bool(values)
+
+
+def _counted_from_value(copied: Record) -> bool:
+    found = [d for d in copied.get("dof", []) if d.get("value") and ("min" in d or "max" in d)]
+    if "value" in copied and ("min" in copied or "max" in copied):
+        found.append(copied)
+    for dof in found:
+        for key in ("min", "max"):
+            if key in dof:
+                dof[key] += dof["value"]
+    return bool(found)
+
+
+def _displaced(copied: Record) -> bool:
+    gap = copied.get("extras", {}).get("gap")
+    if gap:
+        part = _vectors(copied)[0][0]
+        z = np.array(part["z"]) / np.linalg.norm(part["z"])
+        part["o"] = (np.array(part["o"]) + gap * z).tolist()
+    return bool(gap)
+
+
+def _placed_by_value(copied: Record) -> bool:
+    turning = [dof for dof in copied.get("dof", []) if dof["name"] == "rz" and "value" in dof]
+    return bool(turning) and copied.get("frameB", {}).pop("x", None) is not None
+
+
+def _scalings() -> list[Change]:
     def scaled(factor: float) -> Callable[[Record], bool]:
         def change(copied: Record) -> bool:
             parts = [(part, point) for part, _, point in _vectors(copied) if point in part]

@@ -79,9 +79,17 @@ def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
     tri, owner, face_counts, subsets = _submeshes(mesh, tri, owner, len(counts), opened, report)
     if mesh.GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none:
         report.approximated(f"subdivision of {prim.GetPath()}", "USD_SUBDIVISION", where)
-    return _indexed(
-        prim, mesh, points, corners, len(counts), tri, owner, face_counts, subsets, time, opened, report
-    )
+    sizes = {
+        "constant": 1,
+        "uniform": len(counts),
+        "varying": len(points),
+        "vertex": len(points),
+        "faceVarying": len(corners),
+    }
+    primvars = _primvars(prim, mesh, sizes, time, opened, report)
+    found = _indexed(points, _Corners(tri.ravel(), np.repeat(owner, 3), corners[tri].ravel()), primvars)
+    found.face_counts, found.subsets = face_counts, subsets
+    return found
 
 
 _TYPES: dict[str, tuple[Any, ...]] = {
@@ -178,60 +186,64 @@ def _submeshes(
     return tri[order], owner[order], face_counts, tuple(chosen[i] for i in used)
 
 
-def _indexed(
-    prim: Any, mesh: Any, points: Array, corners: np.ndarray, faces: int, tri: np.ndarray, owner: np.ndarray,
-    face_counts: tuple[int, ...], subsets: tuple[Any, ...], time: Any, opened: OpenStage, report: Report,
-) -> Polygons:  # fmt: skip
-    """Corners that agree in everything become one vertex."""
-    sizes = {
-        "constant": 1,
-        "uniform": faces,
-        "varying": len(points),
-        "vertex": len(points),
-        "faceVarying": len(corners),
-    }
-    primvars = _primvars(prim, mesh, sizes, time, opened, report)
-    used = corners[tri].ravel()
+@dataclass(frozen=True, slots=True, eq=False)
+class _Corners:
+    """Of each corner of the triangles, three a triangle: which of the faces' corners it is, its face, its point."""
 
-    def elements(interpolation: str, chosen: np.ndarray | slice) -> np.ndarray:
-        """Of these corners of the triangles, the elements that a primvar counts."""
+    corner: np.ndarray
+    face: np.ndarray
+    point: np.ndarray
+
+    def elements(self, interpolation: str, chosen: np.ndarray | slice) -> np.ndarray:
+        """Of these corners, the elements that a primvar counts."""
         if interpolation == "faceVarying":
-            return tri.ravel()[chosen]
+            return self.corner[chosen]
         if interpolation == "uniform":
-            return np.repeat(owner, 3)[chosen]
-        return used[chosen] if interpolation != "constant" else np.zeros_like(used[chosen])
+            return self.face[chosen]
+        point = self.point[chosen]
+        return point if interpolation != "constant" else np.zeros_like(point)
 
-    split = [p for p in primvars if p.interpolation in ("faceVarying", "uniform")]
-    first, inverse = None, used
-    if not split:
-        chosen = slice(None)
-        named = np.zeros(len(points), dtype=bool)
-        named[used] = True
-        if not named.all():
-            chosen, inverse = np.flatnonzero(named), (np.cumsum(named) - 1)[used]
-    else:
-        keys = used.astype(np.uint64)
+    def vertices(self, split: list[_Primvar]) -> tuple[np.ndarray, np.ndarray]:
+        """A vertex for all corners of one point that agree in these primvars: its first corner, and each corner's vertex."""
+        keys = self.point.astype(np.uint64)
         for p in split:
             keys *= np.uint64(0x9E3779B97F4A7C15)
-            keys += _identities(p)[p.numbers(elements(p.interpolation, slice(None)))]
+            keys += _identities(p)[p.numbers(self.elements(p.interpolation, slice(None)))]
             keys ^= keys >> np.uint64(29)
         _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
         # In the order of their first use, so that equal meshes have equal vertices.
         rank = np.argsort(np.argsort(first, kind="stable"), kind="stable")
-        first, inverse = np.sort(first), rank[inverse]
-        chosen = used[first]
-    found = Polygons(points[chosen], inverse.reshape(-1, 3), face_counts=face_counts, subsets=subsets)
-    count = len(found.vertices)
+        return np.sort(first), rank[inverse]
+
+    def points(self, count: int) -> tuple[np.ndarray | slice, np.ndarray]:
+        """The points that a corner has, of so many, and for each corner its place among them."""
+        named = np.zeros(count, dtype=bool)
+        named[self.point] = True
+        if named.all():
+            return slice(None), self.point
+        return np.flatnonzero(named), (np.cumsum(named) - 1)[self.point]
+
+
+def _indexed(points: Array, corners: _Corners, primvars: list[_Primvar]) -> Polygons:
+    """Corners that agree in everything become one vertex."""
+    split = [p for p in primvars if p.interpolation in ("faceVarying", "uniform")]
+    if split:
+        first, inverse = corners.vertices(split)
+        found = Polygons(points[corners.point[first]], inverse.reshape(-1, 3))
+        _dress(found, [(p, corners.elements(p.interpolation, first)) for p in primvars])
+        return found
+    chosen, inverse = corners.points(len(points))
+    found = Polygons(points[chosen], inverse.reshape(-1, 3))
+    same = np.zeros(len(found.vertices), dtype=np.int64)
+    _dress(found, [(p, chosen if p.interpolation in ("vertex", "varying") else same) for p in primvars])
+    return found
+
+
+def _dress(found: Polygons, primvars: list[tuple[_Primvar, np.ndarray | slice]]) -> None:
+    """Give vertices the values of primvars, each with the elements that the vertices have of it."""
     colours: dict[str, Array] = {}
-    for p in primvars:
-        at = (
-            elements(p.interpolation, first)
-            if first is not None
-            else chosen
-            if p.interpolation in ("vertex", "varying")
-            else np.zeros(count, dtype=np.int64)
-        )
-        values = p.values[p.numbers(at)]
+    for p, elements in primvars:
+        values = p.values[p.numbers(elements)]
         if p.name == "normals":
             lengths = lengths_of(values)
             if (lengths > 0.0).all():
@@ -242,10 +254,10 @@ def _indexed(
             found.uvs += (values,)
             found.uv_names += (p.name,)
     if colours:
+        count = len(found.vertices)
         rgb = colours.get("displayColor", np.ones((count, 3)))
         alpha = colours.get("displayOpacity", np.ones((count, 1)))
         found.colors = np.clip(np.column_stack([rgb, alpha]), 0.0, 1.0)
-    return found
 
 
 def _identities(primvar: _Primvar) -> np.ndarray:

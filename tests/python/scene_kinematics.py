@@ -535,12 +535,6 @@ def unity_inertia(inertia, turn=ROS) -> np.ndarray:
     return turn @ np.asarray(inertia, dtype=float) @ turn.T
 
 
-def worst_difference(expected: Mapping[str, tuple], motion: SceneKinematics, poses) -> tuple[float, float]:
-    """Largest metres and radians between an engine's poses, in Unity's frame, by id or name, and the scene's."""
-    found = [difference(pose, motion.pose_of(name, poses)) for name, pose in expected.items()]
-    return max((f[0] for f in found), default=0.0), max((f[1] for f in found), default=0.0)
-
-
 def random_values(
     ranges: Iterable[tuple[Coordinate, tuple[float, float]]], rng: np.random.Generator
 ) -> dict[Coordinate, float]:

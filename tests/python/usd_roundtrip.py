@@ -25,7 +25,6 @@ DEGREES = 5e-5
 DIRECTIONS = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z])
 WORDS = {"because", "closure", "exact", "extras", "id", "connectedBody"}
 """Fields of a joint that say where it comes from."""
-ANGLES = {"min", "max", "limit", "targetPosition", "targetVelocity"}
 
 
 def sources(stage: Path) -> dict[str, str]:

@@ -81,7 +81,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
             buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
             head |= {"buffers": [buffer], "meshes": meshes}
         with replacing(target, "scene") as file:
-            for piece in _canonical_pieces(head | _tail(scene, report)):
+            for piece in canonical_json(head | _tail(scene, report)):
                 file.write(piece.encode("utf-8"))
             if (
                 buffer_path is not None and temporary is not None
@@ -254,16 +254,12 @@ def _mesh_entry(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
     return found
 
 
-def canonical_json(content: dict[str, Any]) -> str:
-    """The document with one line for each entry of a list and for each component; keys keep their order.
+def canonical_json(content: dict[str, Any]) -> Iterator[str]:
+    """The document piece by piece (the text of a large scene is never there as a whole), with one line for each entry of
+    a list and for each component; keys keep their order.
 
     Floats are written in their shortest form that reads back the same; NaN and Infinity raise ValueError.
     """
-    return "".join(_canonical_pieces(content))
-
-
-def _canonical_pieces(content: dict[str, Any]) -> Iterator[str]:
-    """``canonical_json`` piece by piece: the text of a large scene is never there as a whole."""
     flat = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(", ", ": ")).encode
     texts: dict[int, str] = {}  # of components, by identity: many objects share one
 

@@ -145,7 +145,7 @@ def _gaps(system: System, residual: Array, equations: Equations) -> tuple[list[G
         system.owner,
         np.maximum(np.where(system.is_length, np.abs(residual), 0.0), np.radians(degrees)),
     )
-    wrong = _wrong_way_round(system, equations)
+    wrong = _wrong_way_round(equations)
     for i in wrong:
         by_degrees[i], scaled[i] = 180.0, np.pi
     gaps: list[Gap] = []
@@ -185,7 +185,7 @@ _SENSED = (
 )
 
 
-def _wrong_way_round(system: System, equations: Equations) -> list[int]:
+def _wrong_way_round(equations: Equations) -> list[int]:
     """Statements whose two directions stand against each other where the source says along, or the reverse.
 
     Parallel rows (a.b = 0 across) hold both ways round, so the residual does not show it.

@@ -36,7 +36,7 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         if group in held:
             report.kept(feature, record.where)
             continue
-        placed = _frame_and_freedoms(record, node.pose)
+        placed = _frame_and_freedoms(record)
         if isinstance(placed, str):
             report.dropped(feature, "DOF_RECORD_INEXPRESSIBLE", record.where, node=node.id, detail=placed)
             continue
@@ -61,7 +61,7 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
     return joints
 
 
-def _frame_and_freedoms(record: DofRecord, pose: Pose) -> tuple[Array, tuple[int, ...]] | str:
+def _frame_and_freedoms(record: DofRecord) -> tuple[Array, tuple[int, ...]] | str:
     """World axes of a joint frame, columns X Y Z, and the freedoms it leaves; or what is in the way."""
     slides, turns = _span(record.translations), _span(record.rotations)
     # What fixes the frame: the one direction that is singled out, if there is one.

@@ -31,7 +31,6 @@ _FIRST = {
 """The solver's joint for two kinds of element, the one that comes first first, and whose radius is added.  Any other
 two are held as two planes."""
 _ORDER = ("plane", "cylinder", "cone", "torus", "sphere", "surface", "line", "circle", "curve", "point")
-_FACES = frozenset(_ORDER[:6])
 CONFUSION = 1e-10
 """Metres: a distance below is none (FreeCAD's own 1e-7 mm)."""
 

@@ -133,7 +133,7 @@ def add_joint(
             slerp=slerp,
             because=tuple(names),
             where=where,
-            extras=_extras(compiled, step),
+            extras=_extras(step),
         )
     )
 
@@ -157,7 +157,7 @@ def add_free(made: Made, compiled: Compiled, body: int, b: Carrier) -> None:
     )
 
 
-def _extras(compiled: Compiled, step: Step) -> dict[str, object]:
+def _extras(step: Step) -> dict[str, object]:
     kinds = [axis.kind for axis in step.axes]
     return {"mjcf": {"type": kinds[0] if len(kinds) == 1 else kinds}}
 

@@ -32,7 +32,7 @@ def pictures(
     objects: Sequence[Entry] = document["gameObjects"]
     solids = _solids(document, buffers)
     joints = [drawn_joints(objects, placements) for placements in frames]
-    view = _camera(document, solids, frames, joints)
+    view = _camera(solids, frames, joints)
     moving = {i for i in solids if any(_moved(frames[0][i], placements[i]) for placements in frames)}
     ground = Canvas(view, WIDTH, HEIGHT)
     for i in solids.keys() - moving:
@@ -85,7 +85,6 @@ def _moved(one: Placement, other: Placement) -> bool:
 
 
 def _camera(
-    document: Entry,
     solids: Mapping[int, Solid],
     frames: Sequence[Sequence[Placement]],
     joints: Sequence[Sequence[DrawnJoint]],

@@ -37,7 +37,6 @@ from .vendor import passive_of
 
 MAIN = {"X": [0, 1, 2], "Y": [1, 2, 0], "Z": [2, 0, 1]}
 """Which of the joint frame's axes become X Y Z, by the axis token: a cyclic change, so that X is the main one."""
-HALF_TURN = np.diag([-1.0, 1.0, -1.0])
 GROUND = -1
 ROUNDED = 1e-6
 """Share of a length, and radians, that the 32-bit numbers of frames and poses may be apart by."""

@@ -89,12 +89,6 @@ def _turned(value: Words, by: int) -> Words:
     return value << np.uint64(by) | value >> np.uint64(64 - by)
 
 
-def imported_id(kind: str, identifier: str) -> int:
-    """The fileID that Unity gives an object of an imported file, signed: ``Type:Mesh->meshes/lever0``."""
-    found = xxh64(f"Type:{kind}->{identifier}0".encode())
-    return found - (1 << 64) if found > _POSITIVE else found
-
-
 class FileIds:
     """fileIDs of a prefab's objects: positive, each once."""
 

@@ -214,9 +214,8 @@ def export(
             lambda fraction: progress("write", fraction),
             options.colliders,
         )
-        if os.path.lexists(path) and not os.path.isfile(
-            path
-        ):  # a rename would put a file in a device's place
+        # A rename would put a file in a device's place.
+        if os.path.lexists(path) and not os.path.isfile(path):
             detail = "it is no regular file"
             raise KinefabError([report.add("TARGET_UNWRITABLE", path=path, detail=detail)])
         try:

@@ -67,9 +67,8 @@ def freedoms_asked(
     given: dict[str, Freedom] = {}
     for name, asked in stated.items():
         stays = asked is False or (isinstance(asked, Freedom) and asked.motion is Motion.LOCKED)
-        _checked_name(
-            JointKind.GENERAL if stays else kind, name
-        )  # what stays locked is no other kind of joint
+        # What stays locked is no other kind of joint.
+        _checked_name(JointKind.GENERAL if stays else kind, name)
         given[name] = _freedom(name, asked)
     freedoms = list(freedoms_of(kind, **given))
     for name, value in _by_name(kind, "limits", limits).items():

@@ -178,9 +178,8 @@ def _scalings() -> list[Change]:
     changes: list[Change] = []
     for factor, words in ((METRES_PER_CENTIMETRE, "metres"), (1.0 / METRES_PER_CENTIMETRE, "centimetres")):
         changes += [(f"value taken in {words}", value(factor)), (f"points taken in {words}", scaled(factor))]
-    return sorted(
-        changes, key=lambda change: change[0].startswith("points")
-    )  # a wrong value is the likelier one
+    # A wrong value is the likelier one.
+    return sorted(changes, key=lambda change: change[0].startswith("points"))
 
 
 def lifted(point: Any, frame: str, poses: Poses) -> Array:

@@ -69,9 +69,8 @@ def main() -> None:
     """Entry point of the ``kinefab`` script."""
     _start_light()
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
-        if (
-            getattr(sys, name) is None
-        ):  # closed by whoever started this; each takes the number of its own again
+        # Closed by whoever started this; each takes the number of its own again.
+        if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))
     reconfigure: Any = getattr(sys.stdout, "reconfigure", None)
     if reconfigure is not None:  # a name may hold letters that a terminal has not

@@ -207,9 +207,8 @@ class _Loading:
         spread = float(np.abs(piece.vertices).mean())
         low, high = bounds(piece.vertices)
         tolerance = SAME_SHAPE * float((high - low).max())
-        reach = (
-            1.001 * tolerance + 1e-12 * spread
-        )  # the other's tolerance is its own, and the mean is rounded
+        # The other's tolerance is its own, and the mean is rounded.
+        reach = 1.001 * tolerance + 1e-12 * spread
         first = bisect_left(alike, spread - reach, key=_spread)
         last = bisect_right(alike, spread + reach, key=_spread)
         for known in sorted(alike[first:last], key=lambda known: known.mesh):

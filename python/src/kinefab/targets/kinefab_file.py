@@ -83,9 +83,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
         with replacing(target, "scene") as file:
             for piece in canonical_json(head | _tail(scene, report)):
                 file.write(piece.encode("utf-8"))
-            if (
-                buffer_path is not None and temporary is not None
-            ):  # last, so that what fails before leaves no buffer behind
+            # Last, so that what fails before leaves no buffer behind.
+            if buffer_path is not None and temporary is not None:
                 file.flush()
                 os.fsync(file.fileno())
                 os.replace(temporary, buffer_path)

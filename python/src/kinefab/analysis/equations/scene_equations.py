@@ -171,9 +171,8 @@ def _usable(c: Constraint, scene: Scene, report: Report) -> bool:
     if any(f.node is not None and scene.nodes[f.node].suppressed for f in c.features):
         report.dropped(feature, "CONSTRAINT_PART_SUPPRESSED", c.where, id=c.id)
         return False
-    joined = (
-        c.features if c.kind is ConstraintKind.SYMMETRY else c.features[:2]
-    )  # a slot is centred on another's plane
+    # A slot is centred on another's plane.
+    joined = c.features if c.kind is ConstraintKind.SYMMETRY else c.features[:2]
     if len({f.node for f in joined}) == 1:
         name = "ground" if c.features[0].node is None else scene.nodes[c.features[0].node].id
         report.dropped(feature, "CONSTRAINT_WITH_ITSELF", c.where, id=c.id, part=name)

@@ -196,9 +196,8 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
         sampled = _sampled(solver, part, there[part], away)
         if sampled is None:
             return FiniteFreedom(there[part].mobility, there[part].basis, True)
-        if (
-            sampled.shape[1] > 1
-        ):  # what an obstructed velocity left of itself is no motion, and does not go on
+        # What an obstructed velocity left of itself is no motion, and does not go on.
+        if sampled.shape[1] > 1:
             sampled = _survivors(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
         return FiniteFreedom(sampled.shape[1], sampled, True)
     tangent = _survivors(solver, part, there[part], away)
@@ -283,9 +282,8 @@ def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> 
     for _ in range(MOST_SAMPLES):
         kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP))
         u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
-        least = DIRECTION * max(
-            s[0], 1.0 / np.sqrt(freedom.mobility)
-        )  # a random direction's share of one motion
+        # A random direction's share of one motion.
+        least = DIRECTION * max(s[0], 1.0 / np.sqrt(freedom.mobility))
         if (found := int(np.sum(s > least))) <= len(kept) - SPARE:
             return u[:, :found]
     return None

@@ -77,9 +77,8 @@ def _frame_and_freedoms(record: DofRecord) -> tuple[Array, tuple[int, ...]] | st
         return "its slides stand askew to its rotations"
     free = tuple(i for i in range(3) if _lies_in(axes[:, i], slides))
     about = tuple(3 + i for i in range(3) if _lies_in(axes[:, i], turns))
-    if (
-        len(turns) == 2
-    ):  # two rotations are a cross joint: its middle body turns about one axis, the part about the other
+    # Two rotations are a cross joint: its middle body turns about one axis, the part about the other.
+    if len(turns) == 2:
         return "two rotations are no motion of their own"
     return axes, free + about
 

@@ -131,9 +131,8 @@ class Reach:
             slope = float(np.linalg.norm(twist))
             if slope < LEVEL:
                 return pose
-            if (
-                last is not None
-            ):  # Barzilai and Borwein's step, from the last one and what it did to the slope
+            # Barzilai and Borwein's step, from the last one and what it did to the slope.
+            if last is not None:
                 step, change = last[0], last[1] - twist
                 bend = float(step @ change)
                 trust = float(step @ step) / bend if bend > 0.0 else math.inf

@@ -133,9 +133,8 @@ def _split(
     faces = faces.copy()
     faces[face, corner] = index[np.reshape(number, -1)]
     normals = np.vstack([normals, np.zeros((int(fresh.sum()), 3))])
-    flat = (
-        np.einsum("ij,ij->i", own, own)[group] <= 0.0
-    )  # a face without area takes what its neighbours have together
+    # A face without area takes what its neighbours have together.
+    flat = np.einsum("ij,ij->i", own, own)[group] <= 0.0
     normals[index] = np.where(flat[:, None], mean.T[places[vertex]], own[group])
     return _unit(normals), faces, np.r_[origin, vertex[fresh]]
 

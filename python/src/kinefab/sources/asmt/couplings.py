@@ -66,10 +66,11 @@ def coupling_of(statement: Statement, joints: Iterable[Joint], bodies: Bodies) -
         second = _reach(statement.j.node, joints, bodies, _turns_about(j.translation, axis_i))
         kind = CouplingKind.RACK
         if statement.kind == "RackPinionJoint":
+            # The x of J seen from I, + radius angle = constant: I goes the other way.
             weights = (
                 -1.0,
                 statement.value,
-            )  # x of J seen from I, + radius angle = constant: I goes the other way
+            )
         else:
             weights = (-math.tau, -statement.value)  # 2 pi z - pitch angle = constant, z of J seen from I
     return _coupling(statement, kind, first, second, weights, bodies)

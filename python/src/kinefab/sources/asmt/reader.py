@@ -173,9 +173,8 @@ class _Reader:
             self._left(feature, where, unknown)
             return None
         word = NUMBERS.get(kind, "")
-        value = (
-            item.number(word, 0.0 if word == "offset" else None) if word else 0.0
-        )  # older files leave it out
+        # Older files leave it out.
+        value = item.number(word, 0.0 if word == "offset" else None) if word else 0.0
         second = item.number("radiusJ") * self.unit if kind == "GearJoint" else 0.0
         own = [(item.value("MarkerI"), item.value("MarkerJ")), (name, "")]
         ranged: dict[str, tuple[float, float]] = {}

@@ -72,9 +72,8 @@ class Packages:
                 Path(plain) if inside is not None and Path(plain).is_file() else None, inside is None
             )
         found = _inside(self.folder, plain, self._home())
-        if (
-            found.path is None
-        ):  # a name that climbs into a folder that was given, or one from there or the package's own
+        # A name that climbs into a folder that was given, or one from there or the package's own.
+        if found.path is None:
             others = [_inside(self.folder, plain, root) for root in self.given]
             for other in (*others, *(_inside(root, plain) for root in (self._home(), *self.given))):
                 if other.path is not None:

@@ -156,9 +156,8 @@ class _Parts:
                 for k, other in self._found.usages.items()
                 if (other.parent, other.child) == (usage.parent, usage.child)
             ]
-            if len(alike) == len(
-                wanted
-            ):  # the usages of one product in one assembly, in the order of the file
+            # The usages of one product in one assembly, in the order of the file.
+            if len(alike) == len(wanted):
                 return wanted[sorted(alike).index(link.usage or 0)]
             return None
         for names in (link.product, link.name):

@@ -201,9 +201,8 @@ def _linked(ask: Any, label: Any) -> list[Any]:
 
 
 def _name(label: Any) -> str:
-    if not label.IsAttribute(
-        TDataStd_Name.GetID_s()
-    ):  # the binding crashes where FindAttribute finds nothing
+    # The binding crashes where FindAttribute finds nothing.
+    if not label.IsAttribute(TDataStd_Name.GetID_s()):
         return ""
     name = TDataStd_Name()
     label.FindAttribute(TDataStd_Name.GetID_s(), name)

@@ -128,9 +128,8 @@ def empty_colliders(scene: UnityScene, report: Report) -> frozenset[tuple[int, i
 
 def _is_empty(collider: Collider) -> bool:
     if isinstance(collider, BoxCollider):
-        return (
-            sorted(abs(x) for x in collider.size)[1] == 0.0
-        )  # one side may be: Unity gives a quad such a box
+        # One side may be: Unity gives a quad such a box.
+        return sorted(abs(x) for x in collider.size)[1] == 0.0
     return isinstance(collider, (SphereCollider, CapsuleCollider)) and collider.radius <= 0.0
 
 

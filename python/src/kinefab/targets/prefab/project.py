@@ -73,9 +73,8 @@ def identity_of(target: Path, elsewhere: Elsewhere) -> str:
         if MANIFEST in names:
             taken.add(_prefab_guid(read_manifest(where)))
     own = read_manifest(target.with_name(name))
-    if (
-        own.files and not target.exists()
-    ):  # its prefab may be one of those: ``moved_away`` sees what is in the folder
+    # Its prefab may be one of those: ``moved_away`` sees what is in the folder.
+    if own.files and not target.exists():
         return own.identity
     for identity in (own.identity, ""):
         if guid(identity or name, "prefab") not in taken:

@@ -154,9 +154,8 @@ def _subtree_bodies(scene: Scene, groups: RigidGroups) -> list[int]:
 
 def _common_ancestor(scene: Scene, members: tuple[int, ...]) -> int | None:
     """The deepest node whose subtree holds all members; a member counts as its own ancestor."""
-    waiting = sorted(
-        -i for i in members
-    )  # a heap; parents stand before their children, so the last node climbs
+    # A heap; parents stand before their children, so the last node climbs.
+    waiting = sorted(-i for i in members)
     seen = set(members)
     while len(seen) > 1:
         node = -heapq.heappop(waiting)

@@ -32,9 +32,8 @@ def page(description: Mapping[str, Any], blob: Blob, words: str = "") -> str:
         "CLASS": "report" if words else "",
         "CODE": "\n".join(_asset(name) for name in CODE),
     }
-    return _PLACE.sub(
-        lambda match: values[match[1]], _asset("page.html")
-    )  # in one pass: no value is searched again
+    # In one pass: no value is searched again.
+    return _PLACE.sub(lambda match: values[match[1]], _asset("page.html"))
 
 
 def script_safe(value: Any) -> str:

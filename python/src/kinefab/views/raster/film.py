@@ -145,9 +145,8 @@ def by_pillow(kind: str) -> Writer:
         for pixels in images:
             whole = Image.new("RGB", (WIDTH, HEIGHT + 30), "white")
             whole.paste(Image.fromarray(pixels), (0, 30))
-            text = (
-                printable(title).encode("latin-1", "replace").decode("latin-1")
-            )  # all that the small font has
+            # All that the small font has.
+            text = printable(title).encode("latin-1", "replace").decode("latin-1")
             ImageDraw.Draw(whole).text((14, 8), text, fill=(29, 36, 44), font=font)
             titled.append(whole)
         out = BytesIO()

@@ -120,9 +120,8 @@ def _solid(
         mass, inertia = stated.mass, unit.inertia * (stated.mass / unit.mass)
     else:
         mass, inertia = unit.mass * density, unit.inertia * density
-    own = Pose(
-        stand.axes(rotation_of(solid.world[:3, :3]) @ frame.turn.T), stand.point(solid.world[:3, 3])
-    )  # of the prim: its shape may be turned, or stand elsewhere
+    # Of the prim: its shape may be turned, or stand elsewhere.
+    own = Pose(stand.axes(rotation_of(solid.world[:3, :3]) @ frame.turn.T), stand.point(solid.world[:3, 3]))
     if stated.moments is not None:
         axes = np.eye(3) if stated.axes is None else frame.turn.T @ stated.axes
         turned = own.rotation @ (frame.turn @ axes)

@@ -104,9 +104,8 @@ class FileIds:
         """Those of many objects, each (kind, identity), in this order."""
         counts, told = self._counts, list[bytes]()
         for known in objects:
-            count = counts[known] = (
-                counts.get(known, 0) + 1
-            )  # sixteen convex pieces are the same to the source
+            # Sixteen convex pieces are the same to the source.
+            count = counts[known] = counts.get(known, 0) + 1
             told.append(_told(*known, count))
         return [self._free(known, value & _POSITIVE) for known, value in zip(objects, xxh64_each(told))]
 

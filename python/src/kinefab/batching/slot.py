@@ -29,6 +29,7 @@ class Slot:
         self._stopped = False
 
     def convert(self, job: Job) -> Record:
+        """Do a job, once more where the process was lost; a record of the crash where it was lost again."""
         for _ in range(TRIES):
             if self._stopped:
                 break

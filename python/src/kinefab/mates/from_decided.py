@@ -138,6 +138,8 @@ Axles = Mapping[int, Sequence[tuple[int, Pair, float]]]
 
 
 def axles_of(edges: Sequence[Edge]) -> Axles:
+    """For each body the hinges and cylindrical pairs that it has: the other body, the pair, a length of its size,
+    metres."""
     found: defaultdict[int, list[tuple[int, Pair, float]]] = defaultdict(list)
     for edge in edges:
         pair = pair_of(edge.space, edge.scale)

@@ -49,6 +49,7 @@ class GzipStream:
             self._pool.shutdown(cancel_futures=True)
 
     def write(self, data: bytes) -> None:
+        """Append bytes; whole blocks are packed in threads."""
         self._crc = zlib.crc32(data, self._crc)
         self.size += len(data)
         self._waiting += data
@@ -59,6 +60,7 @@ class GzipStream:
         del self._waiting[:start]
 
     def finish(self) -> None:
+        """Write what is left, and the end of the member."""
         while self._packed:
             self._out.write(self._packed.popleft().result())
         self._out.write(_packed(bytes(self._waiting), zlib.Z_FINISH))

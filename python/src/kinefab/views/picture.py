@@ -75,6 +75,7 @@ class DrawnJoint:
 
 
 def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Placement]) -> list[DrawnJoint]:
+    """Joints of a written scene where they stand, Unity's axes, metres.  placements: of each object."""
     found: list[DrawnJoint] = []
     poses = [Pose(turn, place) for turn, place, _ in placements]
     for index, item in enumerate(objects):
@@ -146,6 +147,7 @@ def _triangles(
 
 
 def mesh_triangles(mesh: Mapping[str, Any], buffers: Sequence[bytes]) -> tuple[Array, IntArray]:
+    """Vertices of a written scene's mesh, shape (n, 3), metres, and its triangles, shape (m, 3)."""
     place = mesh["positions"]
     held: bytes = buffers[int(place["buffer"])]
     corners = np.frombuffer(held, "<f4", 3 * mesh["vertexCount"], place["offset"])

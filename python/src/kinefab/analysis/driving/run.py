@@ -45,6 +45,8 @@ class Run:
         return way
 
     def poses(self, frames: int) -> tuple[Array, Array]:
+        """Rotations, shape (frames, n + 1, 3, 3), and shifts, (frames, n + 1, 3), metres, of the block's bodies as in
+        ``State``."""
         rotation, shift = (
             np.concatenate([getattr(poses, name) for poses in self._poses])[:frames]
             for name in ("rotation", "shift")
@@ -52,6 +54,7 @@ class Run:
         return rotation, shift
 
     def column(self, i: int, frames: int) -> Array:
+        """The i-th driven coordinate's values so far, shape (frames,), metres and radians."""
         return np.concatenate(self._values)[:frames, i]
 
     def crossings(self) -> list[tuple[int, Array]]:

@@ -14,6 +14,7 @@ COUPLED = frozenset((ConstraintKind.GEAR, ConstraintKind.BELT, ConstraintKind.RA
 
 
 def screw(rows: Rows, c: Constraint, a: Side, b: Side, *, context: object) -> None:
+    """A cylindrical pair whose slide follows its turn: ``value`` metres a turn, counted from the exported pose."""
     need_directions(a, b)
     rows.parallel(a, b)
     rows.on_line(a, b)

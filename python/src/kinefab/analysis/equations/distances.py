@@ -15,6 +15,7 @@ PARALLEL_SINE = 1e-3
 
 
 def apart(rows: Rows, a: Side, b: Side, d: float) -> None:
+    """Two points d metres apart: one row, or three where d is zero."""
     if d == 0.0:
         rows.point(a, b)
     else:
@@ -22,6 +23,7 @@ def apart(rows: Rows, a: Side, b: Side, d: float) -> None:
 
 
 def off_line(rows: Rows, line: Side, point: Side, d: float) -> None:
+    """A point d metres off a line: one row, or two where d is zero."""
     if d == 0.0:
         rows.on_line(line, point)
     else:
@@ -29,6 +31,8 @@ def off_line(rows: Rows, line: Side, point: Side, d: float) -> None:
 
 
 def lines_apart(rows: Rows, a: Side, b: Side, d: float, reading: str | None) -> None:
+    """Two lines d metres apart.  reading: "parallel" (they are held parallel too) or "skew" (the common normal alone);
+    None: as they stand now."""
     normal = cross(a.z, b.z)
     if reading is None:
         reading = "parallel" if np.linalg.norm(normal) < PARALLEL_SINE else "skew"

@@ -33,6 +33,7 @@ class Numbers:
     size: Array
 
     def kept(self, which: IntArray) -> Numbers:
+        """These features alone, in this order."""
         own = self.node[which], self.point[which], self.direction[which], self.secondary[which]
         places: list[int] = which.tolist()
         return Numbers([self.features[i] for i in places], *own, self.size[which])
@@ -70,6 +71,7 @@ class Sides:
     framed: BoolArray
 
     def one(self, i: int) -> Side:
+        """The i-th feature as a side by itself."""
         f = self.features[i]
         own = self.p[i], self.z[i], self.x[i], self.y[i]
         return Side(int(self.body[i]), *own, f.kind, f.radius, f.half_angle, bool(self.framed[i]))

@@ -76,6 +76,8 @@ class Rows:
         d: float | Array = 0.0,
         weight: float = 1.0,
     ) -> None:
+        """Add ``weight`` times an atom between bodies a and b to a row; the arguments are the atom's own, WORLD at the
+        start pose, metres."""
         self._numbers.append((row, kind, weight, a, b, d))
         self._vectors.append((p_a, dir_a, k, p_b, dir_b))
 
@@ -94,6 +96,7 @@ class Rows:
         self.plane(a, a.y, b)
 
     def dot(self, a: Side, along_a: Array, b: Side, along_b: Array, d: float = 0.0) -> None:
+        """A row of its own: the cosine between a direction on each side, both unit, is d."""
         self.atom(
             self.row(False), Atom.DOT, a.body, b.body, p_a=a.p, dir_a=along_a, p_b=b.p, dir_b=along_b, d=d
         )

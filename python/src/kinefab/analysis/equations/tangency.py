@@ -16,6 +16,7 @@ from .rows import Rows, Side
 
 
 def tangent(rows: Rows, c: Constraint, a: Side, b: Side, *, context: object) -> None:
+    """Two surfaces that touch.  Raises UnknownPairing for a pairing without equations."""
     order = (
         FeatureKind.PLANE,
         FeatureKind.CYLINDER,

@@ -46,6 +46,7 @@ class Candidate:
 
     @property
     def six(self) -> tuple[Freedom, ...]:
+        """All six freedoms, TX..RZ."""
         return self.freedoms or freedoms_of(self.kind)
 
     @property

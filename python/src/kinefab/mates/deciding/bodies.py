@@ -71,6 +71,7 @@ class Bodies:
         return True
 
     def members(self) -> dict[int, list[int]]:
+        """Parts of each body, in their order."""
         found: defaultdict[int, list[int]] = defaultdict(list)
         for part in range(len(self.shapes)):
             found[self.of(part)].append(part)
@@ -113,4 +114,5 @@ def scale_of(contacts: list[Contact]) -> Scale:
 
 
 def spread(points: Array) -> float:
+    """Diagonal of the box of points, shape (n, 3), in their unit; 0 of none."""
     return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0

@@ -126,6 +126,7 @@ def _center_of(triangles: Array) -> Array:
 
 
 def axis_middle(r: Round) -> Array:
+    """The middle of a surface along its axis, shape (3,), in its frame."""
     return r.point + r.direction * (0.5 * (r.span[0] + r.span[1]))
 
 

@@ -32,6 +32,8 @@ class Scale:
     length: float
 
     def rows(self, points: Array, normals: Array) -> Array:
+        """What holds points along normals, shape (n, 3) each, WORLD: rows over the six of a twist about the centre,
+        turns times the length, shape (n, 6)."""
         return np.hstack([normals, np.cross(points - self.center, normals) / self.length])
 
 

@@ -49,6 +49,7 @@ class Twins:
         return next(iter(found.items())) if len(found) == 1 else (None, None)
 
     def correspond(self, a: int, b: int) -> bool:
+        """Whether two parts may take each other's place: one definition, or one volume and the same bores."""
         if self._kinds[a] == self._kinds[b]:
             return True
         first, second = self._bodies.shapes[a], self._bodies.shapes[b]

@@ -106,6 +106,7 @@ class Shape:
         return [self.rounds[i] for i in _meeting(self.round_boxes, low, high)]
 
     def flats_near(self, low: Array, high: Array) -> list[Flat]:
+        """Flats whose boxes meet this box, corners in the shape's frame."""
         return [self.flats[i] for i in _meeting(self.flat_boxes, low, high)]
 
 

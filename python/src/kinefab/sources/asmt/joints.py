@@ -207,6 +207,7 @@ def feature(marker: Marker, kind: FeatureKind) -> Feature:
 
 
 def limited(given: Range) -> Freedom:
+    """A freedom with a range, metres or radians; free where the range is none."""
     lower, upper = given
     return Freedom(Motion.FREE if given == UNLIMITED else Motion.LIMITED, lower, upper)
 

@@ -36,6 +36,7 @@ class _Told:
 
 
 def read_actuators(compiled: Compiled, report: Report) -> Driven:
+    """Drives and efforts of joints; what an actuator does that no joint says is told, with its numbers."""
     m, enums = compiled.model, compiled.mujoco
     driving: dict[int, list[_Told]] = {}
     driven = Driven()

@@ -85,6 +85,7 @@ def is_free(compiled: Compiled, body: int) -> bool:
 
 
 def planned(compiled: Compiled, body: int) -> list[Step]:
+    """The joints of a body as steps from its parent outwards, none where it is free or fixed."""
     return steps_of(axes_of(compiled, body))
 
 
@@ -139,6 +140,7 @@ def add_joint(
 
 
 def add_free(made: Made, compiled: Compiled, body: int, b: Carrier) -> None:
+    """The joint of a body that floats, from the world to its carrier."""
     j = int(compiled.model.body_jntadr[body])
     name = compiled.joints[j]
     made.joints.append(

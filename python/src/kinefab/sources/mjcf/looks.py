@@ -28,6 +28,8 @@ class Looks:
     _known: dict[tuple[object, ...], int] = field(default_factory=dict[tuple[object, ...], int])
 
     def of(self, geom: int, has_uvs: bool) -> tuple[int, ...]:
+        """The index of a geom's surface in the scene's, as a body has it: of its material, in its own colour where it
+        states one."""
         m = self.compiled.model
         material = int(m.geom_matid[geom])
         rgba = tuple(round(float(v), 7) for v in m.geom_rgba[geom])

@@ -34,6 +34,7 @@ KEPT_ALL_THE_SAME = (
 
 
 def tell_losses(compiled: Compiled, equalities: Equalities, report: Report) -> None:
+    """Tell what the compiled model holds that nothing reads."""
     m = compiled.model
     for kind, count in UNREAD:
         for i in range(int(getattr(m, count))):

@@ -35,6 +35,7 @@ class Inertial:
 
 
 def tensor(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> Array:
+    """The symmetric matrix, shape (3, 3), of these entries, kg m^2: xy is what stands off the diagonal."""
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 

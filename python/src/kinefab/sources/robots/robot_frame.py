@@ -29,6 +29,7 @@ def shape_placed(pose: Pose) -> Pose:
 
 
 def direction(v: Sequence[float] | Array) -> Array:
+    """A vector, or a point in metres, from the source's axes in the scene's, shape (3,)."""
     return TURN @ np.asarray(v, dtype=np.float64)
 
 

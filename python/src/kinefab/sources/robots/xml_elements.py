@@ -115,6 +115,10 @@ class Element:
         return default if found is None else found
 
     def parsed(self, name: str, text: str, count: int, infinite: bool = False) -> tuple[float, ...] | None:
+        """So many finite numbers; None, and a finding at the element, where the text is anything else.
+
+        infinite: a number beyond MAX_NUMBER is no bound, instead of a fault.
+        """
         words = text.replace(",", " ").split() if count > 1 else [text.strip()]
         wanted = "a number" if count == 1 else f"{count} numbers"
         try:

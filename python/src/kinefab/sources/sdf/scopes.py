@@ -166,6 +166,7 @@ def world_pose(scope: Scope) -> Pose:
 
 
 def entry_world_pose(entry: Entry) -> Pose:
+    """The pose of a link, joint or frame in the world, source axes, metres."""
     return world_pose(entry.owner) @ entry_pose(entry)
 
 

@@ -116,6 +116,7 @@ class Shapes:
         return self._users.get(shape, [])
 
     def add(self, shape: Shape) -> None:
+        """Put a meshed shape on every occurrence that shows it."""
         shared: dict[tuple[bool, float], list[tuple[int, tuple[Color | None, ...], tuple[Face, ...]]]] = {}
         for node in self.users(shape.number):
             kind = bool(self._placement.mirrored[node]), float(self._scales[node])

@@ -50,6 +50,7 @@ class Placing:
         return self._prims[key]
 
     def world(self, key: str, time: float) -> Array:
+        """World matrix of a prim at a time code, shape (4, 4), for column vectors; the identity for no key."""
         if not key:
             return np.eye(4)
         if (key, time) not in self._known:

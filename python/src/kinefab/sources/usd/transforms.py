@@ -199,6 +199,7 @@ def _is_typed(attribute: Any, value: Any) -> bool:
 
 
 def placed(parent: Array, local: Local) -> Array:
+    """World matrix of a prim below ``parent``'s, shape (4, 4), for column vectors, stage units."""
     return local.matrix if local.resets else parent if local is IDENTITY else parent @ local.matrix
 
 

@@ -131,6 +131,7 @@ class Values:
         return found
 
     def flag(self, prim: Any, name: str, default: bool) -> bool:
+        """A bool, or an int that is 0 or 1; the default, told, for anything else."""
         value = self.get(prim, name)
         if value is None:
             return default
@@ -140,6 +141,7 @@ class Values:
         return bool(value)
 
     def word(self, prim: Any, name: str, default: str) -> str:
+        """A string or token; the default, told, for anything else."""
         value = self.get(prim, name)
         if value is None:
             return default

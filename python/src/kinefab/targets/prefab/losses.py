@@ -31,6 +31,7 @@ SETTINGS = {"gravity", "fixedTimestep", "solverIterations", "solverVelocityItera
 
 
 def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
+    """Tell what the scene holds and the prefab, with these options, has no field for."""
     for entry in scene.gameObjects:
         for name in ("layer", "tag"):
             if word := getattr(entry, name):

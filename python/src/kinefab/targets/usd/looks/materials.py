@@ -23,6 +23,7 @@ class Materials:
         self._paths: dict[int, Any] = {}
 
     def path(self, surface: Surface) -> Any:
+        """Path of a surface's material, which is written when it is first asked for."""
         key = id(surface)
         if key not in self._paths:
             self._paths[key] = self._written(surface)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -134,12 +134,10 @@ class Scene(model.Scene):
             collision=shape,
         )
         if shapes:  # the node is there first, as a wrong parent or pose adds nothing
-            self.nodes[-1] = replace(self.nodes[-1], bodies=self._bodies(shapes, looks, density))
+            self.nodes[-1] = replace(self.nodes[-1], bodies=tuple(self._bodies(shapes, looks, density)))
         return index
 
-    def _bodies(
-        self, shapes: Sequence[Shape], looks: Surface | None, density: float | None
-    ) -> tuple[Body, ...]:
+    def _bodies(self, shapes: list[Shape], looks: Surface | None, density: float | None) -> list[Body]:
         """Bodies of a part, once their meshes and surfaces are added.  looks: of all of them, in the place of their own."""
         surfaces = () if looks is None else (len(self.surfaces),)
         self.surfaces += () if looks is None else (looks,)
@@ -151,7 +149,7 @@ class Scene(model.Scene):
                 number = len(self.meshes) - 1
             own = surfaces * max(1, len(each.surfaces)) or tuple(map(self._surface, each.surfaces))
             bodies.append(Body(each.name, number, own, density, each.reference))
-        return tuple(bodies)
+        return bodies
 
     def _surface(self, surface: Surface) -> int:
         """The index of a surface of a mesh, added where no other looks the same."""

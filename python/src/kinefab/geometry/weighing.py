@@ -46,14 +46,8 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
             if body.mesh is None or not body.weighed:
                 continue
             if body.mesh not in unit:
-                mesh = meshes[body.mesh]
-                found, closed = _unit_properties(mesh, f"{node.id}/{body.name}", node.where, report)
-                if found is not None and found.mass < 0.0:
-                    report.add("MESH_INSIDE_OUT", node.where, body=f"{node.id}/{body.name}")
-                    mesh = _inside_out(mesh)
-                    found = MassProperties(-found.mass, found.center, -found.inertia)
-                unit[body.mesh] = found
-                meshes[body.mesh] = replace(mesh, volume=found.mass) if found is not None and closed else mesh
+                label, mesh = f"{node.id}/{body.name}", meshes[body.mesh]
+                unit[body.mesh], meshes[body.mesh] = _turned_out(mesh, label, node.where, report)
             if unit[body.mesh] is not None:
                 solids.append(body)
         if solids:
@@ -71,6 +65,18 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
         first = assumed[0]
         report.add("DENSITY_ASSUMED", first.where, node=first.id, count=len(assumed), density=f"{density:g}")
     return replace(scene, nodes=nodes, meshes=meshes)
+
+
+def _turned_out(mesh: Mesh, label: str, where: str, report: Report) -> tuple[MassProperties | None, Mesh]:
+    """A mesh at density 1, and the mesh: its outside outward, its volume noted where it is closed."""
+    found, closed = _unit_properties(mesh, label, where, report)
+    if found is None:
+        return None, mesh
+    if found.mass < 0.0:
+        report.add("MESH_INSIDE_OUT", where, body=label)
+        mesh = _inside_out(mesh)
+        found = MassProperties(-found.mass, found.center, -found.inertia)
+    return found, replace(mesh, volume=found.mass) if closed else mesh
 
 
 def _told_apart(body: Body) -> _Kind:

@@ -143,19 +143,49 @@ def _spanning_tree(
     Pairs with the fewest freedoms come first, so that the tree has few unknowns.  Also returns the rows
     that the tree takes up.
     """
+    row_ends, pairs, rows_of = _joined(system, bodies, atoms, jacobian.shape[0])
+    ranks, spaces = _left_free(jacobian, row_ends, pairs, rows_of)
+    near = _forest(pairs, ranks, len(bodies))
+    tree: list[tuple[int, int, Array]] = []
+    taken: list[IntArray] = []
+    queue, seen = [-1], {-1}
+    for body in queue:
+        for p in near.get(body, []):
+            other = int(pairs[p, 0] + pairs[p, 1] - body)
+            if other not in seen:
+                seen.add(other)
+                queue.append(other)
+                tree.append((body, other, spaces[p, other]))
+                taken.append(rows_of[p])
+    for body in set(range(len(bodies))) - seen:  # joined by rows over three or more bodies only
+        tree.append((-1, body, np.eye(6)))
+    return tree, np.concatenate(taken) if taken else np.zeros(0, dtype=np.int64)
+
+
+def _joined(
+    system: System, bodies: IntArray, atoms: IntArray, rows: int
+) -> tuple[IntArray, IntArray, list[IntArray]]:
+    """The two bodies of each row, shape (rows, 2), places in ``bodies`` or -1; the pairs that some rows join by
+    themselves, shape (pairs, 2); and the rows of each pair.  rows: how many there are."""
     local = np.full(system.bodies, -1)
     local[bodies] = np.arange(len(bodies))
     number = np.unique(system.row[atoms], return_inverse=True)[1].reshape(-1)
     ends = np.sort(np.stack([local[system.body_a[atoms]], local[system.body_b[atoms]]], axis=1), axis=1)
-    row_ends = np.zeros((jacobian.shape[0], 2), dtype=np.int64)
+    row_ends = np.zeros((rows, 2), dtype=np.int64)
     row_ends[number] = ends
-    mixed = np.zeros(jacobian.shape[0], dtype=bool)
+    mixed = np.zeros(rows, dtype=bool)
     np.logical_or.at(mixed, number, np.any(row_ends[number] != ends, axis=1))
     plain = np.flatnonzero(~mixed)
     pairs, which = np.unique(row_ends[plain], axis=0, return_inverse=True)
     order = np.argsort(which.reshape(-1), kind="stable")
     starts = np.searchsorted(which.reshape(-1)[order], np.arange(len(pairs) + 1))
-    rows_of = [plain[order[starts[p] : starts[p + 1]]] for p in range(len(pairs))]
+    return row_ends, pairs, [plain[order[starts[p] : starts[p + 1]]] for p in range(len(pairs))]
+
+
+def _left_free(
+    jacobian: csr_matrix, row_ends: IntArray, pairs: IntArray, rows_of: list[IntArray]
+) -> tuple[IntArray, dict[tuple[int, int], Array]]:
+    """The rank of each pair's rows, and by pair and body what they leave free on that body, columns."""
     entries = jacobian.tocoo()
     body, column = np.divmod(entries.col, 6)
     on_ends = np.zeros((2, jacobian.shape[0], 6))
@@ -171,7 +201,12 @@ def _spanning_tree(
         for end in (0, 1):
             for n, p in enumerate(members):
                 spaces[p, int(pairs[p, end])] = vt[end, n, rank[end, n] :].T
-    forest = Partition(len(bodies) + 1)
+    return ranks, spaces
+
+
+def _forest(pairs: IntArray, ranks: IntArray, count: int) -> dict[int, list[int]]:
+    """For each body the pairs by which it hangs in the trees, the pairs of the highest rank taken first."""
+    forest = Partition(count + 1)
     near: dict[int, list[int]] = {}
     for p in np.argsort(-ranks, kind="stable"):
         i, j = int(pairs[p, 0]), int(pairs[p, 1])
@@ -179,17 +214,4 @@ def _spanning_tree(
             forest.join(i + 1, j + 1)
             near.setdefault(i, []).append(int(p))
             near.setdefault(j, []).append(int(p))
-    tree: list[tuple[int, int, Array]] = []
-    taken: list[IntArray] = []
-    queue, seen = [-1], {-1}
-    for body in queue:
-        for p in near.get(body, []):
-            other = int(pairs[p, 0] + pairs[p, 1] - body)
-            if other not in seen:
-                seen.add(other)
-                queue.append(other)
-                tree.append((body, other, spaces[p, other]))
-                taken.append(rows_of[p])
-    for body in set(range(len(bodies))) - seen:  # joined by rows over three or more bodies only
-        tree.append((-1, body, np.eye(6)))
-    return tree, np.concatenate(taken) if taken else np.zeros(0, dtype=np.int64)
+    return near

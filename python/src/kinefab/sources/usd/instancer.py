@@ -14,6 +14,7 @@ from .stage import OpenStage, matrix
 from .values import shown
 
 MAX_INSTANCES = 1_000_000
+UNEVEN = "its arrays have different lengths"
 _VECTORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 _TYPES: dict[str, Any] = {
     "protoIndices": Vt.IntArray,
@@ -35,17 +36,11 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
     time = Usd.TimeCode.Default()
     if instancer.GetPositionsAttr().Get(time) is None:
         time = Usd.TimeCode.EarliestTime()
+    if not _is_typed(prim, time, opened, report):
+        return
     indices = instancer.GetProtoIndicesAttr().Get(time)
     targets = instancer.GetPrototypesRel().GetForwardedTargets()
     where = opened.place(prim)
-    for name, kinds in _TYPES.items():
-        value = prim.GetAttribute(name).Get(time)
-        if value is not None and not isinstance(value, kinds):
-            detail = f"{name} cannot be {shown(value)}"
-            report.dropped(
-                f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name), detail=detail
-            )
-            return
     if not indices or not targets:
         return
     if len(indices) > MAX_INSTANCES:
@@ -53,27 +48,9 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
             f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=f"{len(indices)} instances"
         )
         return
-    moving = [name for name in _MOVING if prim.GetAttribute(name).GetNumTimeSamples() > 1]
-    if moving:
-        detail = f"its {', '.join(moving)} change over time; its instances stay as at the exported time"
-        report.dropped(f"animation of {str(prim.GetPath())[1:]}", "USD_FEATURE_DROPPED", where, detail=detail)
-    for name in _SPEEDS:
-        speeds = prim.GetAttribute(name).Get(time)
-        if isinstance(speeds, _VECTORS) and np.any(speeds):
-            report.dropped(
-                f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
-                detail="an instance starts at the speed that its prototype states",
-            )  # fmt: skip
-    detail = ""
-    found: Any = None
-    try:
-        found = instancer.ComputeInstanceTransformsAtTime(
-            time, time, UsdGeom.PointInstancer.ExcludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
-        )
-    except Tf.ErrorException as error:
-        detail = str(error)
-    if found is None or len(found) != len(indices):
-        detail = detail or "its arrays have different lengths"
+    _tell_lost(prim, time, opened, report)
+    found, detail = _transforms(instancer, time, len(indices))
+    if found is None:
         report.dropped(f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=detail)
         return
     mask = instancer.ComputeMaskAtTime(time) or [True] * len(indices)
@@ -89,3 +66,43 @@ def instances(prim: Any, opened: OpenStage, report: Report) -> Iterator[tuple[in
             )  # fmt: skip
             continue
         yield number, prototype, placing
+
+
+def _is_typed(prim: Any, time: Any, opened: OpenStage, report: Report) -> bool:
+    """Whether all arrays are of their types; the first that is not is told."""
+    for name, kinds in _TYPES.items():
+        value = prim.GetAttribute(name).Get(time)
+        if value is not None and not isinstance(value, kinds):
+            detail = f"{name} cannot be {shown(value)}"
+            report.dropped(
+                f"instancer {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name), detail=detail
+            )
+            return False
+    return True
+
+
+def _tell_lost(prim: Any, time: Any, opened: OpenStage, report: Report) -> None:
+    """What instances do over time, and the speeds that they start with."""
+    moving = [name for name in _MOVING if prim.GetAttribute(name).GetNumTimeSamples() > 1]
+    if moving:
+        detail = f"its {', '.join(moving)} change over time; its instances stay as at the exported time"
+        feature, where = f"animation of {str(prim.GetPath())[1:]}", opened.place(prim)
+        report.dropped(feature, "USD_FEATURE_DROPPED", where, detail=detail)
+    for name in _SPEEDS:
+        speeds = prim.GetAttribute(name).Get(time)
+        if isinstance(speeds, _VECTORS) and np.any(speeds):
+            report.dropped(
+                f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
+                detail="an instance starts at the speed that its prototype states",
+            )  # fmt: skip
+
+
+def _transforms(instancer: Any, time: Any, count: int) -> tuple[Any, str]:
+    """A matrix for each of ``count`` instances, or None and what is wrong."""
+    try:
+        found = instancer.ComputeInstanceTransformsAtTime(
+            time, time, UsdGeom.PointInstancer.ExcludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
+        )
+    except Tf.ErrorException as error:
+        return None, str(error) or UNEVEN
+    return (found, "") if found is not None and len(found) == count else (None, UNEVEN)

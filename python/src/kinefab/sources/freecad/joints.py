@@ -91,15 +91,7 @@ class JointReader:
         first, second = sides
         if first is None or second is None:
             return
-        value, other = thing.number("Distance"), thing.number("Distance2")
-        kind = KINDS.get(word, "")
-        if word == "Angle":
-            degrees = thing.number("Angle") if thing.has("Angle") else value
-            value = math.fmod(abs(math.radians(degrees)), math.tau)
-            if value < PARALLEL or math.tau - value < PARALLEL:
-                kind, value = "ParallelAxesJoint", 0.0
-        else:
-            value, other = value * UNIT, other * UNIT
+        kind, value, other = _stated(thing, word)
         if word == "Distance":
             elements = [element_of(side[0].owner, side[0].element, self._shapes) for side in (first, second)]
             found = distance_kind(
@@ -111,8 +103,6 @@ class JointReader:
             kind, value, swapped = found
             if swapped:
                 first, second = second, first
-        if word == "Belt":
-            other = -other
         if word in ("RackPinion", "Screw"):
             index = self._slides(first, second, assembly, joints)
             if index == 0:
@@ -197,6 +187,18 @@ class JointReader:
     def _left(self, thing: Thing, reason: str) -> None:
         label = shown(thing.label)
         self._report.dropped(f"joint {label}", "FREECAD_JOINT_DROPPED", thing.where, reason=reason)
+
+
+def _stated(thing: Thing, word: str) -> tuple[str, float, float]:
+    """The solver's joint ("" for Distance, whose elements choose it) and its two numbers, radians or metres.  word: its type."""
+    kind, value, other = KINDS.get(word, ""), thing.number("Distance"), thing.number("Distance2")
+    if word == "Angle":
+        degrees = thing.number("Angle") if thing.has("Angle") else value
+        turn = math.fmod(abs(math.radians(degrees)), math.tau)
+        if turn < PARALLEL or math.tau - turn < PARALLEL:
+            return "ParallelAxesJoint", 0.0, other
+        return kind, turn, other
+    return kind, value * UNIT, -other * UNIT if word == "Belt" else other * UNIT
 
 
 def joints_of(target: Thing | None) -> Iterator[Thing]:

@@ -58,17 +58,13 @@ def read_clips(found: Found, nodes: Sequence[Node], opened: OpenStage, report: R
     for number, paths in moved.items():
         node = nodes[number]
         told |= paths
+        detail = ""
         if node.mass is not None and not node.dynamics.kinematic:
-            report.dropped(
-                f"animation of {node.id}", "USD_FEATURE_DROPPED", node.where,
-                detail="physics moves this body; it starts where the animation does",
-            )  # fmt: skip
-            continue
-        if not placing.is_finite(keys[number], above[number], times):
-            report.dropped(
-                f"animation of {node.id}", "USD_FEATURE_DROPPED", node.where,
-                detail="its samples are not finite; it stays as at the exported time",
-            )  # fmt: skip
+            detail = "physics moves this body; it starts where the animation does"
+        elif not placing.is_finite(keys[number], above[number], times):
+            detail = "its samples are not finite; it stays as at the exported time"
+        if detail:
+            report.dropped(f"animation of {node.id}", "USD_FEATURE_DROPPED", node.where, detail=detail)
             continue
         for own, span in zip(tracks, spans):
             track = _track(number, keys[number], above[number], span.codes, placing, opened)

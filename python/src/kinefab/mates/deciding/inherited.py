@@ -10,7 +10,7 @@ nothing would move then.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -101,8 +101,9 @@ def inherit(
             beside[a].add(b)
             beside[b].add(a)
     found = {edge.pair: edge for edge in edges}
+    twinning = _Twinning(bodies, copies, kinds, known, beside)
     for doubt in doubts:
-        taken = _taken(bodies, doubt, copies, kinds, known, beside)
+        taken = _taken(bodies, doubt, list(twinning.offers(doubt)))
         if taken is not None:
             found[taken.pair] = taken
     return [found[pair] for pair in sorted(found)]
@@ -175,37 +176,73 @@ def _doubts(
     return [found[pair] for pair in sorted(found)]
 
 
-def _taken(
-    bodies: Bodies,
-    doubt: _Doubt,
-    copies: Copies,
-    kinds: Sequence[int],
-    known: dict[int, list[Sure]],
-    beside: dict[int, set[int]],
-) -> Edge | None:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Offer:
+    """How a sure joint would let two parts move, a copy and its other part.  space, scale: see Edge."""
+
+    sure: Sure
+    copy: int
+    other: int
+    space: Array
+    scale: Scale
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Twinning:
+    """kinds: of each part its definition.  known: sure joints by the first part's.  beside: of each part those near it
+    whose joint with it is in doubt."""
+
+    bodies: Bodies
+    copies: Copies
+    kinds: Sequence[int]
+    known: Mapping[int, Sequence[Sure]]
+    beside: Mapping[int, set[int]]
+
+    def offers(self, doubt: _Doubt) -> Iterator[_Offer]:
+        """What surer joints of its parts' copies would make of a doubt, where its own contacts let it move so."""
+        contacts = [] if doubt.edge is None else doubt.edge.contacts
+        for copy, other in (both for pair in doubt.parts for both in (pair, pair[::-1])):
+            for sure, move in self._surer(copy, doubt.confidence):
+                if not self._corresponds(sure, copy, other, move):
+                    continue
+                space, scale = move.twists(sure.space), move.scale(sure.scale)
+                if _is_open(self.bodies, doubt.pair, contacts, space, scale):
+                    yield _Offer(sure, copy, other, space, scale)
+
+    def _surer(self, copy: int, confidence: float) -> Iterator[tuple[Sure, Move]]:
+        """Joints of a part's copies that are surer than this, and what takes the copy to the part."""
+        for kind in self.copies.like(copy):
+            for sure in self.known.get(kind, ()):
+                if sure.part != copy and sure.confidence >= confidence + LESS:
+                    move = self.copies.move(sure.part, copy)
+                    if move is not None:
+                        yield sure, move
+
+    def _corresponds(self, sure: Sure, copy: int, other: int, move: Move) -> bool:
+        """Whether the other part of a copy is to it what the other part of its twin is to that."""
+        bodies, kinds = self.bodies, self.kinds
+        if kinds[sure.other] == kinds[other] and sure.other != other:
+            carried = self.copies.move(sure.other, other)
+            if carried is not None and _same_move(carried, move, bodies.shapes[other]):
+                return True
+        elif sure.other != other and kinds[other] not in self.copies.like(sure.other):
+            return False
+        body = bodies.of(other)
+        parts = [p for p in sorted(self.beside.get(copy, {other})) if bodies.of(p) == body]
+        shapes = [bodies.shapes[p] for p in parts or [other]]
+        return _guided(bodies, sure, move, bodies.shapes[copy], shapes)
+
+
+def _taken(bodies: Bodies, doubt: _Doubt, offers: Sequence[_Offer]) -> Edge | None:
     """The joint of the twins; None where there are none, or they do not agree."""
+    if not offers:
+        return None
+    first, *more = offers
+    sure, copy, other, space, scale = first.sure, first.copy, first.other, first.space, first.scale
+    if any(not _same(space, scale, offer.space, offer.scale) for offer in more):
+        return None
     own = doubt.edge
     contacts = [] if own is None else own.contacts
-    found: list[tuple[Array, Scale, Sure, tuple[int, int]]] = []
-    for pair in doubt.parts:
-        for copy, other in (pair, pair[::-1]):
-            for kind in copies.like(copy):
-                for sure in known.get(kind, ()):
-                    if sure.part == copy or sure.confidence < doubt.confidence + LESS:
-                        continue
-                    move = copies.move(sure.part, copy)
-                    if move is None or not _corresponds(
-                        bodies, sure, copy, other, move, copies, kinds, beside
-                    ):
-                        continue
-                    space, scale = move.twists(sure.space), move.scale(sure.scale)
-                    if _is_open(bodies, doubt.pair, contacts, space, scale):
-                        found.append((space, scale, sure, (copy, other)))
-    if not found:
-        return None
-    space, scale, sure, (copy, other) = found[0]
-    if any(not _same(space, scale, more, at) for more, at, _, _ in found[1:]):
-        return None
     a = copy if bodies.of(copy) == doubt.pair[0] else other
     b = other if a == copy else copy
     twin = Twin(sure.part, sure.other, copy, other, tuple(sure.contacts))
@@ -223,29 +260,6 @@ def _taken(
         if not own.one_sided and not _within(seen, space):
             taken.otherwise = np.linalg.qr(seen)[0]
     return taken
-
-
-def _corresponds(
-    bodies: Bodies,
-    sure: Sure,
-    copy: int,
-    other: int,
-    move: Move,
-    copies: Copies,
-    kinds: Sequence[int],
-    beside: dict[int, set[int]],
-) -> bool:
-    """Whether the other part of a copy is to it what the other part of its twin is to that."""
-    if kinds[sure.other] == kinds[other] and sure.other != other:
-        carried = copies.move(sure.other, other)
-        if carried is not None and _same_move(carried, move, bodies.shapes[other]):
-            return True
-    elif sure.other != other and kinds[other] not in copies.like(sure.other):
-        return False
-    body = bodies.of(other)
-    parts = [p for p in sorted(beside.get(copy, {other})) if bodies.of(p) == body]
-    shapes = [bodies.shapes[p] for p in parts or [other]]
-    return _guided(bodies, sure, move, bodies.shapes[copy], shapes)
 
 
 def _same_move(a: Move, b: Move, shape: Shape) -> bool:

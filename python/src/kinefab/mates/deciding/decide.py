@@ -213,20 +213,18 @@ def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
             chosen.append(edge)
         else:
             inside.append(edge)
-    stops: list[Edge] = []
     final: list[Edge] = []
     for own, others in parted(len(bodies.shapes), chosen, inside):
-        kept, stopped = _settle_piece(own, others)
-        final += kept
-        stops += stopped
-    return Decided(bodies, sorted(final, key=lambda e: e.pair), stops)
+        final += _settle_piece(own, others)
+    return Decided(bodies, sorted(final, key=lambda e: e.pair))
 
 
-def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], list[Edge]]:
+def _settle_piece(edges: list[Edge], resting: list[Edge]) -> list[Edge]:
+    """The joints of one machine: those that are doubtful as they let it move, and of what rests all but what would stop it."""
     members = sorted({b for e in [*edges, *resting] for b in e.pair})
     doubtful = [e for e in edges if e.otherwise is not None]
     if len(members) > DENSE or not (doubtful or resting):
-        return [*edges, *resting], []
+        return [*edges, *resting]
     motions = motions_of(members, edges)
     if doubtful and not motions.shape[1]:
         for edge in doubtful:
@@ -236,16 +234,14 @@ def _settle_piece(edges: list[Edge], resting: list[Edge]) -> tuple[list[Edge], l
             if not _moves(members, edge, moving):
                 _swap(edge)
         motions = motions_of(members, edges)
-    stops: list[Edge] = []
     base = edges[0].scale
     for edge in resting:
         left = motions @ null_space(held_rows(members, edge, base) @ motions)
         if motions.shape[1] and not left.shape[1]:
-            stops.append(edge)
-            continue
+            continue  # a stop, as of a drawer that is closed
         edges.append(edge)
         motions = left
-    return edges, stops
+    return edges
 
 
 def _swap(edge: Edge) -> None:

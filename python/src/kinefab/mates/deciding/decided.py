@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from .bodies import Bodies
 from .edge import Edge
@@ -10,8 +10,7 @@ from .edge import Edge
 
 @dataclass(slots=True, eq=False)
 class Decided:
-    """bodies: with all fixings.  edges: the joints between them, those left out not among them."""
+    """bodies: with all fixings.  edges: the joints between them, without the seats that turned out to be stops."""
 
     bodies: Bodies
     edges: list[Edge]
-    stops: list[Edge] = field(default_factory=list[Edge])

@@ -9,7 +9,7 @@ from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
 from .analysis.driving.mechanism import Branching, Coordinate, Mechanism, Stop, Trajectory
 from .analysis.joints.dof_records import joints_of_dof_records
-from .analysis.joints.ordered import check_limits
+from .analysis.joints.stated_limits import check_limits
 from .analysis.joints.welding import welded
 from .diagnostics import Report
 from .model import Scene

@@ -16,7 +16,7 @@ from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
 from .analysis.joints.dof_records import joints_of_dof_records
-from .analysis.joints.ordered import check_limits
+from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
 from .geometry.collision import collision_meshes

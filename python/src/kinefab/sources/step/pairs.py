@@ -31,6 +31,16 @@ COUPLED = ("GEAR_PAIR", "RACK_AND_PINION_PAIR")
 WITHOUT_FLAGS = (*COUPLED, "SCREW_PAIR")
 _KINDS = sorted((*OF_PAIR, *COUPLED, "LOW_ORDER_KINEMATIC_PAIR"), key=len, reverse=True)
 _PAIR = re.compile(r"^(\w+?_PAIR)(?:_WITH_(RANGE|PIN|PIN_AND_RANGE|MOTION_COUPLING))?$")
+_HEADS = (
+    b"(",
+    b"KINEMATIC",
+    b"CONTEXT_DEPENDENT_KIN",
+    b"PRODUCT",
+    b"NEXT_ASSEMBLY",
+    b"SHAPE_DEF",
+    b"RIGID_LINK",
+)
+"""How entities begin that pairs, their links or their usages are made of."""
 PARALLEL = 1e-9
 
 
@@ -85,28 +95,7 @@ class Mechanism:
 
 def mechanism_of(text: Part21) -> Mechanism:
     """The pairs and links that a file states; what is damaged is among the faults."""
-    known: dict[str, dict[int, dict[str, list[Value]]]] = defaultdict(dict)
-    for instance in text.instances:
-        head = text.text(instance)[:40].lstrip().upper()
-        if not head.startswith(
-            (
-                b"(",
-                b"KINEMATIC",
-                b"CONTEXT_DEPENDENT_KIN",
-                b"PRODUCT",
-                b"NEXT_ASSEMBLY",
-                b"SHAPE_DEF",
-                b"RIGID_LINK",
-            )
-        ):
-            if b"_PAIR" not in head:
-                continue
-        try:
-            for name, arguments in (given := entity(text, instance)).items():
-                known[name][instance] = {**given, "": arguments}
-        except EntityError as error:
-            if b"_PAIR" in head:
-                known["damaged"][instance] = {"": [str(error)]}
+    known = _kinematics(text)
     found = Mechanism()
     for instance, given in known["damaged"].items():
         found.faults.append((f"#{instance}", text_of(given[""], 0)))
@@ -127,6 +116,23 @@ def mechanism_of(text: Part21) -> Mechanism:
     found.pairs.sort(key=lambda pair: pair.number)
     _links(known, found)
     return found
+
+
+def _kinematics(text: Part21) -> defaultdict[str, dict[int, dict[str, list[Value]]]]:
+    """For each word the entities that are one, by number: their arguments by word, and under "" those of this word.  Pairs that
+    no entity can be made of are ``damaged``, with what is wrong."""
+    known: dict[str, dict[int, dict[str, list[Value]]]] = defaultdict(dict)
+    for instance in text.instances:
+        head = text.text(instance)[:40].lstrip().upper()
+        if not head.startswith(_HEADS) and b"_PAIR" not in head:
+            continue
+        try:
+            for name, arguments in (given := entity(text, instance)).items():
+                known[name][instance] = {**given, "": arguments}
+        except EntityError as error:
+            if b"_PAIR" in head:
+                known["damaged"][instance] = {"": [str(error)]}
+    return known
 
 
 def _pair(text: Part21, instance: int, given: dict[str, list[Value]], turn: float) -> Pair:

@@ -150,7 +150,10 @@ def program(request, tmp_path_factory) -> Path:
     ]
     command += [
         str(FOLDER / SCRIPT),
-        *(str(OWN / f"{name}.cs") for name in ("MotionStandIns", "GearPair", "Slide", "Release")),
+        *(
+            str(OWN / f"{name}.cs")
+            for name in ("MotionStandIns", "GearPair", "Slide", "Release", "Recompiled")
+        ),
     ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -168,11 +171,17 @@ def program(request, tmp_path_factory) -> Path:
         "moved slide",
         "from slide",
         "moved screw",
+        "late moved",
+        "late hinge",
+        "recompiled moved",
+        "recompiled hinge",
+        "recompiled configurable",
     ],
 )
 def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
-    pose of the prefab and not from where their anchors meet."""
+    pose of the prefab and not from where their anchors meet; a component that is enabled late, and one whose script is compiled
+    anew while the editor plays."""
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3

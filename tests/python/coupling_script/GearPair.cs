@@ -24,24 +24,36 @@ public static partial class GearPair
     {
         var frame = Body("Frame", true);
         var first = Body("First", false);
-        var second = Body("Second", how == "moved");
+        var second = Body("Second", how.EndsWith("moved"));
         var source = Hinge(first, frame, new Vector3(0, 0, 1), new Vector3(0.1f, 0.2f, 0.3f));
-        Joint driven = how == "configurable" ? (Joint)Configurable(second, frame) : Hinge(second, frame, new Vector3(0, 1, 0), new Vector3(-0.1f, 0.2f, 0.3f));
+        Joint driven = how.EndsWith("configurable") ? (Joint)Configurable(second, frame) : Hinge(second, frame, new Vector3(0, 1, 0), new Vector3(-0.1f, 0.2f, 0.3f));
         var coupling = second.AddComponent<KinefabCoupling>();
         coupling.driven = driven;
-        coupling.drivenCoordinate = how == "configurable" ? KinefabCoupling.Coordinate.AngularX : KinefabCoupling.Coordinate.Angle;
+        coupling.drivenCoordinate = how.EndsWith("configurable") ? KinefabCoupling.Coordinate.AngularX : KinefabCoupling.Coordinate.Angle;
         coupling.terms = new[] { new KinefabCoupling.Term { joint = source, coordinate = KinefabCoupling.Coordinate.Angle, ratio = (float)Ratio } };
         coupling.offset = (float)Offset;
+        if (how.StartsWith("late"))
+        {
+            Call(coupling, "Awake"); // disabled in the prefab, and enabled while the source stands elsewhere
+            Follow(first, frame, Turn(new double[] { 0, 0, 1 }, 50), source);
+            Call(coupling, "OnEnable");
+        }
+
         Call(coupling, "Start");
         double worst = 0;
-        for (int i = 1; i <= 1000; i++)
+        for (int i = how.StartsWith("late") ? 56 : 1; i <= 1000; i++)
         {
+            if (i == 500 && how.StartsWith("recompiled"))
+            {
+                Recompiled.Run(coupling);
+            }
+
             double q = 0.9 * i; // two and a half turns, six of the other
             frame.transform.rotation = Turn(new double[] { 0, 0.6, 0.8 }, 0.3 * i);
             frame.transform.position = new Vector3(0.001f * i, 0, -0.002f * i);
             Follow(first, frame, Turn(new double[] { 0, 0, 1 }, q), source);
             Call(coupling, "FixedUpdate");
-            if (how == "hinge")
+            if (how.EndsWith("hinge"))
             {
                 var hinge = (HingeJoint)driven;
                 if (!hinge.useSpring || hinge.useMotor || hinge.spring.spring <= 0)
@@ -51,7 +63,7 @@ public static partial class GearPair
 
                 Follow(second, frame, Turn(new double[] { 0, 1, 0 }, hinge.spring.targetPosition), driven);
             }
-            else if (how == "configurable")
+            else if (how.EndsWith("configurable"))
             {
                 var joint = (ConfigurableJoint)driven;
                 var goal = joint.targetRotation; // of the connected frame in the own one, along the joint's axes: the inverse turn

@@ -42,22 +42,29 @@ namespace Kinefab
         /// <summary>As stiffness; the default settles without swinging.</summary>
         public float damping = 200;
 
+        // Recompiling while the editor plays keeps what can be serialized and loses the rest.
         private Reading _driven;
         private Reading[] _terms;
-        private Action _release;
         private bool _isReady;
+        private Action _release;
+
+        private void Awake()
+        {
+            Prepare(); // also where the component is disabled: the coordinates are zero where the joints are made
+        }
+
+        private void OnEnable()
+        {
+            if (_isReady && driven != null)
+            {
+                _release = _release ?? Release(driven);
+            }
+        }
 
         private void Start()
         {
-            if (driven == null || !Array.TrueForAll(terms, t => t.joint != null))
-            {
-                return;
-            }
-
-            _driven = new Reading(driven, drivenCoordinate);
-            _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.coordinate));
-            _release = Release(driven);
-            _isReady = true;
+            Prepare(); // of a component that a script added, whose fields were empty before
+            OnEnable();
         }
 
         private void OnDisable()
@@ -66,6 +73,18 @@ namespace Kinefab
             {
                 _release();
             }
+        }
+
+        private void Prepare()
+        {
+            if (_isReady || driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            {
+                return;
+            }
+
+            _driven = new Reading(driven, drivenCoordinate);
+            _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.coordinate));
+            _isReady = true;
         }
 
         private void FixedUpdate()
@@ -210,14 +229,16 @@ namespace Kinefab
         }
 
         /// <summary>One coordinate of a joint: where it stands, and where its body would stand at another value.</summary>
+        [Serializable]
         private sealed class Reading
         {
-            private readonly Joint _joint;
-            private readonly bool _isAngle;
-            private readonly Vec _axis;
-            private readonly Vec _anchor;
-            private readonly Quat _start;
-            private readonly Vec _startAt;
+            private Joint _joint;
+            private bool _isAngle;
+            private Vec _axis;
+            private Vec _anchor;
+            private Quat _start;
+            private Vec _startAt;
+            private double _zero;
             private double _last;
 
             public Reading(Joint joint, Coordinate coordinate)
@@ -229,11 +250,11 @@ namespace Kinefab
                 Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt);
                 _start = connected.Inverse() * own;
                 _startAt = connected.Inverse() * (ownAt - connectedAt);
-                Zero = _isAngle ? 0 : Apart(connected, connectedAt, own, ownAt);
+                _zero = _isAngle ? 0 : Apart(connected, connectedAt, own, ownAt);
             }
 
             /// <summary>Metres by which the anchors stood apart at the start: there a slide is at zero, as an angle is.</summary>
-            public double Zero { get; }
+            public double Zero => _zero;
 
             /// <summary>Degrees, over whole turns, or metres.</summary>
             public double Value()
@@ -298,9 +319,10 @@ namespace Kinefab
             }
         }
 
+        [Serializable]
         private struct Vec
         {
-            public readonly double X, Y, Z;
+            public double X, Y, Z;
 
             public Vec(double x, double y, double z)
             {
@@ -327,10 +349,11 @@ namespace Kinefab
             public static Vec operator *(double s, Vec a) => new Vec(s * a.X, s * a.Y, s * a.Z);
         }
 
+        [Serializable]
         private struct Quat
         {
-            public readonly Vec V;
-            public readonly double W;
+            public Vec V;
+            public double W;
 
             public Quat(Vec v, double w)
             {

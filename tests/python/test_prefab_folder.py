@@ -83,6 +83,23 @@ def test_a_file_of_theirs_in_the_way_is_told_and_kept(tmp_path, name):
     assert files(tmp_path) == {f"Robot/{name}": b"theirs"} and hidden(tmp_path) == []
 
 
+def test_what_a_package_brought_is_updated_in_place(tmp_path):
+    """It leaves no manifest, as hidden files of a project may be lost; guids are Kinefab's own."""
+    target = tmp_path / "Robot.prefab"
+    kinefab.export(box_scene("Base", "Arm"), target)
+    (tmp_path / "Robot" / MANIFEST).unlink()
+    settings = tmp_path / "Robot" / "Meshes" / "Base.asset.meta"
+    settings.write_bytes(settings.read_bytes() + b"timeCreated: 7\n")
+    before = files(tmp_path)
+    kinefab.export(box_scene("Base", "Hand", size=0.2), target)
+    after = files(tmp_path)
+    changed = {name for name in before if after[name] != before[name]}
+    assert changed == {"Robot.prefab", "Robot/Meshes/Base.asset"}
+    assert any("Hand" in name for name in after.keys() - before.keys())
+    kinefab.export(box_scene("Base", "Hand", size=0.2), target)
+    assert files(tmp_path) == after
+
+
 @pytest.mark.posix
 def test_a_link_in_place_of_the_folder_is_refused(tmp_path):
     (tmp_path / "elsewhere").mkdir()

@@ -35,6 +35,7 @@ def put_in_place(
         complete(target, folder)
         remove_leftovers(parent, folder)
         ours = read_manifest(folder).ours
+        ours |= _known_by_guid(files, parent, ours)
         _refuse_foreign(files, parent, folder, ours, report)
         if moved := moved_away(files, target, ours):
             raise KinefabError([report.add("TARGET_ASSET_MOVED", path=p, asset=parent / a) for p, a in moved])
@@ -50,6 +51,13 @@ def put_in_place(
             shutil.rmtree(staging, ignore_errors=True)
         sync_directory(parent)
     return tuple(parent / file.path for file in files if file.content is not None)
+
+
+def _known_by_guid(files: Sequence[AssetFile], parent: Path, ours: frozenset[str]) -> frozenset[str]:
+    """What stands in an asset's place with the asset's own guid: a package brought it, or the manifest was lost on its way."""
+    held = (file for file in files if file.content is not None and file.path not in ours)
+    known = [file.path for file in held if guid_in(parent / meta_of(file.path)) == file.guid]
+    return frozenset([*known, *map(meta_of, known)])
 
 
 def _refuse_foreign(

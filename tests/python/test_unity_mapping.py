@@ -149,11 +149,18 @@ def test_a_mesh_collider_stays_hollow_where_nothing_moves_it_by_force(tmp_path):
     assert outcomes(result, Outcome.APPROXIMATED) == set()
 
 
-def test_a_flat_collision_mesh_is_told(tmp_path):
-    flat = replace(CUBE, vertices=CUBE.vertices * [1, 1, 0])
-    scene = replace(arm(colliders=(Collider(ColliderKind.HULL, mesh=0),)), meshes=[flat])
-    _, result = written(scene, tmp_path)
-    assert "COLLIDER_FLAT_DROPPED" in outcomes(result, Outcome.DROPPED)
+@pytest.mark.parametrize("kind", [ColliderKind.HULL, ColliderKind.MESH, ColliderKind.PIECES])
+def test_a_flat_collision_mesh_collides_as_the_box_about_it(tmp_path, kind):
+    """As one does that the export chooses: a sheet that collides with nothing falls through the floor."""
+    flat = replace(CUBE, vertices=CUBE.vertices * [1, 2, 0] + [0.3, 0, 0])
+    shape = Collider(kind, mesh=0, name="sheet", trigger=True)
+    content, result = written(replace(arm(colliders=(shape,)), meshes=[flat]), tmp_path)
+    box = component(content, "Arm", "BoxCollider")
+    low, high = flat.vertices.min(axis=0), flat.vertices.max(axis=0)
+    assert box["size"] == pytest.approx(list(high - low)) and box["isTrigger"] is True
+    assert box["center"] == pytest.approx([-0.5 * (low + high)[0], *(0.5 * (low + high))[1:]])
+    assert outcomes(result, Outcome.APPROXIMATED) == {"COLLIDER_FLAT_AS_BOX"}
+    assert outcomes(result, Outcome.DROPPED) == set()
 
 
 def test_dynamics_of_a_body(tmp_path):

@@ -181,7 +181,13 @@ class _Builder:
         for collider in node.colliders or ():
             material = self._physics_material(collider)
             for placed in stated_collider(
-                collider, self.colliders, self._dynamic(index), material, node.id, self.report
+                collider,
+                self.colliders,
+                self.scene.meshes,
+                self._dynamic(index),
+                material,
+                node.id,
+                self.report,
             ):
                 holder = parent
                 if placed.pose is not None:

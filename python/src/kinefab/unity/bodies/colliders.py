@@ -67,10 +67,15 @@ def chosen_colliders(
     if shape is not ColliderShape.BOX and shape is not ColliderShape.HULL and index in colliders.pieces_of:
         return [MeshCollider(mesh=piece, convex=True) for piece in colliders.pieces_of[index]]
     if shape is ColliderShape.BOX or index not in colliders.hull_of:
-        low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-        center = vector3(frames.point(0.5 * (low + high)))
-        return [BoxCollider(center=center, size=vector3(np.subtract(high, low)))]
+        return [_box_about(mesh)]
     return [MeshCollider(mesh=colliders.hull_of[index], convex=True)]
+
+
+def _box_about(mesh: Mesh, **common: Any) -> BoxCollider:
+    """Along the mesh's own axes.  common: fields of every collider."""
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    center = vector3(frames.point(0.5 * (low + high)))
+    return BoxCollider(**common, center=center, size=vector3(np.subtract(high, low)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,12 +96,18 @@ def _is_flat(collider: Collider, dynamic: bool) -> bool:
 
 
 def stated_collider(
-    collider: Collider, colliders: Colliders, dynamic: bool, material: int | None, node: str, report: Report
+    collider: Collider,
+    colliders: Colliders,
+    meshes: Sequence[Mesh],
+    dynamic: bool,
+    material: int | None,
+    node: str,
+    report: Report,
 ) -> list[PlacedCollider]:
     """A collider that the source states, of several parts where it is convex pieces; the report tells what Unity has no
     shape for.
 
-    material: index of its physics material.  node: id, for the report.
+    meshes: of the scene.  material: index of its physics material.  node: id, for the report.
     """
     feature = f"collider {node}/{collider.name or collider.kind.value}"
     common: dict[str, Any] = {
@@ -140,8 +151,8 @@ def stated_collider(
         report.kept(feature, collider.where)
         return [_meshed(MeshCollider(**common, mesh=collider.mesh), collider)]
     if collider.mesh not in colliders.hull_of:
-        report.dropped(feature, "COLLIDER_FLAT_DROPPED", collider.where, collider=feature)
-        return []
+        report.approximated(feature, "COLLIDER_FLAT_AS_BOX", collider.where, collider=feature)
+        return [_meshed(_box_about(meshes[collider.mesh], **common), collider)]
     if collider.kind is ColliderKind.MESH:
         report.approximated(feature, "COLLIDER_MESH_AS_HULL", collider.where, collider=feature)
     else:
@@ -152,7 +163,7 @@ def stated_collider(
     return [_meshed(MeshCollider(**common, mesh=mesh, convex=True), collider) for mesh in convex]
 
 
-def _meshed(component: MeshCollider, collider: Collider) -> PlacedCollider:
+def _meshed(component: MeshCollider | BoxCollider, collider: Collider) -> PlacedCollider:
     pose, scale = collider.pose, collider.scale
     at_home = not pose.translation.any() and np.abs(pose.rotation - np.eye(3)).max() < ALONG
     return PlacedCollider(component, None if at_home and scale == ONE else pose, scale)

@@ -285,6 +285,27 @@ def test_a_prefab_keeps_its_guids_to_itself_when_it_is_renamed(tmp_path, came):
     assert len(Project(assets).paths) == 2 * len(old)
 
 
+def test_a_prefab_renamed_with_its_folder_is_updated_in_place(tmp_path):
+    """In the editor, which keeps guids: scenes and variants refer to it by them.  Whoever takes its old name gets others."""
+    assets = tmp_path / "Assets"
+    assets.mkdir()
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    old = {guid: path.relative_to(assets).as_posix() for guid, path in Project(assets).paths.items()}
+    for end in ("", ".meta", ".prefab", ".prefab.meta"):
+        (assets / f"Robot{end}").rename(assets / f"Arm{end}")
+    scene = rich_scene(tmp_path)
+    scene.nodes[2] = replace(scene.nodes[2], pose=Pose(translation=np.array([0.1, 0.2, 0.3])))
+    renamed = {guid: path.replace("Robot", "Arm", 1) for guid, path in old.items()}
+    for _ in range(2):
+        kinefab.export(scene, assets / "Arm.prefab")
+        found = {g: p.relative_to(assets).as_posix() for g, p in whole(assets).paths.items()}
+        assert found == renamed
+    kinefab.export(rich_scene(tmp_path), assets / "Robot.prefab")
+    kinefab.export(scene, assets / "Arm.prefab")
+    found = {g: p.relative_to(assets).as_posix() for g, p in whole(assets).paths.items()}
+    assert renamed.items() <= found.items() and len(found) == 2 * len(old)
+
+
 def whole(assets: Path) -> Project:
     """The project, in which no guid stands twice and every reference leads to a file."""
     project = Project(assets)

@@ -107,7 +107,7 @@ class _Export:
             if folder == self.scripts_folder:
                 head.append(script_folder(folder))
             else:
-                own = self._guid("folder", folder)
+                own = self._guid("folder", self.identity + folder[len(self.name) :])
                 head.append(AssetFile(folder, own, folder_meta(own)))
         return head + self.found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -54,7 +54,8 @@ class Manifest:
 
 
 def read_manifest(folder: Path) -> Manifest:
-    """What the folder says of itself; an empty one where it says nothing that can be read."""
+    """What the folder says of itself, whatever it and its prefab are called by now; an empty one where it says nothing that can
+    be read."""
     try:
         read: Any = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
         if read["format"] != FORMAT:
@@ -62,9 +63,27 @@ def read_manifest(folder: Path) -> Manifest:
         pending: Any = read.get("pending")
         if pending is not None:
             pending = Pending(str(pending["staging"]), _paths(pending["leaving"]))
-        return Manifest(frozenset(_paths(read["files"])), pending, str(read.get("identity", "")))
+        found = Manifest(frozenset(_paths(read["files"])), pending, str(read.get("identity", "")))
+        return _called(found, folder.name)
     except (OSError, ValueError, AttributeError, KeyError, TypeError, RecursionError):
         return Manifest()
+
+
+def _called(manifest: Manifest, name: str) -> Manifest:
+    """The same where folder and prefab were renamed, which leaves guids as they were: they are told by the name of then."""
+    homes = (path.removesuffix(f"/{MANIFEST}") for path in manifest.files if path.endswith(f"/{MANIFEST}"))
+    old = next(homes, name)
+    if old == name:
+        return manifest
+    beside = {f"{old}.meta", f"{old}.prefab", f"{old}.prefab.meta"}
+
+    def now(path: str) -> str:
+        return name + path[len(old) :] if path.startswith(f"{old}/") or path in beside else path
+
+    pending = manifest.pending
+    if pending is not None:
+        pending = replace(pending, leaving=tuple(map(now, pending.leaving)))
+    return Manifest(frozenset(map(now, manifest.files)), pending, manifest.identity or old)
 
 
 def _paths(listed: object) -> tuple[str, ...]:

@@ -220,3 +220,18 @@ def test_a_joint_with_other_freedoms_than_are_left_is_given_up_and_told() -> Non
         joints=[replace(scene.joints[0], freedoms=freedoms_of(JointKind.SPHERICAL, rx=limited(TURNED)))],
     )
     assert "JOINT_SUPERSEDED" in codes(scene)
+
+
+def test_what_stops_a_joint_at_its_dead_centre_counts_though_it_removes_nothing_there() -> None:
+    """A crank's pin on the plane that touches its circle: no velocity breaks that, and no motion keeps it."""
+    scene = machine("revolute", False)
+    pin, outwards = frame().point(np.array([0.0, 0.3, 0.0])), frame().rotation[:, 1]
+    scene.nodes[0] = replace(scene.nodes[0], pose=frame() @ scene.joints[0].frame_b.inverse())
+    on_part = scene.nodes[0].pose.inverse().point(pin)
+    features = (Feature(None, PLANE, pin, outwards), Feature(0, FeatureKind.POINT, on_part))
+    scene.constraints.append(Constraint("stop", COINCIDENT, features))
+    assert (analyse(scene).first_order, analyse(scene).mobility) == (1, 0)
+    assert "JOINT_SUPERSEDED" in codes(scene)
+    across = (replace(features[0], direction=AXIS), features[1])
+    scene.constraints[0] = replace(scene.constraints[0], features=across)
+    assert (analyse(scene).mobility, analyse(scene).joints[0].because, codes(scene)) == (1, ("stop",), [])

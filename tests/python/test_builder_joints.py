@@ -33,12 +33,11 @@ def pair() -> kinefab.Scene:
     return scene
 
 
-def test_a_joint_by_its_word_with_limits_drive_spring_and_damping_in_degrees():
+@pytest.mark.parametrize("spring", [(4.0, -45), np.array([4.0, -45.0])])
+def test_a_joint_by_its_word_with_limits_drive_spring_and_damping_in_degrees(spring):
     scene = pair()
     drive = {"target": 30, "target_velocity": -90, "stiffness": 5.0, "max_force": 7.0}
-    joint = scene.add_joint(
-        "revolute", 0, 1, **AT, limits=(-10, 80), drive=drive, spring=(4.0, -45), damping=0.5
-    )
+    joint = scene.add_joint("revolute", 0, 1, **AT, limits=(-10, 80), drive=drive, spring=spring, damping=0.5)
     freedom = joint.freedoms[RX]
     assert joint.kind is JointKind.REVOLUTE and freedom.motion is Motion.LIMITED
     assert (freedom.lower, freedom.upper) == pytest.approx((math.radians(-10), math.radians(80)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import kinefab
 import pytest
 from kinefab import ColliderShape, ExportOptions
 from kinefab.analysis import AnalysisOptions
@@ -40,3 +41,13 @@ def test_words_stand_for_their_members():
 def test_loops_are_closed_by_whole_joints_unless_asked():
     """The export's default and the analysis' are one: what holds in Unity's solver."""
     assert ExportOptions().closures is AnalysisOptions().closures is Closures.EXACT
+
+
+@pytest.mark.parametrize("wrong", [None, b"door.kinefab", 3])
+def test_what_is_no_path_is_told_by_what_to_pass(wrong, tmp_path):
+    with pytest.raises(TypeError, match="pass a path that ends in .kinefab or"):
+        kinefab.export(kinefab.Scene(), wrong)
+    with pytest.raises(TypeError, match="pass a file's path"):
+        kinefab.export(wrong, tmp_path / "door.kinefab")
+    with pytest.raises(TypeError, match="pass a file's path or a kinefab.Scene"):
+        kinefab.motion(wrong)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
+from typing import cast
 
 from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
@@ -25,7 +27,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
 
     source: a file that a reader of ``kinefab.sources`` knows, a written ``NAME.kinefab``, or a Scene made in code; treated
     as read-only.  A written scene moves by its joints, in the right-handed frame; its parts are the Rigidbodies.
-    Raises KinefabError, with every error found, when the data is wrong.
+    Raises KinefabError, with every error found, when the data is wrong, TypeError for a source that is none.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -36,6 +38,8 @@ def motion(source: str | Path | Scene) -> Mechanism:
     (1, ('Door',))
     """
     report = Report()
+    if not isinstance(cast(object, source), (str, os.PathLike, Scene)):
+        raise TypeError(f"the source is {source!r}; pass a file's path or a kinefab.Scene")
     if isinstance(source, Scene):
         scene = source
     elif Path(source).suffix.lower() == ".kinefab":

@@ -176,7 +176,7 @@ def export(
     source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
     Raises KinefabError, with every error found, when the data is wrong (or lossy, if strict) or the target
     cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has,
-    TypeError for a source or options that are none.
+    TypeError for a source, a target or options that are none.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -186,6 +186,8 @@ def export(
     >>> [(outcome.feature, outcome.outcome.value) for outcome in result.report.outcomes]
     [('joint Hinge', 'kept')]
     """
+    if not isinstance(cast(object, target), (str, os.PathLike)):
+        raise TypeError(f"the target is {target!r}; pass a path that ends in {' or '.join(known_endings())}")
     path = Path(target)
     kind = target_of(path)
     if kind is None:

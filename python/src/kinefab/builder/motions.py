@@ -8,6 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, Union, cast
 
+import numpy as np
+
 from ..model import (
     FREE,
     FREEDOM_NAMES,
@@ -199,6 +201,8 @@ def _passive(name: str, spring: Any, damping: Any) -> Passive:
     """spring: stiffness (N/m or N m/rad), or (stiffness, rest) with the rest in degrees or metres.  damping: N s/m or
     N m s/rad."""
     rest = 0.0
+    if isinstance(spring, np.ndarray):
+        spring = spring.tolist()
     if isinstance(spring, Sequence) and not isinstance(spring, str):
         pair = cast("Sequence[Any]", spring)
         if len(pair) != 2:

@@ -75,8 +75,8 @@ def _scene_shapes(name: str, scene: Any, size: float) -> list[Shape]:
 
 def _shape(body: str, name: str, given: Any, matrix: Array) -> Shape:
     """A mesh through an affine map, shape (4, 4), which may mirror it, with its looks.  name: for errors."""
-    vertices, faces = np.asarray(given.vertices, dtype=np.float64), np.asarray(given.faces, dtype=np.int64)
-    if len(faces) == 0:
+    vertices, faces = (_numbers(name, given, what) for what in ("vertices", "faces"))
+    if faces.ndim and not len(faces):
         raise ValueError(f"the mesh of {name} has no triangles")
     if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
         raise ValueError(
@@ -86,10 +86,11 @@ def _shape(body: str, name: str, given: Any, matrix: Array) -> Shape:
         raise ValueError(
             f"the mesh of {name} has a vertex that is not finite, beyond {LARGEST:g} m, or none at all"
         )
-    if faces.min() < 0 or faces.max() >= len(vertices):
-        raise ValueError(
-            f"the mesh of {name} names vertex {faces.max()}; it has {len(vertices)}, counted from 0"
-        )
+    if faces.dtype.kind == "f" and (faces != np.floor(faces)).any():
+        raise ValueError(f"the faces of {name}'s mesh are no whole numbers; pass numbers of vertices, from 0")
+    vertices, faces = vertices.astype(np.float64), faces.astype(np.int64)
+    if (worst := faces.min()) < 0 or (worst := faces.max()) >= len(vertices):
+        raise ValueError(f"the mesh of {name} names vertex {worst}; it has {len(vertices)}, counted from 0")
     look, normals = look_of(given), _stated_normals(given, len(vertices))
     if look.corners is not None:
         vertices, normals = vertices[look.corners], None if normals is None else normals[look.corners]
@@ -114,6 +115,18 @@ def _shape(body: str, name: str, given: Any, matrix: Array) -> Shape:
         piece.face_counts,
     )
     return Shape(body, mesh, surfaces=tuple(s for s in look.surfaces if s is not None))
+
+
+def _numbers(name: str, given: Any, what: str) -> Array:
+    """The vertices or the faces of a mesh, as numbers of any shape."""
+    values = getattr(given, what)
+    try:
+        array = np.asarray(values)
+    except ValueError:  # lists of unequal length
+        array = np.empty(0, dtype=object)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"the {what} of {name}'s mesh are {shown(values)}; pass an array of numbers, (n, 3)")
+    return array
 
 
 def _stated_normals(given: Any, count: int) -> Array | None:

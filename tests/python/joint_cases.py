@@ -39,7 +39,7 @@ def relative(kind_rotations, q) -> Pose:
 class Case:
     """Two parts in random places with a joint between them at coordinates q0, exported."""
 
-    def __init__(self, seed, kind, q0=np.zeros(6), grounding="none", unlocked=None, **freedoms):
+    def __init__(self, seed, kind, q0=np.zeros(6), grounding="none", unlocked=None, lead=0.0, **freedoms):
         rng = np.random.default_rng(seed)
         self.rng = rng
         frame_a, frame_b = random_pose(rng), random_pose(rng)
@@ -54,7 +54,7 @@ class Case:
             Node("B", "B", pose=pose_b, grounded=grounding == "b"),
         ]
         self.scene = Scene(nodes=nodes)
-        self.joint = Joint("J", kind, a, 1, frame_a, frame_b, six)
+        self.joint = Joint("J", kind, a, 1, frame_a, frame_b, six, lead=lead)
         self.scene.joints.append(self.joint)
         self.report = Report()
         mapped = map_joint(self.joint, self.scene, rigid_groups(self.scene), lambda node: node, self.report)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,6 +51,31 @@ def test_hinge_limits_past_half_a_turn_are_extended_and_past_a_turn_reported():
     case = Case(7, JointKind.REVOLUTE, rx=between(-700, 700))
     assert "useLimits" not in case.component and case.component["exact"] is False
     assert [o.code for o in case.report.outcomes] == ["JOINT_LIMIT_BEYOND_TURN"]
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+@pytest.mark.parametrize("lead", [0.004, -0.004])
+def test_a_screw_of_many_turns_ends_where_its_slide_does(grounding, lead):
+    """-720..1800 degrees, of which Unity counts half a turn, are -2 and 5 leads of travel, of either thread."""
+
+    def at(degrees: float) -> np.ndarray:
+        return np.array([lead * degrees / 360.0, 0, 0, math.radians(degrees), 0, 0])
+
+    case = Case(
+        7, JointKind.SCREW, at(90), grounding, lead=lead, rx=replace(between(-720, 1800), at=at(90)[3])
+    )
+    assert (case.component["xMotion"], case.component["angularXMotion"]) == ("Limited", "Free")
+    assert [(o.outcome.value, o.code) for o in case.report.outcomes] == [("kept", "")]
+    for degrees, beyond in ((-720, 0), (0, 0), (1800, 0), (-810, 0.001), (1980, 0.002)):
+        assert case.violation_at(at(degrees)) == pytest.approx(beyond, abs=1e-9)
+
+
+def test_a_screw_of_less_than_half_a_turn_keeps_its_turn_and_one_of_two_ranges_the_narrower():
+    case = Case(7, JointKind.SCREW, lead=0.004, rx=between(-10, 80))
+    assert (case.component["xMotion"], case.component["angularXMotion"]) == ("Free", "Limited")
+    slide = Freedom(Motion.LIMITED, -0.5, 0.003)
+    case = Case(7, JointKind.SCREW, lead=0.004, rx=between(-720, 1800), tx=slide)
+    assert case.component["linearLimit"]["limit"] == pytest.approx(0.5 * (0.003 + 0.008))
 
 
 @given(seed=seeds, zero=st.floats(-20, 90), grounding=st.sampled_from(GROUNDING))

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ...diagnostics import Report
-from ...model import RX, Freedom, Joint
+from ...model import RX, TX, Freedom, Joint, JointKind, Motion
+from .coordinates import CanonicalJoint, Coordinates
+
+HALF_TURN = math.pi
+"""Radians to either side of the exported pose that a ConfigurableJoint counts a twist by."""
 
 
 def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, report: Report) -> None:
@@ -39,3 +44,33 @@ def one_sided(low: float, high: float, furthest: float) -> tuple[float, float]:
     if math.isinf(low):
         return min(-furthest, high), min(high, furthest)
     return max(low, -furthest), max(furthest, low)
+
+
+def turns_as_travel(joint: Joint, shape: CanonicalJoint, coordinates: Coordinates) -> CanonicalJoint:
+    """A screw's range of more turns than Unity counts as the range of its slide, which the lead makes the same."""
+    turn, slide = shape.freedoms[RX], shape.freedoms[TX]
+    if joint.kind is not JointKind.SCREW or joint.lead == 0.0 or turn.motion is not Motion.LIMITED:
+        return shape
+    travel, along = joint.lead / math.tau, coordinates.values[TX]
+    zero = along / travel if turn.at is None else turn.nearest_turn(coordinates.values[RX])
+    if -HALF_TURN <= turn.lower - zero and turn.upper - zero <= HALF_TURN:
+        return shape
+    ends = sorted(along + travel * (end - zero) for end in (turn.lower, turn.upper))
+    if slide.motion is Motion.LIMITED:
+        ends = [max(ends[0], slide.lower), min(ends[1], slide.upper)]
+    if ends[0] > ends[1]:
+        return shape
+    stiffer = 1.0 / travel**2  # the same force at the thread
+    limited = replace(
+        slide,
+        motion=Motion.LIMITED,
+        lower=ends[0],
+        upper=ends[1],
+        stiffness=slide.stiffness + stiffer * turn.stiffness,
+        damping=slide.damping + stiffer * turn.damping,
+        restitution=max(slide.restitution, turn.restitution),
+    )
+    freedoms = list(shape.freedoms)
+    freedoms[TX] = limited
+    freedoms[RX] = replace(turn, motion=Motion.FREE, lower=-math.inf, upper=math.inf)
+    return replace(shape, freedoms=tuple(freedoms))

@@ -29,6 +29,7 @@ from ..scene.vectors import vector3
 from .configurable import MOTION_TITLES, configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from .hinge import fits_hinge, hinge_fields
+from .limits import turns_as_travel
 from .placement import Placement, place
 
 GAP_LENGTH = 1e-5
@@ -100,6 +101,7 @@ def map_joint(
     shape = canonical(joint)
     relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
     coordinates = read_coordinates(shape, relative)
+    shape = turns_as_travel(joint, shape, coordinates)
     lossless = _report_gap(joint, coordinates, report)
     unneeded = _why_none(joint, shape, found, groups, counted is not None, idle)
     if unneeded in LOSSES:

@@ -54,6 +54,24 @@ def test_group_that_shares_its_subtree_is_held_by_fixed_joints(tmp_path):
     assert components(content, "Arm", "Rigidbody") == []
 
 
+@pytest.mark.parametrize("joined", [False, True])
+def test_a_rigid_assembly_of_which_no_part_is_there_is_no_body(joined, tmp_path):
+    """All its parts suppressed, it would fall by itself, with six freedoms; one that a joint is on is something."""
+    scene = kinefab.Scene()
+    door = scene.add_part("Door", BOX)
+    scene.add_hinge(None, door, point=(0, 0, 0), axis=(0, 1, 0))
+    empty = scene.add_assembly("Empty", flexible=False)
+    gone = scene.add_part("Gone", BOX, parent=empty)
+    scene.nodes[gone] = replace(scene.nodes[gone], suppressed=True)
+    scene.dof_records.append(DofRecord(empty, np.eye(3), np.eye(3)))
+    if joined:
+        scene.add_slider(door, empty, point=(0, 0, 0), axis=(1, 0, 0))
+    content, result = exported(scene, tmp_path)
+    assert content["analysis"]["mobility"] == 1 + joined
+    assert len(components(content, "Empty", "Rigidbody")) == joined
+    assert [d.code for d in result.report.diagnostics if d.code == "MASS_UNKNOWN"] == ["MASS_UNKNOWN"] * joined
+
+
 def test_part_fixed_to_the_ground_is_static(tmp_path):
     """What is fixed to the world, or to something grounded, gets no Rigidbody but keeps its collider."""
     scene = kinefab.Scene()

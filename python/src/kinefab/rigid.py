@@ -11,8 +11,8 @@ from .partition import Partition
 
 @dataclass(frozen=True, slots=True)
 class RigidGroups:
-    """group_of: for each node its group's number, or None for a node that is no body (a flexible assembly
-    or a suppressed node).  members: for each group its nodes in scene order.  grounded: for each group
+    """group_of: for each node its group's number, or None for a node that is no body (a flexible assembly, one of which
+    nothing is there, or a suppressed node).  members: for each group its nodes in scene order.  grounded: for each group
     whether it is fixed to the world.
     """
 
@@ -67,9 +67,12 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
         active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded)
         for i, node in enumerate(nodes)
     ]
+    there = {together.find(ground)}
+    there.update(together.find(i) for i, own in enumerate(_something(scene)) if own and is_body[i])
     numbers: dict[int, int] = {}
     group_of = tuple(
-        numbers.setdefault(together.find(i), len(numbers)) if is_body[i] else None for i in range(len(nodes))
+        numbers.setdefault(group, len(numbers)) if is_body[i] and group in there else None
+        for i, group in enumerate(map(together.find, range(len(nodes))))
     )
     members: list[list[int]] = [[] for _ in numbers]
     for i, group in enumerate(group_of):
@@ -79,6 +82,23 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     if (group := numbers.get(together.find(ground))) is not None:
         grounded[group] = True
     return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
+
+
+def _something(scene: Scene) -> list[bool]:
+    """For each node whether it is something by itself: a part, or an assembly that is drawn, weighed, led or joined.
+
+    Others, such as those whose parts are all suppressed, are nothing that could fall.
+    """
+    joined = {n for joint in scene.joints for n in (joint.a, joint.b)}
+    joined.update(feature.node for constraint in scene.constraints for feature in constraint.features)
+    return [
+        node.kind is NodeKind.PART
+        or bool(node.bodies or node.colliders)
+        or node.mass is not None
+        or node.dynamics.kinematic
+        or i in joined
+        for i, node in enumerate(scene.nodes)
+    ]
 
 
 def is_between_led(joint: Joint, scene: Scene) -> bool:

@@ -27,7 +27,8 @@ def joints_of_dof_records(scene: Scene, groups: RigidGroups, report: Report) -> 
         node = scene.nodes[record.node]
         feature = f"freedoms of {node.id}"
         group = groups.group_of[record.node]
-        if groups.is_ground(record.node) or node.suppressed:
+        nothing = group is None and not node.flexible  # an assembly of which no part is there
+        if groups.is_ground(record.node) or node.suppressed or nothing:
             continue
         if group is None:
             detail = "a flexible assembly is no body of its own"

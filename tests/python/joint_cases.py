@@ -39,7 +39,9 @@ def relative(kind_rotations, q) -> Pose:
 class Case:
     """Two parts in random places with a joint between them at coordinates q0, exported."""
 
-    def __init__(self, seed, kind, q0=np.zeros(6), grounding="none", unlocked=None, lead=0.0, **freedoms):
+    def __init__(
+        self, seed, kind, q0=np.zeros(6), grounding="none", unlocked=None, lead=0.0, slerp=None, **freedoms
+    ):
         rng = np.random.default_rng(seed)
         self.rng = rng
         frame_a, frame_b = random_pose(rng), random_pose(rng)
@@ -54,7 +56,7 @@ class Case:
             Node("B", "B", pose=pose_b, grounded=grounding == "b"),
         ]
         self.scene = Scene(nodes=nodes)
-        self.joint = Joint("J", kind, a, 1, frame_a, frame_b, six, lead=lead)
+        self.joint = Joint("J", kind, a, 1, frame_a, frame_b, six, lead=lead, slerp=slerp)
         self.scene.joints.append(self.joint)
         self.report = Report()
         mapped = map_joint(self.joint, self.scene, rigid_groups(self.scene), lambda node: node, self.report)
@@ -72,8 +74,12 @@ class Case:
 
     def poses_at(self, q):
         """Poses of a and b at coordinates q; the grounded one stays, else the pair also moves as a whole."""
+        return self.poses_apart(relative(self.rotations, q))
+
+    def poses_apart(self, between_frames: Pose):
+        """The same where b's joint frame stands so in a's."""
         joint, nodes = self.joint, self.scene.nodes
-        inner = joint.frame_a @ relative(self.rotations, q) @ joint.frame_b.inverse()
+        inner = joint.frame_a @ between_frames @ joint.frame_b.inverse()
         if joint.a is None:
             return Pose(), inner
         if nodes[0].grounded:

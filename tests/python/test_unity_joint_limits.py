@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from joint_cases import DRIVEN, GROUNDING, KINDS, NAMES, Case, between, turned
+from joint_cases import DRIVEN, GROUNDING, KINDS, NAMES, Case, between, relative, turned
 from kinefab.diagnostics import Report
-from kinefab.model import UNLOCKED, Drive, Freedom, JointKind, Motion, Node
+from kinefab.model import FREE, UNLOCKED, Drive, Freedom, JointKind, Motion, Node, SphericalDrive
 from kinefab.rigid import rigid_groups
-from kinefab.spatial import Pose
+from kinefab.spatial import Pose, rotation_exp
 from kinefab.unity.joints.mapping import map_joint
 from unity_semantics import matrix, rotation_vector, turn
 
@@ -101,6 +101,18 @@ def test_asymmetric_slide_stops_at_both_ends(seed, q0, grounding):
 
 
 @pytest.mark.parametrize("grounding", GROUNDING)
+@pytest.mark.parametrize("lower, upper, furthest", [(-math.inf, 0.3, -99.7), (-0.2, math.inf, 99.8)])
+def test_slide_with_one_end_stops_there_and_a_hundred_metres_from_it(grounding, lower, upper, furthest):
+    """Unity's linear limit has two ends; the one that CAD does not have is far from the one that it has."""
+    slide = Freedom(Motion.LIMITED, lower, upper)
+    case = Case(17, JointKind.PRISMATIC, np.full(6, 0.1), grounding, tx=slide)
+    end, out = (upper, 1.0) if math.isinf(lower) else (lower, -1.0)
+    for q, beyond in ((end, 0), (end + 0.02 * out, 0.02), (furthest, 0), (furthest - 0.5 * out, 0.5)):
+        assert case.violation_at([q, 0, 0, 0, 0, 0]) == pytest.approx(beyond, abs=1e-9)
+    assert [o.code for o in case.report.outcomes] == ["JOINT_LIMIT_ONE_SIDED"]
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
 @pytest.mark.parametrize("kind, freedom", DRIVEN)
 def test_drive_target_is_where_the_cad_coordinate_meets_it(kind, freedom, grounding):
     """At q = target, c equals targetPosition or targetRotation, with one freedom driven from its own zero."""
@@ -134,6 +146,29 @@ def test_target_speed_drives_the_cad_coordinate_forwards(kind, freedom, groundin
     turning = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (2.0 * step)
     # PhysX drives actor0 against actor1 in rotation (w0 - w1), so against c's own sense.
     assert np.allclose(linear, case.component["targetVelocity"], atol=1e-5)
+    assert np.allclose(-turning, case.component["targetAngularVelocity"], atol=1e-5)
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+@pytest.mark.parametrize(
+    "kind, q0, free",
+    [
+        (JointKind.SPHERICAL, [0, 0, 0, 0.5, -0.3, 0.4], {}),
+        (JointKind.UNIVERSAL, [0, 0, 0, 0.5, 0, 0.3], {}),
+        (JointKind.GENERAL, [0, 0, 0, 0, 0.5, 0.3], {"ry": FREE, "rz": FREE}),  # its axes are renamed
+    ],
+)
+def test_slerp_drive_turns_to_its_target_and_at_its_speed(kind, q0, free, grounding):
+    """Where b stands in a as the target says, c equals targetRotation; turning as asked, targetAngularVelocity."""
+    target, spin, step = rotation_exp(np.array([0.4, -0.7, 0.3])), np.array([0.1, 0.7, -0.4]), 1e-6
+    drive = SphericalDrive(target, spin, 400.0, 60.0)
+    case = Case(59, kind, np.array(q0), grounding, slerp=drive, **free)
+    assert case.component["rotationDriveMode"] == "Slerp"
+    r, _ = case.live.c(*case.unity_poses(*case.poses_apart(Pose(target))))
+    assert np.allclose(r, matrix(case.component["targetRotation"]), atol=1e-12)
+    start = relative(case.rotations, case.q0)
+    r, _ = case.live.c(*case.unity_poses(*case.poses_apart(Pose(rotation_exp(spin * step)) @ start)))
+    turning = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (2.0 * step)
     assert np.allclose(-turning, case.component["targetAngularVelocity"], atol=1e-5)
 
 
@@ -179,6 +214,17 @@ def test_cone_of_a_ball_joint_is_measured_from_a():
         assert case.violation_at([0, 0, 0, 1.0, math.radians(30), 0]) < 1e-9
         assert case.violation_at([0, 0, 0, 1.0, 0, math.radians(50)]) < 1e-9
         assert case.violation_at([0, 0, 0, 1.0, math.radians(36), 0]) == pytest.approx(0.2, abs=1e-9)
+
+
+@pytest.mark.parametrize("grounding", GROUNDING)
+@pytest.mark.parametrize("low, high", [(-70, 20), (-20, 70)])
+def test_swing_with_uneven_ends_gets_as_far_as_the_further_one(low, high, grounding):
+    """Unity has one angle for both sides: what CAD allows stays allowed."""
+    case = Case(19, JointKind.UNIVERSAL, grounding=grounding, rz=between(low, high))
+    assert [o.code for o in case.report.outcomes] == ["JOINT_LIMIT_ASYMMETRIC"]
+    for degrees, beyond in ((-70, 0), (70, 0), (-73, 3), (74, 4)):
+        values = [0, 0, 0, 0.4, 0, math.radians(degrees)]
+        assert case.violation_at(values) == pytest.approx(math.radians(beyond), abs=1e-9)
 
 
 @pytest.mark.parametrize("grounding", GROUNDING)
@@ -257,6 +303,24 @@ def test_soft_limit_and_strong_spring_need_a_configurable_joint():
     weak = Freedom(Motion.FREE, drive=Drive(target=0.5, stiffness=4.0, max_force=2.0))
     case = Case(43, JointKind.REVOLUTE, rx=weak)
     assert case.component["angularXDrive"]["maximumForce"] == 2.0
+
+
+@pytest.mark.parametrize(
+    "kind, limited, ends",
+    [
+        (JointKind.REVOLUTE, {"rx": 0.3}, {"limits": 0.3}),
+        (JointKind.CYLINDRICAL, {"rx": 0.3}, {"lowAngularXLimit": 0.3, "highAngularXLimit": 0.3}),
+        (JointKind.PRISMATIC, {"tx": 0.3}, {"linearLimit": 0.3}),
+        (JointKind.SPHERICAL, {"ry": 0.1, "rz": 0.3}, {"angularYLimit": 0.3, "angularZLimit": 0.3}),
+    ],
+)
+def test_bounce_of_a_limit_is_that_of_each_of_its_ends(kind, limited, ends):
+    """The cone has one for both swings, the larger."""
+    freedoms = {
+        name: Freedom(Motion.LIMITED, -0.2, 0.2, restitution=bounce) for name, bounce in limited.items()
+    }
+    component = Case(53, kind, **freedoms).component
+    assert {key: component[key]["bounciness"] for key in ends} == ends
 
 
 @pytest.mark.parametrize("grounding", GROUNDING)

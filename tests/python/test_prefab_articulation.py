@@ -112,6 +112,37 @@ def test_limits_and_frames_are_those_of_the_source(tmp_path):
             assert np.allclose(frames[0].translation, point, atol=1e-6)
 
 
+@pytest.mark.parametrize("turned_round", [False, True], ids=["joint on the link", "joint on the one above"])
+def test_links_count_and_are_driven_as_the_source_says_whichever_body_has_the_joint(tmp_path, turned_round):
+    """Limits, targets and speeds are those of CAD, from the exported pose, about the mirrored axis turned round for an angle."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", BOX, grounded=True)
+    upper = scene.add_part("Upper", BOX, translation=(0.3, 0.1, 0.2), mass=mass(2.0))
+    fore = scene.add_part("Fore", BOX, translation=(0.6, 0.1, 0.2), mass=mass(1.0))
+    shoulder, rail = ((upper, base), (fore, upper)) if turned_round else ((base, upper), (upper, fore))
+    turning = {"target": 30, "target_velocity": 20, "stiffness": 50, "damping": 2, "max_force": 9}
+    sliding = {"target": 0.06, "target_velocity": 0.3, "stiffness": 70, "damping": 4}
+    scene.add_hinge(*shoulder, point=(0.15, 0.1, 0.1), axis=(1, 2, 3), limits=(-10, 80), drive=turning)
+    scene.add_slider(*rail, axis=(3, -1, 2), point=(0.45, 0.1, 0.2), limits=(-0.02, 0.1), drive=sliding)
+    root, result = exported(scene, tmp_path)
+    assert not result.report.of(kinefab.Severity.ERROR)
+    nodes, placed = nodes_of(root), poses(root)
+    sense = -1.0 if turned_round else 1.0
+    names = ("lowerLimit", "upperLimit", "target", "targetVelocity", "stiffness", "damping")
+    for name, axis, numbers in (
+        ("Upper", (1, -2, -3), [-10, 80, 30, 20, 50, 2]),
+        ("Fore", (-3, -1, 2), [-0.02, 0.1, 0.06, 0.3, 70, 4]),
+    ):
+        own = link(nodes[name])
+        low, high, target, speed, *gains = (float(own["m_XDrive"][k]) for k in names)
+        x = placed[name].rotation @ matrix_from_quaternion(np.array(vector(own["m_AnchorRotation"])))[:, 0]
+        along = sense * np.array(axis) / np.linalg.norm(axis)
+        if x @ along < 0.0:  # counted the other way
+            x, low, high, target, speed = -x, -high, -low, -target, -speed
+        assert np.allclose(x, along, atol=1e-6)
+        assert [low, high, target, speed, *gains] == pytest.approx(numbers, abs=1e-5)
+
+
 @pytest.mark.parametrize("dialect", TABLE)
 def test_every_document_has_the_fields_of_its_class(tmp_path, dialect):
     exported(arm(), tmp_path, writing={"unity": dialect})

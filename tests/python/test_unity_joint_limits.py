@@ -323,6 +323,19 @@ def test_bounce_of_a_limit_is_that_of_each_of_its_ends(kind, limited, ends):
     assert {key: component[key]["bounciness"] for key in ends} == ends
 
 
+@pytest.mark.parametrize("ry, rz", [(5.0, 2.0), (2.0, 5.0)])
+def test_swings_share_the_stronger_drive(ry, rz):
+    """Unity has one for both, and a drive that is too weak moves nothing."""
+    drives = {
+        name: Freedom(Motion.FREE, drive=Drive(stiffness=k, damping=0.1 * k, max_force=3.0 * k))
+        for name, k in (("ry", ry), ("rz", rz))
+    }
+    case = Case(61, JointKind.SPHERICAL, **drives)
+    assert [o.code for o in case.report.outcomes] == ["JOINT_DRIVE_SHARED"]
+    wanted = {"positionSpring": 5.0, "positionDamper": 0.5, "maximumForce": 15.0}
+    assert case.component["angularYZDrive"] == wanted and "angularXDrive" not in case.component
+
+
 @pytest.mark.parametrize("grounding", GROUNDING)
 def test_cross_joint_limits_hold_from_any_exported_pose(grounding):
     """A universal joint exported bent: -10..80 degrees about b's axis and +-20 about a's, counted from its bend."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -127,12 +128,18 @@ MOST_LINES = 400
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imports(path: Path) -> list[tuple[str, str]]:
     """('own' or 'library', dotted path in the package or name) of everything that a module imports, inside functions
     and for type checkers too."""
     package = path.relative_to(PACKAGE.parent).with_suffix("").parts
     found = []
-    for statement in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for statement in ast.walk(tree_of(path)):
         if isinstance(statement, ast.Import):
             found += [("library", alias.name.split(".")[0]) for alias in statement.names]
         elif isinstance(statement, ast.ImportFrom) and statement.level == 0:
@@ -145,6 +152,7 @@ def imports(path: Path) -> list[tuple[str, str]]:
     return found
 
 
+@cache
 def _module(parts: tuple[str, ...]) -> tuple[str, ...]:
     """The module that an imported name is, or is in, without the package's own name."""
     path = PACKAGE.parent.joinpath(*parts)
@@ -198,7 +206,7 @@ def test_there_are_no_circles():
     edges: dict[str, set[str]] = {}
     for path in MODULES:
         module = ".".join(own_path(path)).removesuffix(".__init__")
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        tree = tree_of(path)
         late = {id(s) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for s in ast.walk(f)}
         typing_only = {
             id(s)

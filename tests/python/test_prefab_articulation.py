@@ -168,6 +168,16 @@ def test_a_loop_is_closed_by_a_helper(tmp_path, ground):
     assert len({j["connectedArticulationBody"] for j in joints}) == 2
     links = [n for n in nodes_of(root).values() if any(c["type"] == "ArticulationBody" for c in n.components)]
     assert len(links) == 4  # with the ground
+    (body,) = [c for c in helper.components if c["type"] == "Rigidbody"]
+    twin = next(
+        n for n in links if np.allclose(poses(root)[n.name].translation, poses(root)[helper.name].translation)
+    )
+    own = link(twin)  # whose twentieth it is, in the same place
+    assert body["mass"] == pytest.approx(0.05 * float(own["m_Mass"])) and not body["useGravity"]
+    assert body["centerOfMass"] == pytest.approx(vector(own["m_CenterOfMass"])) and any(body["centerOfMass"])
+    moments = [0.05 * moment for moment in vector(own["m_InertiaTensor"])]
+    assert body["inertiaTensor"] == pytest.approx(moments)
+    assert body["inertiaTensorRotation"] == pytest.approx(vector(own["m_InertiaRotation"]))
 
 
 @pytest.mark.parametrize("ground", ["body", "world"])

@@ -227,6 +227,16 @@ def test_swing_with_uneven_ends_gets_as_far_as_the_further_one(low, high, ground
         assert case.violation_at(values) == pytest.approx(math.radians(beyond), abs=1e-9)
 
 
+@pytest.mark.parametrize("half, motion", [(179, "Limited"), (200, "Free")])
+def test_swing_beyond_half_a_turn_is_free_and_told(half, motion):
+    """The cone ends there, and 200 degrees in its field would be another range."""
+    case = Case(19, JointKind.UNIVERSAL, rz=between(-half, half))
+    assert case.component.get("angularZMotion", "Free") == motion
+    told = [o.code for o in case.report.outcomes]
+    assert told == (["JOINT_LIMIT_BEYOND_TURN"] if motion == "Free" else [""])
+    assert ("angularZLimit" in case.component) == (motion == "Limited")
+
+
 @pytest.mark.parametrize("grounding", GROUNDING)
 def test_drive_targets_count_from_the_middle_of_the_range_and_from_the_exported_angle(grounding):
     """A limited slide's target is measured from its middle, a turn's from q0: at the target, c meets both."""
@@ -295,7 +305,7 @@ def test_range_of_one_value_is_a_lock_at_that_value():
 
 
 def test_soft_limit_and_strong_spring_need_a_configurable_joint():
-    """What a HingeJoint lacks (soft limits, a spring's largest torque) goes to a ConfigurableJoint."""
+    """What a HingeJoint lacks (soft limits, a spring's largest torque or speed) goes to a ConfigurableJoint."""
     soft = Freedom(Motion.LIMITED, -0.2, 1.4, stiffness=30.0, damping=2.0)
     case = Case(43, JointKind.REVOLUTE, rx=soft)
     assert case.component["angularXLimitSpring"] == {"spring": 30.0, "damper": 2.0}
@@ -303,6 +313,10 @@ def test_soft_limit_and_strong_spring_need_a_configurable_joint():
     weak = Freedom(Motion.FREE, drive=Drive(target=0.5, stiffness=4.0, max_force=2.0))
     case = Case(43, JointKind.REVOLUTE, rx=weak)
     assert case.component["angularXDrive"]["maximumForce"] == 2.0
+    turning = Freedom(Motion.FREE, drive=Drive(target_velocity=0.5, damping=3.0))
+    case = Case(43, JointKind.REVOLUTE, rx=turning)
+    assert case.component["angularXDrive"]["positionDamper"] == 3.0
+    assert abs(case.component["targetAngularVelocity"][0]) == 0.5
 
 
 @pytest.mark.parametrize(

@@ -304,6 +304,19 @@ def test_range_of_one_value_is_a_lock_at_that_value():
     assert case.violation_at([0.2, 0, 0, 1.0, 0, 0]) < 1e-12
 
 
+def test_turns_of_one_value_are_locks_at_these_values():
+    """Held at 20, 10 and 30 degrees about X, Y and Z it is a fixed joint; with X free a hinge that turns from there."""
+    held = {"rx": between(20, 20), "ry": between(10, 10), "rz": between(30, 30)}
+    stands = np.array([0, 0, 0, *np.radians([20, 10, 30])])
+    case = Case(67, JointKind.SPHERICAL, stands, **held)
+    assert case.component["type"] == "FixedJoint" and case.report.diagnostics == []
+    case = Case(67, JointKind.SPHERICAL, stands, **held | {"rx": between(-10, 80)})
+    assert case.component["type"] == "HingeJoint" and case.report.diagnostics == []
+    for degrees, beyond in ((-10, 0), (80, 0), (83, 3)):
+        q = [0, 0, 0, *np.radians([degrees, 10, 30])]
+        assert case.violation_at(q) == pytest.approx(math.radians(beyond), abs=1e-9)
+
+
 def test_soft_limit_and_strong_spring_need_a_configurable_joint():
     """What a HingeJoint lacks (soft limits, a spring's largest torque or speed) goes to a ConfigurableJoint."""
     soft = Freedom(Motion.LIMITED, -0.2, 1.4, stiffness=30.0, damping=2.0)

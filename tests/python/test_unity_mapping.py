@@ -208,6 +208,10 @@ def test_passive_springs_join_the_drive_and_the_rest_is_told(tmp_path):
     spring = component(content, "Arm", "HingeJoint")["spring"]
     assert spring == {"spring": 40, "damper": 3.5, "targetPosition": pytest.approx(math.degrees(0.1))}
     assert outcomes(result, Outcome.DROPPED) == {"JOINT_FRICTION_DROPPED", "JOINT_ARMATURE_DROPPED"}
+    turning = Freedom(Motion.FREE, drive=Drive(0.0, 1.4, 0.0, 2.0), passive=passive)
+    joint = component(written(arm(turning), tmp_path)[0], "Arm", "ConfigurableJoint")
+    assert joint["angularXDrive"]["positionDamper"] == 3.5  # 2 at 1.4 rad/s and 1.5 at rest are 3.5 at 0.8
+    assert abs(joint["targetAngularVelocity"][0]) == pytest.approx(0.8)
 
 
 def test_what_cannot_be_added_to_a_motor_is_told(tmp_path):

@@ -172,7 +172,7 @@ def test_two_clipped_actuators_of_a_joint_are_not_one_drive(tmp_path):
 @pytest.mark.parametrize(
     "actuator, word",
     [
-        ("<motor joint='j' gear='5' ctrlrange='-2 2'/>", "effort"),
+        ("<motor joint='j' gear='5' ctrlrange='-2 1'/>", "effort"),
         ("<intvelocity joint='j' kp='3' actrange='-1 1'/>", "integrator"),
         ("<damper joint='j' kv='3' ctrlrange='0 1'/>", "affine"),
         ("<position joint='j' kp='3' forcerange='-1 4'/>", "both sides"),
@@ -223,6 +223,17 @@ def test_a_polynomial_is_its_tangent_and_told(tmp_path):
     assert "MJCF_POLYNOMIAL" in codes(report)
 
 
+def test_a_polynomial_is_its_tangent_at_the_exported_pose(tmp_path):
+    """At q_k + 5 = 0.4 rad, q_j - 20 is 0.1 + 2 x + 0.5 x x = 0.98 and grows 2.4 times as fast."""
+    key = f"<keyframe><key qpos='{math.radians(20) + 0.98} {math.radians(-5) + 0.4} 0'/></keyframe>"
+    law = "<equality><joint name='e' joint1='j' joint2='k' polycoef='.1 2 .5 0 0'/></equality>"
+    scene, _ = loaded(tmp_path, TWO, tail=law + key, keyframe="0")
+    (coupling,) = scene.couplings
+    assert coupling.terms[0].ratio == pytest.approx(2.4)
+    at = coupling.offset + 2.4 * (math.radians(-5) + 0.4)
+    assert at == pytest.approx(math.radians(20) + 0.98)
+
+
 def test_one_joint_of_an_equality_is_held(tmp_path):
     scene, _ = loaded(tmp_path, TWO, tail="<equality><joint joint1='l' polycoef='.25 1 0 0 0'/></equality>")
     freedom = next(j for j in scene.joints if j.id == "l").freedoms[0]
@@ -239,6 +250,22 @@ def test_fixed_tendons_are_couplings_of_several_terms(tmp_path):
     (coupling,) = scene.couplings
     assert {(t.joint, t.ratio) for t in coupling.terms} == {("k", -1.5), ("l", 2.0)}
     assert coupling.offset == pytest.approx(math.radians(20.0) - 1.5 * math.radians(5.0))
+
+
+def test_a_tendon_follows_another_from_where_both_are_at_rest(tmp_path):
+    """2 j - 2 * 20 = 0.1 + 0.5 (3 k - 4 l + 3 * 5), angles of the file in degrees: neither is zero at rest."""
+    tail = (
+        "<tendon><fixed name='t'><joint joint='j' coef='2'/></fixed>"
+        "<fixed name='u'><joint joint='k' coef='3'/><joint joint='l' coef='-4'/></fixed></tendon>"
+        "<equality><tendon name='e' tendon1='t' tendon2='u' polycoef='.1 .5 0 0 0'/></equality>"
+    )
+    scene, _ = loaded(tmp_path, TWO, tail=tail)
+    (coupling,) = scene.couplings
+    assert coupling.joint == "j" and {(t.joint, t.ratio) for t in coupling.terms} == {
+        ("k", 0.75),
+        ("l", -1.0),
+    }
+    assert coupling.offset == pytest.approx(math.radians(20.0) + 0.05 + 0.75 * math.radians(5.0))
 
 
 def test_spatial_tendons_are_told_with_their_numbers(tmp_path):

@@ -6,7 +6,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
+from kinefab.mates.apply import with_found
+from kinefab.mates.find import find_mates
 from kinefab.sources import read
 
 pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
@@ -15,6 +18,9 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "fixtures"), str(ROOT / "python" / "bench")]
 
 from mates_bench import Variant, score, variants, written  # noqa: E402
+from step.machine import Machine  # noqa: E402
+from step.solids import box, cut, rod  # noqa: E402
+from step.writer import write_step  # noqa: E402
 
 FEW = (
     "lever",
@@ -34,6 +40,14 @@ FEW = (
     "gimbal",
     "bearing_blocks",
     "standoffs",
+    "roller_yoke",
+    "butterfly",
+    "louvre",
+    "antenna",
+    "lead_screw",
+    "spindle",
+    "screw_cap",
+    "modelled_threads",
 )
 """What the suite tries as drawn: a machine for each rule."""
 TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage")
@@ -57,3 +71,20 @@ def test_a_machine_is_found_as_it_was_built(name: str, tmp_path: Path):
 def test_size_place_and_names_change_nothing(number: int, name: str, tmp_path: Path):
     found = judged(name, variants(len(TURNED), seed=3)[number], tmp_path)
     assert (found.missed, found.wrong, found.mobility, found.locks) == (0, 0, 1, [])
+
+
+def test_a_contact_over_a_clearance_holds_where_it_was_drawn(tmp_path: Path):
+    """A rod between two walls, 0.3 mm from either: no lower pair, so its contacts are stated one by one."""
+    machine = Machine("Between", ground="Walls")
+    machine.add(
+        "Walls",
+        cut(box((-40.0, -30.0, 0.0), (40.0, 30.0, 20.0)), box((-8.0, -25.0, -1.0), (8.0, 25.0, 21.0))),
+    )
+    machine.add("Rod", rod(7.7, 60.0, (0.0, 3.0, -20.0)))
+    write_step(machine, tmp_path / "between.step")
+    scene = read(tmp_path / "between.step", Report())
+    mates = find_mates(scene, "Walls")
+    assert [mate.joint for mate in mates.mates] == ["line"]
+    found = analyse(with_found(scene, mates, Report()))
+    assert not [d for d in found.report.diagnostics if d.code in ("CONSTRAINT_GAP", "CONSTRAINTS_CONTRADICT")]
+    assert found.mobility == 4

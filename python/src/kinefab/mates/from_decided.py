@@ -17,7 +17,7 @@ from .deciding.freedom import null_space
 from .deciding.pairs import Pair, pair_of
 from .mate import Mate, MateSide
 from .shapes.gears import Mesh, Wheel
-from .touching.contact import Contact, ContactKind
+from .touching.contact import Contact, ContactKind, Side
 
 MOST_FACES = 8
 """Faces that a mate lists of each part."""
@@ -246,10 +246,21 @@ def _single_contacts(edge: Edge, nodes: Sequence[int]) -> list[Mate]:
             MateSide(
                 nodes[part], side.kind, side.point, side.direction, None, side.radius, side.faces[:MOST_FACES]
             )
-            for part, side in ((contact.first, contact.a), (contact.second, contact.b))
+            for part, side in zip((contact.first, contact.second), _closed(contact), strict=True)
         )
         found.append(Mate(0, kind, sides, contact.kind.value, edge.reason, edge.confidence))
     return found
+
+
+def _closed(contact: Contact) -> tuple[Side, Side]:
+    """Its sides, a flat moved over the clearance to what it faces: the mate holds at the pose that was drawn."""
+    a, b = contact.a, contact.b
+    if contact.kind not in (ContactKind.FLAT, ContactKind.LINE, ContactKind.POINT):
+        return a, b
+    over = contact.normals[0] * contact.gap
+    if b.kind is FeatureKind.PLANE:
+        return a, replace(b, point=b.point - over)
+    return replace(a, point=a.point + over), b
 
 
 _SINGLE = {

@@ -8,11 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...partition import Partition
-from ...spatial import Array
+from ...spatial import Array, cross
 from ..shapes.features import Shape
 from ..touching.contact import Contact, ContactKind
 from .freedom import Freedom, Scale, freedom_of
 
+RIM = 0.25
+"""Length of a fit, of its radius, up to which it guides nothing against a longer one across: a disc in a pipe turns on its shaft."""
 AIR, AIR_TO_CLOSEST = 0.05, 10.0
 """Share of the radius, and how many times the closest fit's, a clearance is at least that is air beside a closer fit."""
 
@@ -94,13 +96,37 @@ class Bodies:
 
 
 def _guiding(contacts: list[Contact]) -> list[Contact]:
-    """Without the wide fits of bodies that a close one guides: a ring of a gimbal has air round it, and pivots in it."""
+    """Without what is no guide beside a fit that is one: wide fits (a ring of a gimbal has air round it, and pivots in
+    it), the rims of discs that turn on a shaft across, and flats that a turn about the fit's axis swings clear of."""
     closest = min((max(c.gap, 0.0) for c in contacts if c.kind is ContactKind.FIT), default=0.0)
-    return [
+    close = [
         c
         for c in contacts
         if c.kind is not ContactKind.FIT or c.gap <= AIR * c.a.radius or c.gap <= AIR_TO_CLOSEST * closest
     ]
+    fits = [c for c in close if c.kind is ContactKind.FIT]
+    long = [c for c in fits if c.reach >= c.a.radius]
+    guides = [c for c in fits if c.reach > RIM * c.a.radius or not any(_across(c, other) for other in long)]
+    guided = len(guides) > 0 and not any(_across(guides[0], other) for other in guides)
+    rims = {id(c) for c in fits} - {id(c) for c in guides}
+    return [c for c in close if id(c) not in rims and not (guided and _swings_clear(c, guides[0]))]
+
+
+def _across(a: Contact, b: Contact) -> bool:
+    """Whether two fits have axes of different directions."""
+    return abs(float(a.axis @ b.axis)) < 1.0 - 1e-4
+
+
+def _swings_clear(flat: Contact, fit: Contact) -> bool:
+    """Whether two flats that face each other over a gap, along the axis of a fit, let the inner one turn past the outer."""
+    if flat.kind is not ContactKind.FLAT or flat.touching or not len(flat.points):
+        return False
+    normal = flat.normals[0]
+    if abs(float(normal @ fit.axis)) > 1e-6:
+        return False
+    inner, outer = sorted((float((side.point - fit.a.point) @ normal) for side in (flat.a, flat.b)), key=abs)
+    along = (flat.points - fit.a.point) @ cross(fit.axis, normal)
+    return inner * outer > 0.0 and float(np.hypot(inner, np.abs(along).max())) < abs(outer)
 
 
 def scale_of(contacts: list[Contact]) -> Scale:

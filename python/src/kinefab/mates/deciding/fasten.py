@@ -27,6 +27,8 @@ THIN_AND_WIDE = 0.4
 """The same share for those that are wide; ISO 7094's reach 0.36, where a roller on a bolt is thicker."""
 NUT = 2.5
 """How far a nut's sides are from its axis, in radii of its bore, at most; ISO 4032's M3 with the bore at the core has 2.2."""
+LINED = 0.5
+"""Share of its length that a bushing is at least in its bore; a flange and an end that stand out are the rest."""
 PRESSED = 0.01
 """Share of the radius by which a pressed shaft may be larger than its bore; beyond, a thread is drawn so."""
 
@@ -74,8 +76,9 @@ def fasten(bodies: Bodies, parts: Parts) -> list[Bolted]:
         if contact.kind in (ContactKind.FLAT, ContactKind.CONE) and contact.touching:
             flats[contact.first].append(contact)
             flats[contact.second].append(contact)
+    rolling = {c.inner for c in bodies.contacts if c.kind is ContactKind.LINE}
     _nuts(bodies, parts, fits)
-    _washers(bodies, parts, fits)
+    _washers(bodies, parts, fits, rolling)
     return _bolts(bodies, parts, fits, flats)
 
 
@@ -149,16 +152,17 @@ def _is_nut(form: Turned, named: bool, on_bolt: bool) -> bool:
 
 
 def _is_thin(form: Turned) -> bool:
-    return bool(form.bore) and form.length <= THIN * 2.0 * form.bore
+    return bool(form.bore) and not form.blind and form.length <= THIN * 2.0 * form.bore
 
 
 def _is_wide_washer(form: Turned) -> bool:
     return form.radius <= WIDE_ON_BOLT * form.bore and form.length <= THIN_AND_WIDE * 2.0 * form.bore
 
 
-def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
+def _washers(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]], rolling: Collection[int]) -> None:
+    """rolling: parts whose rim runs along a flat, which a washer's does not."""
     for part, form in enumerate(parts.turned):
-        if form is None or not _is_thin(form) or form.sides:
+        if form is None or not _is_thin(form) or form.sides or (part in rolling and not parts.named[part]):
             continue
         round_it = [c for c in fits.get(part, ()) if c.inner != part]
         if not round_it or any(c.inner == part for c in fits.get(part, ())):
@@ -180,7 +184,7 @@ def _bolts(
         inside = _by_gap(
             [c for c in fits.get(part, ()) if c.inner == part and not parts.is_fastener(c.other(part))]
         )
-        if not inside:
+        if not inside or _drives(inside):
             continue
         host = inside[0].other(part)
         bodies.fix(part, host, "bolt", 0.9, (inside[0],))
@@ -191,6 +195,24 @@ def _bolts(
                 seen.add(other)
                 found.append(Bolted(part, host, other, contact))
     return found
+
+
+def _drives(inside: Sequence[Contact]) -> bool:
+    """Whether a screw goes through a thread between two plain bores: it turns in these and drives what has the thread.
+    inside: its fits, the tightest first."""
+    thread, *others = inside
+    if thread.gap >= -PRESSED * thread.a.radius:
+        return False
+    low, high = thread.span
+    before = after = False
+    for contact in others:
+        if contact.gap < -PRESSED * contact.a.radius:
+            continue
+        for span in contact.spans:
+            middle = contact.a.point + contact.axis * (0.5 * sum(span))
+            height = float((middle - thread.a.point) @ thread.axis)
+            before, after = before or height < low, after or height > high
+    return before and after
 
 
 def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
@@ -222,7 +244,7 @@ def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
 
 
 def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
-    """A bushing sits in the bore that it lines."""
+    """A bushing sits in the bore that it lines, for most of its length: what stands out of it is a telescope's tube."""
     for part, form in enumerate(parts.turned):
         if form is None or not form.bore or form.has_grip:
             continue
@@ -233,6 +255,8 @@ def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> Non
         if len({bodies.of(c.other(part)) for c in inside}) != 1 or bodies.of(part) == bodies.of(
             inside[0].other(part)
         ):
+            continue
+        if sum(c.reach for c in inside) < LINED * form.length:
             continue
         if min(c.gap for c in inside) <= min(c.gap for c in around) + 1e-12 and form.radius < 2.0 * form.bore:
             bodies.fix(part, inside[0].other(part), "bushing", 0.8, tuple(inside))

@@ -11,9 +11,14 @@ import numpy as np
 from ...model import FaceKind
 from ...spatial import Array, cross, perpendicular
 from .features import Round, Shape
+from .outlines import inside
 
 NEAR = 1e-5
 """Share of the part's size, and sine, by which a face may be off the axis."""
+THREAD_END = 0.1
+"""Area of a flat that ends a thread's groove, of the square of the part's radius, at most."""
+DRIVE = re.compile(r"\b(lead|ball|feed|power|jack)[ -]?screws?\b", re.IGNORECASE)
+"""A screw that turns and drives, and the nut on it."""
 FASTENER = re.compile(
     r"\b(bolts?|screws?|nuts?|washers?|rivets?|studs?|dowels?|schrauben?|muttern?|scheiben?|vis|[eé]crou|rondelle)\b|"
     r"^M\d+([x.]\d+)?|\b(ISO|DIN|ANSI|EN)[ _-]*\d{3,}", re.IGNORECASE,
@@ -26,7 +31,8 @@ class Turned:
 
     point, axis: in the frame of the shape.  sides: of the hexagon (or other regular polygon), 0 where there is none;
     across: from the axis to one of them, below zero where they face inwards.
-    threaded: it has a helical face.  length: along the axis.  radius: the largest, bore: the smallest through it, or 0;
+    threaded: it has a helical face near an end, where a screw that drives has journals.  length: along the axis.
+    radius: the largest, bore: the smallest, or 0; blind: whether a flat face shuts it.
     shank: the smallest round part of its outside, or 0.
     """
 
@@ -38,6 +44,7 @@ class Turned:
     length: float
     radius: float
     bore: float
+    blind: bool
     shank: float
 
     @property
@@ -47,7 +54,8 @@ class Turned:
 
 
 def is_named_fastener(name: str) -> bool:
-    return FASTENER.search(name.replace("_", " ")) is not None
+    words = name.replace("_", " ")
+    return FASTENER.search(words) is not None and DRIVE.search(words) is None
 
 
 def turned(shape: Shape) -> Turned | None:
@@ -59,8 +67,15 @@ def turned(shape: Shape) -> Turned | None:
     point, axis = main.point, main.direction
     if not all(_on_axis(r, point, axis, shape.size) for r in shape.rounds):
         return None
+    threaded = len(shape.others) > 0 and _is_helical(shape.others, point, axis)
+    if len(shape.others) and not threaded:
+        return None
+    radii = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER]
+    end = THREAD_END * max(radii, default=0.0) ** 2 if threaded else 0.0
     sides: list[tuple[float, Array]] = []
     for flat in shape.flats:
+        if flat.area < end:
+            continue
         along = abs(float(flat.normal @ axis))
         if along > 1.0 - NEAR:
             continue
@@ -70,18 +85,29 @@ def turned(shape: Shape) -> Turned | None:
     count = _polygon(sides)
     if sides and not count:
         return None
-    threaded = len(shape.others) > 0 and _is_helical(shape.others, point, axis)
-    if len(shape.others) and not threaded:
-        return None
     heights = [h for r in shape.rounds for h in _heights(r, point, axis)]
     heights += [float((f.corners[0, 0] - point) @ axis) for f in shape.flats]
-    radii = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER]
     bores = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER and r.hollow]
     shanks = [r.radius for r in shape.rounds if r.kind is FaceKind.CYLINDER and not r.hollow]
+    if threaded:
+        along = (shape.others - point) @ axis
+        plain = min(float(along.min()) - min(heights), max(heights) - float(along.max()))
+        threaded = plain <= max(radii, default=0.0)
     return Turned(
         point, axis, count, sides[0][0] if sides else 0.0, threaded, max(heights) - min(heights),
-        max(radii, default=0.0), min(bores, default=0.0), min(shanks, default=0.0),
+        max(radii, default=0.0), min(bores, default=0.0), _is_shut(shape, point, axis), min(shanks, default=0.0),
     )  # fmt: skip
+
+
+def _is_shut(shape: Shape, point: Array, axis: Array) -> bool:
+    """Whether the axis goes through a flat face of the part."""
+    for flat in shape.flats:
+        slope = float(flat.normal @ axis)
+        if abs(slope) > NEAR:
+            foot = point + axis * (float((flat.point - point) @ flat.normal) / slope)
+            if inside(flat.corners, flat.normal, foot[None])[0]:
+                return True
+    return False
 
 
 def _on_axis(r: Round, point: Array, axis: Array, size: float) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...spatial import Pose, cross
 from ..shapes.turned import Turned
-from ..touching.contact import Contact, ContactKind
+from ..touching.contact import Contact, ContactKind, shared
 from .bodies import Bodies
 from .twins import Twins
 
@@ -28,7 +28,7 @@ THIN_AND_WIDE = 0.4
 NUT = 2.5
 """How far a nut's sides are from its axis, in radii of its bore, at most; ISO 4032's M3 with the bore at the core has 2.2."""
 LINED = 0.5
-"""Share of its length that a bushing is at least in its bore; a flange and an end that stand out are the rest."""
+"""Share of where a bushing is in its bore that the shaft is in it, at least."""
 PRESSED = 0.01
 """Share of the radius by which a pressed shaft may be larger than its bore; beyond, a thread is drawn so."""
 
@@ -244,7 +244,7 @@ def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
 
 
 def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
-    """A bushing sits in the bore that it lines, for most of its length: what stands out of it is a telescope's tube."""
+    """A bushing sits in the bore that it lines: there its shaft is.  In a telescope's tube the next one is elsewhere."""
     for part, form in enumerate(parts.turned):
         if form is None or not form.bore or form.has_grip:
             continue
@@ -256,7 +256,7 @@ def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> Non
             inside[0].other(part)
         ):
             continue
-        if sum(c.reach for c in inside) < LINED * form.length:
+        if sum(shared(c, shaft) for c in inside for shaft in around) < LINED * sum(c.reach for c in inside):
             continue
         if min(c.gap for c in inside) <= min(c.gap for c in around) + 1e-12 and form.radius < 2.0 * form.bore:
             bodies.fix(part, inside[0].other(part), "bushing", 0.8, tuple(inside))

@@ -98,3 +98,15 @@ def axial_rows(point: Array, axis: Array, span: tuple[float, float]) -> tuple[Ar
     y = cross(axis, x)
     low, high = point + axis * span[0], point + axis * span[1]
     return np.array([low, low, high, high]), np.array([x, y, x, y])
+
+
+def shared(a: Contact, b: Contact) -> float:
+    """Length along the axis that two fits have in common over which they are at one place, metres."""
+    sign = 1.0 if float(a.axis @ b.axis) > 0.0 else -1.0
+    shift = float((b.a.point - a.a.point) @ a.axis)
+    length = 0.0
+    for low, high in a.spans:
+        for other in b.spans:
+            first, last = sorted((shift + sign * other[0], shift + sign * other[1]))
+            length += max(0.0, min(high, last) - max(low, first))
+    return length

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..shapes.features import Shape
 from ..shapes.nearby import near_pairs
-from .contact import Contact, ContactKind
+from .contact import Contact, ContactKind, shared
 from .flat_contacts import flat_contacts
 from .round_contacts import round_contacts
 
@@ -55,18 +55,6 @@ def _without_lined(contacts: list[Contact]) -> list[Contact]:
             groups[part, c.side(part).faces].append(c)
         for group in groups.values():
             for c in group:
-                if any(other.gap < c.gap - 1e-9 and _overlap(c, other) for other in group):
+                if any(other.gap < c.gap - 1e-9 and shared(c, other) > 0.5 * c.reach for other in group):
                     dropped.add(id(c))
     return [c for c in contacts if id(c) not in dropped]
-
-
-def _overlap(a: Contact, b: Contact) -> bool:
-    """Whether two fits on one axis are at one place along it: b is over half of where a is."""
-    sign = 1.0 if float(a.axis @ b.axis) > 0.0 else -1.0
-    shift = float((b.a.point - a.a.point) @ a.axis)
-    common = 0.0
-    for low, high in a.spans:
-        for other in b.spans:
-            first, last = sorted((shift + sign * other[0], shift + sign * other[1]))
-            common += max(0.0, min(high, last) - max(low, first))
-    return common > 0.5 * a.reach

@@ -309,6 +309,61 @@ def test_packages_are_found_by_option_environment_and_upwards(tmp_path, monkeypa
     assert len(loaded(named, tmp_path)[1]) == 1
 
 
+def packages_in(folder: Path, *places: str) -> None:
+    """Packages of these places, named as their last folders with _pkg, each with one mesh."""
+    for place in places:
+        (folder / place / "meshes").mkdir(parents=True)
+        name = f"{Path(place).name.removesuffix('_pkg')}_pkg"
+        (folder / place / "package.xml").write_text(
+            f"<package><name>{name}</name></package>", encoding="utf-8"
+        )
+        (folder / place / "meshes" / "t.obj").write_text(TETRA, encoding="utf-8")
+
+
+@pytest.mark.parametrize("given", ["ws/src", "ws", "ws/src/vendor"])
+def test_a_workspace_holds_its_packages_at_any_depth(tmp_path, given):
+    """As ROS finds them: by what the manifest says, none within another, none where a workspace is told to look away."""
+    vendor = tmp_path / "ws/src/vendor"
+    packages_in(vendor, "robots/arms/tool", "left/deep/out_pkg", "robots/base", "robots/base/a/b/in_pkg")
+    (vendor / "left/COLCON_IGNORE").write_text("", encoding="utf-8")
+    (vendor / "around").symlink_to(tmp_path / "ws", target_is_directory=True)
+    found = Packages(tmp_path / "elsewhere", (tmp_path / given,), {})
+    assert found.package("tool_pkg") == vendor / "robots/arms/tool"
+    assert found.package("out_pkg") is None and found.package("in_pkg") is None
+    assert Packages(tmp_path, (), {"ROS_PACKAGE_PATH": str(tmp_path / given)}).package("tool_pkg") is not None
+
+
+@pytest.mark.parametrize("given", [(), ("ws/install",), ("ws/install/tool_pkg",)])
+def test_a_package_that_colcon_installed_is_not_the_folder_around_it(tmp_path, given):
+    """install/NAME/share/NAME; the source lies in such a package too."""
+    packages_in(tmp_path, "ws/install/tool_pkg/share/tool_pkg", "ws/install/arm_pkg/share/arm_pkg")
+    folder = tmp_path / "ws/install/arm_pkg/share/arm_pkg/urdf"
+    found = Packages(folder, tuple(tmp_path / g for g in given), {}).find("package://tool_pkg/meshes/t.obj")
+    assert found.path == tmp_path / "ws/install/tool_pkg/share/tool_pkg/meshes/t.obj"
+
+
+def test_a_whole_path_into_a_package_is_one_into_the_package(tmp_path, monkeypatch):
+    """What xacro makes of ``file://$(find NAME)``, found by the environment, or by a folder that was given from where one stands."""
+    pytest.importorskip("xacro", reason="xacro is not installed")
+    packages_in(tmp_path, "ws/src/arm_pkg", "ws/src/far/tool_pkg", "ws/hidden/secret_pkg")
+    secret = tmp_path / "ws/hidden/secret_pkg/meshes/t.obj"
+    uris = ("file://$(find tool_pkg)/meshes/t.obj", "$(find tool_pkg)/meshes/t.obj", secret)
+    path = written(
+        tmp_path / "ws/src/arm_pkg",
+        "".join(f"<link name='l{i}'>{MESH.format(uri, '')}</link>" for i, uri in enumerate(uris))
+        + "".join(f"<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>" for i in (1, 2)),
+        "r.urdf.xacro",
+    )  # fmt: skip
+    monkeypatch.chdir(tmp_path / "ws")
+    for folders, variable in (([Path("src")], ""), ([], str(tmp_path / "ws" / "src"))):
+        monkeypatch.setenv("ROS_PACKAGE_PATH", variable)
+        codes, meshes = loaded(path, tmp_path, package_path=folders)
+        assert codes == ["MESH_OUTSIDE"] and len(meshes) == 1
+    monkeypatch.delenv("ROS_PACKAGE_PATH")
+    with pytest.raises(kinefab.KinefabError, match=r"expanded: there is no package 'tool_pkg'\."):
+        read(path, Report())
+
+
 def test_names_that_lead_out_of_the_package_are_not_followed(tmp_path):
     path = robot_with_mesh(tmp_path, "package://pkg/../secret.obj")
     (tmp_path / "secret.obj").write_text(TETRA, encoding="utf-8")

@@ -104,7 +104,7 @@ def _include(
         return
     found = packages.find(name)
     if found.path is None:  # MuJoCo counts from the first file; models that are attached from their own
-        found = Packages(line[-1].parent, packages.given, packages.environment).find(name)
+        found = packages.of(line[-1].parent).find(name)
     problem = ""
     if found.path is None:
         problem = "leads out of the model's folder" if found.outside else "is not there"

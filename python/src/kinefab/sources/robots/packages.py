@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
@@ -32,6 +33,10 @@ UPWARDS = 8
 """Folders above the source that are looked into."""
 BESIDE = 2
 """Folders above the source that a relative name may climb where no package is found around it."""
+MOST_FOLDERS = 10_000
+"""Folders that are looked through for manifests, below one that was given."""
+IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
+"""A folder that holds one of these holds no packages."""
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
@@ -51,6 +56,11 @@ class Packages:
     given: tuple[Path, ...] = ()
     environment: Mapping[str, str] = field(default_factory=lambda: os.environ)
     _known: dict[str, Path | None] = field(default_factory=dict[str, "Path | None"])
+    _below: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
+
+    def of(self, folder: Path) -> Packages:
+        """The same for a file that lies in another folder."""
+        return Packages(folder, self.given, self.environment, _below=self._below)
 
     def find(self, uri: str) -> Found:
         """The file that a source names."""
@@ -67,10 +77,9 @@ class Packages:
         if "\0" in plain:
             return Found(None)
         if PurePosixPath(plain).is_absolute() or re.match(r"[A-Za-z]:", plain):
-            inside = next((r for r in (*self.given, self._home()) if is_inside(Path(plain), r)), None)
-            return Found(
-                Path(plain) if inside is not None and Path(plain).is_file() else None, inside is None
-            )
+            inside = any(is_inside(Path(plain), root) for root in (*self.given, self._home()))
+            inside = inside or self._is_in_package(Path(plain))
+            return Found(Path(plain) if inside and Path(plain).is_file() else None, not inside)
         found = _inside(self.folder, plain, self._home())
         # A name that climbs into a folder that was given, or one from there or the package's own.
         if found.path is None:
@@ -86,14 +95,21 @@ class Packages:
             self._known[name] = self._search(name) if _is_name(name) else None
         return self._known[name]
 
+    def _is_in_package(self, path: Path) -> bool:
+        """Whether a file lies in a package that is found by its name, as one that xacro's ``$(find NAME)`` has led to."""
+        for above in _upwards(path.parent):
+            if (name := _stated_name(above)) is not None:
+                found = self.package(name)
+                return found is not None and Path(os.path.abspath(found)) == above
+        return False
+
     def _search(self, name: str) -> Path | None:
-        for root in self.given:
-            if (found := _package_in(root, name)) is not None:
-                return found
+        roots = list(self.given)
         for variable in ("ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"):
-            for root in filter(None, self.environment.get(variable, "").split(os.pathsep)):
-                if (found := _package_in(Path(root), name)) is not None:
-                    return found
+            roots += map(Path, filter(None, self.environment.get(variable, "").split(os.pathsep)))
+        for root in roots:
+            if (found := self._package_in(root, name)) is not None:
+                return found
         for prefix in filter(None, self.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
             if (found := Path(prefix) / "share" / name).is_dir():
                 return found
@@ -101,8 +117,23 @@ class Packages:
             if _is_package(above, name) or above.name == name:
                 return above
             if (above / name).is_dir():
-                return above / name
+                return _installed(above / name, name)
         return None
+
+    def _package_in(self, root: Path, name: str) -> Path | None:
+        """The package in a folder, which may be it, or hold it at any depth, as ROS finds it."""
+        if _is_package(root, name):
+            return root
+        for candidate in (
+            *([root] if root.name == name else ()),
+            root / name,
+            *sorted(root.glob(f"*/{name}")),
+        ):
+            if candidate.is_dir():
+                return _installed(candidate, name)
+        if root not in self._below:
+            self._below[root] = _packages_below(root)
+        return self._below[root].get(name)
 
     def _home(self) -> Path:
         """The package that the source lies in; without one the folder a little above it."""
@@ -131,23 +162,46 @@ def _upwards(folder: Path) -> list[Path]:
     return [whole, *whole.parents][: UPWARDS + 1]
 
 
-def _package_in(root: Path, name: str) -> Path | None:
-    """The package in a folder, which may be it, hold it, or hold folders that hold it."""
-    if _is_package(root, name) or (root.name == name and root.is_dir()):
-        return root
-    for candidate in (root / name, *sorted(root.glob(f"*/{name}"))):
-        if candidate.is_dir():
-            return candidate
-    return next((m.parent for m in sorted(root.glob("*/package.xml")) if _is_package(m.parent, name)), None)
+def _packages_below(root: Path) -> dict[str, Path]:
+    """Folders with a manifest, by the name that it states, the upper ones first; none within another."""
+    found: dict[str, Path] = {}
+    waiting, seen = deque([root]), {os.path.realpath(root)}
+    while waiting and len(seen) < MOST_FOLDERS:
+        folder = waiting.popleft()
+        try:
+            with os.scandir(folder) as entries:
+                inner = sorted(e.name for e in entries if e.is_dir() and not e.name.startswith("."))
+        except OSError:
+            continue
+        for path in (folder / name for name in inner):
+            if any((path / ignored).exists() for ignored in IGNORED):
+                continue
+            if (stated := _stated_name(path)) is not None:
+                found.setdefault(stated, path)
+            elif (real := os.path.realpath(path)) not in seen:  # a link may lead upwards
+                seen.add(real)
+                waiting.append(path)
+    return found
+
+
+def _installed(folder: Path, name: str) -> Path:
+    """Of a folder that is called like a package: where colcon installs each into a folder of its own, the package is in that."""
+    inner = folder / "share" / name
+    return inner if inner.is_dir() else folder
 
 
 def _is_package(folder: Path, name: str) -> bool:
+    return _stated_name(folder) == name
+
+
+def _stated_name(folder: Path) -> str | None:
+    """What a folder's ``package.xml`` calls it; None without one."""
     try:
         with (folder / "package.xml").open("rb") as stream:
             match = _NAME.search(stream.read(65536))
     except OSError:
-        return False
-    return match is not None and match[1].decode("utf-8", "replace") == name
+        return None
+    return None if match is None else match[1].decode("utf-8", "replace")
 
 
 def _inside(folder: Path, name: str, home: Path | None = None) -> Found:

@@ -109,7 +109,7 @@ def _include(scope: Scope, element: Element, files: tuple[Path, ...]) -> None:
     name = element.content("name") or models[0].name()
     merged = element.attributes.get("merge", "").strip() in ("true", "1")
     posed = element if element.child("pose") is not None else models[0]
-    packages = Packages(path.parent, scope.packages.given, scope.packages.environment)
+    packages = scope.packages.of(path.parent)
     holder = _Overlay(element, posed)
     above = f"{scope.path}/" if scope.path else ""
     label = f"model {above}{name}"

@@ -118,8 +118,10 @@ def expansion(
     except RecursionError:
         detail = "macros or includes that hold themselves"
     except Exception as error:  # xacro evaluates Python in the file, which may raise anything
-        detail = " ".join(str(error)[:3000].split())[:300] or type(error).__name__
-        if isinstance(error, MemoryError) or isinstance(getattr(error, "exc", None), MemoryError):
+        cause = getattr(error, "exc", None)
+        told = cause if isinstance(cause, ExpansionFailed) else error
+        detail = " ".join(str(told)[:3000].split())[:300] or type(error).__name__
+        if isinstance(error, MemoryError) or isinstance(cause, MemoryError):
             detail = f"it takes more than {most_bytes / 2**20:.0f} MiB of memory"
     yield text, detail
 
@@ -160,7 +162,12 @@ def _staying(library: Any, substitution: Any, packages: Packages) -> Generator[N
 
     def find(name: str) -> str:
         folder = packages.package(name)
-        named.append(Path(before(name)) if folder is None else folder)
+        if folder is None:
+            try:
+                folder = Path(before(name))
+            except ImportError:
+                raise ExpansionFailed(f"there is no package '{name}'") from None
+        named.append(Path(os.path.abspath(folder)))
         return str(named[-1])
 
     def opened(name: str, *arguments: Any) -> IO[Any]:

@@ -67,13 +67,18 @@ def weighed_together(
     return MassProperties(whole.mass, TURN @ whole.center, TURN @ inertia @ TURN.T)
 
 
+def ball_inertia(mass: float) -> Array:
+    """Of a ball of water: what stands in for an inertia that nobody knows."""
+    radius = math.cbrt(3.0 * mass / (4.0 * math.pi * STAND_IN_DENSITY))
+    return 0.4 * mass * radius * radius * np.eye(3)
+
+
 def _mended(inertia: Array, mass: float) -> Array:
     """The possible inertia next to one that is none: moments positive, none above the sum of the others."""
     moments, axes = np.linalg.eigh(inertia)
     largest = float(moments[2])
     if not largest > POINT * POINT * mass:  # zero, or what is left of it by the sums
-        radius = math.cbrt(3.0 * mass / (4.0 * math.pi * STAND_IN_DENSITY))
-        return 0.4 * mass * radius * radius * np.eye(3)
+        return ball_inertia(mass)
     moments = np.maximum(moments, THIN * largest)
     if (excess := float(moments[2] - moments[0] - moments[1])) > 0.0:
         moments = moments + excess / 3.0 * np.array([1.0, 1.0, -1.0])

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.mass import combined, moved, solid_properties
+from ...geometry.mass import combined
 from ...model import Body, Collider, MassProperties, Node, NodeKind, PhysicsMaterial, Scene, Site
 from ...partition import Partition
 from ...spatial import Pose
-from .inertial import STAND_IN_DENSITY, Inertial, weighed_together
+from .inertial import STAND_IN_DENSITY, Inertial, ball_inertia, weighed_together
 from .robot_frame import placed
 from .shapes import Shape, Shapes
 
@@ -25,7 +25,7 @@ STAND_IN_RADIUS = 0.05
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """A shape of a link.  pose: in the link's frame, source axes.  surfaces: of one that is drawn.
-    material, group: of one that is touched."""
+    material, group: of one that is touched; density: kg/m^3, where its link weighs what it does."""
 
     name: str
     shape: Shape
@@ -33,12 +33,20 @@ class Part:
     surfaces: tuple[int, ...] = ()
     material: PhysicsMaterial | None = None
     group: str = ""
+    density: float = STAND_IN_DENSITY
+
+
+@dataclass(slots=True, eq=False)
+class Solid:
+    """A link that weighs what its touched shapes do.  mass: kg, of all of them; None where their densities count."""
+
+    mass: float | None = None
 
 
 @dataclass(slots=True, eq=False)
 class Link:
     """pose: in the world at the exported pose, source axes.  id: unique path.  parent: index of its assembly's node.
-    frames: further named frames, in the link's own.  solid: without ``inertial`` it weighs what its touched shapes do.
+    frames: further named frames, in the link's own.  solid: of one without ``inertial`` that leaves it to its shapes.
     extras: kept with the node."""
 
     id: str
@@ -53,7 +61,7 @@ class Link:
     frames: dict[str, Pose] = field(default_factory=dict[str, Pose])
     gravity: bool = True
     kinematic: bool = False
-    solid: bool = False
+    solid: Solid | None = None
     extras: dict[str, object] = field(default_factory=dict[str, object])
 
 
@@ -129,25 +137,25 @@ def _node(
     mass = weighed_together(inertials, own.name, own.where, report)
     grounded = any(link.grounded for link in together)
     weighed = False
+    known = [*([] if mass is None else [mass]), *_of_solids(together, inside, shapes, report)]
+    mass = combined(known) if known else None
     if mass is None and not grounded:
         mass = _of_touched(together, inside, shapes)
         weighed = mass is None and any(link.drawn for link in together)
         if mass is not None or weighed:
             report.approximated(f"mass {own.name}", "MASS_FROM_GEOMETRY", own.where, link=own.name)
-    elif mass is not None:
-        mass = combined([mass, *_of_solids(together, inside, shapes, report)])
     bodies: list[Body] = []
     colliders: list[Collider] = []
     sites: list[Site] = []
     for link, pose in zip(together, inside):
         prefix = "" if link is own else f"{link.name}/"
+        density = None if link.solid is None or not link.touched else link.touched[0].density
         if link is not own:
             sites.append(Site(_seen_from(own, link), placed(pose), link.where))
         sites += [Site(name, placed(pose @ frame), link.where) for name, frame in link.frames.items()]
         for part in link.drawn:
-            bodies.append(
-                shapes.body(prefix + part.name, part.shape, pose @ part.pose, part.surfaces, weighed)
-            )
+            body = shapes.body(prefix + part.name, part.shape, pose @ part.pose, part.surfaces, weighed)
+            bodies.append(body if density is None else replace(body, density=density))
         for part in link.touched:
             at = pose @ part.pose
             colliders.append(shapes.collider(prefix + part.name, part.shape, at, part.material, part.group))
@@ -173,34 +181,38 @@ def _node(
 
 
 def _of_touched(together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes) -> MassProperties | None:
-    """Of the shapes that are touched; None where there are none, or one is a file that is not loaded yet."""
-    parts = [(part, pose) for link, pose in zip(together, inside) for part in link.touched]
-    if not parts or any(part.shape.file is not None or part.shape.kind == "plane" for part, _ in parts):
-        return None
+    """Of the shapes that are touched; None where there are none, or one has no volume that is known yet."""
     found: list[MassProperties] = []
-    for part, pose in parts:
-        body = shapes.body(part.name, part.shape, pose @ part.pose, (), False)
-        assert body.mesh is not None
-        mesh = shapes.meshes[body.mesh]
-        found.append(moved(solid_properties(mesh.vertices, mesh.faces, STAND_IN_DENSITY), body.pose))
-    return combined(found)
+    for link, pose in zip(together, inside):
+        for part in link.touched:
+            if (solid := shapes.solid(part.shape, pose @ part.pose)) is None:
+                return None
+            found.append(_times(solid, part.density))
+    return combined(found) if found else None
 
 
 def _of_solids(
     together: Sequence[Link], inside: Sequence[Pose], shapes: Shapes, report: Report
 ) -> list[MassProperties]:
-    """Of the links that leave their mass to their shapes, beside others that state theirs."""
+    """Of the links that leave their mass to their shapes."""
     found: list[MassProperties] = []
     for link, pose in zip(together, inside):
-        if not link.solid or link.inertial is not None:
+        if link.solid is None:
             continue
-        mass = _of_touched([link], [pose], shapes)
-        if mass is None:
+        whole, stated = _of_touched([link], [pose], shapes), link.solid.mass
+        if whole is not None and whole.mass > 0.0:
+            found.append(whole if stated is None else _times(whole, stated / whole.mass))
+            report.kept(f"mass {link.name}", link.where)
+        elif stated is not None:
+            report.dropped(f"inertia of the meshes of {link.name}", "ELEMENT_DROPPED", link.where)
+            found.append(MassProperties(stated, placed(pose).translation, ball_inertia(stated)))
+        elif len(together) > 1:  # one that stands alone is weighed with what is drawn of it
             report.dropped(f"mass of the meshes of {link.name}", "ELEMENT_DROPPED", link.where)
-            continue
-        report.approximated(f"mass {link.name}", "MASS_FROM_GEOMETRY", link.where, link=link.name)
-        found.append(mass)
     return found
+
+
+def _times(solid: MassProperties, factor: float) -> MassProperties:
+    return MassProperties(factor * solid.mass, solid.center, factor * solid.inertia)
 
 
 def _stand_in(scene: Scene, index: int, beside: Sequence[float], report: Report) -> None:

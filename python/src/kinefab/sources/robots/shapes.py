@@ -11,7 +11,8 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...geometry import primitives
-from ...model import Body, Collider, ColliderKind, Mesh, MeshReference, PhysicsMaterial
+from ...geometry.mass import moved, shape_properties, solid_properties
+from ...model import Body, Collider, ColliderKind, MassProperties, Mesh, MeshReference, PhysicsMaterial
 from ...spatial import Pose
 from .packages import Packages
 from .robot_frame import TURN, placed, shape_placed
@@ -54,6 +55,16 @@ class Shapes:
         if shape.file is not None:
             return Body(name, None, surfaces, reference=_reference(shape), pose=placed(pose), weighed=weighed)
         return Body(name, self._mesh(shape), surfaces, pose=shape_placed(pose), weighed=weighed)
+
+    def solid(self, shape: Shape, pose: Pose) -> MassProperties | None:
+        """Of density 1, in the node's frame, turned into the scene; None of a file, which is not loaded yet, and of what has
+        no volume.  pose: as of ``body``."""
+        if shape.file is not None or shape.kind in ("plane", "surface"):
+            return None
+        if shape.mesh is not None:
+            mesh = self.meshes[shape.mesh]
+            return moved(solid_properties(mesh.vertices, mesh.faces, 1.0), shape_placed(pose))
+        return moved(shape_properties(shape.kind, shape.size), shape_placed(pose))
 
     def collider(
         self, name: str, shape: Shape, pose: Pose, material: PhysicsMaterial | None = None, group: str = ""

@@ -9,12 +9,14 @@ import numpy as np
 from ...diagnostics import Report
 from ...spatial import Pose, frame_from_axes
 from ..robots.inertial import Inertial, tensor
-from ..robots.rigid_links import Link, Part, unique
+from ..robots.rigid_links import Link, Part, Solid, unique
 from ..robots.shapes import PLANE_EXTENT, Shape, mesh_shape
 from ..robots.xml_elements import Element
 from .materials import Materials, physics_material
 from .scopes import Entry, Scope, entry_world_pose, frame_pose, pose_of, relative_to
 
+WATER = 1000.0
+"""kg/m^3 of a collision for which nothing else is stated."""
 ROUND = {
     "sphere": ("radius",),
     "cylinder": ("radius", "length"),
@@ -37,7 +39,7 @@ class Links:
         link = Link(f"{scope.path}/{entry.name}", entry.name, entry_world_pose(entry), element.where)
         link.parent, link.grounded = parent, scope.static
         link.inertial = None if scope.static else _inertial(element, entry.name)
-        link.solid = _is_solid(element)
+        link.solid = _solid(element, entry.name) if _is_solid(element) and not scope.static else None
         label = f"link {link.id}"
         link.drawn = self._parts(element, "visual", scope, label)
         link.touched = self._parts(element, "collision", scope, label)
@@ -68,7 +70,8 @@ class Links:
                 if tag == "collision"
                 else None
             )
-            found[name] = Part(name, shape, pose @ turn, surfaces, material)
+            density = _density(element, link) if tag == "collision" and _is_solid(link) else WATER
+            found[name] = Part(name, shape, pose @ turn, surfaces, material, density=density)
         return list(found.values())
 
     def _shape(self, geometry: Element, feature: str, scope: Scope, tag: str) -> tuple[Shape, Pose] | None:
@@ -142,9 +145,39 @@ def _plane(element: Element, tag: str) -> tuple[Shape, Pose] | None:
 
 
 def _is_solid(link: Element) -> bool:
-    """Whether a link's mass is that of its collisions."""
+    """Whether its collisions say how a link's mass is spread, and how large it is where the link states none."""
     element = link.child("inertial")
     return element is not None and element.attributes.get("auto", "").strip() in ("true", "1")
+
+
+def _solid(link: Element, name: str) -> Solid:
+    element = link.child("inertial")
+    stated = element is not None and element.child("mass") is not None
+    return Solid(_mass(element, name) or None if element is not None and stated else None)
+
+
+def _density(part: Element, link: Element) -> float:
+    """kg/m^3 of a collision: its own, else its link's, else water's."""
+    inertial = link.child("inertial")
+    for holder in (part, inertial):
+        child = None if holder is None else holder.child("density")
+        if child is None:
+            continue
+        density = child.value(WATER)
+        if density > 0.0:
+            return density
+        child.wrong("density", "a number above zero", child.text.strip())
+    return WATER
+
+
+def _mass(inertial: Element, name: str) -> float:
+    """kg; zero after a fault."""
+    child = inertial.child("mass")
+    mass = 1.0 if child is None else child.value(1.0)
+    if mass < 0.0:
+        inertial.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
+        return 0.0
+    return mass
 
 
 def _inertial(link: Element, name: str) -> Inertial | None:
@@ -154,12 +187,8 @@ def _inertial(link: Element, name: str) -> Inertial | None:
         return Inertial(1.0, Pose(), np.eye(3))
     if _is_solid(link):
         return None
-    mass_element, inertia = element.child("mass"), element.child("inertia")
-    mass = 1.0 if mass_element is None else mass_element.value(1.0)
+    mass, inertia = _mass(element, name), element.child("inertia")
     if mass == 0.0:  # what models that were made for a fixed base say of it
-        return None
-    if not mass > 0.0:
-        element.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
         return None
     values = {"ixx": 1.0, "iyy": 1.0, "izz": 1.0, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0}
     for key in values:

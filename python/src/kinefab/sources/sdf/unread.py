@@ -32,14 +32,14 @@ GRAMMAR: dict[str, Children] = {
         "frame plugin sensor light contact velocity_decay enable_wind audio_sink audio_source battery particle_emitter projector",
     ),
     "inertial": children(
-        one="pose mass inertia", foreign="frame density auto_inertia_params fluid_added_mass"
+        one="pose mass inertia density", foreign="frame auto_inertia_params fluid_added_mass"
     ),
     "visual": children(
         one="pose geometry material transparency",
         foreign="frame cast_shadows laser_retro visibility_flags meta plugin",
     ),
     "collision": children(
-        one="pose geometry surface", foreign="frame laser_retro max_contacts density auto_inertia_params"
+        one="pose geometry surface density", foreign="frame laser_retro max_contacts auto_inertia_params"
     ),
     "surface": children(one="friction bounce", foreign="contact soft_contact"),
     "friction": children(one="ode", foreign="torsional bullet"),

@@ -15,7 +15,7 @@ import numpy as np
 from ....diagnostics import Report
 from ....geometry.closure import is_skin
 from ....geometry.hulls import hull_of_points
-from ....geometry.mass import combined, moved, solid_properties
+from ....geometry.mass import combined, moved, shape_properties, solid_properties
 from ....model import Collider, ColliderKind, MassProperties, Mesh
 from ....spatial import Array, Pose, rotation_about
 from ..looks.gprims import axis_turn
@@ -137,29 +137,16 @@ def _solid(
 
 def unit_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str = "") -> MassProperties | None:
     """Volume (as mass), centre and inertia at density 1 of a collider in its own frame; None where it is flat."""
-    zero = np.zeros(3)
     if collider.kind is ColliderKind.BOX:
-        a, b, c = collider.size
-        volume = a * b * c
-        inertia = volume / 12.0 * np.diag([b * b + c * c, a * a + c * c, a * a + b * b])
+        size = collider.size
     elif collider.kind is ColliderKind.SPHERE:
-        r = collider.radius
-        volume = 4.0 / 3.0 * np.pi * r**3
-        inertia = 0.4 * volume * r * r * np.eye(3)
+        size = (collider.radius,)
     elif collider.kind in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
-        r, h = collider.radius, collider.length
-        tube = np.pi * r * r * h
-        across, along = tube * (3.0 * r * r + h * h) / 12.0, 0.5 * tube * r * r
-        volume = tube
-        if collider.kind is ColliderKind.CAPSULE:
-            ball = 4.0 / 3.0 * np.pi * r**3
-            volume += ball
-            along += 0.4 * ball * r * r
-            across += ball * (0.4 * r * r + 0.375 * r * h + 0.25 * h * h)
-        inertia = np.diag([across, across, along])
+        size = (collider.radius, collider.length)
     else:
         return _mesh_solid(collider, meshes, approximation)
-    return MassProperties(float(volume), zero, inertia) if volume > 0.0 else None
+    found = shape_properties(collider.kind.value, size)
+    return found if found.mass > 0.0 else None
 
 
 def _mesh_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str) -> MassProperties | None:

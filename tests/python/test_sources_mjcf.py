@@ -443,6 +443,31 @@ def test_textures_are_files_or_bytes(tmp_path):
     assert "MJCF_TEXTURE" in codes(report)
 
 
+@pytest.mark.parametrize(
+    ("flip", "scale", "offset"),
+    [
+        ("", (2.0, 3.0), (0.0, 0.0)),
+        ("hflip='true'", (-2.0, 3.0), (1.0, 0.0)),
+        ("vflip='true'", (2.0, -3.0), (0.0, 1.0)),
+    ],
+)
+def test_a_texture_is_flipped_as_mujoco_flips_it(tmp_path, flip, scale, offset):
+    """The file stays as it is: what it is laid on by turns round, u' = 1 - repeat u.  Layers that do not colour are told."""
+    (tmp_path / "t.png").write_bytes(b"")
+    mesh = "<mesh name='q' vertex='0 0 0 1 0 0 0 1 0 0 0 1' face='0 2 1 0 1 3 0 3 2 1 2 3' texcoord='0 0 1 0 0 1 1 1'/>"
+    head = (
+        f"<asset><texture name='t' type='2d' file='t.png' {flip}/><texture name='bumps' type='2d' file='t.png'/>{mesh}"
+        "<material name='m' texrepeat='2 3'><layer texture='t' role='rgba'/><layer texture='bumps' role='normal'/></material></asset>"
+    )
+    geom = "<geom type='mesh' mesh='q' material='m'/>"
+    scene, report = loaded(tmp_path, f"<body>{geom}</body><body pos='2 0 0'>{geom}</body>", head)
+    (surface,) = scene.surfaces
+    assert surface.color_texture is not None
+    assert (surface.color_texture.scale, surface.color_texture.offset) == (scale, offset)
+    lost = [o.feature for o in report.outcomes if o.code == "MJCF_LEFT_OUT"]
+    assert lost == ["normal texture bumps of material m"]
+
+
 def test_what_has_no_place_is_left_out_by_name(tmp_path):
     _, report = loaded(tmp_path, ONE, tail="<sensor><jointpos name='s' joint='j'/></sensor>")
     assert [d.message for d in report.diagnostics if d.code == "MJCF_LEFT_OUT"] == [

@@ -18,6 +18,7 @@ from kinefab.geometry import primitives
 from kinefab.geometry.mass import solid_properties
 from kinefab.model import RX, RZ, ColliderKind, JointKind
 from kinefab.sources import read
+from kinefab.sources.reading.color import linear
 from kinefab.sources.robots.robot_frame import TURN as TO_SCENE
 from kinefab.sources.robots.robot_frame import rotation_rpy
 from scene_kinematics import SceneKinematics, about, difference, unity_inertia, unity_point, unity_pose
@@ -453,11 +454,11 @@ def test_shapes_materials_and_friction(tmp_path):
     assert {(c.material.dynamic_friction, c.material.restitution) for c in node.colliders} == {(0.7, 0.3)}
     (paint,) = scene.surfaces
     assert (
-        paint.color == (0.1, 0.2, 0.3, 1.0)
+        paint.color == (linear(0.1), linear(0.2), linear(0.3), 1.0)
         and paint.metallic == 0.9
         and paint.smoothness == pytest.approx(0.8)
     )
-    assert paint.emission == (0.4, 0.5, 0.6)
+    assert paint.emission == (linear(0.4), linear(0.5), linear(0.6))
 
 
 def test_a_plane_lies_across_its_normal(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import pytest
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, JointKind
 from kinefab.sources import read
+from kinefab.sources.reading.color import linear
 from kinefab.sources.robots.packages import Packages
 from kinefab.sources.robots.robot_frame import rotation_rpy
 from kinefab.sources.robots.shapes import Shape, Shapes
@@ -422,10 +424,35 @@ def test_materials_by_name_may_stand_anywhere(tmp_path):
     (surface,) = scene.surfaces
     assert (
         surface.name == "red"
-        and surface.color == (1.0, 0.2, 0.1, 0.5)
+        and surface.color == (1.0, linear(0.2), linear(0.1), 0.5)
         and surface.alpha_mode.value == "blend"
     )
     assert [body.surfaces for body in scene.nodes[1].bodies] == [(0,), (0,)]
+
+
+PAINTED = {
+    "r.urdf": "<robot name='r'><link name='a'><visual><geometry><box size='1 2 3'/></geometry>"
+    "<material name='m'><color rgba='.2 .4 .6 1'/></material></visual></link></robot>",
+    "r.sdf": "<sdf version='1.9'><model name='r'><link name='a'><visual name='v'><geometry><box><size>1 2 3</size></box>"
+    "</geometry><material><diffuse>.2 .4 .6</diffuse></material></visual></link></model></sdf>",
+    "r.xml": "<mujoco><worldbody><body><geom type='box' size='1 2 3' rgba='.2 .4 .6 1'/></body></worldbody></mujoco>",
+}
+
+
+@pytest.mark.parametrize("name", PAINTED)
+def test_a_colour_is_the_one_that_the_screen_shows(tmp_path, name):
+    """RViz, Gazebo and MuJoCo show the file's numbers; so do Unity's materials, which state them, and a scene's are linear."""
+    if name == "r.xml":
+        pytest.importorskip("mujoco", reason="mujoco is not installed")
+    path = tmp_path / name
+    path.write_text(PAINTED[name], encoding="utf-8")
+    (surface,) = read(path, Report()).surfaces
+    assert surface.color == pytest.approx((0.0331047666, 0.1328683216, 0.3185467781, 1.0))
+    kinefab.export(path, tmp_path / "R.prefab")
+    stated = re.search(
+        r"- _Color: \{r: (.*), g: (.*), b: (.*), a: 1\}", next(tmp_path.rglob("*.mat")).read_text("utf-8")
+    )
+    assert [float(v) for v in stated.groups()] == pytest.approx([0.2, 0.4, 0.6], abs=1e-6)
 
 
 def test_a_plane_collides_as_a_box_below_it():

@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element
 
 from ...diagnostics import KinefabError, Report
 from ...model import AlphaMode, Scene, Surface
+from ..reading.color import linear
 from ..reading.record import shown
 from ..reading.xml_text import parse_xml
 from .archive import ArchiveError
@@ -195,15 +196,9 @@ class Looks:
             self._surfaces[look] = len(self._scene.surfaces)
             name = f"#{red:02X}{green:02X}{blue:02X}" + (f" {opacity:.0%}" if opacity < 1.0 else "")
             alpha = AlphaMode.BLEND if opacity < 1.0 else AlphaMode.OPAQUE
-            color = (linear(red), linear(green), linear(blue), opacity)
+            color = (linear(red / 255.0), linear(green / 255.0), linear(blue / 255.0), opacity)
             self._scene.surfaces.append(Surface(name, color, smoothness=shine, alpha_mode=alpha))
         return self._surfaces[look]
-
-
-def linear(channel: int) -> float:
-    """A channel of the screen, 0..255, as linear light 0..1 (IEC 61966-2-1)."""
-    value = channel / 255.0
-    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 
 def _rgb(packed: int) -> tuple[int, int, int]:

@@ -35,7 +35,8 @@ HIDDEN = 5
 class Compiled:
     """mujoco: the module.  model: MjModel.  data: MjData at the exported pose.  ctrl: the actuators' controls there.
     lost: ids of geoms that stand in for missing meshes.  textures: file of each texture by its name; None where it is
-    made by numbers.  names: of bodies, by id, each of them one."""
+    made by numbers.  flipped: of those that are not shown as they lie in their file, whether sideways, and upside down.
+    names: of bodies, by id, each of them one."""
 
     mujoco: Any
     model: Any
@@ -44,6 +45,7 @@ class Compiled:
     ctrl: Array
     lost: frozenset[int]
     textures: dict[str, Path | None]
+    flipped: dict[str, tuple[bool, bool]]
     bodies: list[str]
     joints: list[str]
     keyframes: tuple[str, ...]
@@ -74,7 +76,7 @@ def compile_model(files: Files, packages: Packages, keyframe: str, report: Repor
     library = _Library(mujoco, files, packages, report)
     model = library.compiled()
     lost = frozenset(i for i in range(model.ngeom) if model.geom(i).name in library.lost)
-    return _posed(mujoco, model, files, keyframe, lost, library.textures, report)
+    return _posed(mujoco, model, files, keyframe, lost, library, report)
 
 
 @dataclass(slots=True, eq=False)
@@ -88,6 +90,7 @@ class _Library:
     lost: set[str] = field(default_factory=set[str])
     folders: list[str] = field(default_factory=list[str])
     textures: dict[str, Path | None] = field(default_factory=dict[str, "Path | None"])
+    flipped: dict[str, tuple[bool, bool]] = field(default_factory=dict[str, tuple[bool, bool]])
 
     def compiled(self) -> Any:
         spec = self._tried(self._opened)
@@ -197,6 +200,8 @@ class _Library:
             name = texture.name or PurePosixPath(file).stem
             texture.name = name
             self.textures[name] = found.path if texture.file else None
+            if texture.hflip or texture.vflip:
+                self.flipped[name] = (bool(texture.hflip), bool(texture.vflip))
             texture.file, texture.builtin = "", flat
             for i in range(len(texture.cubefiles)):
                 texture.cubefiles[i] = ""
@@ -281,7 +286,7 @@ def _posed(
     files: Files,
     keyframe: str,
     lost: frozenset[int],
-    textures: dict[str, Path | None],
+    library: _Library,
     report: Report,
 ) -> Compiled:
     data = mujoco.MjData(model)
@@ -306,4 +311,6 @@ def _posed(
     for i in range(model.njnt):
         owner = owners[int(model.jnt_bodyid[i])]
         joints[unique(joints, str(model.joint(i).name) or f"{owner} joint")] = None
-    return Compiled(mujoco, model, data, files, ctrl, lost, textures, list(bodies), list(joints), keyframes)
+    return Compiled(
+        mujoco, model, data, files, ctrl, lost, library.textures, library.flipped, list(bodies), list(joints), keyframes
+    )  # fmt: skip

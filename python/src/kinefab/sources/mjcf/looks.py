@@ -10,12 +10,13 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture
+from ..reading.color import linear
 from .engine import Compiled
 
 UNCOLOURED = (0.5, 0.5, 0.5, 1.0)
 """MuJoCo's colour of a geom that states none: then its material's counts."""
-RGB = 1
-"""Role of a texture that colours (mjtTextureRole)."""
+COLOURING = (1, 8)
+"""Roles of textures that colour, without and with opacity (mjtTextureRole)."""
 
 
 @dataclass(slots=True)
@@ -26,6 +27,7 @@ class Looks:
     surfaces: list[Surface]
     report: Report
     _known: dict[tuple[object, ...], int] = field(default_factory=dict[tuple[object, ...], int])
+    _told: set[int] = field(default_factory=set[int])
 
     def of(self, geom: int, has_uvs: bool) -> tuple[int, ...]:
         """The index of a geom's surface in the scene's, as a body has it: of its material, in its own colour where it
@@ -53,21 +55,35 @@ class Looks:
         return (self._known[key],)
 
     def _texture_of(self, material: int) -> int:
-        """Of those that colour; -1 without one."""
+        """The one that colours; -1 without one."""
         ids = np.atleast_1d(self.compiled.model.mat_texid[material])
-        return int(ids[RGB]) if len(ids) > RGB else int(ids[0])
+        found = [int(ids[role]) for role in COLOURING if role < len(ids) and ids[role] >= 0]
+        return found[0] if found else -1
+
+    def _tell_layers(self, material: int, name: str) -> None:
+        """The textures that do not colour; MuJoCo's own windows show none of them either."""
+        roles = self.compiled.mujoco.mjtTextureRole
+        for role, texture in enumerate(np.atleast_1d(self.compiled.model.mat_texid[material])):
+            if role not in COLOURING and texture >= 0:
+                word = str(roles(role).name).removeprefix("mjTEXROLE_").lower()
+                feature = f"{word} texture {self.compiled.name('tex', int(texture))} of material {name}"
+                self.report.dropped(feature, "MJCF_LEFT_OUT", self.compiled.where("material", name))
 
     def _surface(self, material: int, rgba: tuple[float, ...], texture: int) -> Surface:
         m = self.compiled.model
         red, green, blue, alpha = (min(1.0, max(0.0, v)) for v in rgba)
         mode = AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE
+        name = "Color " + "".join(f"{round(255 * v):02X}" for v in (red, green, blue, alpha))
+        red, green, blue = linear(red), linear(green), linear(blue)
         if material < 0:
-            name = "Color " + "".join(f"{round(255 * v):02X}" for v in (red, green, blue, alpha))
             return Surface(name, (red, green, blue, alpha), alpha_mode=mode)
         name = self.compiled.name("mat", material) or f"material{material}"
         metallic, roughness = float(m.mat_metallic[material]), float(m.mat_roughness[material])
         shine = 1.0 - roughness if roughness >= 0.0 else float(m.mat_shininess[material])
         glow = float(m.mat_emission[material])
+        if material not in self._told:
+            self._told.add(material)
+            self._tell_layers(material, name)
         return Surface(
             name,
             (red, green, blue, alpha),
@@ -84,7 +100,10 @@ class Looks:
         across, up = (float(v) for v in m.mat_texrepeat[material])
         if name in self.compiled.textures:
             path = self.compiled.textures[name]
-            return None if path is None else Texture(path.name, path, scale=(across, up))
+            turned, headlong = self.compiled.flipped.get(name, (False, False))
+            scale = (-across if turned else across, -up if headlong else up)
+            offset = (float(turned), float(headlong))
+            return None if path is None else Texture(path.name, path, scale=scale, offset=offset)
         width, height = int(m.tex_width[index]), int(m.tex_height[index])
         channels, start = int(m.tex_nchannel[index]), int(m.tex_adr[index])
         pixels = np.array(m.tex_data[start : start + width * height * channels], dtype=np.uint8)

@@ -13,6 +13,8 @@ from typing import Any
 import assimp_py
 import numpy as np
 
+from ..reading.color import linear
+
 MOST_LEVELS = 200
 TRIANGLES = 3
 
@@ -54,5 +56,4 @@ def _look(scene: Any, index: int) -> tuple[str, tuple[float, ...] | None]:
     name, color = str(material.get("NAME", "")), material.get("COLOR_DIFFUSE")
     if color is None or name == "DefaultMaterial":
         return name, None
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in map(float, color[:3])]
-    return name, (*linear, float(material.get("OPACITY", 1.0)))
+    return name, (*(linear(float(c)) for c in color[:3]), float(material.get("OPACITY", 1.0)))

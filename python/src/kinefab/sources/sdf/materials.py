@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from ...model import AlphaMode, PhysicsMaterial, Surface, Texture
+from ..reading.color import linear
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element
 
@@ -66,14 +67,14 @@ def _surface(element: Element, visual: Element, packages: Packages) -> Surface:
 def color(
     element: Element, tag: str, default: tuple[float, float, float, float]
 ) -> tuple[float, float, float, float]:
-    """RGBA; three numbers have an alpha of 1."""
+    """RGBA, linear; three numbers have an alpha of 1."""
     child = element.child(tag)
     if child is None or not child.text.strip():
         return default
     count = 3 if len(child.text.split()) == 3 else 4
     found = (*child.values(count, default[:count]), 1.0)
     red, green, blue, alpha = (min(1.0, max(0.0, v)) for v in found[:4])
-    return red, green, blue, alpha
+    return linear(red), linear(green), linear(blue), alpha
 
 
 def _share(element: Element, tag: str, default: float) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array, Pose
+from ..reading.color import linear
 from ..reading.record import is_encodable
 from ..robots.xml_elements import Element
 
@@ -106,8 +107,7 @@ class Tree:
         name = "#" + "".join(f"{round(255 * c):02X}" for c in color[:3])
         name += f" {color[3]:g}" if color[3] < 1.0 else ""
         if all(material["name"] != name for material in self.materials):
-            linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color[:3]]
-            self.materials.append({"name": name, "color": [*linear, color[3]]})
+            self.materials.append({"name": name, "color": [*map(linear, color[:3]), color[3]]})
         return name
 
     def transform(self, element: Element) -> Pose:

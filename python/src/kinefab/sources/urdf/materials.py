@@ -7,6 +7,7 @@ from pathlib import PurePosixPath
 
 from ...diagnostics import Report
 from ...model import Surface, Texture
+from ..reading.color import linear
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element
 
@@ -53,6 +54,8 @@ class Materials:
         color, texture = element.child("color"), element.child("texture")
         rgba = GREY if color is None else color.numbers("rgba", 4, GREY)
         red, green, blue, alpha = (min(1.0, max(0.0, c)) for c in rgba)
+        if color is not None:
+            red, green, blue = linear(red), linear(green), linear(blue)
         image = None if texture is None else self._texture(texture)
         if image is not None and color is None:
             red = green = blue = alpha = 1.0

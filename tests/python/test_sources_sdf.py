@@ -411,6 +411,26 @@ def test_models_are_included_by_name_and_placed(tmp_path):
     assert [j.kind for j in scene.joints] == [JointKind.SPHERICAL] * 2
 
 
+@pytest.mark.parametrize("place", ["My Cone", "my cone/2", "my cone/10"])
+@pytest.mark.parametrize("version", ["", "/tip", "/2"])
+def test_a_model_of_gazebos_server_is_the_one_of_that_name(tmp_path, place, version):
+    """Whose folder was given, or the cache that Gazebo keeps it in: small letters, a folder for each version."""
+    uri = f"https://fuel.gazebosim.org/1.0/OpenRobotics/models/My%20Cone{version}"
+    shape = f"<visual name='v'><geometry><mesh><uri>{uri}/files/meshes/t.obj</uri></mesh></geometry></visual>"
+    written(tmp_path, model(link("a", "", HEAVY + shape)), f"cache/{place}/model.sdf")
+    written(tmp_path, "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 3 2\n", f"cache/{place}/meshes/t.obj")
+    (tmp_path / "cache" / "my cone" / "1").mkdir(parents=True)
+    path = written(
+        tmp_path, f"<sdf version='1.9'><world name='w'><include><uri>{uri}</uri></include></world></sdf>"
+    )
+    report = Report()
+    scene = read(path, report, options={"package_path": [tmp_path / "cache"]})
+    assert [node.name for node in scene.nodes] == ["m", "a"] and len(scene.nodes[1].bodies) == 1
+    assert report.diagnostics == []
+    with pytest.raises(KinefabError, match="LINKS_NONE"):
+        read(path, Report())
+
+
 def test_nested_and_merged_models_and_placement_frames(tmp_path):
     written(
         tmp_path,

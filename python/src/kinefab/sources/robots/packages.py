@@ -37,6 +37,11 @@ MOST_FOLDERS = 10_000
 """Folders that are looked through for manifests, below one that was given."""
 IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 """A folder that holds one of these holds no packages."""
+_NAMED = re.compile(r"(?:package|model):(?://)?([^/]*)/?(.*)", re.DOTALL | re.IGNORECASE)
+_SERVED = re.compile(
+    r"https?://.*?/models/([^/]+)(?:/(?:tip|\d+))?(?:/files)?/?(.*)", re.DOTALL | re.IGNORECASE
+)
+"""A model of Gazebo's server, its version, and the file in it."""
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
@@ -64,13 +69,12 @@ class Packages:
 
     def find(self, uri: str) -> Found:
         """The file that a source names."""
+        if (named := self.named(uri)) is not None:
+            package, inner = named
+            return Found(None) if package is None else _inside(package, inner)
         match = re.match(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", uri.strip(), re.DOTALL)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", uri.strip())
         rest = rest.replace("\\", "/")
-        if scheme in ("package", "model"):
-            name, _, inner = rest.partition("/")
-            package = self.package(name)
-            return Found(None) if package is None else _inside(package, unquote(inner))
         if scheme not in ("", "file"):
             return Found(None)
         plain = unquote(rest) if scheme else rest
@@ -88,6 +92,18 @@ class Packages:
                 if other.path is not None:
                     return other
         return found
+
+    def named(self, uri: str) -> tuple[Path | None, str] | None:
+        """The folder of the package or model that a name begins with, where there is one, and what is named in it; None of
+        other names.  The server of models is not asked: what it has stands below the model's name, as Gazebo keeps it too."""
+        text = uri.strip().replace("\\", "/")
+        match = _NAMED.fullmatch(text)
+        served = None if match else _SERVED.fullmatch(text)
+        if served is not None:
+            name = unquote(served[1])
+            folder = self.package(name) or self.package(name.lower())
+            return folder and _newest(folder), unquote(served[2])
+        return None if match is None else (self.package(match[1]), unquote(match[2]))
 
     def package(self, name: str) -> Path | None:
         """The folder of a package or model."""
@@ -188,6 +204,15 @@ def _installed(folder: Path, name: str) -> Path:
     """Of a folder that is called like a package: where colcon installs each into a folder of its own, the package is in that."""
     inner = folder / "share" / name
     return inner if inner.is_dir() else folder
+
+
+def _newest(folder: Path) -> Path:
+    """Of a model in Gazebo's cache, where each version has a folder, the last one."""
+    try:
+        versions = [int(path.name) for path in folder.iterdir() if path.name.isdecimal() and path.is_dir()]
+    except OSError:
+        return folder
+    return folder / str(max(versions)) if versions and not (folder / "model.config").exists() else folder
 
 
 def _is_package(folder: Path, name: str) -> bool:

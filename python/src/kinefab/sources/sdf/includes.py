@@ -142,12 +142,12 @@ def _root(path: Path, report: Report) -> Element | None:
 
 
 def _model_file(uri: str, packages: Packages) -> Path | None:
-    """The SDF file of a ``model://`` or relative name, which may be a folder with a ``model.config``."""
+    """The SDF file of a model's or a relative name, which may be that of a folder with a ``model.config``."""
     if (direct := packages.find(uri).path) is not None:
         return direct
-    match = re.fullmatch(r"model://([^/]+)/?", uri.strip())
-    if match:
-        folder = packages.package(match[1])
+    named = packages.named(uri)
+    if named is not None and not named[1]:
+        folder = named[0]
     else:
         files = (packages.find(f"{uri.rstrip('/')}/{name}").path for name in ("model.config", "model.sdf"))
         folder = next((file.parent for file in files if file is not None), None)

@@ -411,6 +411,31 @@ def test_models_are_included_by_name_and_placed(tmp_path):
     assert [j.kind for j in scene.joints] == [JointKind.SPHERICAL] * 2
 
 
+def test_what_an_arm_carries_of_models_beside_its_own_keeps_their_names(tmp_path):
+    """Two grippers of one kind, each a model beside the arm's; their links and frames are sites of the arm's tool."""
+
+    def gripper(name: str, y: float) -> str:
+        frame = "<frame name='tip' attached_to='palm'><pose>0 0 .1 0 0 0</pose></frame>"
+        return f"<model name='{name}'><pose>0 {y} 1 0 0 0</pose>{link('palm')}{frame}</model>"
+
+    inner = (
+        "<model name='arm'>" + link("base") + link("tool", "<pose>0 0 1 0 0 0</pose>")
+        + joint("j", "revolute", "base", "tool", "<axis><xyz>0 0 1</xyz></axis>") + "</model>"
+        + gripper("left", 0.1) + gripper("right", -0.2)
+        + joint("l", "fixed", "arm::tool", "left::palm") + joint("r", "fixed", "arm::tool", "right::palm")
+        + "<frame name='tip' attached_to='left::palm'><pose>0 0 .3 0 0 0</pose></frame>"
+    )  # fmt: skip
+    scene = scene_of(tmp_path, model(inner))
+    (tool,) = (node for node in scene.nodes if node.id == "m/arm/tool")
+    assert {site.name: tuple(site.pose.translation.round(9)) for site in tool.sites} == {
+        "left/palm": (0.1, 0.0, 0.0),
+        "left/tip": (0.1, 0.1, 0.0),
+        "left/tip_2": (0.1, 0.3, 0.0),
+        "right/palm": (-0.2, 0.0, 0.0),
+        "right/tip": (-0.2, 0.1, 0.0),
+    }
+
+
 @pytest.mark.parametrize("place", ["My Cone", "my cone/2", "my cone/10"])
 @pytest.mark.parametrize("version", ["", "/tip", "/2"])
 def test_a_model_of_gazebos_server_is_the_one_of_that_name(tmp_path, place, version):

@@ -123,11 +123,12 @@ def _groups(count: int, fixed: Iterable[tuple[int, int]]) -> list[int]:
     return [together.find(i) for i in range(count)]
 
 
-def _seen_from(own: Link, link: Link) -> str:
-    """The name of a link that another one carries; of one in a model of its own with that, so that two of one name stay
-    apart."""
-    beside, inner = own.id.removesuffix(own.name), link.id.removesuffix(f"/{link.name}")
-    return f"{inner.removeprefix(beside)}/{link.name}" if inner.startswith(beside) else link.name
+def _models_between(own: Link, link: Link) -> str:
+    """Names of the models that a carried link lies in and its carrier does not, with an ending stroke, so that two of one
+    name stay apart; "" in one model."""
+    outer, inner = (each.id.removesuffix(f"/{each.name}").split("/") for each in (own, link))
+    shared = next((i for i, (a, b) in enumerate(zip(outer, inner)) if a != b), min(len(outer), len(inner)))
+    return "".join(f"{name}/" for name in inner[shared:])
 
 
 def _node(
@@ -150,9 +151,13 @@ def _node(
     for link, pose in zip(together, inside):
         prefix = "" if link is own else f"{link.name}/"
         density = None if link.solid is None or not link.touched else link.touched[0].density
+        inside_of = _models_between(own, link)
         if link is not own:
-            sites.append(Site(_seen_from(own, link), placed(pose), link.where))
-        sites += [Site(name, placed(pose @ frame), link.where) for name, frame in link.frames.items()]
+            sites.append(Site(f"{inside_of}{link.name}", placed(pose), link.where))
+        sites += [
+            Site(f"{inside_of}{name}", placed(pose @ frame), link.where)
+            for name, frame in link.frames.items()
+        ]
         for part in link.drawn:
             body = shapes.body(prefix + part.name, part.shape, pose @ part.pose, part.surfaces, weighed)
             bodies.append(body if density is None else replace(body, density=density))

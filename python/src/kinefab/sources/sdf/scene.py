@@ -26,7 +26,7 @@ from ...model import (
     freedoms_of,
 )
 from ...spatial import Array, Pose, frame_from_axes
-from ..robots.rigid_links import Carrier, Link, add_links
+from ..robots.rigid_links import Carrier, Link, add_links, unique
 from ..robots.robot_frame import TURN, placed
 from .joints import SdfJoint, read_joint
 from .links import Links
@@ -96,7 +96,8 @@ def _place_frames(root: Scope, made: list[Link], number: dict[Entry, int]) -> No
     for entry in root.all_entries("frame"):
         link = link_of(entry, f"frame {entry.name}")
         if link is not None:
-            made[number[link]].frames[entry.name] = entry_world_pose(link).inverse() @ entry_world_pose(entry)
+            frames = made[number[link]].frames
+            frames[unique(frames, entry.name)] = entry_world_pose(link).inverse() @ entry_world_pose(entry)
 
 
 def _settle_ends(joint: SdfJoint, made: list[Link], number: dict[Entry, int], report: Report) -> None:

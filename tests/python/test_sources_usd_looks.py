@@ -146,3 +146,152 @@ def test_the_fallback_of_an_image_that_is_not_there_is_taken(tmp_path):
     assert paint.color == pytest.approx((0.7, 0.2, 0.1, 0.4)) and paint.color_texture is None
     assert paint.alpha_mode.value == "blend"
     assert {o.code for o in report.outcomes if o.outcome.value == "dropped"} == {"USD_TEXTURE_MISSING"}
+
+
+def painted(scene, name: str = "Paint"):
+    return next(surface for surface in scene.surfaces if surface.name == name)
+
+
+def test_subsets_keep_their_materials_where_the_rest_of_the_mesh_has_none(tmp_path):
+    content = BOUND.replace("rel material:binding = </Looks/Paint>\n", "")
+    scene, _ = scene_of(tmp_path, stage(body("B", inside=content) + MATERIAL, up="Y"))
+    (drawn,) = scene.nodes[0].bodies
+    assert [scene.surfaces[i].name for i in drawn.surfaces] == ["Plain", "Default"]
+
+
+def test_a_material_for_previews_is_shown_where_the_full_one_is_none_that_is_read(tmp_path):
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    preview = BOUND.replace("rel material:binding =", "rel material:binding:preview =")
+    network = 'def Material "Net" {\n token outputs:mtlx:surface.connect = </Net/S.outputs:out>\n def Shader "S" {\n token outputs:out\n}\n}\n'
+    for case, more in (
+        ("alone", ""),
+        ("beside", "rel material:binding:full = </Net>\nrel material:binding:preview"),
+    ):
+        content = preview.replace("rel material:binding:preview", more, 1) if more else preview
+        scene, _ = scene_of(tmp_path, stage(body("B", inside=content) + MATERIAL + network), f"{case}.usda")
+        assert {surface.name for surface in scene.surfaces} == {"Plain", "Paint"}, case
+
+
+def test_what_both_sides_of_show_is_double_sided_here_too(tmp_path):
+    """With a material, with colours, and with neither; a closed mesh beside keeps one side."""
+    plain = 'def Mesh "%s" (prepend apiSchemas = ["MaterialBindingAPI"]) {\n%s' + QUAD + "}\n"
+    bound, both = "rel material:binding = </Looks/Plain>\n", "uniform bool doubleSided = 1\n"
+    red = "color3f[] primvars:displayColor = [(1, 0, 0)]\n"
+    said = {"A": bound + both, "B": bound, "C": red + both, "D": red, "E": both, "F": ""}
+    inside = "".join(plain % entry for entry in said.items())
+    scene, _ = scene_of(tmp_path, stage(body("B", inside=inside) + MATERIAL))
+    shown = {
+        b.name: [(scene.surfaces[i].color, scene.surfaces[i].double_sided) for i in b.surfaces]
+        for b in scene.nodes[0].bodies
+    }
+    blue = pytest.approx((0.1, 0.2, 0.3, 0.5))
+    assert shown["A"] == [(blue, True)] and shown["B"] == [(blue, False)]
+    assert shown["C"] == [((1, 0, 0, 1), True)] and shown["D"] == [((1, 0, 0, 1), False)]
+    assert shown["E"] == [((0.8, 0.8, 0.8, 1), True)] and shown["F"] == []
+
+
+def test_a_material_shows_a_mesh_s_own_colours_where_it_reads_them_alone(tmp_path):
+    """Of one colour and of one for each point; a material that reads none hides them, and that is told."""
+    reader = 'def Shader "R" {\n uniform token info:id = "UsdPrimvarReader_float3"\n string inputs:varname = "%s"\n float3 inputs:fallback = (0, 0, 1)\n float3 outputs:result\n}\n'
+    reads = MATERIAL.replace(
+        "color3f inputs:diffuseColor = (0.1, 0.2, 0.3)",
+        "color3f inputs:diffuseColor.connect = </Looks/Plain/R.outputs:result>",
+    )
+    mesh = (
+        'def Mesh "M" (prepend apiSchemas = ["MaterialBindingAPI"]) {\nrel material:binding = </Looks/Plain>\n%s'
+        + QUAD
+        + "}\n"
+    )
+    one = "color3f[] primvars:displayColor = [(1, 0, 0)]\n"
+    each = 'color3f[] primvars:displayColor = [(1,0,0), (0,1,0), (0,0,1), (1,1,0), (0,0,0), (1,1,1)] (interpolation = "vertex")\n'
+    cases = {
+        "one": (one, "displayColor", (1, 0, 0), False, 0),
+        "each": (each, "displayColor", (1, 1, 1), True, 0),
+        "none": ("", "displayColor", (0, 0, 1), False, 0),
+        "other": (each, "wear", (0, 0, 1), False, 2),
+        "hidden": (each, "", (0.1, 0.2, 0.3), False, 1),
+    }
+    for case, (colors, name, expected, colored, lost) in cases.items():
+        looks = reads.replace('"Plain" {\n', f'"Plain" {{\n{reader % name}', 1) if name else MATERIAL
+        scene, report = scene_of(tmp_path, stage(body("B", inside=mesh % colors) + looks), f"{case}.usda")
+        assert painted(scene, "Plain").color[:3] == pytest.approx(expected), case
+        (drawn,) = scene.nodes[0].bodies
+        assert (scene.meshes[drawn.mesh].colors is not None) == colored, case
+        assert len([o for o in report.outcomes if o.outcome.value == "dropped"]) == lost, case
+
+
+def test_what_an_input_follows_and_nothing_reads_is_told(tmp_path):
+    looks = MATERIAL.replace(
+        "   float inputs:roughness = 0.75", "   float inputs:roughness.connect = </Looks/Paint/Noise.outputs:out>"
+    ).replace(' def Material "Plain"', ' def Material "Plain"').replace(
+        '  def Shader "Reader"', '  def Shader "Noise" {\n   uniform token info:id = "ND_noise2d_float"\n   float outputs:out\n  }\n  def Shader "Reader"'
+    )  # fmt: skip
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    (told,) = [o for o in report.outcomes if o.feature == "roughness of /Looks/Paint/Shader"]
+    assert told.outcome.value == "dropped" and painted(scene).smoothness == 0.5
+
+
+@pytest.mark.parametrize(
+    ("metallic", "roughness", "expected", "told"),
+    [
+        ("b", "g", (1.0, 1.0, True), set()),
+        ("r", "g", (0.0, 1.0, True), {"dropped metallic of /Looks/Paint/Shader"}),
+        ("b", "r", (1.0, 0.5, True), {"dropped roughness of /Looks/Paint/Shader", "approximated texture paint.png"}),
+        ("", "g", (0.25, 1.0, True), {"approximated texture paint.png"}),
+        ("r", "r", (0.0, 0.5, False), {"dropped metallic of /Looks/Paint/Shader", "dropped roughness of /Looks/Paint/Shader"}),
+    ],
+)  # fmt: skip
+def test_a_channel_that_is_lost_leaves_no_trace_in_the_other(tmp_path, metallic, roughness, expected, told):
+    """Without its image metallic is the schema's 0, not what the image of the roughness has in blue."""
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    looks = MATERIAL.replace(
+        "   float3 outputs:rgb",
+        "   float3 outputs:rgb\n   float outputs:r\n   float outputs:g\n   float outputs:b",
+    )
+    for name, value, channel in (("metallic", "0.25", metallic), ("roughness", "0.75", roughness)):
+        if channel:
+            looks = looks.replace(
+                f"inputs:{name} = {value}", f"inputs:{name}.connect = </Looks/Paint/Image.outputs:{channel}>"
+            )
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    paint = painted(scene)
+    assert (paint.metallic, 1.0 - paint.smoothness, paint.metallic_roughness_texture is not None) == expected
+    lost = {f"{o.outcome.value} {o.feature}" for o in report.outcomes if o.outcome.value != "kept"}
+    assert lost == told
+
+
+@pytest.mark.parametrize(
+    ("moves", "sheared"),
+    [
+        (["(2, 0.5)|30|(0.1, -0.2)"], False),
+        (["(1, 1)|0|(-0.5, -0.5)", "(2, 3)|40|(0, 0)", "(1, 1)|0|(0.5, 0.5)"], False),
+        (["(1, 1)|25|(0.3, 0)", "(-2, 3)|0|(0, 0.1)"], True),
+    ],
+)
+def test_transforms_of_coordinates_act_one_after_the_other(tmp_path, moves, sheared):
+    """The middle one turns and scales about the middle of the image."""
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    before, shaders, points = "Reader", "", np.array([[0, 0], [1, 0], [0, 1]], float)
+    for i, move in enumerate(moves):
+        scale, turn, away = move.split("|")
+        shaders += (
+            f'def Shader "T{i}" {{\n uniform token info:id = "UsdTransform2d"\n float2 inputs:in.connect = </Looks/Paint/{before}.outputs:result>\n'
+            f" float2 inputs:scale = {scale}\n float inputs:rotation = {turn}\n float2 inputs:translation = {away}\n float2 outputs:result\n}}\n"
+        )
+        before, s, c = f"T{i}", np.sin(np.radians(float(turn))), np.cos(np.radians(float(turn)))
+        points = points * eval(scale) @ np.array([[c, s], [-s, c]]) + eval(away)
+    looks = MATERIAL.replace(
+        "inputs:st.connect = </Looks/Paint/Reader", f"inputs:st.connect = </Looks/Paint/{before}"
+    )
+    looks = looks.replace('  def Shader "Reader"', f'{shaders}  def Shader "Reader"')
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    image = painted(scene).color_texture
+    s, c = np.sin(image.rotation), np.cos(image.rotation)
+    found = np.array([[0, 0], [1, 0], [0, 1]]) * image.scale @ np.array([[c, s], [-s, c]]) + image.offset
+    assert np.allclose(found, points, atol=1e-6) != sheared
+    told = [
+        o
+        for o in report.outcomes
+        if o.feature == "texture /Looks/Paint/Image" and o.outcome.value == "approximated"
+    ]
+    assert len(told) == sheared

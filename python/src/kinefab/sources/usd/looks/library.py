@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import Any
@@ -19,6 +20,7 @@ from ..values import Values
 from . import gprims
 from .meshes import Polygons, read_mesh
 
+COLORS = frozenset(("primvars:displayColor", "primvars:displayOpacity"))
 SHAPES = frozenset("Sphere Cube Capsule Capsule_1 Cylinder Cylinder_1 Cone Plane".split())
 
 
@@ -35,14 +37,18 @@ class Shared:
 
 @dataclass(slots=True, eq=False)
 class Library:
-    """Turns gprims into meshes of the scene: vertices in the prim's own axes, turned like the world and in metres."""
+    """Turns gprims into meshes of the scene: vertices in the prim's own axes, turned like the world and in metres.
+
+    covers: whether materials hide the colours that a mesh states for its points or faces.
+    """
 
     opened: OpenStage
     values: Values
+    covers: Callable[[Piece], bool]
     report: Report
     meshes: list[Mesh] = field(default_factory=list[Mesh])
-    _by_source: dict[tuple[str, bytes], Shared | None] = field(
-        default_factory=dict[tuple[str, bytes], Shared | None]
+    _by_source: dict[tuple[str, bytes, bool], Shared | None] = field(
+        default_factory=dict[tuple[str, bytes, bool], Shared | None]
     )
     _polygons: dict[str, Polygons | None] = field(default_factory=dict[str, Polygons | None])
     _by_content: dict[tuple[object, ...], list[int]] = field(
@@ -54,19 +60,27 @@ class Library:
 
         bake: linear map of the vertices in the prim's axes, shape (3, 3), a mirror or a shear.
         """
-        source = piece.seen.source
-        key = (source, b"" if bake is None else np.round(bake, 9).tobytes())
+        source, traits = piece.seen.source, piece.seen.traits
+        bare = traits.kind == "Mesh" and not traits.names.isdisjoint(COLORS) and self.covers(piece)
+        key = (source, b"" if bake is None else np.round(bake, 9).tobytes(), bare)
         if key not in self._by_source:
-            self._by_source[key] = self._made(piece.prim, source, bake)
+            self._by_source[key] = self._made(piece.prim, source, bake, bare)
         return self._by_source[key]
 
-    def _made(self, prim: Any, source: str, bake: Array | None) -> Shared | None:
+    def _made(self, prim: Any, source: str, bake: Array | None, bare: bool) -> Shared | None:
+        """bare: without the colours of its vertices."""
         if bake is not None or source not in self._polygons:
             polygons = self.polygons(prim)
         else:
             polygons = self._polygons[source]
         if polygons is None:
             return None
+        if bare and polygons.colors is not None:
+            polygons = replace(polygons, colors=None)
+            self.report.dropped(
+                f"colors of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim),
+                detail="its material does not show them, here as in the stage",
+            )  # fmt: skip
         name = self.values.title(prim)
         index = self._added(name, polygons, bake)
         mesh, origin = self.meshes[index], _origin(prim)

@@ -4,46 +4,65 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
-from ..api import UsdGeom, UsdShade
+from ..api import Usd, UsdGeom, UsdShade
 from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
-from ..values import Values, shown
-from .textures import Sampler, read_fallback, read_sampler
+from ..values import Values, tell_unusable
+from .inputs import DISPLAY, Inputs, is_reader
+from .textures import Sampler, read_input
 
-T = TypeVar("T")
-
+PREVIEW = "UsdPreviewSurface"
+BIND = "materialBind"
 DISPLAYED = (0.5, 0.5, 0.5)
 """Colour of a prim that states none, as UsdGeom's fallback has it in viewers."""
 
 
 @dataclass(slots=True, eq=False)
 class Surfaces:
-    """The scene's surfaces, each once.  by_material: index by the material's path; by_color: of plain display colours."""
+    """The scene's surfaces, each once.  by_material: index by the material's path and what it shows of the prim; by_color: of plain display colours."""
 
     opened: OpenStage
     values: Values
     report: Report
     surfaces: list[Surface] = field(default_factory=list[Surface])
-    _by_material: dict[str, int | None] = field(default_factory=dict[str, int | None])
+    _by_material: dict[tuple[object, ...], int | None] = field(
+        default_factory=dict[tuple[object, ...], int | None]
+    )
     _by_color: dict[tuple[float, ...], int] = field(default_factory=dict[tuple[float, ...], int])
     _bound: dict[str, Any] = field(default_factory=dict[str, Any])
     _names: set[str] = field(default_factory=set[str])
+    _kinds: dict[str, str] = field(default_factory=dict[str, str])
+    _shown: dict[str, frozenset[str]] = field(default_factory=dict[str, frozenset[str]])
 
     def resolve(self, prims: Mapping[str, Any]) -> None:
-        """Find the materials of many prims, by their paths, in one go, which is far cheaper than one by one."""
+        """Find the materials of many prims, by their paths, in one go, which is far cheaper than one by one.
+
+        Where the full look is none that is read, that for previews stands in for it, if there is one."""
         fresh = [path for path in prims if path not in self._bound]
-        if not fresh:
-            return
-        asked = [prims[path] for path in fresh]
-        materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(asked, UsdShade.Tokens.full)
-        for path, material in zip(fresh, materials):
-            self._bound[path] = material.GetPrim() if material else None
+        for path, material in zip(fresh, _bound([prims[path] for path in fresh], UsdShade.Tokens.full)):
+            self._bound[path] = material
+        unread = [path for path in fresh if self._kind(self._bound[path]) != PREVIEW]
+        for path, material in zip(unread, _bound([prims[path] for path in unread], UsdShade.Tokens.preview)):
+            if self._bound[path] is None or self._kind(material) == PREVIEW:
+                self._bound[path] = material
+
+    def covers(self, piece: Piece) -> bool:
+        """Whether a mesh shows materials alone, and nothing of the colours that it states for its points or faces."""
+        mesh = UsdGeom.Mesh(piece.prim)
+        subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, BIND)
+        paths = [str(subset.GetPath()) for subset in subsets]
+        self.resolve({piece.path: piece.prim, **{p: s.GetPrim() for p, s in zip(paths, subsets)}})
+        own = self._bound[piece.path]
+        materials = [self._bound[path] or own for path in paths]
+        if UsdGeom.Subset.GetUnassignedIndices(mesh, UsdGeom.Tokens.face, BIND):
+            materials.append(own)
+        return all(m is not None and self._kind(m) and not self._displays(m) for m in materials)
 
     def of(
         self, piece: Piece, subsets: tuple[Any, ...], uv_names: tuple[str, ...], colored: bool
@@ -52,37 +71,50 @@ class Surfaces:
 
         subsets: see ``Polygons``.  colored: its vertices have colours of their own, so the surface is white.
         """
-        if not piece.dressed and not colored and subsets == (None,):
+        double = self._is_double(piece)
+        if not piece.dressed and not colored and not double and subsets == (None,):
             return ()
         paths = ["" if subset is None else str(subset.GetPath()) for subset in subsets]
         self.resolve({piece.path: piece.prim, **{p: s for p, s in zip(paths, subsets) if p}})
         found: list[int | None] = []
         for path in paths:
             material = self._bound.get(path) or self._bound[piece.path]
-            index = None if material is None else self._of_material(material, uv_names)
-            found.append(self._displayed(piece.prim, colored) if index is None else index)
-        return tuple(i for i in found if i is not None) if None not in found else ()
+            index = (
+                None if material is None else self._of_material(material, piece, uv_names, colored, double)
+            )
+            found.append(self._displayed(piece, colored, double) if index is None else index)
+        if not double and found.count(None) == len(found):
+            return ()
+        return tuple(self._plain(double) if index is None else index for index in found)
 
-    def _displayed(self, prim: Any, colored: bool) -> int | None:
-        api = UsdGeom.PrimvarsAPI(prim)
-        color, opacity = (
-            _constant(api.FindPrimvarWithInheritance(name)) for name in ("displayColor", "displayOpacity")
-        )
-        if color is None and opacity is None and not colored:
-            return None
-        rgb = (
-            (1.0, 1.0, 1.0)
-            if colored
-            else tuple(color)
-            if color is not None and len(color) == 3
-            else DISPLAYED
-        )
-        rgba = (*rgb, opacity[0] if opacity else 1.0)
-        key = tuple(round(min(1.0, max(0.0, c)), 6) if math.isfinite(c) else 0.0 for c in rgba)
+    def _is_double(self, piece: Piece) -> bool:
+        """Whether both sides of a piece are seen."""
+        if "doubleSided" not in piece.seen.traits.names:
+            return False
+        value = piece.seen.prim.GetAttribute("doubleSided").Get()
+        if value is not None and not isinstance(value, bool):
+            tell_unusable(piece.prim, "doubleSided", value, self.opened, self.report)
+        return value is True
+
+    def _plain(self, double: bool) -> int:
+        """What has no look beside what has one, or none but that both its sides are seen."""
+        key = (float(double),)
         if key not in self._by_color:
-            mode = AlphaMode.OPAQUE if key[3] >= 1.0 else AlphaMode.BLEND
-            name = self._unique("Color " + " ".join(f"{c:g}" for c in key))
-            self.surfaces.append(Surface(name, (key[0], key[1], key[2], key[3]), alpha_mode=mode))
+            self.surfaces.append(Surface(self._unique("Default"), double_sided=double))
+            self._by_color[key] = len(self.surfaces) - 1
+        return self._by_color[key]
+
+    def _displayed(self, piece: Piece, colored: bool, double: bool) -> int | None:
+        stated = _display(piece, colored)
+        if not stated:
+            return None
+        rgba = (*stated.get("displayColor", DISPLAYED), *stated.get("displayOpacity", (1.0,)))
+        r, g, b, alpha = (round(_unit(c), 6) for c in rgba)
+        key = (r, g, b, alpha, float(double))
+        if key not in self._by_color:
+            mode = AlphaMode.OPAQUE if alpha >= 1.0 else AlphaMode.BLEND
+            name = self._unique("Color " + " ".join(f"{c:g}" for c in key[:4]))
+            self.surfaces.append(Surface(name, (r, g, b, alpha), alpha_mode=mode, double_sided=double))
             self._by_color[key] = len(self.surfaces) - 1
         return self._by_color[key]
 
@@ -94,27 +126,49 @@ class Surfaces:
         self._names.add(wanted)
         return wanted
 
-    def _of_material(self, material: Any, uv_names: tuple[str, ...]) -> int | None:
-        key = f"{source_path(material)}|{'|'.join(uv_names)}"
+    def _of_material(
+        self, material: Any, piece: Piece, uv_names: tuple[str, ...], colored: bool, double: bool
+    ) -> int | None:
+        display = _display(piece, colored) if self._displays(material) else {}
+        key = (source_path(material), uv_names, double, *display.items())
         if key not in self._by_material:
-            surface = self._read(material, uv_names)
+            surface = self._read(material, uv_names, display)
             if surface is not None:
-                self.surfaces.append(surface)
+                self.surfaces.append(replace(surface, double_sided=double))
             self._by_material[key] = None if surface is None else len(self.surfaces) - 1
         return self._by_material[key]
 
-    def _read(self, material: Any, uv_names: tuple[str, ...]) -> Surface | None:
+    def _displays(self, material: Any) -> frozenset[str]:
+        """Which of the colours that a prim states by itself a material shows."""
+        path = source_path(material)
+        if path not in self._shown:
+            readers = [UsdShade.Shader(prim) for prim in Usd.PrimRange(material) if prim.IsA(UsdShade.Shader)]
+            names = {str(read_input(each, "varname") or "") for each in readers if is_reader(each)}
+            self._shown[path] = frozenset(names.intersection(DISPLAY))
+        return self._shown[path]
+
+    def _kind(self, material: Any) -> str:
+        """What its surface is; "" for none: a physics material."""
+        if material is None:
+            return ""
+        path = source_path(material)
+        if path not in self._kinds:
+            shader = UsdShade.Material(material).ComputeSurfaceSource()[0]
+            kind = "" if not shader else shader.GetIdAttr().Get() or shader.GetSourceAssetSubIdentifier("mdl")
+            stated = bool(shader) or bool(UsdShade.Material(material).GetOutputs())
+            self._kinds[path] = str(kind or "none") if stated else ""
+        return self._kinds[path]
+
+    def _read(
+        self, material: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
+    ) -> Surface | None:
         where, feature = self.opened.place(material), f"material {material.GetPath()}"
+        kind = self._kind(material)
+        if not kind:
+            return None
         shader = UsdShade.Material(material).ComputeSurfaceSource()[0]
-        kind = (
-            ""
-            if not shader
-            else str(shader.GetIdAttr().Get() or shader.GetSourceAssetSubIdentifier("mdl") or "")
-        )
-        if kind == "UsdPreviewSurface":
-            return self._preview(material, shader, uv_names)
-        if not shader and not UsdShade.Material(material).GetOutputs():
-            return None  # a physics material
+        if kind == PREVIEW:
+            return self._preview(material, shader, uv_names, display)
         names = {
             "diffuse_color_constant": "color",
             "metallic_constant": "metallic",
@@ -130,19 +184,20 @@ class Surfaces:
                     found[wanted] = self.values.vector(prim, name, (0.8, 0.8, 0.8))
                 else:
                     found[wanted] = self.values.number(prim, name, 0.5)
-        self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind or "none")
+        self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind)
         color = found.get("color", (0.8, 0.8, 0.8))
         return Surface(
             self._unique(self.values.title(material)), (_unit(color[0]), _unit(color[1]), _unit(color[2]), 1.0),
             _unit(found.get("metallic", 0.0)), 1.0 - _unit(found.get("roughness", 0.5)),
         )  # fmt: skip
 
-    def _preview(self, material: Any, shader: Any, uv_names: tuple[str, ...]) -> Surface:
+    def _preview(
+        self, material: Any, shader: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
+    ) -> Surface:
         where, feature = self.opened.place(material), f"material {material.GetPath()}"
-        inputs = _Inputs(shader, uv_names, self.opened, self.values, self.report)
+        inputs = Inputs(shader, uv_names, display, self.opened, self.values, self.report)
         diffuse = inputs.sampler("diffuseColor")
         opacity = inputs.sampler("opacity")
-        metal, rough = inputs.sampler("metallic"), inputs.sampler("roughness")
         alpha = inputs.number("opacity", 1.0)
         threshold = inputs.number("opacityThreshold", 0.0)
         if opacity is not None and (
@@ -150,14 +205,7 @@ class Surfaces:
         ):
             inputs.lost("opacity", "its texture is not the alpha of the base colour's")
             opacity = None
-        packed = None
-        for name, sampler, channel in (("metallic", metal, "b"), ("roughness", rough, "g")):
-            if sampler is None:
-                continue
-            if sampler.output == channel and (packed is None or packed.name == sampler.texture.name):
-                packed = sampler.texture
-            else:
-                inputs.lost(name, f"Unity's map has it in {channel}, the texture gives {sampler.output}")
+        packed, metallic, roughness = self._packed(inputs)
         for name, default in (("clearcoat", 0.0), ("displacement", 0.0)):
             if inputs.number(name, default) != default or inputs.sampler(name) is not None:
                 inputs.lost(name, "there is no such thing in Unity's standard surface")
@@ -183,8 +231,8 @@ class Surfaces:
                 _unit(base[2]),
                 _unit(alpha if opacity is None else opacity.alpha),
             ),
-            _unit(metal.tint[2] if metal and packed else inputs.number("metallic", 0.0)),
-            1.0 - _unit(rough.tint[1] if rough and packed else inputs.number("roughness", 0.5)),
+            metallic,
+            1.0 - roughness,
             mode,
             _unit(threshold) if mode is AlphaMode.MASK else 0.5,
             False,
@@ -196,90 +244,54 @@ class Surfaces:
             emissive.texture if emissive else None,
         )
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Inputs:
-    """Inputs of one shader: constants, and what is connected to them.  fallbacks: of images that are not there."""
-
-    shader: Any
-    uv_names: tuple[str, ...]
-    opened: OpenStage
-    values: Values
-    report: Report
-    fallbacks: dict[str, float | tuple[float, ...]] = field(
-        default_factory=dict[str, float | tuple[float, ...]]
-    )
-
-    def _value(self, name: str) -> Any:
-        if name in self.fallbacks:
-            return self.fallbacks[name]
-        given = self.shader.GetInput(name)
-        if not given:
-            return None
-        for attribute in given.GetValueProducingAttributes():
-            if attribute.GetPrim() == self.shader.GetPrim() or not UsdShade.Shader(attribute.GetPrim()):
-                return attribute.Get()
-        return None
-
-    def number(self, name: str, default: float) -> float:
-        value = self._value(name)
-        if value is None:
-            return default
-        if isinstance(value, bool) or not isinstance(value, (float, int)) or not math.isfinite(value):
-            return self._wrong(name, value, default)
-        return float(value)
-
-    def color(self, name: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
-        value = self._value(name)
-        if value is None:
-            return default
-        try:
-            numbers = [float(c) for c in value]
-        except (TypeError, ValueError):
-            numbers = []
-        if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
-            return self._wrong(name, value, default)
-        return numbers[0], numbers[1], numbers[2]
-
-    def _wrong(self, name: str, value: object, default: T) -> T:
-        """The default; that the value cannot be used is told."""
-        self.lost(name, f"it cannot be {shown(value)}")
-        return default
-
-    def sampler(self, name: str) -> Sampler | None:
-        given = self.shader.GetInput(name)
-        if not given:
-            return None
-        for attribute in given.GetValueProducingAttributes():
-            source = UsdShade.Shader(attribute.GetPrim())
-            if source and source.GetIdAttr().Get() == "UsdUVTexture":
-                self._tell_space(name, source)
-                output = attribute.GetBaseName()
-                found = read_sampler(source, output, self.uv_names, self.opened, self.report)
-                if found is None:
-                    value = read_fallback(source, output, self.opened, self.report)
-                    if value is not None:
-                        self.fallbacks[name] = value
-                return found
-        return None
-
-    def _tell_space(self, name: str, source: Any) -> None:
-        """That an image is said to be counted otherwise than Unity counts what it is used for."""
-        given = source.GetInput("sourceColorSpace")
-        space = given.Get() if given else None
-        usual = "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"
-        if space in ("raw", "sRGB") and space != usual and name != "opacity":  # alpha is never sRGB
-            prim = source.GetPrim()
+    def _packed(self, inputs: Inputs) -> tuple[Texture | None, float, float]:
+        """The image of roughness and metallic, and what each is, or is multiplied by in the image."""
+        image: Texture | None = None
+        amounts: list[float] = []
+        still: list[str] = []
+        for name, channel, default in (("metallic", "b", 0.0), ("roughness", "g", 0.5)):
+            sampler = inputs.sampler(name)
+            if sampler is not None and sampler.output != channel:
+                inputs.lost(name, f"Unity's map has it in {channel}, the texture gives {sampler.output}")
+            elif sampler is not None and image is not None and sampler.texture.name != image.name:
+                inputs.lost(
+                    name,
+                    f"Unity's map has it in {channel} of {image.name}, here it is {sampler.texture.name}",
+                )
+            elif sampler is not None:
+                image = sampler.texture
+                amounts.append(_unit(sampler.tint["rgb".index(channel)]))
+                continue
+            amounts.append(_unit(inputs.number(name, default)))
+            if amounts[-1] > 0.0:
+                still.append(f"{name} {amounts[-1]:g} is multiplied by its {channel}")
+        if image is not None and still:
             self.report.approximated(
-                f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self.opened.place(prim, "inputs:sourceColorSpace"),
-                detail=f"as {name} it is taken as {usual}, not as {space}",
+                f"texture {image.name}", "USD_FEATURE_APPROXIMATED", self.opened.place(inputs.shader.GetPrim()),
+                detail=f"Unity has roughness and metallic in one image, so the {', '.join(still)}",
             )  # fmt: skip
+        return image, amounts[0], amounts[1]
 
-    def lost(self, name: str, detail: str) -> None:
-        prim = self.shader.GetPrim()
-        self.report.dropped(
-            f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim, name), detail=detail
-        )
+
+def _bound(prims: list[Any], purpose: str) -> list[Any]:
+    """Prims of the materials that are bound to these for a purpose, None for none."""
+    if not prims:
+        return []
+    materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)
+    return [material.GetPrim() if material else None for material in materials]
+
+
+def _display(piece: Piece, colored: bool) -> dict[str, tuple[float, ...]]:
+    """Colour and opacity that a prim states by itself, by primvar.  colored: its vertices have them, which they multiply."""
+    api = UsdGeom.PrimvarsAPI(piece.prim)
+    found: dict[str, tuple[float, ...]] = {}
+    for name, width in DISPLAY.items():
+        values = _constant(api.FindPrimvarWithInheritance(name))
+        if values is not None and len(values) == width:
+            found[name] = tuple(values)
+        elif colored:
+            found[name] = (1.0,) * width
+    return found
 
 
 def _constant(primvar: Any) -> list[float] | None:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ....diagnostics import Report
 from ....model import Texture, Wrap
@@ -28,6 +31,11 @@ MEDIA = {
 """Media type and first bytes by ending: what Unity imports."""
 MAX_BYTES = 256 * 2**20
 CHANNELS = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
+SQUARE = 1e-6
+"""Axes of coordinates whose cosine is below this are at right angles."""
+_Move = tuple[tuple[float, float], tuple[float, float], float]
+"""Scale, offset and rotation (radians), as ``Texture`` has them: scaled first, then turned, then moved."""
+STILL: _Move = ((1.0, 1.0), (0.0, 0.0), 0.0)
 WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "black": Wrap.CLAMP}
 
 
@@ -47,7 +55,7 @@ def read_sampler(
     """None, and a loss in the report, where the image is not there or is none."""
     prim = shader.GetPrim()
     where, feature = opened.place(prim, "inputs:file"), f"texture {prim.GetPath()}"
-    given = _input(shader, "file")
+    given = read_input(shader, "file")
     if given is None:
         report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
         return None
@@ -60,7 +68,7 @@ def read_sampler(
         return None
     name, path, data, media = image
     uv_set, scale, offset, rotation = _coordinates(shader, uv_names, opened, report)
-    wraps = {str(_input(shader, key) or "useMetadata") for key in ("wrapS", "wrapT")}
+    wraps = {str(read_input(shader, key) or "useMetadata") for key in ("wrapS", "wrapT")}
     wrap = next((WRAPS[w] for w in sorted(wraps) if w in WRAPS), Wrap.REPEAT)
     if len(wraps) > 1 or "black" in wraps:
         report.approximated(
@@ -86,13 +94,13 @@ def read_fallback(
     shader: Any, output: str, opened: OpenStage, report: Report
 ) -> float | tuple[float, ...] | None:
     """What the shader says to take where its image is not there, None for nothing."""
-    if _input(shader, "fallback") is None or output not in CHANNELS:
+    if read_input(shader, "fallback") is None or output not in CHANNELS:
         return None
     found = _floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), opened, report)[CHANNELS[output]]
     return found[0] if len(found) == 1 else found
 
 
-def _input(shader: Any, name: str) -> Any:
+def read_input(shader: Any, name: str) -> Any:
     given = shader.GetInput(name)
     if not given:
         return None
@@ -104,7 +112,7 @@ def _floats(
     shader: Any, name: str, default: tuple[float, ...], opened: OpenStage, report: Report
 ) -> tuple[float, ...]:
     """As many finite numbers as the default has; the default where nothing is said, or, told, something else."""
-    value = _input(shader, name)
+    value = read_input(shader, name)
     if value is None:
         return default
     try:
@@ -163,7 +171,7 @@ def _coordinates(
     shader: Any, uv_names: tuple[str, ...], opened: OpenStage, report: Report
 ) -> tuple[int, tuple[float, float], tuple[float, float], float]:
     """Which uv set, and scale, offset and rotation (radians) of it."""
-    scale, offset, rotation = (1.0, 1.0), (0.0, 0.0), 0.0
+    moves: list[_Move] = []
     name = ""
     given = shader.GetInput("st")
     for _ in range(8):  # reader behind transforms; a circle ends here
@@ -171,21 +179,42 @@ def _coordinates(
         source: Any = UsdShade.Shader(producing[0].GetPrim()) if producing else None
         kind = "" if not source else str(source.GetIdAttr().Get() or "")
         if kind == "UsdTransform2d":
-            s, t = (
-                _floats(source, key, before, opened, report)
-                for key, before in (("scale", scale), ("translation", offset))
-            )
-            scale, offset = (s[0], s[1]), (t[0], t[1])
-            rotation = math.radians(_floats(source, "rotation", (0.0,), opened, report)[0])
+            s = _floats(source, "scale", (1.0, 1.0), opened, report)
+            t = _floats(source, "translation", (0.0, 0.0), opened, report)
+            (turn,) = _floats(source, "rotation", (0.0,), opened, report)
+            moves.append(((s[0], s[1]), (t[0], t[1]), math.radians(turn)))
             given = source.GetInput("in")
             continue
         if kind.startswith("UsdPrimvarReader"):
-            name = str(_input(source, "varname") or "")
+            name = str(read_input(source, "varname") or "")
         break
+    prim = shader.GetPrim()
+    (scale, offset, rotation), sheared = _chained(moves)
+    if sheared:
+        report.approximated(
+            f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", opened.place(prim),
+            detail="its transforms shear the image together; it is turned and scaled alone",
+        )  # fmt: skip
     if name and name not in uv_names:
-        prim = shader.GetPrim()
         report.approximated(
             f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", opened.place(prim),
             detail=f"the mesh has no coordinates '{name}'; its first were taken",
         )  # fmt: skip
     return (uv_names.index(name) if name in uv_names else 0), scale, offset, rotation
+
+
+def _chained(moves: Sequence[_Move]) -> tuple[_Move, bool]:
+    """Several moves of coordinates as one, and whether they are more than it.  moves: the last that is done first."""
+    if len(moves) < 2:
+        return (moves[0] if moves else STILL), False
+    linear, shift = np.eye(2), np.zeros(2)
+    for scale, offset, rotation in moves:
+        s, c = math.sin(rotation), math.cos(rotation)
+        shift = shift + linear @ np.array(offset)
+        linear = linear @ np.array([[c, -s], [s, c]]) * np.array(scale)
+    length = math.hypot(linear[0, 0], linear[1, 0])
+    across = float(linear[:, 0] @ linear[:, 1])
+    second = float(np.linalg.det(linear)) / length if length else 0.0
+    sheared = abs(across) > SQUARE * length * max(length, abs(second))
+    turned = math.atan2(linear[1, 0], linear[0, 0])
+    return ((length, second), (float(shift[0]), float(shift[1])), turned), sheared

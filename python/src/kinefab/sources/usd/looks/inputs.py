@@ -1,0 +1,126 @@
+"""What the inputs of a UsdPreviewSurface are: constants, images, and colours of the prim that it is on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from ....diagnostics import Report
+from ..api import UsdShade
+from ..stage import OpenStage
+from ..values import Values, shown
+from .textures import Sampler, read_fallback, read_input, read_sampler
+
+T = TypeVar("T")
+
+DISPLAY = {"displayColor": 3, "displayOpacity": 1}
+"""Primvars of a prim's own looks, with how many numbers they have."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inputs:
+    """Inputs of one shader: constants, and what is connected to them.  display: colours that the prim states, by primvar.
+    read: what readers of primvars give, and images that are not there."""
+
+    shader: Any
+    uv_names: tuple[str, ...]
+    display: Mapping[str, tuple[float, ...]]
+    opened: OpenStage
+    values: Values
+    report: Report
+    read: dict[str, Any] = field(default_factory=dict[str, Any])
+
+    def _value(self, name: str) -> Any:
+        if name in self.read:
+            return self.read[name]
+        given = self.shader.GetInput(name)
+        if not given:
+            return None
+        for attribute in given.GetValueProducingAttributes():
+            if attribute.GetPrim() == self.shader.GetPrim() or not UsdShade.Shader(attribute.GetPrim()):
+                return attribute.Get()
+        return None
+
+    def number(self, name: str, default: float) -> float:
+        value = self._value(name)
+        if value is None:
+            return default
+        if isinstance(value, bool) or not isinstance(value, (float, int)) or not math.isfinite(value):
+            return self._wrong(name, value, default)
+        return float(value)
+
+    def color(self, name: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
+        value = self._value(name)
+        if value is None:
+            return default
+        try:
+            numbers = [float(c) for c in value]
+        except (TypeError, ValueError):
+            numbers = []
+        if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
+            return self._wrong(name, value, default)
+        return numbers[0], numbers[1], numbers[2]
+
+    def _wrong(self, name: str, value: object, default: T) -> T:
+        """The default; that the value cannot be used is told."""
+        self.lost(name, f"it cannot be {shown(value)}")
+        return default
+
+    def sampler(self, name: str) -> Sampler | None:
+        given = self.shader.GetInput(name)
+        if not given:
+            return None
+        for attribute in given.GetValueProducingAttributes():
+            source = UsdShade.Shader(attribute.GetPrim())
+            if not source or source.GetPrim() == self.shader.GetPrim():
+                continue
+            value, found = None, None
+            if source.GetIdAttr().Get() == "UsdUVTexture":
+                self._tell_space(name, source)
+                output = attribute.GetBaseName()
+                found = read_sampler(source, output, self.uv_names, self.opened, self.report)
+                if found is None:
+                    value = read_fallback(source, output, self.opened, self.report)
+            elif is_reader(source):
+                value = self._of_primvar(name, source)
+            else:
+                kind = source.GetIdAttr().Get() or "shader without a name"
+                self.lost(name, f"it comes from {source.GetPath()}, a {kind}, which is not read")
+            if value is not None:
+                self.read[name] = value
+            return found
+        return None
+
+    def _of_primvar(self, name: str, reader: Any) -> Any:
+        """What a reader gives for the whole mesh: a colour that it displays, else its fallback."""
+        varname = str(read_input(reader, "varname") or "")
+        if varname in self.display:
+            values = list(self.display[varname])
+            return values if DISPLAY[varname] > 1 else values[0]
+        if varname not in DISPLAY:
+            self.lost(name, f"it follows the primvar '{varname}', which is not read")
+        return read_input(reader, "fallback")
+
+    def _tell_space(self, name: str, source: Any) -> None:
+        """That an image is said to be counted otherwise than Unity counts what it is used for."""
+        given = source.GetInput("sourceColorSpace")
+        space = given.Get() if given else None
+        usual = "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"
+        if space in ("raw", "sRGB") and space != usual and name != "opacity":  # alpha is never sRGB
+            prim = source.GetPrim()
+            self.report.approximated(
+                f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self.opened.place(prim, "inputs:sourceColorSpace"),
+                detail=f"as {name} it is taken as {usual}, not as {space}",
+            )  # fmt: skip
+
+    def lost(self, name: str, detail: str) -> None:
+        prim = self.shader.GetPrim()
+        self.report.dropped(
+            f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim, name), detail=detail
+        )
+
+
+def is_reader(shader: Any) -> bool:
+    return str(shader.GetIdAttr().Get() or "").startswith("UsdPrimvarReader")

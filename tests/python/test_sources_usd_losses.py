@@ -263,3 +263,24 @@ def test_a_pair_that_is_filtered_from_both_sides_is_one(tmp_path):
     )
     scene, _ = scene_of(tmp_path, text)
     assert scene.extras["ignoreCollision"] == [["A", "B"]]
+
+
+@pytest.mark.parametrize("kind", ["PhysicsFixedJoint", "PhysicsSphericalJoint", "PhysicsDistanceJoint"])
+def test_a_drive_or_range_of_a_joint_that_has_no_such_freedom_is_told(tmp_path, kind):
+    applied = '"PhysicsDriveAPI:rotX", "PhysicsLimitAPI:transZ"'
+    inside = "float drive:rotX:physics:stiffness = 5\nfloat limit:transZ:physics:high = 1\n"
+    text = stage(body("A") + body("B") + joint(kind, "J", inside, "/A", "/B", applied))
+    _, report = scene_of(tmp_path, text)
+    told = {o.feature for o in report.outcomes if o.outcome.value == "dropped"}
+    assert told == {"PhysicsDriveAPI:rotX of J", "PhysicsLimitAPI:transZ of J"}
+
+
+def test_a_collider_of_several_groups_is_in_the_first_and_the_others_are_told(tmp_path):
+    cube = 'def Cube "C" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {}\n'
+    text = body("A", inside=cube) + body("B", at=(9, 0, 0), inside=cube)
+    for name, members in (("G1", "</A>"), ("G2", "[</A>, </B>]")):
+        text += f'def PhysicsCollisionGroup "{name}" (prepend apiSchemas = ["CollectionAPI:colliders"]) {{\nrel collection:colliders:includes = {members}\n}}\n'
+    scene, report = scene_of(tmp_path, stage(text))
+    assert [c.group for node in scene.nodes for c in node.colliders] == ["G1", "G2"]
+    (told,) = [o for o in report.outcomes if o.code == "USD_FEATURE_APPROXIMATED"]
+    assert told.feature == "collision group of A/C"

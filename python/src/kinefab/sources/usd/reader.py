@@ -52,7 +52,7 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     values = Values(opened, report)
     found = walk(opened, values, report)
     _tell_empty(found, opened, report)
-    parts = Parts(opened, values, found, collision_groups(found), _purposes(request), report)
+    parts = Parts(opened, values, found, collision_groups(found, opened, report), _purposes(request), report)
     scene = Scene(
         source=Source(opened.name, opened.up, opened.frame.length, opened.sha256, opened.files),
         physics=physics_of(found, opened, values, report),

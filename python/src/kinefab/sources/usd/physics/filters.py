@@ -9,8 +9,8 @@ from ..stage import OpenStage
 from ..values import Values
 
 
-def collision_groups(found: Found) -> dict[str, str]:
-    """The group of each collider's path; of several the first."""
+def collision_groups(found: Found, opened: OpenStage, report: Report) -> dict[str, str]:
+    """The group of each collider's path; of several the first, and the others are told."""
     groups: dict[str, str] = {}
     queries = [
         (
@@ -23,10 +23,15 @@ def collision_groups(found: Found) -> dict[str, str]:
         return groups
     for part in found.parts:
         for piece in part.pieces:
+            if not piece.collides:
+                continue
             path = piece.prim.GetPath()
-            for name, query in queries:
-                if piece.collides and query.IsPathIncluded(path):
-                    groups.setdefault(str(path), name)
+            own = [name for name, query in queries if query.IsPathIncluded(path)]
+            if own and groups.setdefault(str(path), own[0]) and len(own) > 1:
+                report.approximated(
+                    f"collision group of {piece.id}", "USD_FEATURE_APPROXIMATED", opened.place(piece.path),
+                    detail=f"it is in {', '.join(own)}; a collider is in one here, and stays in {own[0]}",
+                )  # fmt: skip
     return groups
 
 

@@ -237,6 +237,7 @@ class Joints:
         order = MAIN[self._values.token(prim, "physics:axis", tuple(MAIN), "X")]
         extras: dict[str, object] = {}
         if prim.IsA(UsdPhysics.FixedJoint):
+            self._other_instances(entry, set())
             return _Draft(freedoms_of(JointKind.FIXED), MAIN["X"], extras)
         for schema, turns, main, instance in (
             (UsdPhysics.RevoluteJoint, True, RX, "angular"),
@@ -252,8 +253,10 @@ class Joints:
                 self._other_instances(entry, {instance})
                 return _Draft(tuple(freedom if i == main else LOCKED for i in range(6)), order, extras)
         if prim.IsA(UsdPhysics.SphericalJoint):
+            self._other_instances(entry, set())
             return _Draft(self._spherical(entry), order, extras)
         if prim.IsA(UsdPhysics.DistanceJoint):
+            self._other_instances(entry, set())
             return _Draft(self._distance(entry), MAIN["X"], extras)
         if prim.GetTypeName() != "PhysicsJoint":
             self._report.dropped(
@@ -328,6 +331,7 @@ class Joints:
 
     def _other_instances(self, entry: JointPrim, known: set[str]) -> None:
         prim = entry.prim
+        """That a drive or range is lost whose name, not one of the known, is none of the joint's freedoms."""
         for schema in schemas(prim):
             name, _, instance = schema.partition(":")
             if name in ("PhysicsLimitAPI", "PhysicsDriveAPI") and instance not in known:

@@ -284,3 +284,18 @@ def test_a_collider_of_several_groups_is_in_the_first_and_the_others_are_told(tm
     assert [c.group for node in scene.nodes for c in node.colliders] == ["G1", "G2"]
     (told,) = [o for o in report.outcomes if o.code == "USD_FEATURE_APPROXIMATED"]
     assert told.feature == "collision group of A/C"
+
+
+@pytest.mark.parametrize(
+    ("schema", "stated"),
+    [("PhysxDeformableBodyAPI", ""), ("PhysxParticleClothAPI", ""), ("OmniPhysicsDeformableBodyAPI", "float omniphysics:mass = 3")],
+)  # fmt: skip
+def test_what_is_soft_stands_still_and_is_told(tmp_path, schema, stated):
+    """Of the mesh itself, and of a group above it, as the younger schemas have it."""
+    for above in ("", f'def Xform "X" (prepend apiSchemas = ["{schema}"]) {{\n{stated}\n'):
+        applied = "" if above else f'(prepend apiSchemas = ["{schema}"])'
+        text = f'{above}def Mesh "M" {applied} {{\n{MESH}\n{"" if above else stated}\n}}\n{"}" if above else ""}\n'
+        scene, report = scene_of(tmp_path, stage(body("B") + text), f"{schema}{len(above)}.usda")
+        told = {o.feature for o in report.outcomes if o.outcome.value == "dropped"}
+        path = "X" if above else "M"
+        assert told == {f"{schema} of /{path}"} | ({f"omniphysics:mass of {path}"} if stated else set())

@@ -20,7 +20,7 @@ from .stage import OpenStage
 UNBOUNDED = 0.99e30
 """From here on a bound is none (physics:lowerLimit and the like): FLT_MAX in files, 1e30 where infinity is not allowed."""
 
-VENDORS = ("physx", "newton:", "mjc:", "urdf:", "state:")
+VENDORS = ("physx", "omniphysics:", "newton:", "mjc:", "urdf:", "state:")
 """Beginnings of the names of vendors' properties."""
 KNOWN = ("physxTendon",)
 """Of those that are told with their schemas."""

@@ -24,8 +24,10 @@ LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderPro
 BODIES = ("physics:body0", "physics:body1")
 WEIGHTS = ("physics:mass", "physics:density")
 SKIPPED = frozenset("Skeleton SkelAnimation BlendShape".split())
+SOFT = ("Deformable", "PhysxParticle")
+"""A part of the names of schemas for soft bodies, and the beginning of those for particles."""
 LIGHTS = frozenset(
-    "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight".split()
+    "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight GeometryLight PluginLight".split()
 )
 
 
@@ -101,6 +103,11 @@ class _Look:
             self.found.filtered.append(seen.at(path))
         if "PhysicsArticulationRootAPI" in applied:
             self.found.articulations.append(seen.at(path))
+        for schema in applied:
+            if SOFT[0] in schema or schema.startswith(SOFT[1]):
+                self._dropped(
+                    f"{schema} of", path, "what is soft or made of particles stands still here, as it is"
+                )
         # An instance of a PointInstancer has an id of its own beside the prototype's path.
         own = f"{context.id}/{seen.name}" if context.id else path[1:]
         if joint:

@@ -130,3 +130,14 @@ def test_speeds_of_instances_are_told(tmp_path):
     assert "velocities" in text
     _, report = scene_of(tmp_path, stage(text))
     assert "velocities of /I" in {o.feature for o in report.outcomes}
+
+
+def test_colours_of_instances_are_told_and_one_of_all_is_theirs(tmp_path):
+    def told(primvar: str):
+        text = instancer(arm("/I/Proto")).replace("int[] protoIndices", f"{primvar}\nint[] protoIndices", 1)
+        _, report = scene_of(tmp_path, stage(text), f"{len(primvar)}.usda")
+        return {o.feature for o in report.outcomes if "primvar" in o.feature}
+
+    each = 'color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0)] (interpolation = "vertex")'
+    assert told(each) == {"primvar displayColor of /I"}
+    assert told("color3f[] primvars:displayColor = [(1, 0, 0)]") == set()

@@ -82,7 +82,7 @@ def _is_typed(prim: Any, time: Any, opened: OpenStage, report: Report) -> bool:
 
 
 def _tell_lost(prim: Any, time: Any, opened: OpenStage, report: Report) -> None:
-    """What instances do over time, and the speeds that they start with."""
+    """What instances do over time, the speeds that they start with, and colours of their own."""
     moving = [name for name in _MOVING if prim.GetAttribute(name).GetNumTimeSamples() > 1]
     if moving:
         detail = f"its {', '.join(moving)} change over time; its instances stay as at the exported time"
@@ -94,6 +94,13 @@ def _tell_lost(prim: Any, time: Any, opened: OpenStage, report: Report) -> None:
             report.dropped(
                 f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, name),
                 detail="an instance starts at the speed that its prototype states",
+            )  # fmt: skip
+    for name in ("displayColor", "displayOpacity"):
+        primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar(name)
+        if primvar and primvar.HasAuthoredValue() and primvar.GetInterpolation() != UsdGeom.Tokens.constant:
+            report.dropped(
+                f"primvar {name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", opened.place(prim, f"primvars:{name}"),
+                detail="an instance looks as its prototype does",
             )  # fmt: skip
 
 

@@ -99,6 +99,22 @@ def test_scenes_with_nothing_to_show_have_a_page(tmp_path):
     assert described(kinefab.view(empty, tmp_path / "empty.html").read_text("utf-8"))["parts"] == []
 
 
+@pytest.mark.parametrize("direction", ["X", "Y", "Z"])
+def test_a_capsule_lies_along_its_direction(tmp_path, direction):
+    """Robots have many; a page was refused for one."""
+    capsule = {"type": "CapsuleCollider", "radius": 0.1, "height": 0.5, "direction": direction, "center": [1, 2, 3]}
+    scene = {"format": "kinefab.scene", "version": "1.0"}
+    scene |= {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "Rigidbody"}, capsule]}]}
+    path = tmp_path / "capsule.kinefab"
+    path.write_text(json.dumps(scene), "utf-8")
+    (part,) = described(kinefab.view(path, tmp_path / "page.html").read_text("utf-8"))["parts"]
+    (shape,) = part["colliders"]
+    assert (shape["kind"], shape["radius"], shape["height"]) == ("capsule", 0.1, 0.5)
+    at = np.reshape(shape["at"], (3, 4))
+    assert np.abs(at[:, 1]) == pytest.approx(np.eye(3)["XYZ".index(direction)])
+    assert np.abs(at[:, 3]) == pytest.approx([1, 2, 3])
+
+
 BROKEN = {
     "no JSON": "{",
     "another format": "{}",

@@ -11,7 +11,7 @@ from ...spatial import Array, Pose, rotation_about
 from ...unity import frames
 
 Entry = Mapping[str, Any]
-_AXES = {0: (2, -0.5 * np.pi), 1: (2, 0.0), 2: (0, 0.5 * np.pi)}
+_AXES = {"X": (2, -0.5 * np.pi), "Y": (2, 0.0), "Z": (0, 0.5 * np.pi)}
 """By a capsule's direction the turn (axis, angle) that takes Y to it."""
 
 
@@ -71,7 +71,7 @@ def collider(component: Entry) -> dict[str, Any] | None:
         shape = {"kind": "sphere", "radius": component.get("radius", 0.5)}
         return shape | {"at": rows(Pose(np.eye(3), center))}
     if kind == "CapsuleCollider":
-        axis, angle = _AXES.get(int(component.get("direction", 1)), _AXES[1])
+        axis, angle = _AXES[component.get("direction", "Y")]
         shape = {
             "kind": "capsule",
             "radius": component.get("radius", 0.5),

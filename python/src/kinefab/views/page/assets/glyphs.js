@@ -21,6 +21,14 @@ function solid(geometry, colour, opacity = 1) {
   return made;
 }
 
+// Along Y: a ball whose halves stand apart. The odd number of rings leaves none on its equator.
+function capsule(radius, height) {
+  const made = new THREE.SphereGeometry(radius, 16, 11), place = made.attributes.position;
+  const apart = Math.max(0, height / 2 - radius);
+  for (let i = 0; i < place.count; i++) place.setY(i, place.getY(i) + Math.sign(place.getY(i)) * apart);
+  return made;
+}
+
 class Glyphs {
   constructor(stage, mechanism, data) {
     this.stage = stage;
@@ -153,7 +161,7 @@ class Glyphs {
       let geometry = null;
       if (shape.kind === "box") geometry = new THREE.BoxGeometry(...shape.size);
       if (shape.kind === "sphere") geometry = new THREE.SphereGeometry(shape.radius, 16, 10);
-      if (shape.kind === "capsule") geometry = new THREE.CylinderGeometry(shape.radius, shape.radius, shape.height, 16, 1);
+      if (shape.kind === "capsule") geometry = capsule(shape.radius, shape.height);
       if (shape.kind === "mesh") geometry = shaded(this.data.meshes[shape.mesh], this.data.array).geometry;
       if (!geometry) continue;
       const made = new THREE.Mesh(geometry, material);

@@ -287,3 +287,79 @@ def test_found_mates_stand_as_numbers_where_they_are(context, tmp_path):
     assert opened.page.evaluate(seen) == []
     opened.demand_quiet()
     opened.page.close()
+
+
+def test_a_capsule_collider_is_round_at_both_ends(context, tmp_path):
+    """Radius 0.1, height 0.5 along X: as long and as thick (to its 16 sides), and no end is flat."""
+    scene = kinefab.Scene()
+    pose = kinefab.Pose(np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]), np.array([0.0, 0, 0]))
+    shape = kinefab.Collider(kinefab.ColliderKind.CAPSULE, pose, radius=0.1, length=0.3)
+    scene.add_part("Rod", grounded=True, collider=shape)
+    opened = shown(context, tmp_path, scene)
+    opened.page.get_by_role("button", name="Colliders").click()
+    drawn = opened.page.evaluate(
+        "(() => { const m = kinefab.glyphs.colliders[0]; return Array.from(m.geometry.attributes.position.array); })()"
+    )
+    corners = np.reshape(drawn, (-1, 3))
+    assert np.ptp(corners, axis=0) == pytest.approx([0.2, 0.5, 0.2], abs=3e-3)
+    ends = corners[np.abs(corners[:, 1]) > 0.25 - 1e-6]
+    assert np.abs(ends[:, [0, 2]]).max() < 1e-6
+    opened.demand_quiet()
+    opened.page.close()
+
+
+def test_the_lists_and_the_view_go_by_keys(context, tmp_path):
+    """A list is one stop of Tab: arrows choose and fold; letters work wherever nothing is typed."""
+    opened = shown(context, tmp_path, LEVER)
+    page = opened.page
+    chosen = "kinefab.data.parts[kinefab.chosen.part].name"
+    page.locator("#search").focus()
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")
+    assert page.evaluate(chosen) == page.locator("#list .row .name").nth(1).inner_text()
+    page.keyboard.press("ArrowUp")
+    rows = page.locator("#list .row").count()
+    page.keyboard.press("ArrowLeft")
+    assert page.locator("#list .row").count() == 1
+    page.keyboard.press("ArrowRight")
+    assert page.locator("#list .row").count() == rows
+    for _ in range(rows + 3):
+        page.keyboard.press("ArrowDown")
+    assert page.evaluate(chosen) == page.locator("#list .row .name").last.inner_text()
+    assert page.locator("#list [aria-selected=true]").get_attribute("id") == "chosen"
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "view"
+    for tab, kind in (("Joints", "joint"), ("Report", "entry")):
+        page.locator("nav button", has_text=tab).click()
+        page.locator("#list").focus()
+        page.keyboard.press("ArrowDown")
+        assert page.evaluate(f"kinefab.chosen.{kind} !== undefined")
+    page.locator("#glyphs").focus()
+    page.keyboard.press("c")
+    assert page.locator("#colliders").get_attribute("aria-pressed") == "true"
+    page.keyboard.press(" ")
+    assert page.locator("#glyphs").get_attribute("aria-pressed") == "false"
+    assert not page.evaluate("Boolean(kinefab.running)")
+    page.locator("nav button", has_text="Parts").click()
+    page.locator("#search").fill("c")
+    page.keyboard.press("c")
+    assert page.locator("#colliders").get_attribute("aria-pressed") == "true"
+    opened.demand_quiet()
+    page.close()
+
+
+def test_a_narrow_page_s_closed_panels_are_no_stops_of_tab(running, tmp_path):
+    opened = shown(window(running, 390, 780), tmp_path, LEVER)
+    page = opened.page
+    stops = set()
+    for _ in range(30):
+        page.keyboard.press("Tab")
+        stops.add(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
+    assert "view" in stops and not stops & {"search", "list"}
+    page.locator("#menu").click()
+    page.wait_for_timeout(400)
+    page.locator("#search").focus()
+    assert page.evaluate("document.activeElement.id") == "search"
+    opened.demand_quiet()
+    page.close()

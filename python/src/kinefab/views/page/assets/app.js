@@ -192,7 +192,10 @@ class App {
     const box = $("list"), search = $("search").value.trim().toLowerCase();
     $("search").hidden = this.tab === "report";
     box.replaceChildren();
-    document.querySelectorAll("nav button").forEach((b) => b.classList.toggle("on", b.dataset.tab === this.tab));
+    document.querySelectorAll("nav button").forEach((b) => {
+      b.classList.toggle("on", b.dataset.tab === this.tab);
+      b.setAttribute("aria-selected", b.dataset.tab === this.tab);
+    });
     this.numbers.show(this.tab === "mates");
     if (this.tab === "parts") {
       const found = (i) => !search || this.data.parts[i].name.toLowerCase().includes(search) || this.children[i].some(found);
@@ -209,11 +212,12 @@ class App {
         if (search && !joint.label.toLowerCase().includes(search)) return;
         const dot = element("span", { class: "dot" });
         dot.style.background = { HingeJoint: "#e8590c", ConfigurableJoint: "#1c7ed6" }[joint.type] || "#868e96";
-        box.append(element("div", { class: "row" + (this.chosen && this.chosen.joint === i ? " on" : ""), title: joint.label,
-          onclick: () => this.choose({ joint: i }) }, dot, element("span", { class: "name" }, joint.label), element("small", {}, joint.kind)));
+        box.append(this.row(this.chosen && this.chosen.joint === i && !this.chosen.coupling, "", joint.label,
+          () => this.choose({ joint: i }), dot, element("span", { class: "name" }, joint.label), element("small", {}, joint.kind)));
       });
       for (const coupling of this.data.couplings)
-        box.append(element("div", { class: "row", title: coupling.text, onclick: () => this.choose({ joint: coupling.joints[0] }) },
+        box.append(this.row(this.chosen && this.chosen.coupling === coupling, "", coupling.text,
+          () => this.choose({ joint: coupling.joints[0], coupling }),
           element("span", { class: "name" }, coupling.text), element("small", {}, coupling.kind)));
       if (!this.data.joints.length) box.append(element("p", { class: "entry" }, "There are no joints."));
     } else if (this.tab === "mates") {
@@ -224,6 +228,24 @@ class App {
       for (const entry of entries.slice(0, 2000)) box.append(this.reportEntry(entry));
       if (!entries.length) box.append(element("p", { class: "entry" }, "The scene carries no report."));
     }
+    const on = box.querySelector(".on");
+    if (on) on.id = "chosen";
+    box.setAttribute("aria-activedescendant", on ? "chosen" : "");
+    if (on && document.activeElement === box) on.scrollIntoView({ block: "nearest" });
+  }
+  row(on, look, title, run, ...content) {
+    return element("div", { class: `row${look}${on ? " on" : ""}`, role: "option", "aria-selected": Boolean(on), title, onclick: run }, ...content);
+  }
+  // The list by keys: up and down choose, right and left unfold and fold.
+  walk(event) {
+    const rows = [...$("list").querySelectorAll("[role=option]")], now = rows.findIndex((row) => row.classList.contains("on"));
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key], fold = { ArrowRight: "delete", ArrowLeft: "add" }[event.key];
+    if (event.target !== $("list")) return;
+    if (step && rows.length) rows[Math.max(0, Math.min(rows.length - 1, now + step))].click();
+    else if (fold && this.tab === "parts" && now >= 0) { this.closed[fold](this.chosen.part); this.list(); }
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
   }
   // Found mates: each switched on or off, the choice copied as the file that `kinefab export --mates` reads.
   mateRows() {
@@ -235,8 +257,8 @@ class App {
       box.addEventListener("click", (event) => event.stopPropagation());
       box.addEventListener("change", () => { mate.enabled = box.checked; this.numbers.show(true); });
       const names = this.mateParts(mate).map((i) => this.data.parts[i].name).join(" – ");
-      return element("div", { class: "row" + (this.chosen && this.chosen.mate === mate ? " on" : ""), title: mate.id, onclick: () => this.chooseMate(mate) },
-        box, element("small", {}, String(mate.number)), element("span", { class: "name" }, `${mate.kind}: ${names}`),
+      return this.row(this.chosen && this.chosen.mate === mate, "", mate.id, () => this.chooseMate(mate), box,
+        element("small", {}, String(mate.number)), element("span", { class: "name" }, `${mate.kind}: ${names}`),
         element("small", {}, mate.confidence === undefined ? "" : Number(mate.confidence).toFixed(2)));
     })];
   }
@@ -260,15 +282,15 @@ class App {
   }
   partRow(i, depth) {
     const part = this.data.parts[i], state = this.state[i], stop = (run) => (event) => { event.stopPropagation(); run(); };
-    const twist = element("button", { class: "twist", "aria-label": "fold" }, this.children[i].length ? (this.closed.has(i) ? "▸" : "▾") : "");
+    const twist = element("button", { class: "twist", tabindex: -1, "aria-label": "fold" }, this.children[i].length ? (this.closed.has(i) ? "▸" : "▾") : "");
     twist.addEventListener("click", stop(() => { this.closed.has(i) ? this.closed.delete(i) : this.closed.add(i); this.list(); }));
-    const act = (text, title, run) => element("button", { class: "act", title, "aria-label": title, onclick: stop(run) }, text);
-    const row = element("div", { class: "row" + (state.shown ? "" : " off") + (state.ghost ? " faint" : "")
-      + (this.chosen && this.chosen.part === i ? " on" : ""), title: part.id, onclick: () => this.choose({ part: i }), ondblclick: () => this.focus(i) },
-      twist, element("span", { class: "name" }, part.name),
+    const act = (text, title, run) => element("button", { class: "act", tabindex: -1, title, "aria-label": title, onclick: stop(run) }, text);
+    const row = this.row(this.chosen && this.chosen.part === i, (state.shown ? "" : " off") + (state.ghost ? " faint" : ""), part.id,
+      () => this.choose({ part: i }), twist, element("span", { class: "name" }, part.name),
       act(state.ghost ? "◌" : "◍", "Ghost (G)", () => this.change(i, { ghost: !state.ghost, shown: true })),
       act("◎", "Isolate (I)", () => this.isolate(i)),
       act(state.shown ? "●" : "○", "Hide or show (H)", () => this.change(i, { shown: !state.shown })));
+    row.addEventListener("dblclick", () => this.focus(i));
     row.style.paddingLeft = `${6 + 14 * depth}px`;
     return row;
   }
@@ -278,7 +300,9 @@ class App {
     this.stage.fit(all);
   }
   reportEntry(entry) {
-    return element("div", { class: "entry", onclick: () => this.choose(entry.joints.length ? { joint: entry.joints[0], parts: entry.parts } : { parts: entry.parts, note: entry }) },
+    const on = this.chosen && this.chosen.entry === entry, what = { parts: entry.parts, entry };
+    return element("div", { class: "entry" + (on ? " on" : ""), role: "option", "aria-selected": Boolean(on),
+      onclick: () => this.choose(entry.joints.length ? { ...what, joint: entry.joints[0] } : { ...what, note: entry }) },
       element("span", { class: `badge ${entry.outcome}` }, entry.outcome), " ", element("b", {}, entry.feature),
       entry.message ? element("p", {}, entry.message) : null, entry.source ? element("p", {}, entry.source) : null);
   }
@@ -418,8 +442,12 @@ class App {
       m: () => $("islands").click(), d: () => $("theme").click(), r: () => this.reset(), t: () => this.trace(), Escape: () => { this.glyphs.clearTraces(); this.isolate(null); this.choose(null); },
       h: part((i, s) => this.change(i, { shown: !s.shown })), g: part((i, s) => this.change(i, { ghost: !s.ghost })), i: part((i) => this.isolate(i)),
       ArrowLeft: () => this.nudge(-1), ArrowRight: () => this.nudge(1) };
+    $("list").addEventListener("keydown", (event) => this.walk(event));
+    // A field keeps what is typed; a button, a box or a slider has its own use for all but letters.
     addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || /INPUT|BUTTON/.test(event.target.tagName)) return;
+      const { tagName, type } = event.target, own = tagName === "BUTTON" || type === "checkbox" || type === "range";
+      if (event.ctrlKey || event.metaKey || event.altKey || (tagName === "INPUT" && !own)) return;
+      if (own && event.key.length > 1 && event.key !== "Escape" || own && event.key === " ") return;
       const run = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
       if (run) { event.preventDefault(); run(); }
     });

@@ -102,7 +102,13 @@ def test_scenes_with_nothing_to_show_have_a_page(tmp_path):
 @pytest.mark.parametrize("direction", ["X", "Y", "Z"])
 def test_a_capsule_lies_along_its_direction(tmp_path, direction):
     """Robots have many; a page was refused for one."""
-    capsule = {"type": "CapsuleCollider", "radius": 0.1, "height": 0.5, "direction": direction, "center": [1, 2, 3]}
+    capsule = {
+        "type": "CapsuleCollider",
+        "radius": 0.1,
+        "height": 0.5,
+        "direction": direction,
+        "center": [1, 2, 3],
+    }
     scene = {"format": "kinefab.scene", "version": "1.0"}
     scene |= {"gameObjects": [{"id": "a", "name": "a", "components": [{"type": "Rigidbody"}, capsule]}]}
     path = tmp_path / "capsule.kinefab"
@@ -218,3 +224,17 @@ def test_round_numbers_on_the_axes():
 
     assert ticks(0.0, 360.0) == [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0]
     assert ticks(-0.026, 0.0251) == [-0.02, -0.01, 0.0, 0.01, 0.02]
+
+
+def test_a_constant_is_a_straight_line_on_the_axes():
+    """A rack's transmission was drawn as a wild curve, of the solution's last digits, over an axis of one number."""
+    from kinefab.views.page.plots import Curve, plot
+
+    driven = np.linspace(0.0, 360.0, 61)
+    last_digits = np.where(np.arange(61) % 2, 1.0, -1.0)
+    for value, noise in ((3.49e-4, 1e-12), (-2.0, 1e-10), (0.0, 1e-15)):
+        text = plot(driven, [Curve("Rack", value + noise * last_digits)], "Wheel, degrees", "m per degree")
+        points = re.search(r'points="([^"]*)"', text).group(1).split()
+        assert len({point.split(",")[1] for point in points}) == 1
+        numbers = re.findall(r'text-anchor="end">([^<]*)<', text)
+        assert len(numbers) == len(set(numbers)) and any(float(n) > value for n in numbers)

@@ -11,10 +11,12 @@ import numpy as np
 from ...spatial import Array
 
 WIDTH, HEIGHT = 880, 260
-LEFT, RIGHT, TOP, BOTTOM = 62, 190, 12, 40
+LEFT, RIGHT, TOP, BOTTOM = 92, 190, 12, 40
 COLOURS = ("#e8590c", "#1c7ed6", "#2f9e44", "#9c36b5")
 STEPS = 6
 """Lines of the grid each way, about."""
+FLAT, NOTHING = 1e-6, 1e-9
+"""What is no curve but the last digits of a solution: of the largest value, and in metres or degrees."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,9 +31,7 @@ def plot(driven: Array, curves: Sequence[Curve], across: str, up: str) -> str:
     """The SVG text.  driven: shape (frames,), ascending.  across, up: what the axes count, with the unit."""
     x0, x1 = float(driven[0]), float(driven[-1])
     everything = np.concatenate([c.values for c in curves])
-    y0, y1 = float(everything.min()), float(everything.max())
-    room = 0.06 * (y1 - y0) or max(abs(y0), 1.0) * 0.1
-    y0, y1 = y0 - room, y1 + room
+    y0, y1 = _span(float(everything.min()), float(everything.max()))
     x1 = x1 if x1 > x0 else x0 + 1.0
 
     def at_x(x: float) -> float:
@@ -62,6 +62,15 @@ def plot(driven: Array, curves: Sequence[Curve], across: str, up: str) -> str:
     turned = f'transform="translate(14 {HEIGHT / 2 - 10:.0f}) rotate(-90)"'
     lines.append(f'<text {turned} text-anchor="middle">{escape(up)}</text></svg>')
     return "".join(lines)
+
+
+def _span(low: float, high: float) -> tuple[float, float]:
+    """What the axis shows of values between low and high: some room at either end, and a constant as a straight line."""
+    most = max(abs(low), abs(high))
+    if most <= NOTHING:
+        return -1.0, 1.0
+    room = 0.06 * (high - low) if high - low > max(FLAT * most, NOTHING) else 0.5 * most
+    return low - room, high + room
 
 
 def _line(x0: float, y0: float, x1: float, y1: float) -> str:

@@ -117,7 +117,7 @@ def _losses(report: Sequence[Entry]) -> str:
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     top = "".join(f"<th>{_text(word)}</th>" for word in head) if any(head) else ""
     body = "".join("<tr>" + "".join(f"<td>{_text(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table>{f'<tr>{top}</tr>' if top else ''}{body}</table>"
+    return f"<div class=wide><table>{f'<tr>{top}</tr>' if top else ''}{body}</table></div>"
 
 
 def _rounded(value: float) -> float:

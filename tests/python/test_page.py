@@ -9,6 +9,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from command_line import run
 from kinefab.views.page.blob import Blob
 from kinefab.views.page.meshes import MOST_TRIANGLES, packed_meshes
@@ -193,10 +194,10 @@ def test_a_report_s_reach_ends_at_limits_and_dead_points():
     scene = kinefab.Scene()
     base, arm = scene.add_part("Base", grounded=True), scene.add_part("Arm")
     scene.add_hinge(base, arm, point=(0, 0, 0), axis=(0, 0, 1), limits=(-10, 80), name="Hinge")
-    low, high, words = reach_of(kinefab.motion(scene), "Hinge")
+    low, high, words = reach_of(kinefab.motion(scene), "Hinge", 1.0)
     assert (low, high) == (pytest.approx(-10), pytest.approx(80)) and words == ("its limit", "its limit")
     rocker = kinefab.motion(ROOT / "fixtures" / "mechanisms" / "M03.kinefab")
-    low, high, words = reach_of(rocker, rocker.freedoms[0].name)
+    low, high, words = reach_of(rocker, rocker.freedoms[0].name, 1.0)
     assert high - low == pytest.approx(2 * 94.0960437582, abs=0.01) and words == (
         "a dead point",
         "a dead point",
@@ -238,3 +239,29 @@ def test_a_constant_is_a_straight_line_on_the_axes():
         assert len({point.split(",")[1] for point in points}) == 1
         numbers = re.findall(r'text-anchor="end">([^<]*)<', text)
         assert len(numbers) == len(set(numbers)) and any(float(n) > value for n in numbers)
+
+
+def test_a_slide_s_end_out_of_sight_is_none(tmp_path):
+    """One limit at -0.04 m, the other 100 m off, as Unity needs one: a slider over 100 m is of no use, and its way took hours."""
+    from kinefab.showing import reach_of
+    from kinefab.views.extent import ends_in_sight, span_of
+
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", trimesh.creation.box((0.3, 0.1, 0.2)), grounded=True)
+    arm = scene.add_part("Arm", trimesh.creation.box((0.1, 0.1, 0.5)), translation=(0.1, 0.1, 0))
+    scene.add_slider(base, arm, point=(0, 0, 0), axis=(1, 0, 0), limits=(-0.04, 99.96), name="Slide")
+    path = tmp_path / "slide.kinefab"
+    kinefab.export(scene, path)
+    assert span_of(json.loads(path.read_text("utf-8"))) == pytest.approx(0.5)
+    (slide,) = described(kinefab.view(path, tmp_path / "page.html").read_text("utf-8"))[
+        "coordinates"
+    ].values()
+    assert (slide["lower"], slide["upper"], slide["size"]) == (
+        pytest.approx(-0.04),
+        None,
+        pytest.approx(0.25),
+    )
+    low, high, words = reach_of(kinefab.motion(path), "Slide", 0.5)
+    assert (low, high) == (pytest.approx(-0.04), pytest.approx(0.5)) and words == ("its limit", "and on")
+    assert ends_in_sight(0.0, -10.0, 80.0, 1.0) == (-10.0, np.inf)
+    assert ends_in_sight(70.0, -10.0, 80.0, 1.0) == (-np.inf, 80.0)

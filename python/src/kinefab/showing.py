@@ -24,6 +24,7 @@ from .replacing import why_unwritable, write_whole
 from .spatial import Array, Pose
 from .unity.back.restored import Restored, restored
 from .unity.mapping import GROUND_ID
+from .views.extent import ends_in_sight, span_of
 from .views.overview import read_buffers, read_scene_file, unsound_as_finding
 from .views.page.blob import Blob
 from .views.page.describe import Motion, description
@@ -155,17 +156,20 @@ def page_of(
     if mates is not None:
         shown["mates"] = mates
     words = (
-        report_words(shown, [stroke_of(mechanism, c.name) for c in mechanism.freedoms[:MOST_STROKES]])
+        report_words(
+            shown,
+            [stroke_of(mechanism, c.name, span_of(document)) for c in mechanism.freedoms[:MOST_STROKES]],
+        )
         if told
         else ""
     )
     return page(shown, blob, words)
 
 
-def stroke_of(mechanism: Mechanism, name: str) -> Stroke:
-    """A freedom through its whole reach, and what moves with it."""
+def stroke_of(mechanism: Mechanism, name: str, span: float) -> Stroke:
+    """A freedom through its whole reach, and what moves with it.  span: see ``reach_of``."""
     coordinate = mechanism.coordinate(name)
-    low, high, ends = reach_of(mechanism, name)
+    low, high, ends = reach_of(mechanism, name, span)
     motion = mechanism.sweep(name, low, high, frames=STROKE_FRAMES)
     moving: list[tuple[str, str, Array]] = []
     for other in mechanism.coordinates:
@@ -176,17 +180,20 @@ def stroke_of(mechanism: Mechanism, name: str) -> Stroke:
     return Stroke(name, coordinate.unit, motion[name], ends, moving, branchings)
 
 
-def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, str]]:
+def reach_of(mechanism: Mechanism, name: str, span: float) -> tuple[float, float, tuple[str, str]]:
     """How far a coordinate goes both ways, as the source shows it, and what ends it, in words.
 
-    A turn without end is told over 360 degrees, a slide over the mechanism's size.
+    A turn without end is told over 360 degrees, a slide over ``span``, the scene's, metres.
     """
     coordinate = mechanism.coordinate(name)
-    span = np.array([node.pose.translation for node in mechanism.scene.nodes])
-    far = 360.0 if coordinate.unit == "deg" else float(np.ptp(span, axis=0).max(initial=0.0)) or 0.2
+    turns = coordinate.unit == "deg"
+    far = 360.0 if turns else span
+    limits = coordinate.lower, coordinate.upper
+    if not turns:
+        limits = ends_in_sight(coordinate.value, *limits, span)
     ends: list[float] = []
     words: list[str] = []
-    for sign, limit in ((-1.0, coordinate.lower), (1.0, coordinate.upper)):
+    for sign, limit in zip((-1.0, 1.0), limits):
         goal = limit if np.isfinite(limit) else coordinate.value + sign * far
         stop = mechanism.sweep(name, coordinate.value, goal, frames=61).stop
         if stop is None:
@@ -199,7 +206,7 @@ def reach_of(mechanism: Mechanism, name: str) -> tuple[float, float, tuple[str, 
             reached = mechanism.sweep(name, coordinate.value, goal, frames=721)
             ends.append(float(reached[name][-1]))
             words.append(f"the limit of {stop.coordinate}")
-    if words == ["and on", "and on"] and coordinate.unit == "deg":
+    if words == ["and on", "and on"] and turns:
         return coordinate.value, coordinate.value + 360.0, ("it turns all the way round", "a turn later")
     return ends[0], ends[1], (words[0], words[1])
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...model import FREEDOM_NAMES, Joint
 from ...spatial import Array, Pose
+from ..extent import ends_in_sight, span_of
 from ..freedoms import world_placements
 from .blob import Blob
 from .joints import coordinate_label, joint_entry
@@ -78,7 +79,7 @@ def description(
         "bodyCount": motion.bodies,
         "joints": joints,
         "couplings": _couplings(document, place, joints),
-        "coordinates": _coordinates(motion, joints, by_joint),
+        "coordinates": _coordinates(motion, joints, by_joint, span_of(document)),
         "blocks": [_block(block, blob) for block in motion.blocks],
         "islands": islands,
         "islandOf": island_of,
@@ -94,31 +95,27 @@ def _subtitle(document: Entry, joints: Sequence[Entry], motion: Motion) -> str:
     return f"{uri} · {counts}" if uri else counts
 
 
-def _coordinates(motion: Motion, joints: Sequence[Entry], by_joint: Mapping[str, int]) -> dict[str, Any]:
-    size = _size(motion)
+def _coordinates(
+    motion: Motion, joints: Sequence[Entry], by_joint: Mapping[str, int], span: float
+) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, (joint, freedom, value, lower, upper) in motion.coordinates.items():
         index = by_joint.get(joint)
         several = index is not None and sum(f["name"] is not None for f in joints[index]["freedoms"]) > 1
+        turns = FREEDOM_NAMES[freedom].startswith("r")
+        if not turns:
+            lower, upper = ends_in_sight(value, lower, upper, span)
         label = name if index is None else coordinate_label(joints[index]["label"], freedom, several)
         found[name] = {
             "label": label,
-            "unit": "deg" if FREEDOM_NAMES[freedom].startswith("r") else "m",
+            "unit": "deg" if turns else "m",
             "value": value,
             "lower": lower if math.isfinite(lower) else None,
             "upper": upper if math.isfinite(upper) else None,
             "joint": index,
-            "size": size,
+            "size": 0.5 * span,
         }
     return found
-
-
-def _size(motion: Motion) -> float:
-    """Half the span of everything's origins, metres."""
-    points = np.array(
-        [p.translation for p in motion.poses] + [w[0].translation for _, _, w in motion.joints.values()]
-    )
-    return float(max(0.5 * np.ptp(points, axis=0).max(), 1e-3)) if len(points) else 1.0
 
 
 def _block(block: Entry, blob: Blob) -> dict[str, Any]:

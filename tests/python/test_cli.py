@@ -268,3 +268,10 @@ def test_h_is_help(command):
     short, long = (run(*command, word, NO_COLOR="1") for word in ("-h", "--help"))
     assert short.returncode == long.returncode == 0
     assert short.stdout == long.stdout and "Usage:" in short.stdout
+
+
+@pytest.mark.parametrize("group", [[], ["bundle"], ["capture"]])
+def test_the_list_of_commands_ends_no_sentence_in_the_middle(group):
+    """In 80 columns; and words that an option takes stand where its value does."""
+    assert "..." not in run(*group, "--help", NO_COLOR="1", COLUMNS="80").stdout.partition("Commands:")[2]
+    assert "--unity 2021|2022|6" in run("export", "--help", NO_COLOR="1").stdout

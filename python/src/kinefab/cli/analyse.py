@@ -19,7 +19,7 @@ def analyse(
     source: Path = typer.Argument(..., help=SOURCE_HELP, show_default=False),
     as_json: bool = AS_JSON,
 ) -> None:
-    """Show what an assembly's constraints leave free, and which joint connects what."""
+    """Show what may move in an assembly, by which joint, and why."""
     from ..analysis.findings.summary import document
     from ..analysis.findings.table import table
     from ..pipeline import analysed, prepared

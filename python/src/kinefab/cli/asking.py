@@ -73,13 +73,12 @@ def _parameter(option: FormatOption) -> inspect.Parameter:
     annotation: Any = list[kind] if option.repeated else kind if option.kind is bool else Optional[kind]
     flag = f"--{option.name.replace('_', '-')}"
     default: Any = False if option.kind is bool else [] if option.repeated else None
-    words = f" ({', '.join(option.words)})" if option.words else ""
     declared = typer.Option(
         default,
         flag,
-        help=option.help + words,
+        help=option.help,
         show_default=False,
-        metavar=option.metavar or None,
+        metavar=option.metavar or "|".join(option.words) or None,
         callback=_checked(option) if option.words else None,
         autocompletion=_beginning(option.words) if option.words else None,
     )

@@ -45,7 +45,7 @@ def batch(
     quiet: bool = typer.Option(False, "--quiet", "-q", help="Show no progress and no summary."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON line a file as it is done."),
 ) -> None:
-    """Export many sources, each in a process of its own; what is up to date is skipped.
+    """Export many sources, each in a process of its own. What is up to date is skipped.
 
     Two batches may share a folder: each target is written by one at a time, and the other finds it done; index.html and
     batch.jsonl are those of whichever ends last. At a URL nothing keeps two batches apart, since stores have no locks.

@@ -47,7 +47,7 @@ def bundle_commands() -> typer.Typer:
         force: bool = typer.Option(False, "--force", help="Overwrite a bundle that is there."),
         as_json: bool = AS_JSON,
     ) -> None:
-        """Write a commented, valid bundle of a folder of meshes, to go on with by hand."""
+        """Begin a bundle of a folder of meshes. It is valid and commented, to go on with by hand."""
         from ..bundling.beginning import begin, meshes_in
 
         target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output

@@ -17,7 +17,7 @@ def inspect(
     file: Path = typer.Argument(..., help="A NAME.kinefab scene.", show_default=False),
     as_json: bool = AS_JSON,
 ) -> None:
-    """Show what is in a scene: objects, joints, freedoms and what was lost on the way."""
+    """Show a scene's objects, joints, freedoms and losses."""
     exported = file.name.endswith(tuple(ending for ending in known_endings() if ending != ".kinefab"))
     if exported or format_of(file) is not None:
         told = f"{file} is no NAME.kinefab; export to one, or read the source by 'kinefab analyse'"

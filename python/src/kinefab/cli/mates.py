@@ -25,7 +25,7 @@ def mates(
     ),
     as_json: bool = typer.Option(False, "--json", help="Print what is written instead of the list."),
 ) -> None:
-    """Find the mates of an assembly that states none, for you to look over and to give by --mates."""
+    """Find the mates of an assembly that states none. Look them over, and give the file by --mates."""
     output = source.with_suffix(".mates.json") if output is None else output
     demand_ending(output, ".mates.json")
     from ..mates.listing import listing

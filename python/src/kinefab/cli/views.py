@@ -64,7 +64,7 @@ def view(
     open_: bool = typer.Option(False, "--open", help="Open it in the browser."),
     as_json: bool = AS_JSON,
 ) -> None:
-    """Write one HTML file that plays the mechanism: every freedom on a slider, nothing fetched."""
+    """Write one HTML page that plays the mechanism. Every freedom is on a slider; nothing is fetched."""
     page = Path(source.name.split(".")[0] + ".html") if output is None else output
     demand_ending(page, ".html")
     from ..showing import view as run
@@ -86,7 +86,7 @@ def report(
     output: Path = typer.Option(..., "--output", "-o", help="Page to write: NAME.html.", show_default=False),
     as_json: bool = AS_JSON,
 ) -> None:
-    """Write the page of view with the analysis in words, plots of each freedom and what was lost."""
+    """Write the page of view with a report below it. The analysis in words, a plot of each freedom, what was lost."""
     demand_ending(output, ".html")
     from ..showing import report as run
 

@@ -3,9 +3,14 @@ stands for something that is missing and could be there."""
 
 from __future__ import annotations
 
+import os
 import sys
 
 import pytest
+
+# Before anything imports numpy, and as the command line does: its threads wait for each other by spinning, which beside
+# other work costs several times what they save.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ELSEWHERE = {"posix": sys.platform == "win32", "linux": sys.platform != "linux"}
 """Markers of such tests, and whether this system is another."""

@@ -64,7 +64,7 @@ as_root() {
     fi
 }
 
-debian_packages=(python3-venv python3-numpy python3-scipy python3-pytest python3-hypothesis python3-jsonschema
+debian_packages=(python3-venv python3-numpy python3-scipy python3-pytest python3-pytest-xdist python3-hypothesis python3-jsonschema
     python3-typer python3-rich python3-networkx python3-lxml)
 
 from_debian() {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import runpy
 import shutil
 import subprocess
 import sys
@@ -115,3 +116,14 @@ def test_the_demo_uses_a_tool_that_is_installed(tmp_path):
     """``dotnet-kinefab`` on the PATH, as a global tool is, does the other half without an SDK; its refusal counts."""
     done = demo(tmp_path, dotnet_kinefab='#!/usr/bin/env bash\necho "asked to $1"\nexit 3\n')
     assert done.returncode != 0 and "asked to validate" in done.stdout and "left out" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    "cores, found, options", [(2, True, ["-n", "2"]), (64, True, ["-n", "8"]), (1, True, []), (2, False, [])]
+)
+def test_the_tests_run_on_every_core_where_xdist_is_there(monkeypatch, cores, found, options):
+    """A file on one core; in one process where there is one core, or no pytest-xdist, as on a Debian without an index."""
+    run = runpy.run_path(str(ROOT / "tests" / "run.py"))["side_by_side"]
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: range(cores), raising=False)
+    monkeypatch.setitem(run.__globals__, "find_spec", lambda name: object() if found else None)
+    assert run() == ([*options, "--dist", "loadfile"] if options else [])

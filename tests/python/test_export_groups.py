@@ -69,7 +69,9 @@ def test_a_rigid_assembly_of_which_no_part_is_there_is_no_body(joined, tmp_path)
     content, result = exported(scene, tmp_path)
     assert content["analysis"]["mobility"] == 1 + joined
     assert len(components(content, "Empty", "Rigidbody")) == joined
-    assert [d.code for d in result.report.diagnostics if d.code == "MASS_UNKNOWN"] == ["MASS_UNKNOWN"] * joined
+    assert [d.code for d in result.report.diagnostics if d.code == "MASS_UNKNOWN"] == [
+        "MASS_UNKNOWN"
+    ] * joined
 
 
 def test_part_fixed_to_the_ground_is_static(tmp_path):

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture
+from ...spatial import IntArray
 from ..reading.color import linear
 from .engine import Compiled
 
@@ -63,10 +64,11 @@ class Looks:
     def _tell_layers(self, material: int, name: str) -> None:
         """The textures that do not colour; MuJoCo's own windows show none of them either."""
         roles = self.compiled.mujoco.mjtTextureRole
-        for role, texture in enumerate(np.atleast_1d(self.compiled.model.mat_texid[material])):
+        ids: IntArray = np.atleast_1d(self.compiled.model.mat_texid[material])
+        for role, texture in enumerate(ids.tolist()):
             if role not in COLOURING and texture >= 0:
                 word = str(roles(role).name).removeprefix("mjTEXROLE_").lower()
-                feature = f"{word} texture {self.compiled.name('tex', int(texture))} of material {name}"
+                feature = f"{word} texture {self.compiled.name('tex', texture)} of material {name}"
                 self.report.dropped(feature, "MJCF_LEFT_OUT", self.compiled.where("material", name))
 
     def _surface(self, material: int, rgba: tuple[float, ...], texture: int) -> Surface:

@@ -295,3 +295,33 @@ def test_transforms_of_coordinates_act_one_after_the_other(tmp_path, moves, shea
         if o.feature == "texture /Looks/Paint/Image" and o.outcome.value == "approximated"
     ]
     assert len(told) == sheared
+
+
+@pytest.mark.parametrize(
+    ("kind", "color", "metal", "rough"),
+    [
+        ("ND_standard_surface_surfaceshader", "base_color", "metalness", "specular_roughness"),
+        ("ND_open_pbr_surface_surfaceshader", "base_color", "base_metalness", "specular_roughness"),
+        ("ND_gltf_pbr_surfaceshader", "base_color", "metallic", "roughness"),
+        ("ND_UsdPreviewSurface_surfaceshader", "diffuseColor", "metallic", "roughness"),
+    ],
+)
+def test_constants_of_a_material_for_materialx_alone_are_taken_and_it_is_told_by_name(
+    tmp_path, kind, color, metal, rough
+):
+    net = (
+        'def Material "Plain" {\n token outputs:mtlx:surface.connect = </Looks/Plain/S.outputs:out>\n def Shader "S" {\n'
+        f' uniform token info:id = "{kind}"\n color3f inputs:{color} = (0.1, 0.2, 0.3)\n float inputs:{metal} = 0.7\n'
+        f" float inputs:{rough} = 0.4\n token outputs:out\n }}\n}}\n"
+    )
+    mesh = (
+        'def Mesh "M" (prepend apiSchemas = ["MaterialBindingAPI"]) {\nrel material:binding = </Looks/Plain>\n'
+        + QUAD
+        + "}\n"
+    )
+    scene, report = scene_of(tmp_path, stage(body("B", inside=mesh) + f'def Scope "Looks" {{\n{net}}}\n'))
+    plain = painted(scene, "Plain")
+    assert plain.color == pytest.approx((0.1, 0.2, 0.3, 1.0))
+    assert (plain.metallic, plain.smoothness) == pytest.approx((0.7, 0.6))
+    (told,) = [d for d in report.diagnostics if d.code == "USD_MATERIAL_UNKNOWN"]
+    assert kind in told.message

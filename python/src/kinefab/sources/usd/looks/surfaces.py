@@ -19,6 +19,15 @@ from .textures import Sampler, read_input
 
 PREVIEW = "UsdPreviewSurface"
 BIND = "materialBind"
+CONTEXTS = ("", "mtlx", "mdl")
+"""Of renderers whose surfaces are looked at, the first that a material has."""
+CONSTANTS = {
+    "diffuse_color_constant": "color", "metallic_constant": "metallic", "reflection_roughness_constant": "roughness",
+    "base_color": "color", "diffuseColor": "color",
+    "metalness": "metallic", "base_metalness": "metallic", "metallic": "metallic",
+    "specular_roughness": "roughness", "roughness": "roughness",
+}  # fmt: skip
+"""What the inputs of MDL's and MaterialX's surfaces are called here."""
 DISPLAYED = (0.5, 0.5, 0.5)
 """Colour of a prim that states none, as UsdGeom's fallback has it in viewers."""
 
@@ -153,7 +162,7 @@ class Surfaces:
             return ""
         path = source_path(material)
         if path not in self._kinds:
-            shader = UsdShade.Material(material).ComputeSurfaceSource()[0]
+            shader = _surface_of(material)
             kind = "" if not shader else shader.GetIdAttr().Get() or shader.GetSourceAssetSubIdentifier("mdl")
             stated = bool(shader) or bool(UsdShade.Material(material).GetOutputs())
             self._kinds[path] = str(kind or "none") if stated else ""
@@ -166,17 +175,12 @@ class Surfaces:
         kind = self._kind(material)
         if not kind:
             return None
-        shader = UsdShade.Material(material).ComputeSurfaceSource()[0]
+        shader = _surface_of(material)
         if kind == PREVIEW:
             return self._preview(material, shader, uv_names, display)
-        names = {
-            "diffuse_color_constant": "color",
-            "metallic_constant": "metallic",
-            "reflection_roughness_constant": "roughness",
-        }
         found: dict[str, Any] = {}
         for prim in [shader.GetPrim()] if shader else material.GetChildren():
-            for source, wanted in names.items():
+            for source, wanted in CONSTANTS.items():
                 name = f"inputs:{source}"
                 if self.values.get(prim, name) is None:
                     continue
@@ -271,6 +275,12 @@ class Surfaces:
                 detail=f"Unity has roughness and metallic in one image, so the {', '.join(still)}",
             )  # fmt: skip
         return image, amounts[0], amounts[1]
+
+
+def _surface_of(material: Any) -> Any:
+    """The shader of a material's surface, none where it has no such."""
+    sources = (UsdShade.Material(material).ComputeSurfaceSource(context)[0] for context in CONTEXTS)
+    return next((shader for shader in sources if shader), None)
 
 
 def _bound(prims: list[Any], purpose: str) -> list[Any]:

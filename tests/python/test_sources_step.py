@@ -15,7 +15,7 @@ from kinefab.geometry.closure import is_closed, welded
 from kinefab.geometry.mass import solid_properties
 from kinefab.model import FaceKind, NodeKind, Scene
 from kinefab.sources import read
-from kinefab.sources.guard import GuardedCrash, GuardedError, guarded
+from kinefab.sources.guard import GuardedCrash, GuardedError, end_idle, guarded
 from kinefab.sources.step import reader
 from kinefab.sources.step.iges.unit import metres_of
 from kinefab.sources.step.part21 import Part21
@@ -486,6 +486,15 @@ def test_a_crash_is_told_and_the_next_question_answered():
 def test_what_never_ends_is_ended():
     with pytest.raises(GuardedCrash, match="longer than"):
         list(guarded(__name__, "endless", seconds=1.5))
+
+
+def test_a_library_that_loads_slowly_takes_nothing_of_the_files_time(tmp_path, monkeypatch):
+    """On a busy machine OpenCASCADE is longer on its way than a small file may be read."""
+    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(2.0)\ndef read():\n    yield 'read'\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    end_idle()  # the next child has the path
+    assert list(guarded("slow_to_load", "read", seconds=1.5)) == ["read"]
+    end_idle()
 
 
 def test_part21_sees_through_strings_and_comments():

@@ -17,6 +17,8 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import IO, Any
 
+LOADING = 120.0
+"""Seconds that a library may take until it is there: the first time, on a busy machine, longer than many a file."""
 MOST_QUESTIONS = 200
 """After so many the child is replaced: what a library never frees must not add up."""
 
@@ -52,7 +54,8 @@ _idle: list[_Child] = []
 def guarded(module: str, function: str, *arguments: object, seconds: float) -> Iterator[Any]:
     """What the generator ``module.function(*arguments)`` yields, run in the child.
 
-    module: dotted, absolute.  arguments and answers are pickled.  seconds: for all answers together.
+    module: dotted, absolute.  arguments and answers are pickled.  seconds: for all answers together, from when the module
+    is loaded.
     Raises GuardedError where the generator raises, GuardedCrash where the child dies or takes longer.
     """
     child = _idle.pop() if _idle else _Child()
@@ -62,9 +65,14 @@ def guarded(module: str, function: str, *arguments: object, seconds: float) -> I
         late.set()
         child.process.kill()
 
-    timer = threading.Timer(seconds, stop)
-    timer.daemon = True
-    timer.start()
+    def timed(limit: float) -> threading.Timer:
+        timer = threading.Timer(limit, stop)
+        timer.daemon = True
+        timer.start()
+        return timer
+
+    limit = LOADING
+    timer = timed(limit)
     answered = False
     try:
         sent, received = child.process.stdin, child.process.stdout
@@ -73,6 +81,11 @@ def guarded(module: str, function: str, *arguments: object, seconds: float) -> I
         sent.flush()
         while True:
             word, value = pickle.load(received)
+            if word == "loaded":
+                timer.cancel()
+                limit = seconds
+                timer = timed(limit)
+                continue
             if word == "answer":
                 yield value
                 continue
@@ -82,7 +95,7 @@ def guarded(module: str, function: str, *arguments: object, seconds: float) -> I
             return
     except (EOFError, OSError, pickle.UnpicklingError):
         code = child.process.wait()
-        detail = f"it took longer than {seconds:g} s" if late.is_set() else f"it ended with code {code}"
+        detail = f"it took longer than {limit:g} s" if late.is_set() else f"it ended with code {code}"
         raise GuardedCrash(detail) from None
     finally:
         timer.cancel()
@@ -108,7 +121,10 @@ def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
         except EOFError:
             return
         try:
-            for value in getattr(import_module(module), function)(*arguments):
+            asked = getattr(import_module(module), function)
+            pickle.dump(("loaded", None), answers)
+            answers.flush()
+            for value in asked(*arguments):
                 pickle.dump(("answer", value), answers, pickle.HIGHEST_PROTOCOL)
                 answers.flush()
             last = ("end", None)

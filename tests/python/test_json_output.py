@@ -76,6 +76,22 @@ def test_analyse(source):
     assert values["parts"] and values["redundant"] == values["rows"] - values["rank"]
 
 
+def test_analyse_tells_what_else_the_source_can_give(tmp_path):
+    """The keyframes of a model, by the option that poses it by one, as a table and as JSON."""
+    pytest.importorskip("mujoco", reason="the Python package mujoco is not installed")
+    model = tmp_path / "arm.xml"
+    model.write_text(
+        "<mujoco><worldbody><body name='arm'><joint name='j' range='-10 80'/><geom size='.1'/></body></worldbody>"
+        "<keyframe><key name='home' qpos='.5'/><key name='rest' qpos='-.1'/></keyframe></mujoco>"
+    )
+    assert printed("analysis", "analyse", model)["offers"] == {"keyframe": ["home", "rest"]}
+    assert (
+        "the source also has: --keyframe home, rest"
+        in runner().invoke(app, ["analyse", str(model)]).stdout.splitlines()
+    )
+    assert printed("analysis", "analyse", LEVER)["offers"] == {}
+
+
 def test_inspect(scene):
     assert [joint["name"] for joint in printed("inspection", "inspect", scene)["joints"]] == ["Hinge"]
 

@@ -102,6 +102,7 @@ def document(analysis: Analysis) -> dict[str, Any]:
             for r in analysis.ranges
             for lower, upper in [r.displayed]
         ],
+        "offers": {option: list(names) for option, names in analysis.source.offers.items()},
         "findings": [
             {
                 "code": d.code,

@@ -33,6 +33,8 @@ def table(analysis: Analysis) -> str:
         unit, factor = ("deg", math.degrees(1.0)) if found.freedom >= RX else ("m", 1.0)
         ends = " to ".join(f"{end * factor:.6g}" for end in found.displayed) + f" {unit}"
         lines.append(f"range of {found.joint}: {'no end' if found.endless else ends}")
+    for option, names in analysis.source.offers.items():
+        lines.append(f"the source also has: --{option} {_shortened(names)}")
     loops = sum(i.loops for i in analysis.islands)
     first = f", {analysis.first_order} at first order" if analysis.first_order != analysis.mobility else ""
     lines.append(

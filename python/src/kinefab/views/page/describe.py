@@ -161,9 +161,10 @@ def _islands(document: Entry, motion: Motion) -> tuple[list[Entry], list[int | N
 def _facts(document: Entry, joints: Sequence[Entry], motion: Motion) -> list[tuple[str, str]]:
     analysis = document.get("analysis", {})
     islands: Sequence[Entry] = analysis.get("islands", ())
+    closing = sum(j["closure"] for j in joints)
     facts = [
         ("objects", str(len(document["gameObjects"]))),
-        ("joints", f"{len(joints)}, loops closed by {sum(j['closure'] for j in joints)} of them"),
+        ("joints", f"{len(joints)}, {closing} of them closing loops" if closing else str(len(joints))),
         ("mobility", str(analysis.get("mobility", motion.mobility))),
     ]
     if analysis:
@@ -171,7 +172,8 @@ def _facts(document: Entry, joints: Sequence[Entry], motion: Motion) -> list[tup
         if analysis.get("idle"):
             facts.append(("idle spins", str(analysis["idle"])))
         counts = (
-            f"{i.get('mobility')} free, {i.get('loops')} loop{'' if i.get('loops') == 1 else 's'}"
+            f"{i.get('mobility')} free"
+            + (f", {n} loop{'s' if n > 1 else ''}" if (n := i.get("loops", 0)) else "")
             for i in islands
         )
         facts.append(("islands", "; ".join(counts) if len(islands) <= 8 else str(len(islands))))

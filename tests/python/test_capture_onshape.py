@@ -6,6 +6,7 @@ import copy
 import json
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from urllib.error import HTTPError
 from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
@@ -18,6 +19,8 @@ from cad.gltf import exported
 from cad.onshape import answers, boxed
 from cad.tetrahedron import FACES, POINTS
 from command_line import run
+from kinefab.capture.channel import MemberFailed
+from kinefab.capture.onshape.answers import Rest
 from kinefab.capture.onshape.mates import quantity
 from kinefab.capture.onshape.parts import stl
 from kinefab.capture.run import capture_onshape
@@ -146,11 +149,16 @@ def test_over_http_with_keys_and_a_record_without_them(tmp_path):
     assert one["joints"] == two["joints"]
 
 
+def test_an_answer_that_refuses_leaves_no_connection():
+    where = {"did": "d", "wvm": "w", "wid": "a", "eid": "e"}
+    with Server({}) as server, pytest.raises(MemberFailed, match="404") as refused:
+        Rest(server.address.partition("/documents")[0], where, ("a", "b")).fetch("features")
+    assert isinstance(refused.value.__cause__, HTTPError) and refused.value.__cause__.closed
+
+
 def test_a_server_that_asks_to_wait_is_waited_for(tmp_path, monkeypatch):
     slept: list[float] = []
     monkeypatch.setattr("time.sleep", slept.append)
-    from kinefab.capture.onshape.answers import Rest
-
     with Server({"features": {"features": []}}, first=429) as server:
         base = server.address.partition("/documents")[0]
         where = {"did": "d", "wvm": "w", "wid": "a", "eid": "e"}

@@ -143,6 +143,7 @@ class Rest:
                     content: bytes = answer.read()
                     return content
             except urllib.error.HTTPError as error:
+                error.close()  # it is an answer too, and holds the connection
                 if error.code not in AGAIN or attempt == TRIES - 1:
                     raise MemberFailed(member, _words(error.code)) from error
                 asked = error.headers.get("Retry-After", "1")

@@ -15,10 +15,11 @@ help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
 
 # Where the index has none of them, their tests are skips.
-extras: setup ## libraries of single formats: STEP, IGES, FreeCAD's shapes, MuJoCo, S3
-	@[ -f .venv/extras.stamp ] || { [ -x .venv/bin/pip ] && .venv/bin/pip install --quiet --disable-pip-version-check \
-		--retries 1 --timeout 15 -e 'python[dev,dev-s3,all]' >/dev/null 2>&1 && touch .venv/extras.stamp; } || \
-		echo "extras: not installed, the Python index does not have them; what needs them says so" >&2
+extras: setup ## libraries of single formats (STEP, IGES, FreeCAD's shapes, MuJoCo, S3), and engines to test against
+	@for wanted in dev-s3,all dev-engines; do [ -f .venv/$$wanted.stamp ] || { [ -x .venv/bin/pip ] && \
+		.venv/bin/pip install --quiet --disable-pip-version-check --retries 1 --timeout 15 -e "python[dev,$$wanted]" >/dev/null 2>&1 && \
+		touch .venv/$$wanted.stamp; } || \
+		echo "extras: $$wanted not installed, the Python index does not have them; what needs them says so" >&2; done
 
 # A package that pip installs is compiled by pip; a checkout would be compiled by every call where Python writes no bytecode.
 setup: ## .venv with everything Python needs
@@ -50,6 +51,7 @@ demo-csharp:
 	dotnet-kinefab advise $(OUT)/lever.kinefab
 
 test: setup extras ## every test of both languages; the last line counts them
+	@if $(SDK); then $(MAKE) --no-print-directory tool; fi
 	@$(PYTHON) tests/run.py
 
 bench: setup tool ## the measured figures of the README

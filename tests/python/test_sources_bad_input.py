@@ -160,10 +160,13 @@ def test_half_a_surrogate_pair_as_a_key_of_a_reading_is_left_out(tmp_path):
     assert "BUNDLE_FIELD_UNKNOWN" in codes(report)
 
 
-def test_utf16_table_is_refused_by_its_encoding(tmp_path):
-    """A spreadsheet's "Unicode text" is UTF-16: one finding that says so, not one for each cell."""
+@pytest.mark.parametrize(
+    "cut", [slice(2, None), slice(None, -1)], ids=["no byte order mark", "half a letter"]
+)
+def test_utf16_table_is_refused_by_its_encoding(tmp_path, cut):
+    """UTF-16 that does not say so, or breaks off: one finding that says so, not one for each cell."""
     path = tmp_path / "case.csv"
-    path.write_bytes(TAGGED.decode("utf-8-sig").encode("utf-16"))
+    path.write_bytes(TAGGED.decode("utf-8-sig").encode("utf-16")[cut])
     with pytest.raises(KinefabError) as refused:
         sources.read(path, Report())
     assert [found.code for found in refused.value.diagnostics] == ["CSV_ENCODING"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import fields, is_dataclass
 
@@ -62,8 +63,25 @@ def test_tagged_csv_gives_the_scene_of_the_json(from_json):
         lambda text: text.replace(";", ",").encode("utf-8"),
         lambda text: re.sub(r"(?m)(?<=;)([A-Za-z][^;\n]*)", r'"\1"', text).encode("utf-8"),
         lambda text: text.replace("true", "Wahr").encode("cp1252"),
+        lambda text: with_commas(text).replace(";", "\t").replace("\n", "\r\n").encode("utf-16"),
+        lambda text: codecs.BOM_UTF16_BE + text.encode("utf-16-be"),
+        lambda text: ("sep=;\r\n" + text.replace("\n", "\r\n")).encode("utf-8-sig"),
+        lambda text: f'"sep=,";;;\n{text.replace(";", ",")}'.encode("cp1252"),
+        lambda text: f"SEP=~\n{text.replace(';', '~')}".encode(),
     ],
-    ids=["decimal-comma", "crlf-bom", "tab", "comma", "quoted", "german-booleans"],
+    ids=[
+        "decimal-comma",
+        "crlf-bom",
+        "tab",
+        "comma",
+        "quoted",
+        "german-booleans",
+        "excel-unicode-text",
+        "utf-16-be",
+        "stated-delimiter",
+        "stated-delimiter-quoted",
+        "stated-delimiter-of-its-own",
+    ],
 )
 def test_tagged_csv_reads_as_any_windows_writes_it(tmp_path, from_json, written):
     """Delimiter, decimal sign, byte order mark, line ends, quotes and Boolean words change nothing."""
@@ -71,6 +89,15 @@ def test_tagged_csv_reads_as_any_windows_writes_it(tmp_path, from_json, written)
     scene, report = scene_of(content, tmp_path)
     assert report.diagnostics == []
     assert plain(scene) == from_json
+
+
+def test_a_line_below_a_stated_delimiter_keeps_its_number(tmp_path):
+    """``sep=;`` is Excel's line and no record, but it is a line of the file."""
+    text = "sep=;\n" + TAGGED.read_text(encoding="utf-8") + "NONSENSE;1\n"
+    _, report = scene_of(text.encode(), tmp_path)
+    assert [(found.code, found.where) for found in report.diagnostics] == [
+        ("CSV_TAG_UNKNOWN", f"lever.csv:{text.count(chr(10))}")
+    ]
 
 
 def test_cp1252_names_survive(tmp_path):

@@ -15,7 +15,7 @@ from ...model import Scene
 from ..reading.file import read_bytes
 from ..reading.record import entries_in, is_object, shown
 from ..reading.request import Request
-from ..reading.table import Row, Table, read_table
+from ..reading.table import Row, Table, encodings, read_table
 from .reader import scene_from_values
 
 TRUE, FALSE = frozenset("1 true wahr yes ja vrai".split()), frozenset("0 false falsch no nein faux".split())
@@ -64,7 +64,7 @@ TEXTS = frozenset(
 
 def sniff(head: bytes) -> bool:
     """Whether a CSV begins as a tagged one: a line whose first cell is the tag META."""
-    lines = head.decode("utf-8-sig", "replace").splitlines()
+    lines = head.decode(next(iter(encodings(head)), "utf-8"), "replace").splitlines()
     return any(line.lstrip(' "').startswith("META") for line in lines)
 
 

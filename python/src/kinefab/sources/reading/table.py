@@ -1,8 +1,9 @@
-"""Delimited text as CAD macros write it: any of ; tab and comma, decimal point or comma, UTF-8 or
-Windows-1252."""
+"""Delimited text as CAD macros and spreadsheets write it: any of ; tab and comma, or what a first line ``sep=`` states;
+decimal point or comma; UTF-8, Windows-1252, or UTF-16 with its byte order mark."""
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import re
@@ -12,6 +13,9 @@ from ...diagnostics import Report
 
 DELIMITERS = (";", "\t", ",")
 """In the order they are looked for: a comma may also be a decimal sign, the others mean nothing else."""
+
+STATED = re.compile(r'"?sep=([^\w"\s]|\t)"?[;,\t ]*\r?$', re.IGNORECASE | re.MULTILINE)
+"""A first line that tells Excel the delimiter, and is no record; a spreadsheet that wrote it again may have quoted it."""
 
 COMMA_NUMBER = re.compile(r"(?:^|\s)[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s|$)")
 
@@ -47,7 +51,10 @@ def read_table(data: bytes, name: str, report: Report) -> Table:
     text = _decode(data, name, report)
     rows: list[Row] = []
     comments: list[Row] = []
-    delimiter = _delimiter(text)
+    if stated := STATED.match(text):
+        delimiter, text = stated[1], text[stated.end() :]
+    else:
+        delimiter = _delimiter(text)
     lines = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True, skipinitialspace=True)
     line = 1
     try:
@@ -68,13 +75,22 @@ def read_table(data: bytes, name: str, report: Report) -> Table:
     return Table(tuple(rows), tuple(comments), "," if comma else ".")
 
 
+def encodings(data: bytes) -> tuple[str, ...]:
+    """What a table that begins so may be encoded in, in the order to be tried."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return ("utf-16",)
+    # A NUL is text in either of these, but no table holds one: it is the other half of UTF-16.
+    return () if b"\0" in data else ("utf-8-sig", "cp1252")
+
+
 def _decode(data: bytes, name: str, report: Report) -> str:
-    # A NUL is text in either encoding, but no table holds one: it is the other half of UTF-16.
-    for encoding in () if b"\0" in data else ("utf-8-sig", "cp1252"):
+    for encoding in encodings(data):
         try:
-            return data.decode(encoding)
+            text = data.decode(encoding)
         except UnicodeDecodeError:
             continue
+        if "\0" not in text:
+            return text
     report.add("CSV_ENCODING", name)
     report.raise_for_errors()
     raise AssertionError("an error was just reported")

@@ -313,6 +313,56 @@ def test_an_operator_that_mirrors_is_told(tmp_path: Path, complex_instance: bool
     assert [o.outcome.value for o in report.outcomes] == ["approximated" for _ in told]
 
 
+def with_drawings(text: str) -> str:
+    """``machine_of_two`` as NX and Creo write it: beside the solid of its base a curve, of its arm a curve alone, and the arm's
+    solid as the assembly's own."""
+    bodies = re.findall(
+        r"(#\d+) = ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\((#\d+),(#\d+)\),(#\d+)\);", text
+    )
+    (base, _, _, context), (arm, axes, solid, _) = bodies
+    top = next(
+        one
+        for one in re.findall(r"SHAPE_DEFINITION_REPRESENTATION\(#\d+,(#\d+)\)", text)
+        if one not in (base, arm)
+    )
+    added = f"""#90001 = CARTESIAN_POINT('',(0.,0.,0.));
+#90002 = CARTESIAN_POINT('',(30.,0.,0.));
+#90003 = DIRECTION('',(1.,0.,0.));
+#90004 = VECTOR('',#90003,1.);
+#90005 = LINE('',#90001,#90004);
+#90006 = TRIMMED_CURVE('',#90005,(#90001),(#90002),.T.,.CARTESIAN.);
+#90007 = GEOMETRIC_CURVE_SET('',(#90006));
+#90012 = TRIMMED_CURVE('',#90005,(#90001),(#90002),.T.,.CARTESIAN.);
+#90013 = GEOMETRIC_CURVE_SET('',(#90012));
+#90008 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#90007),{context});
+#90009 = SHAPE_REPRESENTATION_RELATIONSHIP('','',{base},#90008);
+#90010 = ADVANCED_BREP_SHAPE_REPRESENTATION('',({axes},{solid}),{context});
+#90011 = SHAPE_REPRESENTATION_RELATIONSHIP('','',{top},#90010);
+ENDSEC;
+END-ISO"""
+    text = re.sub(
+        rf"{arm} = ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\({axes},{solid}\)",
+        f"{arm} = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',({axes},#90013)",
+        text,
+    )
+    return re.sub(r"ENDSEC;\s*END-ISO", added, text)
+
+
+def test_curves_beside_solids_are_no_bodies(tmp_path: Path):
+    """The shapes of one product are one part, whatever else an assembly is of; what is curves alone does not fall."""
+    machine = Machine("Top")
+    machine.add("Base", box((0.0, 0.0, 0.0), (50.0, 50.0, 10.0)))
+    machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)), (100.0, 0.0, 0.0))
+    path = tmp_path / "drawn.step"
+    write_step(machine, path)
+    path.write_text(with_drawings(path.read_text(encoding="utf-8")), encoding="utf-8")
+    scene, report = read_whole(path)
+    assert sizes(scene) == {"Top": [], "Top/Base": [25.0], "Top/Arm": [], "Top/Top": [0.5]}
+    parts = [node.id for node in scene.nodes if node.kind is NodeKind.PART]
+    assert parts == ["Top/Base", "Top/Top"]
+    assert [(d.code, d.where) for d in report.diagnostics] == [("STEP_CURVES_ALONE", "drawn.step#Top/Arm")]
+
+
 def test_an_operator_that_places_nothing_is_not_told(tmp_path: Path):
     machine = Machine("Top")
     machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)))

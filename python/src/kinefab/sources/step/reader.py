@@ -7,10 +7,11 @@ AP242 file's kinematic mechanism are read from its text.  Z is taken to be up, a
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostics import Report
-from ...model import Scene, Source
+from ...model import NodeKind, Scene, Source
 from ..guard import GuardedCrash, GuardedError, guarded
 from ..occ.asked import tolerance_of
 from ..occ.triangles import Tolerance
@@ -59,13 +60,14 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     up = request.text("up", "Z")
     frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
-    _fill(scene, path, iges, tolerance, size, frame, report, request)
+    drawn = _fill(scene, path, iges, tolerance, size, frame, report, request)
     tell_mirrors(text, path.name, report)
     add_densities(scene, text, report)
     if count := text.plain.count(CONTEXT_COLOR):
         report.dropped("colours of occurrences", "STEP_COLOR_CONTEXT", path.name, count=count)
     if text.kinematic_pairs():
         add_pairs(scene, text, frame.turn, length, report)
+    _set_aside(scene, drawn)
     report.raise_for_errors()
     return scene
 
@@ -73,8 +75,12 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
 def _fill(
     scene: Scene, path: Path, iges: bool, tolerance: Tolerance, size: int,
     frame: SourceFrame, report: Report, request: Request,
-) -> None:  # fmt: skip
-    """Read the file into the scene; where a shape takes the process along, once more without it."""
+) -> list[int]:  # fmt: skip
+    """Read the file into the scene; where a shape takes the process along, once more without it.
+
+    Returns the nodes that are curves and points alone.
+    """
+    drawn: list[int] = []
     tree: Tree | None = None
     shapes: Shapes | None = None
     done: set[int] = set()
@@ -97,19 +103,20 @@ def _fill(
                     begun = None
                     shapes.add(found)
                     _report_losses(found, shapes, tree, scene, report)
+                    drawn += shapes.users(found.number) if found.lines else ()
                     request.progress(len(done) / len(tree.shapes))
             if not any(node.bodies for node in scene.nodes):
                 report.add("STEP_EMPTY", path.name, path=path.name)
-            return
+            return drawn
         except GuardedError as error:
             report.add("STEP_UNREADABLE", path.name, path=path.name, detail=error)
-            return
+            return drawn
         except GuardedCrash as crash:
             if begun is None or shapes is None or tree is None:
                 report.add(
                     "STEP_UNREADABLE", path.name, path=path.name, detail=f"OpenCASCADE gave up: {crash}"
                 )
-                return
+                return drawn
             done.add(begun)
             failed = Shape(begun, [], f"OpenCASCADE gave up: {crash}")
             begun = None
@@ -120,12 +127,24 @@ def _fill(
         path=path.name,
         detail=f"more than {MOST_CRASHES} of its shapes end OpenCASCADE",
     )
+    return drawn
+
+
+def _set_aside(scene: Scene, drawn: list[int]) -> None:
+    """What is curves and points alone, the skeleton of an assembly, is no body that could fall, unless a pair moves it."""
+    named = {node for joint in scene.joints for node in (joint.a, joint.b)}
+    named |= {feature.node for constraint in scene.constraints for feature in constraint.features}
+    for i in drawn:
+        if i not in named:
+            scene.nodes[i] = replace(scene.nodes[i], kind=NodeKind.ASSEMBLY, flexible=True)
 
 
 def _report_losses(shape: Shape, shapes: Shapes, tree: Tree, scene: Scene, report: Report) -> None:
     name = tree.shapes[shape.number]
     for node in shapes.users(shape.number)[:1]:
         where = scene.nodes[node].where
+        if shape.lines:
+            report.dropped(f"curves of {name}", "STEP_CURVES_ALONE", where, name=name)
         if shape.failure:
             report.dropped(f"shape {name}", "STEP_SHAPE_FAILED", where, name=name, detail=shape.failure)
         for piece in shape.pieces:

@@ -60,8 +60,10 @@ class Piece:
 
 @dataclass(slots=True, eq=False)
 class Shape:
-    """A meshed shape.  pieces: its solids.  failure: why there are none, empty where there are."""
+    """A meshed shape.  pieces: its solids.  failure: why there are none, empty where there are.
+    lines: whether there are none since it is curves and points alone."""
 
     number: int
     pieces: list[Piece]
     failure: str = ""
+    lines: bool = False

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from OCP.BRep import BRep_Builder
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.IGESCAFControl import IGESCAFControl_Reader
 from OCP.Quantity import Quantity_ColorRGBA
@@ -22,9 +23,10 @@ from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_ChildIterator, TDF_Label, TDF_Tool
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_SOLID, TopAbs_VERTEX
+from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS_Iterator
+from OCP.TopoDS import TopoDS_Compound, TopoDS_Iterator
 from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
@@ -59,9 +61,13 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
         reader.SetSHUOMode(True)
     if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise ValueError("OpenCASCADE cannot parse it")
-    if not reader.Transfer(document):
+    # Names that OpenCASCADE makes up would hide which components are the file's: its reader names these.
+    XCAFDoc_ShapeTool.SetAutoNaming_s(iges)
+    transferred = reader.Transfer(document)
+    XCAFDoc_ShapeTool.SetAutoNaming_s(True)
+    if not transferred:
         raise ValueError("OpenCASCADE finds no shape in it")
-    walk = _Walk(document, iges)
+    walk = _Walk(document, iges, step=not iges)
     yield walk.tree
     for number, (label, shape) in enumerate(walk.shapes):
         if number in skip:
@@ -70,26 +76,27 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
         try:
             colors = Colors(walk.colors, _label_color(label), _subshape_names(label))
             pieces = meshed_shape(shape, walk.tree.shapes[number], colors, tolerance)
-            yield Shape(number, pieces, "" if pieces else "it holds no faces")
+            lines = not pieces and TopExp_Explorer(shape, TopAbs_VERTEX).More()
+            yield Shape(number, pieces, "" if pieces or lines else "it holds no faces", lines)
         except Exception as error:  # Standard_Failure in all its forms: this shape alone is lost
             yield Shape(number, [], f"{type(error).__name__}: {error}".splitlines()[0][:200])
 
 
 def walked(document: Any) -> tuple[Tree, list[Any]]:
     """The tree of a document, and the shapes that it shows."""
-    walk = _Walk(document, False)
+    walk = _Walk(document, iges=False, step=False)
     return walk.tree, [shape for _, shape in walk.shapes]
 
 
 class _Walk:
     """The document's labels as a tree of occurrences, and the labels of the shapes they show."""
 
-    def __init__(self, document: Any, iges: bool) -> None:
+    def __init__(self, document: Any, iges: bool, step: bool) -> None:
         main = document.Main()
         self._layers = XCAFDoc_DocumentTool.LayerTool_s(main)
         self.colors = XCAFDoc_DocumentTool.ColorTool_s(main)
         self.shapes: list[tuple[Any, Any]] = []
-        self._iges = iges
+        self._iges, self._step = iges, step
         self._numbers: dict[str, int] = {}
         self.tree = Tree([], [])
         shapes = XCAFDoc_DocumentTool.ShapeTool_s(main)
@@ -111,7 +118,8 @@ class _Walk:
             matrix = trsf_matrix(XCAFDoc_ShapeTool.GetLocation_s(occurrence).Transformation())
         elif not (location := XCAFDoc_ShapeTool.GetShape_s(product).Location()).IsIdentity():
             matrix = trsf_matrix(location.Transformation())
-        is_assembly = XCAFDoc_ShapeTool.IsAssembly_s(product)
+        components, pieces = _components(product, self._step)
+        is_assembly = bool(components) or XCAFDoc_ShapeTool.IsAssembly_s(product) and not pieces
         own, below = self._usages(occurrence, usages)
         loose = [] if is_assembly or not self._iges else _loose_parts(XCAFDoc_ShapeTool.GetShape_s(product))
         record = Occurrence(
@@ -123,7 +131,7 @@ class _Walk:
             shape=None if is_assembly or loose else self._shape(product),
             color=next(filter(None, map(_label_color, own)), None)
             or self._color(occurrence, product, is_assembly),
-            layers=self._layers_of(occurrence) or self._layers_of(product),
+            layers=self._layers_of(occurrence) or self._layers_of(product) or self._layers_of_all(pieces),
             visible=all(map(self.colors.IsVisible_s, (occurrence, *own)))
             if hasattr(self.colors, "IsVisible_s")
             else True,
@@ -143,13 +151,15 @@ class _Walk:
             self.tree.occurrences.append(own)
             self.shapes.append((product, shape))
             self.tree.shapes.append(name)
-        if is_assembly:
-            for component in _children(product):
-                if not XCAFDoc_ShapeTool.IsComponent_s(component):
-                    continue
-                referred = TDF_Label()
-                if XCAFDoc_ShapeTool.GetReferredShape_s(component, referred):
-                    self._add(component, referred, place, level + 1, below)
+        for component, referred in components:
+            self._add(component, referred, place, level + 1, below)
+        if components and pieces:
+            name = record.product or "Part"
+            part = Occurrence(
+                name, place, np.eye(3, 4), name, f"{record.key}:own", self._own(product, pieces)
+            )
+            part.layers = self._layers_of_all(pieces)
+            self.tree.occurrences.append(part)
 
     def _usages(self, occurrence: Any, usages: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
         """Styles that a specified higher usage gives to this very occurrence, outermost first; and those for what is in it."""
@@ -174,6 +184,19 @@ class _Walk:
             self.tree.shapes.append(_name(product))
         return self._numbers[entry]
 
+    def _own(self, product: Any, pieces: list[Any]) -> int:
+        """The shape of an assembly itself, beside its components."""
+        entry = f"{_entry(product)}:own"
+        if entry not in self._numbers:
+            self._numbers[entry] = len(self.shapes)
+            whole, builder = TopoDS_Compound(), BRep_Builder()
+            builder.MakeCompound(whole)
+            for piece in pieces:
+                builder.Add(whole, XCAFDoc_ShapeTool.GetShape_s(piece))
+            self.shapes.append((product, whole))
+            self.tree.shapes.append(_name(product))
+        return self._numbers[entry]
+
     def _color(self, occurrence: Any, product: Any, is_assembly: bool) -> Color | None:
         """Given to the occurrence; to an assembly also by its product, which a shape's own faces have already."""
         own = None if occurrence is product else _label_color(occurrence)
@@ -184,6 +207,34 @@ class _Walk:
         if names is None:
             return ()
         return tuple(names.Value(i).ToExtString() for i in range(1, names.Length() + 1))
+
+    def _layers_of_all(self, pieces: list[Any]) -> tuple[str, ...]:
+        """Layers of the pieces of one part, each once."""
+        return tuple(dict.fromkeys(layer for piece in pieces for layer in self._layers_of(_referred(piece))))
+
+
+def _components(product: Any, step: bool) -> tuple[list[tuple[Any, Any]], list[Any]]:
+    """What an assembly is made of, each with its product; and, in a STEP file, the pieces of its own shape.
+
+    A product of it may state several shapes, a solid and beside it curves or surfaces: they are one rigid part, and
+    OpenCASCADE makes components of them.  Those that the file states have the names that it gives them.
+    """
+    components: list[tuple[Any, Any]] = []
+    pieces: list[Any] = []
+    for child in _children(product) if XCAFDoc_ShapeTool.IsAssembly_s(product) else ():
+        if not XCAFDoc_ShapeTool.IsComponent_s(child) or (referred := _referred(child)) is None:
+            continue
+        if not step or _is_named(child) or _is_named(referred):
+            components.append((child, referred))
+        else:
+            pieces.append(child)
+    return components, pieces
+
+
+def _referred(component: Any) -> Any:
+    """The label of what a component is an instance of, or None."""
+    referred = TDF_Label()
+    return referred if XCAFDoc_ShapeTool.GetReferredShape_s(component, referred) else None
 
 
 def _children(label: Any) -> Iterator[Any]:
@@ -200,9 +251,13 @@ def _linked(ask: Any, label: Any) -> list[Any]:
     return [found.Value(i) for i in range(1, found.Length() + 1)]
 
 
+def _is_named(label: Any) -> bool:
+    return bool(label.IsAttribute(TDataStd_Name.GetID_s()))
+
+
 def _name(label: Any) -> str:
     # The binding crashes where FindAttribute finds nothing.
-    if not label.IsAttribute(TDataStd_Name.GetID_s()):
+    if not _is_named(label):
         return ""
     name = TDataStd_Name()
     label.FindAttribute(TDataStd_Name.GetID_s(), name)

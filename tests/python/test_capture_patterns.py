@@ -165,6 +165,17 @@ def test_of_two_alike_the_one_that_the_pattern_names_is_the_seed(program, tmp_pa
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
+def test_a_pattern_of_a_patterns_copy_leads_to_the_seed_of_that(program, tmp_path):
+    """A row of the arm's bolt, its copy repeated in a column; another such bolt is on the base."""
+    four = [*BOLTS, component("Bolt-4", [330.0, -150.0, 50.0], "Bolt")]
+    patterns = [["Row", [["M/Bolt-2"], ["M/Bolt-3"]]], ["Column", [["M/Bolt-3"], ["M/Bolt-4"]]]]
+    joints = [rigid("Base", "Bolt-1"), rigid("Arm", "Bolt-2")]
+    found, codes = captured(program, machine(*four, patterns=patterns, joints=joints), tmp_path)
+    assert together(found, "M/Arm", "M/Bolt-2", "M/Bolt-3", "M/Bolt-4")
+    assert not together(found, "M/Arm", "M/Bolt-1") and "CAPTURE_PATTERN_FREE" not in codes
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
 def test_a_patterned_assembly_whose_parts_move_follows_part_by_part(program, tmp_path):
     subs = []
     for i in (1, 2):

@@ -37,7 +37,7 @@ def read_patterns(owner: Owner, model: Model) -> None:
     lost: list[str] = []
     for copy, definition in copies:
         alike = originals.get(definition, [])
-        told = [seed for seed in named.get(copy, ()) if seed in alike]
+        told = [seed for seed in _repeated(copy, named) if seed in alike]
         seed = alike[0] if len(alike) == 1 else told[0] if len(told) == 1 else ""
         if seed:
             ties[copy] = seed
@@ -45,6 +45,17 @@ def read_patterns(owner: Owner, model: Model) -> None:
             lost.append(copy)
     follow(draft, f"of {owner.id}", ties)
     free(draft, f"of {owner.id}", lost)
+
+
+def _repeated(copy: str, named: dict[str, list[str]]) -> list[str]:
+    """What the pattern of an instance names, and what the pattern of that names: patterns may repeat instances of others."""
+    found: dict[str, None] = {}
+    open_ = [copy]
+    while open_:
+        seeds = [seed for seed in named.get(open_.pop(), ()) if seed not in found]
+        found |= dict.fromkeys(seeds)
+        open_ += seeds
+    return list(found)
 
 
 def _named(owner: Owner, model: Model) -> dict[str, list[str]]:

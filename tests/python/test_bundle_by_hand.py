@@ -101,6 +101,20 @@ def test_init_refuses_a_folder_without_meshes_and_a_bundle_beside_the_way(tmp_pa
     assert not (tmp_path / "empty" / "m.bundle.json").exists()
 
 
+def test_init_tells_of_meshes_in_folders_inside(tmp_path):
+    """Rhino's layers or Blender's collections exported as folders: they are no parts, and that is no secret."""
+    folder = tmp_path / "parts"
+    box(folder / "Base.stl", 10, 20, 30)
+    for name in ("Layer 1", "empty", ".trash"):
+        (folder / name).mkdir()
+    (folder / "Layer 1" / "Pin.STL").write_bytes(b"")
+    (folder / ".trash" / "Old.stl").write_bytes(b"")
+    done = run("bundle", "init", folder, "--units", "mm", "--json")
+    found = json.loads(done.stdout)["diagnostics"]
+    assert [(entry["code"], entry["severity"]) for entry in found] == [("BEGINNING_FOLDER", "warning")]
+    assert "1 mesh file(s) in the folder Layer 1" in found[0]["message"]
+
+
 def test_check_tells_every_layer_at_once(tmp_path):
     """Header, components, joints and mesh files in one run."""
     values = bundle(

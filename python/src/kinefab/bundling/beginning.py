@@ -10,7 +10,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..diagnostics import KinefabError, diagnostic
+from ..diagnostics import KinefabError, Report, diagnostic
 from ..geometry.files import FORMATS
 from ..sources.parts.readers import part_readers
 from ..sources.reading.record import is_array, is_object
@@ -40,12 +40,8 @@ def meshes_in(folder: Path) -> list[Path]:
             f"{folder} cannot be listed: {error.strerror or error}",
             "Give a folder of mesh files that can be read.",
         ) from None
-    known = (*FORMATS, *(suffix for suffix in part_readers() if suffix not in FORMATS))
-    found = [
-        path
-        for path in there
-        if path.suffix.lower() in known and not path.name.startswith(".") and path.is_file()
-    ]
+    known = known_suffixes()
+    found = [path for path in there if _is_mesh(path, known)]
     if not found:
         raise _no_beginning(
             f"{folder} holds no mesh file ({', '.join(known)})", "Export one file for each part into it."
@@ -54,6 +50,27 @@ def meshes_in(folder: Path) -> list[Path]:
         if any("\ud800" <= letter <= "\udfff" for letter in path.name):
             raise _no_beginning(f"the name of {path!a} is not UTF-8", "Rename the file.")
     return found
+
+
+def known_suffixes() -> tuple[str, ...]:
+    """Of the files that may be a part, lower case."""
+    return (*FORMATS, *(suffix for suffix in part_readers() if suffix not in FORMATS))
+
+
+def _is_mesh(path: Path, known: tuple[str, ...]) -> bool:
+    return path.suffix.lower() in known and not path.name.startswith(".") and path.is_file()
+
+
+def tell_folders(folder: Path, report: Report) -> None:
+    """Tell of the mesh files in the folders inside, which ``meshes_in`` does not take: they may be an export or a copy."""
+    known = known_suffixes()
+    for inner in sorted(path for path in folder.iterdir() if path.is_dir() and not path.name.startswith(".")):
+        try:
+            count = sum(_is_mesh(path, known) for path in inner.iterdir())
+        except OSError:
+            continue
+        if count:
+            report.add("BEGINNING_FOLDER", str(folder), folder=inner.name, count=count)
 
 
 def begin(files: Sequence[Path], target: Path, units: str, up: str) -> str:

@@ -48,7 +48,7 @@ def bundle_commands() -> typer.Typer:
         as_json: bool = AS_JSON,
     ) -> None:
         """Begin a bundle of a folder of meshes. It is valid and commented, to go on with by hand."""
-        from ..bundling.beginning import begin, meshes_in
+        from ..bundling.beginning import begin, meshes_in, tell_folders
 
         target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
         if not target.name.endswith(ENDING):
@@ -64,8 +64,10 @@ def bundle_commands() -> typer.Typer:
             raise typer.BadParameter(
                 f"{target} is there already; --force overwrites it", param_hint="--output"
             )
+        report = Report()
         try:
             files = meshes_in(folder)
+            tell_folders(folder, report)
             text = begin(files, target, units, up.upper())
         except KinefabError as error:
             typer.echo(f"{target} was not written.", err=True)
@@ -76,7 +78,7 @@ def bundle_commands() -> typer.Typer:
             f"Ground a part, add joints, then: kinefab bundle check {target}",
             err=True,
         )
-        tell(Report(), target, as_json, True)
+        tell(report, target, as_json, True)
 
     @group.command()
     def check(

@@ -155,6 +155,29 @@ def test_values_and_limits_of_joints(more, words, expected):
     assert (dof["min"], dof["max"]) == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(
+    ("value", "b", "ratio"),
+    [(0.3, "k", 2.5), (-0.3, "k", -2.5), (-0.3, "j", 2.5)],
+    ids=["as shown", "one end", "both ends"],
+)
+def test_a_ratio_goes_with_a_value_that_counts_the_other_way(value, b, ratio):
+    """Relations are stated between the coordinates that the program shows."""
+    ends = (0.2, 1.4) if value > 0.0 else (-1.4, -0.2)
+    other = {**joint(), "id": "k", "a": "M/Sub"}
+    found = draft(joints=[joint(value=value, min=ends[0], max=ends[1]), other])
+    found.couplings.append(
+        {
+            "id": "g",
+            "kind": "linear",
+            "a": {"joint": "j", "dof": "rz"},
+            "b": {"joint": b, "dof": "rz"},
+            "ratio": 2.5,
+        }
+    )
+    check(found)
+    assert found.values()["couplings"][0]["ratio"] == ratio
+
+
 def test_a_limit_whose_flag_is_off_is_not_checked():
     assert told(draft(joints=[joint(min=0.5, minEnabled=False)])) == []
 

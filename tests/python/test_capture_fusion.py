@@ -11,6 +11,7 @@ import pytest
 from cad.captures import capture, scene_differences
 from cad.described import described
 from cad.fusion import Fusion
+from cad.gears import held_by_the_world
 from kinefab.capture.channel import question
 from kinefab.capture.fusion.inside import capture_to
 from kinefab.capture.fusion.install import install
@@ -29,6 +30,16 @@ def test_joints_give_the_scene_of_the_bundle(name, tmp_path):
     found = capture("fusion", Fusion(described(values)).record(), tmp_path, values["meta"]["up"], report)
     assert scene_differences(values, found.path, tmp_path) == []
     assert report.diagnostics == []
+
+
+def test_a_link_of_a_joint_whose_first_side_is_the_root_turns_as_there(tmp_path):
+    """The joint's sides change places and its angle its sign, which the link's ratio goes with."""
+    scene, stated = held_by_the_world(opposed=False)
+    for values in (scene, stated):
+        values["couplings"][0]["kind"] = "linear"
+    found = capture("fusion", Fusion(described(stated)).record(), tmp_path, "Y")
+    assert scene_differences(scene, found.path, tmp_path) == []
+    assert found.draft.report.diagnostics == []
 
 
 def every_motion() -> list[list[dict]]:

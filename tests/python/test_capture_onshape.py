@@ -14,7 +14,7 @@ import pytest
 from cad.captures import capture, scene_differences
 from cad.described import described, mechanism
 from cad.documented import of_onshape
-from cad.gears import gear_pair
+from cad.gears import gear_pair, held_by_the_world
 from cad.gltf import exported
 from cad.onshape import answers, boxed
 from cad.tetrahedron import FACES, POINTS
@@ -72,6 +72,15 @@ def test_mates_give_the_scene_of_the_joints(name, unit, tmp_path):
     values = rigid_crank(values) if "lever" in name else values
     found = capture("onshape", answers(described(values), unit), tmp_path, values["meta"]["up"])
     assert scene_differences(values, found.path, tmp_path) == []
+    assert found.draft.report.diagnostics == []
+
+
+@pytest.mark.parametrize("opposed", [False, True])
+def test_a_gear_on_a_mate_whose_first_side_is_the_world_turns_as_there(opposed, tmp_path):
+    """The mate's sides change places and its angle its sign, which the relation's ratio goes with."""
+    scene, stated = held_by_the_world(opposed)
+    found = capture("onshape", answers(described(stated)), tmp_path, "Y")
+    assert scene_differences(scene, found.path, tmp_path) == []
     assert found.draft.report.diagnostics == []
 
 

@@ -224,7 +224,7 @@ class Fusion:
             }
         answers: dict[str, Any] = {
             "name": j["id"], "jointMotion": a.made("Motion", **motion), "isSuppressed": False,
-            "occurrenceOne": self.occurrences[j["b"]], "occurrenceTwo": self.occurrences.get(j["a"]),
+            "occurrenceOne": self.occurrences.get(j["b"]), "occurrenceTwo": self.occurrences.get(j["a"]),
         }  # fmt: skip
         if as_built:
             point = a.made("Point", asArray=Metres(fa["o"]))

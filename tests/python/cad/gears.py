@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import Any
 
@@ -50,3 +51,28 @@ def gear_pair() -> dict[str, Any]:
             {"id": "Gear", "kind": "gear", "a": {"joint": "Hinge A", "dof": "rz"}, "b": {"joint": "Hinge B", "dof": "rz"}, "ratio": -2.5}
         ],
     }  # fmt: skip
+
+
+def held_by_the_world(opposed: bool) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The pair with its first hinge on the world: as a bundle has it, and as a user has it who selects the world first, so that
+    it moves against the wheel.  opposed: the hinge's two axes point against each other."""
+    scene = gear_pair()
+    hinge, (coupling,) = scene["joints"][0], scene["couplings"]
+    hinge["a"] = "ground"
+    if opposed:
+        hinge["frameA"]["z"] = [0.0, 0.0, -1.0]
+        _count_back(hinge, coupling)
+    stated = copy.deepcopy(scene)
+    hinge, (coupling,) = stated["joints"][0], stated["couplings"]
+    for one, other in (("a", "b"), ("frameA", "frameB")):
+        hinge[one], hinge[other] = hinge[other], hinge[one]
+    if not opposed:
+        _count_back(hinge, coupling)
+    return scene, stated
+
+
+def _count_back(hinge: dict[str, Any], coupling: dict[str, Any]) -> None:
+    """What is counted about the hinge, the other way."""
+    (dof,) = hinge["dof"]
+    dof |= {"value": -dof["value"], "min": -dof["max"], "max": -dof["min"]}
+    coupling["ratio"] = -coupling["ratio"]

@@ -62,13 +62,14 @@ def answers(assembly: Described, unit: str = "mm") -> dict[str, Any]:
         own = f"F{number:03d}"
         entities = []
         for end, key in (("b", "frameB"), ("a", "frameA")):  # the first selected moves against the second
-            at, base = joint.get(key, joint["frameA"]), assembly.parts[joint[end]]
+            component = assembly.root if joint[end] == "ground" else joint[end]
+            at, base = joint.get(key, joint["frameA"]), assembly.parts[component]
             x, z = base.turned(at["x"]), base.turned(at["z"])
             cs = of_onshape(
                 "MatedCS", origin=base.local(at["o"]).tolist(), xAxis=x.tolist(), yAxis=np.cross(z, x).tolist(),
                 zAxis=z.tolist(),
             )  # fmt: skip
-            entities.append(of_onshape("MatedEntity", matedOccurrence=path(joint[end]), matedCS=cs))
+            entities.append(of_onshape("MatedEntity", matedOccurrence=path(component), matedCS=cs))
         data = of_onshape("Mate", name=joint["id"], mateType=MATES[joint["type"]], matedEntities=entities)
         features.append(_feature(own, "mate", data))
         stated: list[tuple[str, Any]] = []

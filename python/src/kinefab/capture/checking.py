@@ -40,6 +40,10 @@ def check(draft: Draft) -> None:
             told = {"id": name, "residual": f"{found[name]:.3g}", "program": draft.program}
             if name in closing:
                 words, other = closing[name]
+                dofs = zip(records[i].get("dof", []), other.get("dof", []))
+                draft.turned ^= {
+                    (name, dof["name"]) for was, dof in dofs if was.get("value") != dof.get("value")
+                }
                 records[i] = {**other, "extras": {**other.get("extras", {}), "reading": words}}
                 draft.report.add("CAPTURE_READING_CHANGED", words=words, **told)
             else:

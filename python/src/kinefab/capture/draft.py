@@ -71,8 +71,9 @@ class Draft:
 
     definitions: of each name and identity that the program has for a part, what the bundle calls it.
     owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
-    may try.  meshes: of a definition, by its name.  ids: of joints and constraints, called: what definitions are, each with
-    the number that its next namesake may have.
+    may try.  turned: the coordinates, by joint and name, that count the other way than the program shows them; ratios of
+    couplings are the program's.  meshes: of a definition, by its name.  ids: of joints and constraints, called: what
+    definitions are, each with the number that its next namesake may have.
     """
 
     program: str
@@ -90,6 +91,7 @@ class Draft:
     dof: list[Record] = field(default_factory=list[Record])
     definitions: dict[tuple[str, str], str] = field(default_factory=dict[tuple[str, str], str])
     owners: dict[str, str] = field(default_factory=dict[str, str])
+    turned: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     meshes: dict[str, list[BodyMesh]] = field(default_factory=dict[str, list[BodyMesh]])
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     ids: dict[str, int] = field(default_factory=dict[str, int])
@@ -190,13 +192,18 @@ class Draft:
             raise TypeError("its name is no text")
         return _numbered(name, self.ids)
 
+    def _turned(self, coupling: Record) -> Record:
+        """The coupling between the bundle's coordinates."""
+        a, b = ((coupling[key]["joint"], coupling[key]["dof"]) in self.turned for key in "ab")
+        return {**coupling, "ratio": -coupling["ratio"]} if a != b else coupling
+
     def values(self) -> Record:
         """The bundle as ``schemas/bundle.schema.json`` has it, without its mesh files."""
         lists: list[tuple[str, Iterable[Record]]] = [
             ("materials", self.materials.values()),
             ("components", self.components),
             ("joints", self.joints),
-            ("couplings", self.couplings),
+            ("couplings", map(self._turned, self.couplings)),
             ("constraints", self.constraints),
             ("dof", self.dof),
         ]

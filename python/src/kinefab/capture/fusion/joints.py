@@ -101,6 +101,7 @@ def _finish(draft: Draft, record: Record, word: str, motion: Motion, locked: boo
             freedom(d["name"], -d["value"], *(None if e not in d else -d[e] for e in ("max", "min")))
             for d in dofs
         ]
+        draft.turned |= {(record["id"], d["name"]) for d in dofs}
     if dofs:
         record["dof"] = dofs
     if locked and word != "rigid":

@@ -105,9 +105,10 @@ class Mates:
             return
         word, coordinates = TYPES[kind]
         (b, frame_b), (a, frame_a) = sides[0], sides[1]
-        sign = 1.0
-        if b == "ground":
-            (a, frame_a), (b, frame_b), sign = (b, frame_b), (a, frame_a), -1.0
+        turned = False
+        if b == "ground":  # counted the other way, unless about an axis that points the other way
+            (a, frame_a), (b, frame_b) = (b, frame_b), (a, frame_a)
+            turned = self._cosine(sides) > 0.0
         record: Record = {
             "id": own,
             "name": name,
@@ -123,8 +124,9 @@ class Mates:
         for coordinate, shown_as in coordinates.items():
             value = shown.get(shown_as)
             low, high = self._limits(own, coordinate, stated)
-            if sign < 0.0:
+            if turned:
                 value, low, high = (None if v is None else -v for v in (value, high, low))
+                self.draft.turned.add((own, coordinate))
             dofs.append(freedom(coordinate, value, low, high))
         if kind == "BALL" and stated.get("limitsEnabled") and stated.get(CONE) is not None:
             self.draft.report.approximated(
@@ -142,6 +144,20 @@ class Mates:
         component, inside = self.definition.component(path, entity["matedOccurrence"])
         cs = entity["matedCS"]
         return component, frame(inside, cs["origin"], cs["zAxis"], cs["xAxis"])
+
+    def _cosine(self, sides: list[tuple[str, Record]]) -> float:
+        """Of the two z axes in the world."""
+        poses = {component["id"]: component["pose"] for component in self.draft.components}
+        axes: list[list[float]] = []
+        for component, at in sides:
+            pose = poses.get(component if at["in"] == "part" else at["in"])
+            rows = (
+                [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+                if pose is None
+                else [pose[k] for k in "xyz"]
+            )
+            axes.append([sum(z * row[n] for z, row in zip(at["z"], rows)) for n in range(3)])
+        return sum(p * q for p, q in zip(*axes))
 
     def _limits(self, own: str, coordinate: str, stated: Json) -> tuple[float | None, float | None]:
         if not stated.get("limitsEnabled"):

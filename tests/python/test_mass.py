@@ -9,11 +9,20 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab.diagnostics import Report
+from kinefab.geometry import primitives
 from kinefab.geometry.hulls import collision_hulls, hull_of_points
-from kinefab.geometry.mass import combined, is_possible, moved, principal, solid_properties
+from kinefab.geometry.mass import (
+    combined,
+    is_possible,
+    moved,
+    principal,
+    shape_properties,
+    solid_properties,
+    stretched,
+)
 from kinefab.geometry.weighing import weigh
 from kinefab.model import Body, MassProperties, Mesh, Node, Scene
-from kinefab.spatial import Pose, rotation_exp
+from kinefab.spatial import Pose, rotation_exp, rotation_log
 
 
 def volume(mesh: Mesh) -> float:
@@ -83,6 +92,90 @@ def test_combined_mass_is_that_of_the_whole():
     expected = of(whole)
     assert total.mass == pytest.approx(expected.mass)
     assert np.allclose(total.inertia, expected.inertia) and np.allclose(total.center, 0)
+
+
+def askew() -> tuple[np.ndarray, np.ndarray]:
+    """A tetrahedron without any symmetry, away from the origin."""
+    vertices = np.array([[0.3, -0.2, 0.5], [1.7, 0.1, 0.4], [0.5, 1.1, 0.9], [0.2, 0.3, 2.6]])
+    return vertices, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+
+
+def same(one: MassProperties, other: MassProperties) -> bool:
+    return bool(
+        np.isclose(one.mass, other.mass)
+        and np.allclose(one.center, other.center)
+        and np.allclose(one.inertia, other.inertia)
+    )
+
+
+TURNED = Pose(rotation_exp(np.array([0.4, -1.1, 0.7])), np.array([3.0, -1.0, 0.5]))
+
+
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (2.0, 2.0, 2.0), (0.5, 3.0, 1.5), (0.5, -3.0, 1.5)])
+def test_what_is_stretched_and_moved_weighs_as_its_vertices_do(scale):
+    """Mass by the volume, products and centre by the axes they belong to; a mirror turns nothing inside out."""
+    vertices, faces = askew()
+    shape = solid_properties(vertices, faces, 700.0)
+    assert shape.mass > 0.0
+    there = TURNED.point(vertices * scale)
+    wound = faces if np.prod(scale) > 0.0 else faces[:, ::-1]
+    assert same(moved(stretched(shape, scale), TURNED), solid_properties(there, wound, 700.0))
+
+
+def test_bodies_of_a_part_are_weighed_where_they_stand_each_with_its_own_scale_and_density():
+    """Three of one mesh, which is wound inwards, in one part; none may be taken for the other."""
+    vertices, faces = askew()
+    mesh = Mesh("m", vertices, faces[:, ::-1], np.tile([0.0, 0.6, -0.8], (4, 1)))
+    bodies = (
+        Body("one", 0, pose=TURNED, scale=(0.5, 3.0, 1.5), density=700.0),
+        Body("two", 0, pose=TURNED, scale=(0.5, 3.0, 2.0), density=700.0),
+        Body("three", 0, pose=TURNED, scale=(0.5, 3.0, 2.0)),
+    )
+    nodes = [Node("P", "P", bodies=bodies), *(Node(b.name, b.name, bodies=(b,)) for b in bodies)]
+    scene = weigh(Scene(nodes=nodes, meshes=[mesh]), 1200.0, Report())
+    expected = [
+        solid_properties(TURNED.point(vertices * body.scale), faces, body.density or 1200.0)
+        for body in bodies
+    ]
+    for node, own in zip(scene.nodes, (combined(expected), *expected)):
+        assert same(node.mass, own)
+    (turned,) = scene.meshes
+    assert np.array_equal(turned.faces, faces) and np.allclose(turned.normals, [0.0, -0.6, 0.8])
+
+
+@pytest.mark.parametrize(
+    "kind, size",
+    [
+        ("box", (0.4, 0.7, 1.1)),
+        ("ellipsoid", (0.4, 0.7, 1.1)),
+        ("sphere", (0.4,)),
+        ("cylinder", (0.4, 1.1)),
+        ("capsule", (0.4, 1.1)),
+        ("cone", (0.4, 1.1)),
+    ],
+)
+def test_a_named_shape_weighs_as_its_mesh_does(kind, size):
+    """But for the 48 sides of what is round."""
+    mesh = getattr(primitives, kind)(*((size,) if len(size) == 3 else size))
+    found, of_mesh = shape_properties(kind, size), solid_properties(mesh.vertices, mesh.faces, 1.0)
+    assert found.mass == pytest.approx(of_mesh.mass, rel=0.01)
+    assert np.allclose(found.center, of_mesh.center, atol=1e-3)
+    assert np.allclose(np.diag(found.inertia), np.diag(of_mesh.inertia), rtol=0.02)
+
+
+def test_of_all_namings_of_the_principal_axes_the_nearest_is_taken():
+    """A tensor that is turned far has the names, and the hand, of the axes that are nearest to the given ones."""
+    rng = np.random.default_rng(4)
+    quarters = [rotation_exp(np.array(v) * math.pi / 2) for v in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    for _ in range(50):
+        r = rotation_exp(rng.normal(size=3))
+        tensor = r @ np.diag([5.0, 1.5, 4.0]) @ r.T
+        moments, axes = principal(tensor)
+        assert np.allclose(axes @ np.diag(moments) @ axes.T, tensor)
+        assert np.linalg.det(axes) == pytest.approx(1.0)
+        away = float(np.linalg.norm(rotation_log(axes)))
+        others = [axes @ a @ b for a in quarters for b in (np.eye(3), *quarters)]
+        assert all(away < float(np.linalg.norm(rotation_log(other))) + 1e-9 for other in others)
 
 
 def test_principal_axes_are_a_proper_rotation_near_the_part_frame():

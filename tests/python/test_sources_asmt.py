@@ -13,7 +13,8 @@ import pytest
 from kinefab import sources
 from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
-from kinefab.model import RX, ConstraintKind, JointKind
+from kinefab.model import RX, TX, ConstraintKind, CouplingKind, JointKind
+from kinefab.sources.asmt.reader import TURN
 from kinefab.spatial import quaternion_from_matrix, rotation_about
 
 X, Y, Z = np.eye(3)
@@ -83,6 +84,56 @@ def test_a_link_between_two_hinges(length: float, kinds: int, tmp_path: Path):
     first = ConstraintKind.DISTANCE if length else ConstraintKind.COINCIDENT
     assert [c.kind for c in scene.constraints] == [first, ConstraintKind.DISTANCE]
     assert analyse(scene).mobility == (2 if length else 1)
+
+
+def along(axis: np.ndarray) -> np.ndarray:
+    """A rotation that takes Z to an axis of the world."""
+    across = np.roll(axis, 1)
+    return np.column_stack([across, np.cross(axis, across), axis])
+
+
+@pytest.mark.parametrize("second_first", [False, True], ids=["ground is I", "ground is J"])
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["axis along", "axis against"])
+@pytest.mark.parametrize(
+    ("kind", "numbers", "own", "motion", "word"),
+    [
+        ("GearJoint", {"radiusI": 20.0, "radiusJ": 8.0}, ("RevoluteJoint", Z), -2.5, CouplingKind.GEAR),
+        ("GearJoint", {"radiusI": 20.0, "radiusJ": -8.0}, ("RevoluteJoint", Z), 2.5, CouplingKind.BELT),
+        ("RackPinionJoint", {"pitchRadius": 12.0}, ("TranslationalJoint", X), 1.0 / 0.012, CouplingKind.RACK),
+        ("ScrewJoint", {"pitch": 5.0}, ("TranslationalJoint", Z), -2.0 * math.pi / 0.005, CouplingKind.RACK),
+    ],
+)
+def test_a_coupling_ties_the_motions_whichever_way_its_joints_count(
+    kind, numbers, own, motion, word, way, second_first, tmp_path: Path
+):
+    """own: joint and axis of the part with marker I.  motion: radians that J turns about Z for one of I's, or for its metre."""
+    at = {"One": frame([0, 0, 0], along(Z)), "Two": frame([28.0, 3.0, 5.0], rotation_about(Z, 0.3))}
+    joint, axis = own
+    first = (("", frame([0, 0, 0], along(way * axis))), ("One", frame([0, 0, 0], along(way * axis))))
+    second = (("", frame([28.0, 3.0, 5.0])), ("Two", frame([28.0, 3.0, 5.0])))
+    markers = {
+        "J1": first[::-1] if second_first else first,
+        "J2": second,
+        "Tie": (("One", frame([0, 0, 0])), ("Two", frame([28.0, 3.0, 5.0]))),
+    }
+    scene, _ = read(
+        tmp_path,
+        document(at, [(joint, "J1", {}), ("RevoluteJoint", "J2", {}), (kind, "Tie", numbers)], markers),
+    )
+    turning = joint == "RevoluteJoint"
+    speeds = {"One": TURN @ axis, "Two": motion * (TURN @ Z)}
+    rates = {}
+    for found in scene.joints:
+        main = (scene.pose(found.a) @ found.frame_a).rotation[:, 0]
+        moved, held = (
+            np.zeros(3) if n is None else speeds.get(scene.nodes[n].name, np.zeros(3))
+            for n in (found.b, found.a)
+        )
+        rates[found.id] = float(main @ (moved - held))
+    (coupling,) = scene.couplings
+    (term,) = coupling.terms
+    assert coupling.kind is word and {coupling.freedom, term.freedom} == {RX, RX if turning else TX}
+    assert rates[coupling.joint] == pytest.approx(term.ratio * rates[term.joint])
 
 
 def shafts(bend: float, turn: float, way: np.ndarray) -> str:

@@ -8,6 +8,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.model import RX, RY, RZ, TX, TY, TZ, JointKind, Motion
+from kinefab.unity.joints.coordinates import canonical, read_coordinates
 from usd_stages import body, codes, joint, scene_of, stage
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
@@ -218,6 +219,14 @@ def test_a_ball_has_the_cone_of_physx_and_a_rope_its_length(tmp_path):
     assert codes(report) == {"USD_FEATURE_APPROXIMATED"}
 
 
+def test_a_cone_of_two_angles_bounds_the_turns_that_physx_bounds_by_them(tmp_path):
+    """Angle 0 the turn about the axis after the main one, angle 1 that about the next."""
+    cone = 'uniform token physics:axis = "X"\nfloat physics:coneAngle0Limit = 30\nfloat physics:coneAngle1Limit = 20'
+    found, _, _ = joint_of(tmp_path, body("B") + joint("PhysicsSphericalJoint", inside=cone))
+    ends = [(found.freedoms[i].lower, found.freedoms[i].upper) for i in (RY, RZ)]
+    assert np.allclose(ends, [(-30 * DEGREE, 30 * DEGREE), (-20 * DEGREE, 20 * DEGREE)])
+
+
 def test_a_rope_is_the_radius_that_unity_has_and_a_box_of_slides_is_not(tmp_path):
     """Both are three slides of -2..2 m; the box reaches further at its corners, which is told."""
     axes = [f"trans{axis}" for axis in "XYZ"]
@@ -425,3 +434,106 @@ def test_a_coordinate_that_is_stated_is_counted_as_its_range_is(tmp_path):
     assert scene is not None
     (freedom,) = (f for f in scene.joints[0].freedoms if f.at is not None)
     assert (freedom.lower, freedom.upper, freedom.at) == pytest.approx((-0.8, 0.1, -0.2))
+
+
+def generic(ranges: dict[str, tuple[float, float]], more: str = "", also: str = "", **sides) -> str:
+    """A joint that leaves these freedoms, each with its range, and no others.  also: further applied schemas, quoted."""
+    locked = {name: (1.0, -1.0) for name in ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")}
+    ends = "".join(
+        f" float limit:{name}:physics:low = {low}\n float limit:{name}:physics:high = {high}\n"
+        for name, (low, high) in {**locked, **ranges}.items()
+    )
+    schemas = ", ".join([*(f'"PhysicsLimitAPI:{name}"' for name in locked), *([also] if also else [])])
+    return joint("PhysicsJoint", "J2", ends + more, schemas=schemas, **sides)
+
+
+def test_two_turns_whose_second_body_is_the_world_keep_their_ranges_and_senses(tmp_path):
+    """The world's frame seen from the body's is Rz(35) Rx(20); with the world first the turns have each other's names."""
+    standing = " double xformOp:rotateX = -20\n double xformOp:rotateZ = -35\n uniform token[]"
+    order = '["xformOp:translate", "xformOp:rotateX", "xformOp:rotateZ"]'
+    turned_body = body("B").replace('["xformOp:translate"]', order).replace("uniform token[]", standing, 1)
+    text = generic({"rotX": (-10.0, 80.0), "rotZ": (-20.0, 50.0)}, body0="/B", body1="")
+    mimic = (
+        " rel physxMimicJoint:rotX:referenceJoint = </J2>\n"
+        ' uniform token physxMimicJoint:rotX:referenceJointAxis = "rotX"\n'
+    )
+    text += joint("PhysicsRevoluteJoint", "J1", mimic, body1="/A", schemas='"PhysxMimicJointAPI:rotX"')
+    scene, _ = scene_of(tmp_path, stage(body("A") + turned_body + text, up="Y"))
+    (coupling,), found = scene.couplings, next(j for j in scene.joints if j.id == "J2")
+    assert found.a is None and found.kind is JointKind.UNIVERSAL
+    shape = canonical(found)
+    here = read_coordinates(shape, found.frame_a.inverse() @ scene.pose(found.b) @ found.frame_b)
+    known = {
+        round(math.degrees(here.values[i])): np.degrees([shape.freedoms[i].lower, shape.freedoms[i].upper])
+        .round(4)
+        .tolist()
+        for i in (RX, RZ)
+    }
+    assert here.gap_angle < 1e-9 and known == {20: [-10.0, 80.0], 35: [-20.0, 50.0]}
+    led = found.freedoms[coupling.terms[0].freedom]
+    assert (led.lower, led.upper) == pytest.approx((-10.0 * DEGREE, 80.0 * DEGREE))
+
+
+def test_two_turns_that_are_held_away_from_zero_are_held_in_their_order(tmp_path):
+    """R = Rz Ry Rx, as PhysX has it."""
+    standing = " double xformOp:rotateZ = 35\n double xformOp:rotateX = 20\n uniform token[]"
+    order = '["xformOp:translate", "xformOp:rotateZ", "xformOp:rotateX"]'
+    turned_body = body("B").replace('["xformOp:translate"]', order).replace("uniform token[]", standing, 1)
+    text = generic({"rotX": (20.0, 20.0), "rotZ": (35.0, 35.0), "transY": (-1.0, 2.0)})
+    found, scene, _ = joint_of(tmp_path, turned_body + text, up="Y")
+    here = found.frame_a.inverse() @ scene.pose(found.b) @ found.frame_b
+    assert found.unlocked == (TY,) and np.allclose(here.rotation, np.eye(3), atol=1e-6)
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_slides_whose_second_body_is_the_world_turn_their_drives_and_mimics_with_them(tmp_path, follows):
+    """Two slides of body 0 along its own axes: with the world first they count the other way, and so does all that is said of
+    them; here in centimetres."""
+    mimic = {
+        True: ("transY", "J1", "rotX"),  # q_slide + 2 q_hinge - 5 = 0
+        False: ("rotX", "J2", "transY"),
+    }[follows]
+    own, leader, axis = mimic
+    said = (
+        f" rel physxMimicJoint:{own}:referenceJoint = </{leader}>\n"
+        f' uniform token physxMimicJoint:{own}:referenceJointAxis = "{axis}"\n'
+        f" float physxMimicJoint:{own}:gearing = 2\n float physxMimicJoint:{own}:offset = -5\n"
+    )
+    drive = " float drive:transY:physics:targetVelocity = 7\n float drive:transY:physics:targetPosition = 3\n float drive:transY:physics:damping = 4\n"
+    schema = f'"PhysxMimicJointAPI:{own}"'
+    hinge = joint(
+        "PhysicsRevoluteJoint", "J1", "" if follows else said, body1="/A", schemas="" if follows else schema
+    )
+    slides = generic(
+        {"transX": (-30.0, 40.0), "transY": (-10.0, 80.0)},
+        drive + (said if follows else ""),
+        ", ".join(['"PhysicsDriveAPI:transY"', *([schema] if follows else [])]),
+        body0="/B",
+        body1="",
+    )
+    scene, report = scene_of(tmp_path, stage(body("A") + body("B") + hinge + slides, metres=0.01))
+    assert scene is not None, report.diagnostics
+    moved = next(j for j in scene.joints if j.id == "J2")
+    freedom = moved.freedoms[TY]
+    assert (freedom.lower, freedom.upper) == pytest.approx((-0.8, 0.1))
+    assert (freedom.drive.target_velocity, freedom.drive.target) == pytest.approx((-0.07, -0.03))
+    (coupling,) = scene.couplings
+    (term,) = coupling.terms
+    if follows:  # -q = -2 q_hinge + 5
+        assert (term.ratio, coupling.offset) == pytest.approx((2.0 * 0.01 / DEGREE, -0.05))
+    else:  # q_hinge = -2 (-q) + 5
+        assert (term.ratio, coupling.offset) == pytest.approx((2.0 * DEGREE / 0.01, 5.0 * DEGREE))
+
+
+def test_a_slide_that_follows_its_own_turn_is_a_screw_of_so_much_a_turn(tmp_path):
+    """-0.03 cm for a degree is -0.108 m for a turn."""
+    said = (
+        " rel physxMimicJoint:transX:referenceJoint = </J2>\n"
+        ' uniform token physxMimicJoint:transX:referenceJointAxis = "rotX"\n'
+        " float physxMimicJoint:transX:gearing = 0.03\n"
+    )
+    ranges = {"transX": (-30.0, 40.0), "rotX": (-10.0, 80.0)}
+    text = body("B") + generic(ranges, said, '"PhysxMimicJointAPI:transX"')
+    found, scene, _ = joint_of(tmp_path, text, metres=0.01)
+    assert found.kind is JointKind.SCREW and scene.couplings == []
+    assert found.lead == pytest.approx(-0.03 * 0.01 * 360.0)

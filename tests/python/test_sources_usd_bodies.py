@@ -38,6 +38,13 @@ GPRIMS = {
     "two": shape("Cube", "S", "double size = 1", (1, 0, 0)) + shape("Sphere", "T", "double radius = 0.5\nfloat physics:mass = 7", (0, 0, -2)),
 }  # fmt: skip
 OWN = "inertia along no stated axes"
+GPRIMS["bound"] = (
+    'def Material "M" (prepend apiSchemas = ["PhysicsMaterialAPI"]) {\nfloat physics:density = 300\n}\n'
+    + shape("Cube", "S", "double size = 1\nrel material:binding:physics = </B/M>", (1, 0, 2)).replace(
+        '"PhysicsMassAPI"', '"PhysicsMassAPI", "MaterialBindingAPI"'
+    )
+    + shape("Cube", "T", "double size = 0.5", (0, 0, -2))
+)
 UNEVEN = ("cube", "two")
 """Of three different moments: about round things pxr's own rounding decides along which axes a stated inertia is."""
 MASSES = {

@@ -135,10 +135,8 @@ def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
     along = np.abs(axes).tolist()
     order = max(permutations(range(3)), key=lambda p: sum(along[i][p[i]] for i in range(3)))
     axes, moments = axes[:, order], moments[list(order)]
+    # The hand is right: the trace is above 1 now (its squares average to 1 over all orders), which a reflection's is not.
     axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
-    if np.linalg.det(axes) < 0.0:
-        weakest = int(np.argmin(np.abs(np.diag(axes))))
-        axes[:, weakest] *= -1.0
     return moments, axes
 
 

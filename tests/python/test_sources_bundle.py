@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from kinefab import sources
-from kinefab.diagnostics import Report, schema_directory
+from kinefab.diagnostics import KinefabError, Report, schema_directory
 from kinefab.model import FeatureKind, JointKind, MeshKey, Motion
 from source_bundles import FIXTURES, bundle, codes, part, read
 
@@ -153,6 +153,19 @@ def test_mass_comes_into_the_node_in_kilograms_and_metres(tmp_path):
     # mm^2 = 1e-9.
     expected = 1e-9 * np.array([[1e6, 3e5, -1e5], [3e5, 2.5e6, -2e5], [-1e5, -2e5, 2e6]])
     assert found.inertia == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_large_machine_in_small_units_has_its_inertia(tmp_path):
+    """A crane of 50 t and 20 m has moments beyond 1e15 g mm^2; what no unit makes a body of is told."""
+    mass = {"in": "part", "mass": 5e7, "center": [0, 0, 0], "inertia": [2e14, 1.7e15, 1.8e15, 0, 0, 0]}
+    values = bundle(part("Boom", mass=mass), up="Y", length="mm")
+    values["meta"]["units"]["mass"] = "g"
+    scene, report = read(values, tmp_path)
+    assert codes(report) == [] and scene.nodes[0].mass.inertia[1, 1] == pytest.approx(1.7e6)
+    mass["inertia"][0] = 1e30
+    with pytest.raises(KinefabError) as caught:
+        read(values, tmp_path)
+    assert [d.code for d in caught.value.diagnostics] == ["BUNDLE_NUMBER_RANGE"]
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,8 @@ from ..reading.source_frame import SourceFrame
 
 BODY = frozenset("id name meshKey file material density".split())
 MASS = frozenset("in mass center inertia".split())
+MAX_MOMENT = 1e24
+"""Largest moment of inertia: one of ``MAX_NUMBER`` kg m^2 in the smallest units, g mm^2; a crane's in those is beyond that."""
 
 Materials = Mapping[str, tuple[int, float | None]]
 """By name: index in the scene, and density in kg/m^3 or None."""
@@ -133,7 +135,9 @@ def read_mass(
     inside = frame_index(record, "in", node, index)
     mass = record.number("mass") * frame.mass
     center = record.vector("center")
-    xx, yy, zz, xy, yz, xz = np.array(record.numbers("inertia", 6)) * frame.mass * frame.length**2
+    xx, yy, zz, xy, yz, xz = (
+        np.array(record.numbers("inertia", 6, most=MAX_MOMENT)) * frame.mass * frame.length**2
+    )
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if not record.sound:
         return None

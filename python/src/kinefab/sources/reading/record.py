@@ -193,10 +193,10 @@ class Record:
             return 0.0
         return self._finite(key, value)
 
-    def _finite(self, key: str, value: int | float) -> float:
-        if -MAX_NUMBER <= value <= MAX_NUMBER:
+    def _finite(self, key: str, value: int | float, most: float = MAX_NUMBER) -> float:
+        if -most <= value <= most:
             return float(value)
-        self.fault("BUNDLE_NUMBER_RANGE", key, field=key, limit=f"{MAX_NUMBER:g}")
+        self.fault("BUNDLE_NUMBER_RANGE", key, field=key, limit=f"{most:g}")
         return 0.0
 
     def flag(self, key: str, default: bool = False) -> bool:
@@ -209,15 +209,17 @@ class Record:
         return value
 
     @overload
-    def numbers(self, key: str, count: int, default: tuple[float, ...] = REQUIRED) -> tuple[float, ...]: ...
+    def numbers(
+        self, key: str, count: int, default: tuple[float, ...] = REQUIRED, most: float = MAX_NUMBER
+    ) -> tuple[float, ...]: ...
 
     @overload
     def numbers(self, key: str, count: int, default: None) -> tuple[float, ...] | None: ...
 
     def numbers(
-        self, key: str, count: int, default: tuple[float, ...] | None = REQUIRED
+        self, key: str, count: int, default: tuple[float, ...] | None = REQUIRED, most: float = MAX_NUMBER
     ) -> tuple[float, ...] | None:
-        """``count`` numbers."""
+        """``count`` numbers of a magnitude of at most ``most``."""
         value = self.values.get(key)
         if is_array(value) and len(value) == count and all(map(_is_plain, value)):
             return tuple(map(float, cast("list[float]", value)))
@@ -228,7 +230,7 @@ class Record:
         if not is_array(value) or len(value) != count or len(found) != count:
             self.wrong(key, f"{count} numbers", value)
             return (0.0,) * count
-        return tuple(self._finite(key, number) for number in found)
+        return tuple(self._finite(key, number, most) for number in found)
 
     @overload
     def vector(self, key: str, default: Vector = REQUIRED) -> Vector: ...

@@ -124,8 +124,8 @@ def prepared(
     check_limits(scene, report)
     scene = with_sound_meshes(load_geometry(scene, files, report, progress), report)
     report.raise_for_errors()
-    scene = weigh(scene, options.density, report)
-    check_plausible(scene, options.density, report)
+    scene, read_scene = weigh(scene, options.density, report), scene
+    check_plausible(scene, read_scene, options.density, report)
     report.raise_for_errors()
     return replace(scene, joints=[*scene.joints, *joints_of_dof_records(scene, rigid_groups(scene), report)])
 

@@ -57,7 +57,7 @@ def _analyse_rest(scene: Scene, report: Report) -> None:
     """Add what the analysis finds in the part of a bundle that could be read."""
     found, options = Report(), ExportOptions()
     if scene.nodes:
-        check_plausible(scene, options.density, found)
+        check_plausible(scene, scene, options.density, found)
         analysed(scene, options, found)
     report.diagnostics += [diagnostic for diagnostic in found.diagnostics if diagnostic.code in STANDING]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..diagnostics import Report
 from ..model import Freedom, Motion, Scene
-from ..spatial import Array, bounds
+from ..spatial import Array, Pose, bounds
 
 LARGE = 100.0
 """Metres: no part is that large, but one whose millimetres were taken for metres is."""
@@ -17,6 +17,8 @@ TINY = 1e-4
 """Metres: no whole assembly is that small, but one whose metres were taken for millimetres, twice, is."""
 APART = 100.0
 """Sizes of a part: nothing that belongs to a part is that far outside of it, unless the two are in different units."""
+AIR = 1.0
+"""kg for each cubic metre of a bounding box: a machine that floats in no air has more, one of so many millimetres too many less."""
 LIGHT, HEAVY = 12.0, 25_000.0
 """kg/m^3: foams are denser than the one, which is above lead in g/cm^3, and osmium is lighter than the other."""
 SPREAD = 4.0
@@ -27,6 +29,10 @@ STEP = math.pi / 12.0
 """Radians: 15 degrees, of which people's limits are multiples."""
 NEAR = 2e-3
 """What pi is rounded to on the way, radians."""
+UNIT_OF_PARTS = 0.01
+"""Metres: what is drawn in this unit or a smaller one was not drawn in millimetres and taken for metres."""
+UNITS = {1.0: "metres", 0.3048: "feet", 0.0254: "inches", 0.01: "centimetres", 0.001: "millimetres"}
+"""Lengths that sources are drawn in, by their metres."""
 
 CORNERS = np.array(np.meshgrid(*3 * [[False, True]])).reshape(3, -1).T
 """Which end of a box each of its eight corners takes, by axis."""
@@ -35,10 +41,14 @@ Box = tuple[Array, Array]
 """Lowest and highest corner of a node's geometry in its own frame."""
 
 
-def check_plausible(scene: Scene, density: float, report: Report) -> None:
-    """Tell what is likely in another unit than it says.  density: kg/m^3 of bodies that state none."""
+def check_plausible(scene: Scene, read: Scene, density: float, report: Report) -> None:
+    """Tell what is likely in another unit than it says.
+
+    read: the scene before it was weighed, with the masses that the source states.  density: kg/m^3 of bodies that state none.
+    """
     boxes = _boxes(scene)
-    _check_sizes(scene, boxes, report)
+    stated = {i: node.mass.mass for i, node in enumerate(read.nodes) if node.mass is not None}
+    _check_sizes(scene, boxes, stated, report)
     _check_masses(scene, boxes, report)
     _check_densities(scene, density, report)
     _check_anchors(scene, boxes, report)
@@ -79,19 +89,31 @@ def _size(box: Box) -> float:
     return _norm(box[1] - box[0])
 
 
-def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
+def _check_sizes(scene: Scene, boxes: dict[int, Box], stated: dict[int, float], report: Report) -> None:
+    """stated: kilograms that the source gives, of some nodes: a large part that weighs as much as one so large is believed."""
     if not boxes:
         return
     extents = np.array([high - low for low, high in boxes.values()])
     longest: list[float] = extents.max(axis=1).tolist()
-    large = [(size, i) for size, i in zip(longest, boxes) if size > LARGE]
+    large = [
+        (size, i)
+        for size, i in zip(longest, boxes)
+        if size > LARGE and not (i in stated and stated[i] > AIR * _volume(boxes[i]))
+    ]
+    unit = scene.source.meters_per_unit
     if large:
         size, worst = max(large, key=lambda found: found[0])
+        if unit <= UNIT_OF_PARTS:  # the source's own unit is as small: only its meshes may be in another
+            if size <= APART * _spread(scene):
+                return
+            unit = 1.0
         node = scene.nodes[worst]
         weight = "" if node.mass is None else f" and weighs {node.mass.mass:.3g} kg"
+        meant = _meant(stated.get(worst, 0.0), _volume(boxes[worst]) / unit**3)
         report.add(
             "SIZE_IMPLAUSIBLE", node.where, node=node.id, size=f"{size:.4g}", weight=weight,
-            likely=f"{size / 1000.0:.4g}", count=len(large), unit="millimetres", taken="metres",
+            likely=f"{size / unit * meant:.4g}", count=len(large), unit=UNITS[meant],
+            taken=UNITS.get(unit, f"units of {unit:g} m"),
         )  # fmt: skip
         return
     if max(longest) < TINY and 0.0 < (whole := max(map(_size, boxes.values()))) < TINY:
@@ -100,6 +122,22 @@ def _check_sizes(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
             "SIZE_IMPLAUSIBLE", scene.nodes[worst].where, node=scene.nodes[worst].id, size=f"{whole:.4g}", weight="",
             likely=f"{whole * 1000.0:.4g}", count=len(boxes), unit="metres", taken="millimetres",
         )  # fmt: skip
+
+
+def _volume(box: Box) -> float:
+    """Cubic metres of a box, of a flat one as if it were a thousandth of its size thick."""
+    return float(np.maximum(box[1] - box[0], 1e-3 * _size(box)).prod())
+
+
+def _spread(scene: Scene) -> float:
+    """Metres from one end to the other of where the parts stand."""
+    places = np.array([node.pose.translation for node in scene.nodes])
+    return _norm(places.max(axis=0) - places.min(axis=0))
+
+
+def _meant(kilograms: float, volume: float) -> float:
+    """The metres of the unit that a part of ``volume`` cubic units was likely drawn in: millimetres, unless it would be too heavy."""
+    return next((unit for unit in (0.001, 0.01, 0.0254) if kilograms <= HEAVY * volume * unit**3), 0.001)
 
 
 def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
@@ -124,7 +162,7 @@ def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
     within = sized & (far <= sizes)
     for code, ratios, odd in (
         ("CENTER_OF_MASS_IMPLAUSIBLE", away, sized & (far > sizes)),
-        ("INERTIA_IMPLAUSIBLE", wide, within & (wide > SPREAD)),
+        ("INERTIA_IMPLAUSIBLE", wide, within & (wide > SPREAD) & ~(dense > HEAVY)),
         ("MASS_IMPLAUSIBLE", dense, within & (dense > HEAVY)),
     ):
         found = [(float(ratios[i]), weighed[i][0]) for i in np.flatnonzero(odd).tolist()]
@@ -141,11 +179,15 @@ def _check_masses(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
 
 
 def _likely(code: str, ratio: float) -> str:
-    """The unit of a number that is ``ratio`` times too large."""
+    """The unit of a number that is ``ratio`` times too large, of a mass in words."""
     if code == "INERTIA_IMPLAUSIBLE":
         return "g mm^2" if ratio > 1e8 else "kg mm^2" if ratio > 1e4 else "g m^2 or kg cm^2"
     if code == "MASS_IMPLAUSIBLE":
-        return "millimetres" if ratio > 1e8 else "grams"
+        return (
+            "its mesh is likely in metres that were taken for millimetres"
+            if ratio > 1e8
+            else "its mass is likely in grams"
+        )
     return "millimetres"
 
 
@@ -179,19 +221,28 @@ def _unstated(scene: Scene) -> Iterable[bool]:
 
 
 def _check_anchors(scene: Scene, boxes: dict[int, Box], report: Report) -> None:
-    """Joints that stand far outside both of the parts that they join."""
+    """Joints that stand far outside of a part that they join."""
     found: list[tuple[float, str, str, str, float]] = []
     for joint in scene.joints:
         for side, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
             if side is None or side not in boxes or not (size := _size(boxes[side])) > 0.0:
                 continue
             far = _outside(boxes[side], frame.translation)
-            if far > APART * size:
+            if far > APART * size and (far := _beside(boxes[side], frame, joint.freedoms)) > APART * size:
                 found.append((far / size, joint.id, joint.where, scene.nodes[side].id, far))
     if found:
         _, joint, where, node, far = max(found)
         count = len({entry[1] for entry in found})
         report.add("ANCHOR_IMPLAUSIBLE", where, joint=joint, node=node, metres=f"{far:.4g}", count=count)
+
+
+def _beside(box: Box, frame: Pose, freedoms: tuple[Freedom, ...]) -> float:
+    """How far a box is from where a joint may as well stand: anywhere along its only axis of turning, and along its slides."""
+    free = [freedom.motion is not Motion.LOCKED for freedom in freedoms]
+    told = [not slides and not (turns and sum(free[3:]) == 1) for slides, turns in zip(free[:3], free[3:])]
+    ends = (np.where(CORNERS, box[1], box[0]) - frame.translation) @ frame.rotation[:, told]
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    return _norm(np.maximum(np.maximum(low, -high), 0.0))
 
 
 def _check_limits(scene: Scene, report: Report) -> None:
@@ -220,10 +271,14 @@ def _check_limits(scene: Scene, report: Report) -> None:
 
 
 def _read_as_degrees(ends: list[float]) -> bool:
-    """Whether ends, in degrees, are what people write in radians: within a turn, and multiples of pi / 12."""
+    """Whether ends, in degrees, are what people write in radians: within a turn, and multiples of pi / 12.
+
+    With two decimals, as 2.88, only quarters of a turn: one number in seventy is that near to a multiple.
+    """
     if max(map(abs, ends)) > 2.0 * math.pi + NEAR or max(map(abs, ends)) < 2.0 * STEP - NEAR:
         return False
-    return all(abs(e - STEP * round(e / STEP)) < NEAR for e in ends)
+    steps = [STEP * (6 if abs(100.0 * e - round(100.0 * e)) < 1e-6 else 1) for e in ends]
+    return all(abs(e - step * round(e / step)) < NEAR for e, step in zip(ends, steps))
 
 
 def _norm(vector: Array) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import struct
 import subprocess
 import sys
 import zipfile
@@ -94,6 +95,28 @@ def test_a_buffer_of_a_gltf_stays_in_its_folder(tmp_path):
         found = read_mesh_file(inside / "part.gltf", report, "here")
         assert (found is not None) == expected, uri
         assert [d.code for d in report.diagnostics] == ([] if expected else ["GEOMETRY_UNREADABLE"])
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        ({"accessors": [{"componentType": 5126, "count": 3_000_000_000, "type": "VEC3"}]}, "zeros without a buffer"),
+        ({"nodes": [{"mesh": 0, "children": [1]}, {"mesh": 0, "children": [0]}]}, "stand in a circle"),
+    ],
+)  # fmt: skip
+def test_a_small_gltf_takes_no_endless_memory_or_time(tmp_path, change, says, binary):
+    points = b"\0" * 36
+    uri = "data:application/octet-stream;base64," + base64.b64encode(points).decode()
+    text = json.dumps(gltf(uri, 36) | change).encode()
+    text += b" " * (-len(text) % 4)
+    path = tmp_path / ("part.glb" if binary else "part.gltf")
+    head = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A)
+    path.write_bytes(head + text if binary else text)
+    report = Report()
+    assert read_mesh_file(path, report, "here") is None
+    assert [d.code for d in report.diagnostics] == ["GEOMETRY_UNREADABLE"]
+    assert says in report.diagnostics[0].message
 
 
 def test_an_archive_that_grows_beyond_measure_is_refused(tmp_path):

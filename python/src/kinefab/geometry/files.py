@@ -16,7 +16,13 @@ from ..spatial import Array
 from .looks.visuals import look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
-from .references import FolderResolver, UnsafeReference, demand_honest_archive, metres_of_3mf
+from .references import (
+    FolderResolver,
+    UnsafeReference,
+    demand_honest_accessors,
+    demand_honest_archive,
+    metres_of_3mf,
+)
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 ARCHIVES = (".3mf",)
@@ -112,8 +118,11 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
         pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))
         by_geometry.setdefault(str(name), []).append((number,))
-        above = parents.get(node)
+        above, passed = parents.get(node), {node}
         while above is not None and above != scene.graph.base_frame:
+            if above in passed:
+                raise UnsafeReference("its nodes stand in a circle, each under the next")
+            passed.add(above)
             by_ancestor.setdefault(str(above), []).append(number)
             above = parents.get(above)
     objects = dict(by_node)
@@ -146,6 +155,8 @@ def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
     library = cast(Any, trimesh)
     if path.suffix.lower() in ARCHIVES:
         demand_honest_archive(path)
+    if path.suffix.lower() in GLTF:
+        demand_honest_accessors(path)
     if hasattr(library, "load_scene"):
         return library.load_scene(str(path), process=False, resolver=resolver)
     return library.load(str(path), force="scene", process=False, resolver=resolver)

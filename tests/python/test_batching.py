@@ -113,7 +113,7 @@ def test_a_bad_file_costs_only_itself(tmp_path):
 
 
 HOSTILE = """
-import sys, os, time, signal
+import sys, os, time, signal, subprocess
 from kinefab.batching import child, work
 real = work.work
 def hostile(job, reading):
@@ -127,6 +127,11 @@ def hostile(job, reading):
     if name.startswith("greedy"):
         held = []
         while True: held.append(bytearray(8 << 20)); time.sleep(0.01)
+    if name.startswith("nested"):
+        greed = "import time; held = bytearray(700 << 20); time.sleep(600)" if "greedy" in name else "import time; time.sleep(600)"
+        started = subprocess.Popen([sys.executable, "-c", greed])
+        with open(job.source + ".pid", "w") as file: file.write(str(started.pid))
+        started.wait()
     if name.startswith("slow"): time.sleep(float(os.environ.get("SLOW", "1")))
     return real(job, reading)
 child.work = hostile
@@ -163,6 +168,18 @@ def test_what_hangs_crashes_or_eats_memory_is_ended_and_told(tmp_path, hostile):
     )
     assert "8 s" in told["hang"] and "SIGSEGV" in told["crash"] and "status 7" in told["exit"]
     assert "a library's own" in told["raise"] and "600 MiB" in told["greedy"]
+
+
+def test_what_a_file_s_reader_starts_is_counted_and_ended_with_it(tmp_path, hostile):
+    """As OpenCASCADE or assimp in a process of their own: that one eats the memory, and lived on when its job was ended."""
+    folder = bundles(tmp_path / "in", "nested", "nested_greedy")
+    result = kinefab.batch([folder], tmp_path / "out", jobs=2, timeout=8, memory=600 * 2**20)
+    assert outcomes(result) == {"nested": "timeout", "nested_greedy": "memory"}
+    for marker in folder.glob("*.pid"):
+        with pytest.raises(ProcessLookupError):
+            for _ in range(500):
+                os.kill(int(marker.read_text()), 0)
+                time.sleep(0.01)
 
 
 def command_of(folder, out, *more):

@@ -68,6 +68,7 @@ def _watched(job: Job, reading: Reading) -> Record:
     pid = os.fork()
     if pid == 0:
         try:
+            _lead(0)
             os.close(inlet)
             before = set(sys.modules)
             record = _done(job, reading).as_json()
@@ -76,6 +77,7 @@ def _watched(job: Job, reading: Reading) -> Record:
                 content = content[os.write(outlet, content) :]
         finally:
             os._exit(0)
+    _lead(pid)  # on both sides, as either may be the first
     os.close(outlet)
     answer, why = _answer(pid, inlet, job, start)
     os.close(inlet)
@@ -115,7 +117,7 @@ def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, Why | 
                 return content, None
             content += chunk
         if 0 in ready and not os.read(0, 1):  # nobody asks any more
-            os.kill(pid, signal.SIGKILL)
+            os.killpg(pid, signal.SIGKILL)
             os._exit(1)
         why = None
         if job.timeout is not None and time.monotonic() - start > job.timeout:
@@ -123,17 +125,25 @@ def _answer(pid: int, inlet: int, job: Job, start: float) -> tuple[bytes, Why | 
         elif job.memory is not None and _held(pid) > job.memory:
             why = _no_memory(f"it held more than {job.memory / 2**20:.0f} MiB")
         if why is not None:
-            os.kill(pid, signal.SIGKILL)
+            os.killpg(pid, signal.SIGKILL)
             return b"", why
 
 
+def _lead(pid: int) -> None:
+    """Put a job at the head of a group of its own, so that what it starts to read a file ends with it.  0: this process."""
+    with suppress(OSError):  # of a job that has ended already
+        os.setpgid(pid, pid)
+
+
 def _held(pid: int) -> int:
-    """Bytes of memory that a process holds; 0 where the system does not tell."""
-    try:
+    """Bytes of memory that a process holds, with those that it started; 0 where the system does not tell."""
+    held = 0
+    with suppress(OSError, IndexError, ValueError):
         with open(f"/proc/{pid}/statm", "rb") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-    except (OSError, IndexError, ValueError):
-        return 0
+            held = int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        with open(f"/proc/{pid}/task/{pid}/children", "rb") as file:
+            held += sum(_held(int(child)) for child in file.read().split())
+    return held
 
 
 def _no_memory(detail: str) -> Why:

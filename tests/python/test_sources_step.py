@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+import pickle
 import random
 import re
+import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -545,6 +548,16 @@ def test_a_library_that_loads_slowly_takes_nothing_of_the_files_time(tmp_path, m
     end_idle()  # the next child has the path
     assert list(guarded("slow_to_load", "read", seconds=1.5)) == ["read"]
     end_idle()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="timers of Unix")
+def test_what_is_busy_ends_when_nobody_asks_any_more():
+    """Whoever asked may have been killed, as by a container's end; the process that reads would have gone on for ever."""
+    command = [sys.executable, "-m", "kinefab.sources.guard"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
+        pickle.dump((0.1, "time", "sleep", (600,)), child.stdin)
+        child.stdin.flush()
+        assert child.wait(timeout=120) == -signal.SIGALRM
 
 
 def test_part21_sees_through_strings_and_comments():

@@ -10,6 +10,7 @@ from __future__ import annotations
 import atexit
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -21,6 +22,8 @@ LOADING = 120.0
 """Seconds that a library may take until it is there: the first time, on a busy machine, longer than many a file."""
 MOST_QUESTIONS = 200
 """After so many the child is replaced: what a library never frees must not add up."""
+GRACE_SECONDS = 2.0
+"""After a question's time the child ends by itself, if nobody has ended it."""
 
 
 class GuardedCrash(Exception):
@@ -77,7 +80,7 @@ def guarded(module: str, function: str, *arguments: object, seconds: float) -> I
     try:
         sent, received = child.process.stdin, child.process.stdout
         assert sent is not None and received is not None
-        pickle.dump((module, function, arguments), sent)
+        pickle.dump((seconds, module, function, arguments), sent)
         sent.flush()
         while True:
             word, value = pickle.load(received)
@@ -117,11 +120,13 @@ def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
     """The child's life: questions until there are no more."""
     while True:
         try:
-            module, function, arguments = pickle.load(questions)
+            seconds, module, function, arguments = pickle.load(questions)
         except EOFError:
             return
+        _end_after(LOADING + GRACE_SECONDS)
         try:
             asked = getattr(import_module(module), function)
+            _end_after(seconds + GRACE_SECONDS)
             pickle.dump(("loaded", None), answers)
             answers.flush()
             for value in asked(*arguments):
@@ -130,13 +135,19 @@ def _answer(questions: IO[bytes], answers: IO[bytes]) -> None:
             last = ("end", None)
         except MemoryError:
             last = ("error", "out of memory")
-        except (
-            Exception
-        ) as error:  # whatever the library raises is an answer; the caller makes a finding of it
+        # Whatever the library raises is an answer, of which the caller makes a finding.
+        except Exception as error:
             sentence = isinstance(error, ValueError) and str(error)  # what a reader itself refuses
             last = ("error", sentence or f"{type(error).__name__}: {error}")
         pickle.dump(last, answers)
         answers.flush()
+        _end_after(0.0)
+
+
+def _end_after(seconds: float) -> None:
+    """Have the system end this process, even amid a native call: whoever asked may be gone by then.  0: have it live on."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
 def _live() -> None:

@@ -46,7 +46,7 @@ def test_a_material_library_out_of_the_folder_is_not_read(tmp_path, way):
     assert found == [] and "MATERIALS_MISSING" in codes
     (inside / "own.mtl").write_text(SECRET)
     (inside / "part.obj").write_text(f"\nmtllib own.mtl\nusemtl secret\n{TRIANGLE}")
-    assert colors(inside / "part.obj")[0] == [(0.25, 0.5, 0.75, 1.0)]
+    assert colors(inside / "part.obj")[0] == [pytest.approx((0.05088, 0.21404, 0.52252, 1.0), abs=1e-5)]
 
 
 @posix

@@ -139,7 +139,7 @@ def test_obj_material_change_makes_a_submesh_not_a_body(tmp_path):
     assert mesh.face_counts == (4, 8)
     body = scene.nodes[0].bodies[0]
     assert [scene.surfaces[m].name for m in body.surfaces] == ["Red", "Grey"]
-    assert scene.surfaces[body.surfaces[0]].color == (0.8, 0.1, 0.2, 0.5)
+    assert scene.surfaces[body.surfaces[0]].color == pytest.approx((0.60383, 0.01002, 0.03310, 0.5), abs=1e-5)
 
 
 def test_obj_missing_material_library_is_a_warning(tmp_path):

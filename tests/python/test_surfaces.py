@@ -242,6 +242,28 @@ def test_a_pbr_material_arrives_whole(through_file, tmp_path):
     assert sum("Texture of" in message for message in told) == 5
 
 
+@pytest.mark.parametrize(
+    "made, through_file",
+    [(PBRMaterial, False), (PBRMaterial, True), (trimesh.visual.material.SimpleMaterial, False)],
+)
+def test_a_picture_is_multiplied_with_white_where_no_colour_is_stated(made, through_file, tmp_path):
+    """As glTF says, and as scripts mean it; trimesh has a grey of 0.4 for what nobody states."""
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed").new("RGB", (2, 2), (9, 8, 7))
+    part = trimesh.creation.box((1, 1, 1))
+    material = made(**{"baseColorTexture" if made is PBRMaterial else "image": image})
+    part.visual = trimesh.visual.TextureVisuals(uv=np.array(part.vertices)[:, :2], material=material)
+    if through_file:
+        files = trimesh.Scene(part).export(file_type="gltf")
+        document = json.loads(files["model.gltf"])
+        assert "baseColorFactor" not in document["materials"][0]["pbrMetallicRoughness"]
+        for name, data in files.items():
+            (tmp_path / name).write_bytes(data)
+        part = tmp_path / "model.gltf"
+    _, result = exported(part, tmp_path)
+    (found,) = result.unity.materials
+    assert found.color == (1.0, 1.0, 1.0, 1.0) and found.colorTexture is not None
+
+
 @pytest.mark.parametrize("kind, mode", [("PNG", "RGBA"), ("JPEG", "RGB"), ("JPEG", "CMYK"), ("BMP", "RGB")])
 def test_an_image_that_is_read_stays_the_file_that_it_was(kind, mode):
     """PNG and JPEG byte for byte; what not every target takes, or what a script has changed, is packed as PNG."""
@@ -271,7 +293,9 @@ def test_an_obj_s_textures_are_named_or_told(tmp_path):
     report = Report()
     file = read_mesh_file(path, report, "here")
     surface = file.surfaces["paint"]
-    assert surface.color_texture.path == tmp_path / "wood.png" and surface.color == (0.5, 0.5, 0.5, 1.0)
+    assert surface.color_texture.path == tmp_path / "wood.png" and surface.color == pytest.approx(
+        (0.21404, 0.21404, 0.21404, 1.0), abs=1e-5
+    )
     assert surface.color_texture.scale == (2.0, 3.0) and surface.color_texture.offset == (0.25, 0.0)
     assert surface.normal_texture is None and surface.emission_texture is None
     lost = [o for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"]
@@ -295,7 +319,8 @@ def test_an_obj_s_library_is_parted_by_tabs_and_words_of_any_case(tmp_path):
     paint, ash = surfaces["paint"], surfaces["ash grey"]
     assert paint.color_texture.path == tmp_path / "oak.png" and paint.emission_texture is None
     assert ash.emission_texture.path == tmp_path / "ash.png" and ash.color_texture is None
-    assert ash.color == (0.25, 0.5, 0.75, 1.0) and ash.emission == (1.0, 1.0, 1.0)
+    assert ash.color == pytest.approx((0.05088, 0.21404, 0.52252, 1.0), abs=1e-5)
+    assert ash.emission == (1.0, 1.0, 1.0)
     assert [o for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"] == []
 
 
@@ -314,3 +339,45 @@ def test_a_picture_that_a_gltf_cannot_read_is_told(tmp_path):
     report = Report()
     assert read_mesh_file(tmp_path / "model.gltf", report, "here") is not None
     assert [(o.feature, o.code) for o in report.outcomes] == [("texture gone.png", "TEXTURE_UNREADABLE")]
+
+
+DAE = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/><library_effects><effect id="e">
+<profile_COMMON><technique sid="c"><phong><emission><color>0.5 0 0 1</color></emission><diffuse><color>0.2 0.4 0.6 1</color></diffuse>
+</phong></technique></profile_COMMON></effect></library_effects><library_materials><material id="m" name="m">
+<instance_effect url="#e"/></material></library_materials><library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#a" count="3" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles material="s" count="1">
+<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="w"><node id="n"><instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>"""
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".dae"])
+def test_a_phong_material_s_colours_are_those_of_the_screen(suffix, tmp_path):
+    """RViz, Gazebo, Unity's own importer show the numbers of the file; a scene's are linear, so they are sRGB."""
+    path = write_obj(tmp_path, "m", "0.2 0.4 0.6", "Ke 0.5 0 0\n")
+    if suffix == ".dae":
+        pytest.importorskip("collada", reason="pycollada is not installed")
+        path = tmp_path / "m.dae"
+        path.write_text(DAE, "utf-8")
+    (surface,) = read_mesh_file(path, Report(), "here").surfaces.values()
+    assert surface.color == pytest.approx((0.03310, 0.13287, 0.31855, 1.0), abs=1e-5)
+    assert surface.emission == pytest.approx((0.21404, 0.0, 0.0), abs=1e-5)
+
+
+def test_an_obj_s_physical_numbers_and_colours_of_vertices_are_kept(tmp_path):
+    """Pr and Pm beside Ns, which they rule over; colours behind the places of vertices, sRGB as MeshLab writes them."""
+    path = write_obj(tmp_path, "p", "0.2 0.4 0.6", "Pr 0.3\nPm 0.9\n")
+    (surface,) = read_mesh_file(path, Report(), "here").surfaces.values()
+    assert (surface.metallic, surface.smoothness) == pytest.approx((0.9, 0.7))
+    bare = tmp_path / "colored.obj"
+    bare.write_text("v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 0 1 0 0 0 1\nvt 0 0\nf 3/1 2/1 1/1\n", "utf-8")
+    file = read_mesh_file(bare, Report(), "here")
+    (piece,) = file.pieces
+    order = np.lexsort(piece.vertices.T)
+    assert np.allclose(piece.colors[order], [[1, 0, 0, 1], [0, 0.21404, 0, 1], [0, 0, 1, 1]], atol=1e-5)
+    assert file.surfaces[piece.surfaces[0]].color == (1.0, 1.0, 1.0, 1.0)
+    bare.write_text(bare.read_text("utf-8").replace("1 0 0 0 0.5 0", "1 0 0"), "utf-8")
+    assert read_mesh_file(bare, Report(), "here").pieces[0].colors is None

@@ -13,7 +13,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array
-from .looks.visuals import look_of
+from .looks.visuals import Look, look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
 from .references import (
@@ -27,6 +27,7 @@ from .references import (
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 ARCHIVES = (".3mf",)
 GLTF = (".glb", ".gltf")
+COLLADA = (".dae", ".zae")
 UNMOVED = np.eye(4)
 _STEP, _MESH = (
     "Open it in its own program and export STEP or STL.",
@@ -98,7 +99,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     """Every placed mesh of a trimesh scene as a piece, named by its node, the nodes above and its geometry."""
     resolver = FolderResolver(path.parent)
     scene = _trimesh_scene(path, resolver)
-    gltf = path.suffix.lower() in GLTF
+    suffix = path.suffix.lower()
+    gltf = suffix in GLTF
     parents = scene.graph.transforms.parents
     pieces: list[Piece] = []
     surfaces: dict[str, Surface] = {}
@@ -113,7 +115,7 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
             continue
         number = len(pieces)
         if name not in own:
-            own[name] = _piece(mesh, gltf, surfaces)
+            own[name] = _piece(mesh, look_of(mesh, gltf, suffix in COLLADA), surfaces)
         placed = np.asarray(transform)
         pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))
@@ -162,11 +164,10 @@ def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
     return library.load(str(path), force="scene", process=False, resolver=resolver)
 
 
-def _piece(mesh: Any, gltf: bool, surfaces: dict[str, Surface]) -> Piece:
+def _piece(mesh: Any, look: Look, surfaces: dict[str, Surface]) -> Piece:
     """One trimesh mesh in its own frame, its surfaces noted."""
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces, dtype=np.int64)
-    look = look_of(mesh, gltf)
     # Normals from the file lie in trimesh's cache; asking for them outright would compute missing ones, and
     # asking the cache itself would hash the whole mesh.
     normals = np.asarray(mesh.vertex_normals) if "vertex_normals" in mesh._cache.cache else None

@@ -17,7 +17,7 @@ from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array, IntArray
 from .looks.libraries import library_statements, library_textures
-from .looks.visuals import phong_smoothness
+from .looks.visuals import WHITE, from_screen, linear_colors, phong_smoothness
 from .pieces import MeshFile, Piece, cut
 from .references import read_reference
 
@@ -42,6 +42,9 @@ MOST_LIBRARY_BYTES = 16 * 2**20
 """Of one material library."""
 _LIBRARY = re.compile(rb"\nmtllib +([^\n]*?) *(?=\n)")
 
+_VERTEX = re.compile(rb"\nv +([^\n]*)")
+COLORED = (6, 7)
+"""Numbers of a vertex that has a colour: place, red, green, blue, and opacity of some."""
 NOTHING = Piece(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
 
 
@@ -71,6 +74,7 @@ def read_obj(path: Path, report: Report) -> MeshFile:
     statements = _statements(text)
     sections = [s for s in _sections(text, statements) if s.faces]
     whole = _parse(_without(text, statements)) if sections else NOTHING
+    unnamed = "" if whole.colors is None else WHITE.name
     pieces: list[Piece] = []
     named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = {key: {} for key in MeshKey}
     opened: dict[tuple[MeshKey, int, str], list[int]] = {}
@@ -78,7 +82,7 @@ def read_obj(path: Path, report: Report) -> MeshFile:
     for number, section in enumerate(sections):
         stop = start + section.faces
         runs = [run for run in section.runs if run[1]]
-        counts, surfaces = tuple(n for _, n in runs), tuple(name for name, _ in runs)
+        counts, surfaces = tuple(n for _, n in runs), tuple(name or unnamed for name, _ in runs)
         pieces.append(cut(whole, start, stop, counts, surfaces))
         start = stop
         for key, (statement, name) in ((MeshKey.OBJECT, section.object), (MeshKey.GROUP, section.group)):
@@ -89,7 +93,8 @@ def read_obj(path: Path, report: Report) -> MeshFile:
         named[key].setdefault(name, []).append(tuple(numbers))
     if start != len(whole.faces):
         raise ObjError(f"{len(whole.faces)} faces were read where {start} were counted")
-    return MeshFile(path, pieces, named, _surfaces(text, path, report))
+    surfaces = _surfaces(text, path, report)
+    return MeshFile(path, pieces, named, surfaces if not unnamed else {WHITE.name: WHITE, **surfaces})
 
 
 def _plain_text(data: bytes) -> bytes:
@@ -184,11 +189,12 @@ def _parse(text: bytes) -> Piece:
     vertices = _numbers(text, b"v", 3)
     if corners[..., 0].max(initial=0) > len(vertices):
         raise ObjError("its vertices and faces do not fit together; it may be cut short")
+    colors = _vertex_colors(text, len(vertices))
     uv, normals = (
         _whole(corners[..., k], _numbers(text, word, n)) for k, word, n in ((1, b"vt", 2), (2, b"vn", 3))
     )
     if uv is None and normals is None:
-        return Piece(vertices, corners[..., 0] - 1)
+        return Piece(vertices, corners[..., 0] - 1, colors=colors)
     named = corners.reshape(-1, 3)[:, [True, uv is not None, normals is not None]] - 1
     key = named[:, -1]
     for column in named.T[-2::-1]:
@@ -201,7 +207,27 @@ def _parse(text: bytes) -> Piece:
         np.reshape(faces, (-1, 3)),
         None if normals is None else normals[normal],
         None if uv is None else uv[texture],
+        colors=None if colors is None else colors[vertex],
     )
+
+
+def _vertex_colors(text: bytes, count: int) -> Array | None:
+    """Linear RGBA behind the places of so many vertices, shape (n, 4), None where there are none, or white alone."""
+    first = _VERTEX.search(text)
+    if first is None or len(first[1].split()) not in COLORED:
+        return None
+    try:
+        found = np.loadtxt(_VERTEX.findall(text), comments=None, usecols=(3, 4, 5), ndmin=2)
+    except ValueError:  # not all have one
+        return None
+    if (
+        len(found) != count
+        or not np.isfinite(found).all()
+        or (found == found.max()).all()
+        and found[0, 0] >= 1.0
+    ):
+        return None
+    return linear_colors(found / (255.0 if found.max() > 1.0 else 1.0), False)
 
 
 def _corners(faces: Sequence[bytes]) -> IntArray:
@@ -258,14 +284,20 @@ def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
 
 
 def _surface(name: str, statements: Mapping[str, str], textured: bool) -> Surface:
-    """Unity's terms for a Phong material: Kd, d (or Tr) and Ns.  textured: it has images, which Kd multiplies."""
+    """Unity's terms for a Phong material: Kd, Ke, d (or Tr) and Ns, and Pm and Pr of those that state a physical one.
+    textured: it has images, which Kd multiplies."""
     entry = {word: rest.split() for word, rest in statements.items()}
     absent = ["1", "1", "1"] if textured else ["0.8", "0.8", "0.8"]
     try:
         red, green, blue = (min(1.0, max(0.0, float(c))) for c in entry.get("kd", absent)[:3])
         opacity = float(entry["d"][0]) if "d" in entry else 1.0 - float(entry.get("tr", ["0"])[0])
-        shininess = max(0.0, float(entry.get("ns", ["0"])[0]))
+        smoothness = phong_smoothness(max(0.0, float(entry.get("ns", ["0"])[0])))
+        if "pr" in entry:
+            smoothness = 1.0 - min(1.0, max(0.0, float(entry["pr"][0])))
+        metallic = min(1.0, max(0.0, float(entry.get("pm", ["0"])[0])))
+        glow = [max(0.0, float(c)) for c in entry.get("ke", ["0", "0", "0"])]
+        emission = from_screen((glow[0], glow[1], glow[2]))
+        color = (*from_screen((red, green, blue)), min(1.0, max(0.0, opacity)))
+        return Surface(name, color, metallic, smoothness, emission=emission)
     except (ValueError, IndexError):
         return Surface(name)
-    color = (red, green, blue, min(1.0, max(0.0, opacity)))
-    return Surface(name, color, 0.0, phong_smoothness(shininess))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -18,6 +18,8 @@ MOST_SURFACES = 32
 """Colours of one mesh's faces that become surfaces, a draw call each; more of them become colours of vertices."""
 WHITE = Surface("Vertex colors", (1.0, 1.0, 1.0, 1.0))
 """What colours of vertices are multiplied with."""
+FULL, GREY = np.array([255, 255, 255, 255]), np.array([102, 102, 102, 255])
+"""What a texture is multiplied with where no colour is stated, and what trimesh says then."""
 FILES = {"PNG": (b"\x89PNG\r\n\x1a\n", "png"), "JPEG": (b"\xff\xd8\xff", "jpg")}
 """Beginning and ending of the files that every target takes, by PIL's name of them."""
 PLAIN = ("1", "L", "LA", "P", "RGB", "RGBA", "I;16")
@@ -43,10 +45,11 @@ class Look:
     corners: IntArray | None = None
 
 
-def look_of(mesh: Any, gltf: bool = False) -> Look:
+def look_of(mesh: Any, gltf: bool = False, screen: bool = False) -> Look:
     """The look of a trimesh.Trimesh or of anything that has its ``visual``.
 
     gltf: it comes from a glTF file, whose absent factors and linear colours of vertices mean what glTF says.
+    screen: all its colours are those of the screen, as a Collada file's are; else those of a PBRMaterial are linear.
     """
     count = len(mesh.faces)
     visual = getattr(mesh, "visual", None)
@@ -62,32 +65,40 @@ def look_of(mesh: Any, gltf: bool = False) -> Look:
     attributes: Any = getattr(visual, "vertex_attributes", None)
     colors: Any = attributes.get("color") if hasattr(attributes, "get") else None
     fits = uv is not None and np.shape(uv) == (len(mesh.vertices), 2)
-    surface = None if material is None else surface_of(material, gltf)
+    surface = None if material is None else surface_of(material, gltf, screen)
     linear = None
     if colors is not None and len(colors) == len(mesh.vertices):
-        linear = _linear(np.asarray(colors), gltf)
+        linear = linear_colors(np.asarray(colors), gltf)
     return Look(None, (count,), (surface,), np.asarray(uv, dtype=np.float64) if fits else None, linear)
 
 
-def surface_of(material: Any, gltf: bool = False) -> Surface | None:
+def surface_of(material: Any, gltf: bool = False, screen: bool = False) -> Surface | None:
     """Of a trimesh SimpleMaterial (Phong), PBRMaterial (glTF) or MultiMaterial (its first)."""
     if getattr(material, "materials", None):
-        return surface_of(material.materials[0], gltf)
+        return surface_of(material.materials[0], gltf, screen)
     if not hasattr(material, "main_color"):
         return None
-    red, green, blue, alpha = (float(c) for c in np.asarray(material.main_color, dtype=np.float64) / 255.0)
-    name = str(getattr(material, "name", None) or _hex(np.asarray(material.main_color)))
-    if hasattr(material, "baseColorFactor"):
-        return _of_pbr(name, material, (red, green, blue, alpha), gltf)
-    image = getattr(material, "image", None)
-    shown = _texture(image, name, "color")
+    physical = hasattr(material, "baseColorFactor")
+    image = getattr(material, "baseColorTexture" if physical else "image", None)
+    shown = np.asarray(material.main_color)
+    if physical and material.baseColorFactor is None and (gltf or image is not None):
+        shown = FULL
+    elif not physical and image is not None and (shown == GREY).all():
+        shown = FULL  # what trimesh calls a colour that nobody states
+    name = str(getattr(material, "name", None) or _hex(shown))
+    red, green, blue, alpha = (float(c) for c in shown / 255.0)
+    if screen or not physical:
+        red, green, blue = from_screen((red, green, blue))
+    if physical:
+        found = _of_pbr(name, material, (red, green, blue, alpha), gltf)
+        return replace(found, emission=from_screen(found.emission)) if screen else found
     return Surface(
         name,
         (red, green, blue, alpha),
         0.0,
         phong_smoothness(getattr(material, "glossiness", 0.0)),
         AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE,
-        color_texture=shown,
+        color_texture=_texture(image, name, "color"),
     )
 
 
@@ -168,7 +179,9 @@ def _of_faces(colors: Array, mesh: Any) -> Look:
     found, first, number = np.unique(colors, axis=0, return_index=True, return_inverse=True)
     if len(found) > MOST_SURFACES:
         corners = np.asarray(mesh.faces, dtype=np.int64).reshape(-1)
-        return Look(None, (count,), (WHITE,), None, np.repeat(_linear(colors, False), 3, axis=0), corners)
+        return Look(
+            None, (count,), (WHITE,), None, np.repeat(linear_colors(colors, False), 3, axis=0), corners
+        )
     by_use = np.argsort(first, kind="stable")  # in the order in which the faces name them
     rank = np.argsort(by_use, kind="stable")[np.reshape(number, -1)]
     order = np.argsort(rank, kind="stable")
@@ -184,13 +197,13 @@ def _of_vertices(colors: Array, mesh: Any, gltf: bool) -> Look:
     if (used == used[0]).all() and not gltf:
         return Look(None, (count,), (_colored(used[0]),))
     if (used == used[0]).all():
-        red, green, blue, alpha = (float(c) for c in _linear(used[:1], gltf)[0])
+        red, green, blue, alpha = (float(c) for c in linear_colors(used[:1], gltf)[0])
         return Look(None, (count,), (Surface(_hex(used[0]), (red, green, blue, alpha)),))
-    return Look(None, (count,), (WHITE,), None, _linear(colors, gltf))
+    return Look(None, (count,), (WHITE,), None, linear_colors(colors, gltf))
 
 
 def _colored(color: Array) -> Surface:
-    red, green, blue, alpha = (float(c) for c in _linear(color[None], False)[0])
+    red, green, blue, alpha = (float(c) for c in linear_colors(color[None], False)[0])
     mode = AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE
     return Surface(_hex(color), (red, green, blue, alpha), alpha_mode=mode)
 
@@ -200,7 +213,14 @@ def _hex(color: Array) -> str:
     return "#" + "".join(f"{c:02x}" for c in (values if len(values) < 4 or values[3] < 255 else values[:3]))
 
 
-def _linear(colors: Array, linear: bool) -> Array:
+def from_screen(color: tuple[float, float, float]) -> tuple[float, float, float]:
+    """Red, green and blue as Phong's materials have them, sRGB, as linear ones (IEC 61966-2-1): programs that show such files
+    show the numbers as they stand.  May exceed 1, as emission does."""
+    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
+    return red, green, blue
+
+
+def linear_colors(colors: Array, linear: bool) -> Array:
     """Bytes, shape (n, 3 or 4), as linear RGBA, shape (n, 4).  linear: they are already; else sRGB (IEC 61966-2-1)."""
     values = np.asarray(colors, dtype=np.float64)
     values = np.clip(values / 255.0 if np.asarray(colors).dtype.kind in "ui" else values, 0.0, 1.0)

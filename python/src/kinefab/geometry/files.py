@@ -13,6 +13,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array
+from .looks.gltf import opened
 from .looks.visuals import Look, look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
@@ -108,6 +109,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     by_node: dict[str, list[tuple[int, ...]]] = {}
     by_ancestor: dict[str, list[int]] = {}
     by_geometry: dict[str, list[tuple[int, ...]]] = {}
+    document = opened(path, resolver.get, report, where) if gltf else None
+    primitives = {} if document is None else document.primitives(list(scene.geometry))
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
         mesh = scene.geometry[name]
@@ -115,7 +118,14 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
             continue
         number = len(pieces)
         if name not in own:
-            own[name] = _piece(mesh, look_of(mesh, gltf, suffix in COLLADA), surfaces)
+            look = look_of(mesh, gltf, suffix in COLLADA)
+            places = None
+            if document is not None and name in primitives:
+                look = document.completed(look, primitives[name])
+                places = document.places(primitives[name])
+            own[name] = _piece(mesh, look, surfaces)
+            if places is not None:
+                own[name] = replace(own[name], vertices=places)
         placed = np.asarray(transform)
         pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))

@@ -103,7 +103,7 @@ NEIGHBOURS = {("mates_file", "apply"), ("geometry", "rigid"), ("diagnostics", "o
 HOMES = {
     "trimesh": {"geometry", "builder"},
     "scipy": {"analysis", "geometry", "mates"},
-    "PIL": {"views/raster", "targets/images", "targets/prefab/assets/images"},
+    "PIL": {"views/raster", "geometry/looks/pixels"},
     "coacd": {"geometry/contact"},
     "coal": {"geometry/contact"},
     "manifold3d": {"geometry/contact"},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
 from kinefab.diagnostics import Report
@@ -325,3 +327,64 @@ def test_constants_of_a_material_for_materialx_alone_are_taken_and_it_is_told_by
     assert (plain.metallic, plain.smoothness) == pytest.approx((0.7, 0.6))
     (told,) = [d for d in report.diagnostics if d.code == "USD_MATERIAL_UNKNOWN"]
     assert kind in told.message
+
+
+@pytest.mark.parametrize(
+    ("metallic", "roughness", "expected"),
+    [
+        ("metal.png r", "rough.png r", (255, 128, 51)),
+        ("", "rough.png r", (255, 128, 255)),
+        ("metal.png g", "", (255, 255, 51)),
+        ("rough.png b", "rough.png g", None),
+    ],
+)
+def test_images_of_metallic_and_of_roughness_are_put_into_one(tmp_path, metallic, roughness, expected):
+    """As Blender, Maya and Houdini write them, each grey and taken by its red; what is constant stays what it is."""
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    image.new("L", (2, 2), 128).save(tmp_path / "rough.png")
+    image.new("L", (4, 4), 51).save(tmp_path / "metal.png")
+    image.new("RGB", (1, 1)).save(tmp_path / "paint.png")
+    looks = MATERIAL
+    for name, value, given in (("metallic", "0.25", metallic), ("roughness", "0.75", roughness)):
+        if given:
+            file, channel = given.split()
+            looks = looks.replace(
+                f"inputs:{name} = {value}",
+                f"inputs:{name}.connect = </Looks/Paint/{name}.outputs:{channel}>",
+            ).replace(
+                '  def Shader "Reader"',
+                f'  def Shader "{name}" {{\nuniform token info:id = "UsdUVTexture"\nasset inputs:file = @{file}@\n'
+                f"float inputs:{name}\nfloat4 inputs:scale = (0.5, 0.5, 0.5, 1)\n"
+                f'float outputs:{channel}\n}}\n  def Shader "Reader"',
+            )
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    paint = painted(scene)
+    assert (paint.metallic, 1.0 - paint.smoothness) == (0.5 if metallic else 0.25, 0.5 if roughness else 0.75)
+    texture = paint.metallic_roughness_texture
+    if expected is None:
+        assert texture.name == "rough.png" and texture.data is None
+    else:
+        with image.open(io.BytesIO(texture.data)) as found:
+            assert found.size == ((4, 4) if metallic else (2, 2)) and found.getpixel((0, 0)) == expected
+    assert not [o for o in report.outcomes if "metallic" in o.feature or "roughness" in o.feature]
+
+
+def test_an_opacity_of_its_own_is_the_alpha_of_the_base_colour(tmp_path):
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    image.new("L", (1, 1), 51).save(tmp_path / "holes.png")
+    image.new("RGB", (1, 1), (10, 20, 30)).save(tmp_path / "paint.png")
+    looks = MATERIAL.replace(
+        "   float inputs:metallic", "   float inputs:opacity.connect = </Looks/Paint/Holes.outputs:r>\n   float inputs:metallic"
+    ).replace(
+        '  def Shader "Reader"',
+        '  def Shader "Holes" {\nuniform token info:id = "UsdUVTexture"\nasset inputs:file = @holes.png@\n'
+        'token inputs:wrapS = "clamp"\ntoken inputs:wrapT = "clamp"\nfloat outputs:r\n'
+        "float2 inputs:st.connect = </Looks/Paint/Reader.outputs:result>\n}\n"
+        '  def Shader "Reader"',
+    )  # fmt: skip
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    paint = painted(scene)
+    assert paint.alpha_mode.value == "blend" and paint.color[3] == 1.0
+    with image.open(io.BytesIO(paint.color_texture.data)) as found:
+        assert found.getpixel((0, 0)) == (10, 20, 30, 51)
+    assert not [o for o in report.outcomes if "opacity" in o.feature]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Any
 
+from ..geometry.looks.pixels import pillow
 from ..geometry.references import read_regular
 from ..model import Texture
 
@@ -26,8 +26,6 @@ LOADED = (".png", ".jpg", ".bmp", ".gif")
 """Endings of images whose every pixel is looked at, where Pillow is installed."""
 MOST_BYTES = 256 * 2**20
 """Of one image."""
-MOST_PIXELS = 16384 * 16384
-"""Of one image: what Unity and others show at most."""
 
 
 class ImageError(Exception):
@@ -82,14 +80,6 @@ def _demand_whole(data: bytes, ending: str) -> None:
                 image.load()
         except Exception as error:  # Pillow raises OSError, SyntaxError, struct.error ... by the format
             raise ImageError(str(error) or type(error).__name__) from None
-
-
-def pillow() -> Any:
-    """The library that reads images, taking those of as many pixels as an editor does.  Raises ImportError."""
-    from PIL import Image
-
-    Image.MAX_IMAGE_PIXELS = MOST_PIXELS
-    return Image
 
 
 def jpeg_channels(data: bytes) -> int:

@@ -15,6 +15,7 @@ from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values, tell_unusable
 from .inputs import DISPLAY, Inputs, is_reader
+from .packing import packed
 from .textures import Sampler, read_input
 
 PREVIEW = "UsdPreviewSurface"
@@ -204,12 +205,17 @@ class Surfaces:
         opacity = inputs.sampler("opacity")
         alpha = inputs.number("opacity", 1.0)
         threshold = inputs.number("opacityThreshold", 0.0)
+        shown = diffuse.texture if diffuse else None
         if opacity is not None and (
             diffuse is None or opacity.texture.name != diffuse.texture.name or opacity.output != "a"
         ):
-            inputs.lost("opacity", "its texture is not the alpha of the base colour's")
-            opacity = None
-        packed, metallic, roughness = self._packed(inputs)
+            colors = [None if diffuse is None else (diffuse, channel) for channel in "rgb"]
+            if (image := packed([*colors, (opacity, opacity.output)])) is None:
+                inputs.lost("opacity", "its texture is not the alpha of the base colour's")
+                opacity = None
+            else:
+                shown, opacity = image, replace(opacity, alpha=opacity.amount)
+        rough, metallic, roughness = self._packed(inputs)
         for name, default in (("clearcoat", 0.0), ("displacement", 0.0)):
             if inputs.number(name, default) != default or inputs.sampler(name) is not None:
                 inputs.lost(name, "there is no such thing in Unity's standard surface")
@@ -217,9 +223,11 @@ class Surfaces:
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
         emissive, occlusion = inputs.sampler("emissiveColor"), inputs.sampler("occlusion")
+        shade = _texture(occlusion)
         if occlusion is not None and occlusion.output not in ("r", "rgb"):
+            shade = packed([(occlusion, occlusion.output), None, None])
+        if occlusion is not None and shade is None:
             inputs.lost("occlusion", f"Unity's map has it in r, the texture gives {occlusion.output}")
-            occlusion = None
         mode = (
             AlphaMode.MASK
             if threshold > 0.0
@@ -241,20 +249,39 @@ class Surfaces:
             _unit(threshold) if mode is AlphaMode.MASK else 0.5,
             False,
             _emission(emissive.tint if emissive else inputs.color("emissiveColor", (0.0, 0.0, 0.0))),
-            diffuse.texture if diffuse else None,
+            shown,
             _texture(inputs.sampler("normal")),
-            packed,
-            _texture(occlusion),
+            rough,
+            shade,
             emissive.texture if emissive else None,
         )
 
     def _packed(self, inputs: Inputs) -> tuple[Texture | None, float, float]:
         """The image of roughness and metallic, and what each is, or is multiplied by in the image."""
+        metal, rough = inputs.sampler("metallic"), inputs.sampler("roughness")
+        metallic = _unit(metal.amount if metal else inputs.number("metallic", 0.0))
+        roughness = _unit(rough.amount if rough else inputs.number("roughness", 0.5))
+        if metal is None and rough is None:
+            return None, metallic, roughness
+        used = [sampler for sampler in (metal, rough) if sampler is not None]
+        right = (metal is None or metal.output == "b") and (rough is None or rough.output == "g")
+        whole = (metal is not None or metallic == 0.0) and (rough is not None or roughness == 0.0)
+        if right and whole and len({sampler.texture.name for sampler in used}) == 1:
+            return used[0].texture, metallic, roughness
+        image = packed([None, rough and (rough, rough.output), metal and (metal, metal.output)])
+        return (image, metallic, roughness) if image is not None else self._kept(inputs, metal, rough)
+
+    def _kept(
+        self, inputs: Inputs, metal: Sampler | None, rough: Sampler | None
+    ) -> tuple[Texture | None, float, float]:
+        """``_packed``, of images that cannot be made one: what has each in the channel that Unity's has it in."""
         image: Texture | None = None
         amounts: list[float] = []
         still: list[str] = []
-        for name, channel, default in (("metallic", "b", 0.0), ("roughness", "g", 0.5)):
-            sampler = inputs.sampler(name)
+        for name, sampler, channel, default in (
+            ("metallic", metal, "b", 0.0),
+            ("roughness", rough, "g", 0.5),
+        ):
             if sampler is not None and sampler.output != channel:
                 inputs.lost(name, f"Unity's map has it in {channel}, the texture gives {sampler.output}")
             elif sampler is not None and image is not None and sampler.texture.name != image.name:
@@ -264,7 +291,7 @@ class Surfaces:
                 )
             elif sampler is not None:
                 image = sampler.texture
-                amounts.append(_unit(sampler.tint["rgb".index(channel)]))
+                amounts.append(_unit(sampler.amount))
                 continue
             amounts.append(_unit(inputs.number(name, default)))
             if amounts[-1] > 0.0:

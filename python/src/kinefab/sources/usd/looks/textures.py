@@ -48,6 +48,11 @@ class Sampler:
     tint: tuple[float, float, float]
     alpha: float = 1.0
 
+    @property
+    def amount(self) -> float:
+        """What one number of the image is multiplied by."""
+        return self.alpha if self.output == "a" else self.tint["rgb".index(self.output[:1])]
+
 
 def read_sampler(
     shader: Any, output: str, uv_names: tuple[str, ...], opened: OpenStage, report: Report

@@ -5,14 +5,12 @@ from __future__ import annotations
 import hashlib
 import io
 from collections.abc import Callable
-from typing import Any
 
-import numpy as np
-
+from ....geometry.looks.pixels import eight_bit, pillow
 from ....model import Texture
 from ....unity.scene import Material
 from ... import images
-from ...images import LOADED, MAGIC, ImageError, bytes_of, pillow
+from ...images import LOADED, MAGIC, ImageError, bytes_of
 
 ENDINGS = frozenset(ending for _, ending in MAGIC) | {".tga"}
 
@@ -60,7 +58,7 @@ def _ending(texture: Texture) -> str:
 
 def _decoded(texture: Texture) -> str:
     try:
-        _eight_bit(bytes_of(texture))
+        eight_bit(bytes_of(texture))
     except Exception as error:  # Pillow raises OSError, SyntaxError, struct.error ... by the format
         raise ImageError(str(error) or type(error).__name__) from None
     return ""
@@ -80,7 +78,7 @@ def packed(material: Material) -> bytes:
     a map; of images whose pixels were demanded before."""
     Pillow = pillow()
     rough, occluded = material.metallicRoughnessTexture, material.occlusionTexture
-    sources = [None if t is None else _eight_bit(bytes_of(t)) for t in (rough, occluded)]
+    sources = [None if t is None else eight_bit(bytes_of(t)) for t in (rough, occluded)]
     size = next(image.size for image in sources if image is not None)
     first, second = (None if image is None else image.resize(size) for image in sources)
     full = Pillow.new("L", size, 255)
@@ -93,13 +91,3 @@ def packed(material: Material) -> bytes:
     out = io.BytesIO()
     Pillow.merge("RGBA", (metallic, occlusion, Pillow.new("L", size, 0), smooth)).save(out, "PNG")
     return out.getvalue()
-
-
-def _eight_bit(data: bytes) -> Any:
-    """Red, green and blue; grey of 16 bits by their upper half, which Pillow would clip."""
-    Pillow = pillow()
-    image = Pillow.open(io.BytesIO(data))
-    if image.mode.startswith("I"):
-        pixels = np.asarray(image.convert("I"), dtype=np.float64) / 257.0
-        image = Pillow.fromarray(pixels.round().clip(0, 255).astype(np.uint8))
-    return image.convert("RGB")

@@ -1,0 +1,42 @@
+"""Several images as one, where a surface has one for what USD gives each its own."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import PurePosixPath
+
+from ....geometry.looks.pixels import merged
+from ....geometry.references import read_regular
+from ....model import Texture
+from .textures import MAX_BYTES, Sampler
+
+
+def packed(channels: Sequence[tuple[Sampler, str] | None]) -> Texture | None:
+    """An image whose channels are those of these samplers' images, full for None; None where the images lie differently on
+    the mesh, or their pixels cannot be read, also because Pillow is not installed."""
+    textures = [channel[0].texture for channel in channels if channel is not None]
+    first = textures[0]
+    if any(_laid(texture) != _laid(first) for texture in textures):
+        return None
+    try:
+        data = merged([None if c is None else (_bytes_of(c[0].texture), c[1]) for c in channels])
+    except MemoryError:
+        raise
+    except (
+        Exception
+    ):  # ImportError without Pillow, which itself raises OSError, SyntaxError, struct.error ... by the format
+        return None
+    name = f"{PurePosixPath(first.name).stem} packed-{hashlib.sha256(data).hexdigest()[:8]}.png"
+    return replace(first, name=name, path=None, data=data, media_type="image/png")
+
+
+def _laid(texture: Texture) -> tuple[object, ...]:
+    return texture.wrap, texture.uv_set, texture.scale, texture.offset, texture.rotation
+
+
+def _bytes_of(texture: Texture) -> bytes:
+    if texture.data is not None or texture.path is None:
+        return texture.data or b""
+    return read_regular(texture.path, MAX_BYTES)

@@ -303,6 +303,23 @@ def test_an_obj_s_textures_are_named_or_told(tmp_path):
     assert all(o.outcome is Outcome.DROPPED for o in lost)
 
 
+@pytest.mark.parametrize("mark", ["model.config", "package.xml", ""])
+def test_pictures_may_lie_anywhere_in_the_model_that_the_mesh_is_part_of(mark, tmp_path):
+    """Gazebo's models keep them in materials/textures, beside meshes; what is out of the model is not read."""
+    for folder in ("model/meshes", "model/materials/textures"):
+        (tmp_path / folder).mkdir(parents=True)
+    for place in ("model/materials/textures/hull.png", "secret.png"):
+        (tmp_path / place).write_bytes(b"\x89PNG")
+    if mark:
+        (tmp_path / "model" / mark).write_text("<x/>", "utf-8")
+    statements = "map_Kd ../materials/textures/hull.png\nmap_Ke ../../secret.png\n"
+    path = write_obj(tmp_path / "model/meshes", "o", "1 1 1", statements)
+    surface = read_mesh_file(path, report := Report(), "here").surfaces["paint"]
+    assert (surface.color_texture is not None) == bool(mark) and surface.emission_texture is None
+    lost = {o.feature for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"}
+    assert "texture ../../secret.png" in lost and len(lost) == (1 if mark else 2)
+
+
 def test_an_obj_s_library_is_parted_by_tabs_and_words_of_any_case(tmp_path):
     """Each picture belongs to the material that it stands under, whatever the blanks, and the last statement rules."""
     for name in ("oak.png", "ash.png", "old.png"):

@@ -6,17 +6,25 @@ import json
 import os
 import re
 import stat
-import zipfile
-import zlib
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 from urllib.parse import unquote
+
+if TYPE_CHECKING:  # the command line lists the formats, which takes this file's names alone
+    import zipfile
 
 MOST_BYTES = 2 * 2**30
 """Of one file that is referred to, and of all that an archive holds unpacked."""
 MOST_GROWTH = 200
 """Times that an archive may grow when it is unpacked: meshes grow about tenfold."""
+
+
+MANIFESTS = ("package.xml", "model.config", "manifest.xml")
+"""Files that stand at the top of a ROS package and of a Gazebo model."""
+UPWARDS = 8
+"""Folders above a file that are looked into for one."""
 
 
 class UnsafeReference(OSError):
@@ -26,15 +34,22 @@ class UnsafeReference(OSError):
 def read_reference(folder: Path, name: str, limit: int = MOST_BYTES) -> bytes:
     """The bytes of a file that a mesh file in ``folder`` names.
 
-    Raises UnsafeReference for one that leads out of the folder, also through a link, is no regular file (a pipe, a
-    device) or is larger than ``limit``; OSError as the file system does.
+    It may lie anywhere in the package or model that holds the folder: Gazebo's keep images in ``../materials/textures``.
+    Raises UnsafeReference for one that leads out of there, also through a link, is no regular file (a pipe, a device) or is
+    larger than ``limit``; OSError as the file system does.
     """
     plain = PurePosixPath(unquote(name).replace("\\", "/"))
     root = Path(os.path.realpath(folder))
     path = Path(os.path.realpath(root / plain))
-    if plain.is_absolute() or not path.is_relative_to(root):
+    if plain.is_absolute() or not path.is_relative_to(root) and not path.is_relative_to(package_of(root)):
         raise UnsafeReference(f"{name!r} leads out of the folder of the file that names it")
     return read_regular(path, limit)
+
+
+def package_of(folder: Path) -> Path:
+    """The nearest folder above, or this, that is a package or model; this where none is."""
+    above = [folder, *folder.parents][:UPWARDS]
+    return next((each for each in above if any((each / name).is_file() for name in MANIFESTS)), folder)
 
 
 def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:
@@ -52,6 +67,9 @@ def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:
 @contextmanager
 def _opened(path: Path) -> Generator[zipfile.ZipFile, None, None]:
     """The archive; what is wrong with it is an UnsafeReference."""
+    import zipfile
+    import zlib
+
     try:
         with zipfile.ZipFile(path) as archive:
             yield archive

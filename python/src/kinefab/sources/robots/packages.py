@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from ...diagnostics import Report
+from ...geometry.references import MANIFESTS, UPWARDS
 from ...options import FormatOption
 
 if TYPE_CHECKING:  # the command line lists the formats without numpy
@@ -28,9 +29,6 @@ PACKAGE_PATH = FormatOption(
     repeated=True,
     metavar="DIR",
 )
-MANIFESTS = ("package.xml", "model.config", "manifest.xml")
-UPWARDS = 8
-"""Folders above the source that are looked into."""
 BESIDE = 2
 """Folders above the source that a relative name may climb where no package is found around it."""
 MOST_FOLDERS = 10_000

@@ -76,6 +76,7 @@ REFUSED = {
 SHAPE = "<link name='a'>{}</link>"
 TOLD = {
     "limits missing": ("LIMITS_MISSING", 4, robot(PAIR + joint(kind="revolute"))),
+    "world unstated": ("LINK_WORLD_UNSTATED", 3, robot(A + "\n" + joint(parent="world", child="a"))),
     "limits reversed": ("LIMITS_REVERSED_DROPPED", 4, robot(PAIR + joint("<limit lower='80' upper='-10'/>", "prismatic"))),
     "limits at zero": ("LIMITS_AT_ZERO", 4, robot(PAIR + joint("<limit effort='1' velocity='1'/>", "revolute"))),
     "inertia": ("INERTIA_MENDED", 3, robot(PAIR.replace("'0.25'", "'0.9'") + joint())),
@@ -164,6 +165,30 @@ def test_a_loss_is_told_at_its_line_and_the_rest_converts(tmp_path, case):
     found = {(d.code, d.where) for d in result.report.diagnostics}
     assert (code, f"r.urdf:{line}") in found
     assert result.path.exists()
+
+
+@pytest.mark.parametrize("options", [{}, {"floating_base": True}])
+def test_joints_on_a_world_that_is_no_link_hang_from_the_world(tmp_path, options):
+    """As in a file that states the link, whatever else is to be free; told at the first of them."""
+    hung = joint("<origin xyz='1 2 3' rpy='.1 .2 .3'/><axis xyz='0 3 4'/>", parent="world", child="a")
+    text = robot(PAIR + hung + joint(name="k", parent="world", child="b"))
+    scene = read(written(tmp_path, text), report := Report(), options=options)
+    assert [d.code for d in report.diagnostics] == ["LINK_WORLD_UNSTATED"]
+    stated = text.replace("</robot>", "<link name='world'/></robot>")
+    same = read(written(tmp_path, stated), report := Report(), options=options)
+    assert not report.diagnostics
+    for one, other in zip(scene.nodes, same.nodes, strict=True):
+        assert (one.id, one.parent, one.grounded) == (other.id, other.parent, other.grounded)
+    ends = [(j.a, j.b, j.name) for j in scene.joints]
+    assert ends == [(j.a, j.b, j.name) for j in same.joints]
+    world = next(i for i, node in enumerate(scene.nodes) if node.name == "world")
+    assert scene.nodes[world].grounded and all(a == world for a, _, _ in ends)
+
+
+def test_a_child_called_world_that_is_no_link_is_refused(tmp_path):
+    with pytest.raises(KinefabError) as refused:
+        read(written(tmp_path, robot(A + joint(child="world"))), Report())
+    assert [d.code for d in refused.value.diagnostics] == ["LINK_UNKNOWN"]
 
 
 def test_a_range_from_its_upper_end_to_its_lower_one_leaves_the_joint_free(tmp_path):

@@ -9,18 +9,21 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...diagnostics import Report
-from ...spatial import Array
+from ...spatial import Array, Pose
+from ..robots.rigid_links import Link
 from ..robots.xml_elements import Element, near_matches
 from .links import origin
 from .robot import Mimic, Robot, UrdfJoint
 
 TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 AXIAL = frozenset({"revolute", "continuous", "prismatic", "planar"})
+WORLD = "world"
 MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
 
 
 def read_joints(robot: Robot, report: Report) -> None:
-    """Fill ``robot.joints``; links must be there."""
+    """Fill ``robot.joints``; links must be there.  A joint on ``world``, where no link is called so, is on the world
+    itself, as Drake and drawers of robots have it: an empty link of that name is added."""
     for element in robot.element.all("joint"):
         name = element.name()
         if not name:
@@ -92,6 +95,9 @@ def _link(element: Element, side: str, feature: str, robot: Robot) -> str:
         element.fault("XML_MISSING", element="joint", field=side)
         return ""
     name = child.name("link")
+    if name == WORLD and side == "parent" and name not in robot.links:
+        child.fault("LINK_WORLD_UNSTATED", feature=feature)
+        robot.links[name] = Link(f"{robot.name}/{name}", name, Pose(), child.where)
     if name and name not in robot.links:
         child.fault(
             "LINK_UNKNOWN", link=name, feature=feature, near=near_matches(name, robot.links, child.report)

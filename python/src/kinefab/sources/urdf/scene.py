@@ -25,6 +25,7 @@ from ...model import (
 from ...spatial import Pose, frame_from_axes
 from ..robots.rigid_links import Carrier, add_links
 from ..robots.robot_frame import direction, placed
+from .joints import WORLD
 from .robot import Robot, UrdfJoint
 from .tree import from_the_root, hold_followers, place_links, root_of, start_of
 
@@ -57,7 +58,7 @@ def fill_scene(scene: Scene, robot: Robot, floating_base: bool, report: Report) 
     for link in links:
         link.parent = 0
     # A link that is called world stands in for it, whatever else is to be free.
-    links[0].grounded = not floating_base or root == "world"
+    links[0].grounded = not floating_base or root == WORLD
     fixed = [(number[j.parent], number[j.child]) for j in ordered if not j.moves]
     joined = [(number[j.parent], number[j.child]) for j in ordered if j.moves]
     carriers = add_links(scene, links, fixed, joined, report)

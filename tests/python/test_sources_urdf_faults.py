@@ -259,6 +259,22 @@ def test_what_robot_programs_pass_over_is_passed_over(tmp_path, before):
     assert [node.name for node in scene.nodes] == ["r", "a"]
 
 
+@pytest.mark.parametrize("after", ["</robot>", "\n</link>\n</robot>\n"])
+def test_ends_of_elements_after_the_root_are_passed_over(tmp_path, after):
+    """A line too much at the end, as robot programs and MuJoCo have it; one of Unitree's scenes was refused."""
+    scene = read(written(tmp_path, robot(A) + after), Report())
+    assert [node.name for node in scene.nodes] == ["r", "a"]
+
+
+@pytest.mark.parametrize(
+    "after", ["</robot><robot/>", "<robot/>", "</robot> words", "</robot", "</", "words"]
+)
+def test_what_else_stands_after_the_root_is_refused(tmp_path, after):
+    with pytest.raises(KinefabError) as refused:
+        read(written(tmp_path, robot(A) + after), Report())
+    assert [d.code for d in refused.value.diagnostics] == ["XML_SYNTAX"]
+
+
 def test_xacro_without_its_package_is_an_error_that_names_it(tmp_path, monkeypatch):
     path = tmp_path / "r.xacro"
     path.write_text(robot(A), encoding="utf-8")

@@ -24,6 +24,7 @@ _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _ENCODING = re.compile(rb"\A(?:\xef\xbb\xbf)?<\?xml[^>]*?\bencoding\s*=\s*[\"']([A-Za-z][\w.-]*)[\"']")
 DECODED = frozenset("utf-8 shift_jis cp932 euc_jp gb2312 gbk gb18030 big5 euc_kr cp949".split())
 """Encodings that Python reads and expat does not, or not by all their names (``utf8``)."""
+_ENDS = re.compile(rb"(?:</[^<>]*>\s*)+\Z")
 _NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
 ABOUT = 5
@@ -213,7 +214,8 @@ class _Builder:
 
 def parse_xml(data: bytes, name: str, report: Report) -> Element:
     """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
-    # Against the rules, and read by robot programs: blanks before the declaration, one without a version, -- in a comment.
+    # Against the rules, and read by robot programs: blanks before the declaration, one without a version, -- in a comment,
+    # ends of elements after that of the root.
     data = _NO_VERSION.sub(b"", data.lstrip())
     tried = Report()
     root = _built(data, name, report, tried)
@@ -227,14 +229,19 @@ def parse_xml(data: bytes, name: str, report: Report) -> Element:
 
 def _built(data: bytes, name: str, report: Report, faults: Report) -> Element | None:
     """None where ``faults`` gets the reason.  report: of the elements."""
+    builder = None
     try:
         decoded = _decoded(data)
+        data = data if decoded is None else decoded
         builder = _Builder(name, report, faults, None if decoded is None else "utf-8")
-        builder.parser.Parse(data if decoded is None else decoded, True)
+        builder.parser.Parse(data, True)
         return builder.root
     except _Refused:
         pass
     except expat.ExpatError as error:
+        if builder is not None and builder.root is not None and not builder.open:
+            if _ENDS.match(data, builder.parser.ErrorByteIndex - 1):  # the index is that of the slash
+                return builder.root
         detail = expat.errors.messages[error.code]
         faults.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)
     except (LookupError, ValueError) as error:  # an encoding that nobody knows, bytes that are none of it

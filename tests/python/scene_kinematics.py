@@ -277,6 +277,15 @@ class SceneKinematics:
         ):
             if len(chosen) == 1:
                 return chosen[0]
+        # A frame's name is seen from the model of the part that bears it.
+        bearers = [entry_id.partition("/site:") for entry_id in ids]
+        found = [
+            i
+            for i, (bearer, is_site, site) in enumerate(bearers)
+            if is_site and f"{bearer.rpartition('/')[0]}/{site}" == name
+        ]
+        if len(found) == 1:
+            return found[0]
         words = name.split("/")
         sites = [
             f"/site:{'/'.join(words[k:])}" for k in range(len(words))

@@ -130,3 +130,25 @@ def test_couplings_are_followed_in_chains():
     one, two, three = (Coordinate(i, 1, "angle") for i in range(3))
     known = SceneKinematics(json.loads(json.dumps(document))).coupled({one: 5.0})
     assert known == {one: 5.0, two: 10.0, three: -29.0}
+
+
+def test_links_of_one_name_in_models_beside_and_within_each_other_are_told_apart(tmp_path):
+    """Also where fixed joints merge them into others, so that they are frames there."""
+    inner = "<link name='l'/>"
+    fixed = "<joint name='{0}' type='fixed'><parent>{1}</parent><child>{2}</child></joint>"
+    path = tmp_path / "m.sdf"
+    path.write_text(
+        f"<sdf version='1.9'><model name='m'>{inner}<link name='t'/>"
+        f"<model name='a'><pose>1 0 0 0 0 0</pose>{inner}<model name='b'><pose>0 2 0 0 0 0</pose>{inner}</model>"
+        f"{fixed.format('f', 'l', 'b::l')}</model>"
+        f"<model name='b'><pose>4 0 0 0 0 0</pose>{inner}</model>{fixed.format('k', 'l', 'b::l')}"
+        f"{fixed.format('y', 'a::b::l', 't')}"
+        "<joint name='j' type='revolute'><parent>l</parent><child>a::l</child><axis><xyz>0 0 1</xyz></axis></joint>"
+        "</model></sdf>",
+        encoding="utf-8",
+    )
+    kinefab.export(path, tmp_path / "m.kinefab")
+    motion = SceneKinematics.load(tmp_path / "m.kinefab")
+    places = {"m/l": (0, 0), "m/t": (0, 0), "m/a/l": (1, 0), "m/b/l": (4, 0), "m/a/b/l": (1, 2)}
+    for name, (forward, left) in places.items():
+        assert motion.placed[motion.object(name)][1] == pytest.approx((-left, 0.0, forward)), name

@@ -1,24 +1,17 @@
-"""Couplings: told where nothing keeps them, kept by a script where it is asked for, and the script run."""
+"""Couplings: told where nothing keeps them, in the prefab with their script where it is asked for."""
 
 from __future__ import annotations
 
 import json
-import re
-import shutil
-import subprocess
 import tarfile
 from pathlib import Path
 
 import kinefab
 import pytest
-from kinefab.targets.prefab.objects.couplings import FOLDER, SCRIPT
+from kinefab.targets.prefab.objects.couplings import SCRIPT
 from prefab_reader import Project
 from prefab_scenes import rich_scene
 from unity_yaml import documents, mapping
-
-STAND_INS = Path(__file__).parents[1] / "csharp" / "Kinefab.UnityImport" / "UnityEngine"
-OWN = Path(__file__).parent / "coupling_script"
-ELDER, NEWER = "", "UNITY_2022_2_OR_NEWER;UNITY_6000_0_OR_NEWER"
 
 
 def test_couplings_without_a_script_are_told(tmp_path):
@@ -111,90 +104,6 @@ def test_every_package_has_the_same_script_at_the_same_place(tmp_path):
         }
         entries.append(own)
     assert entries[0] == entries[1] and len(entries[0]) == 8
-
-
-def for_mono(text: str) -> str:
-    """Without the two things that Debian's compiler has not learned: MathF, and one assignment to several fields."""
-
-    def single(match: re.Match) -> str:
-        pairs = zip(match[1].split(", "), match[2].split(", "))
-        return "{ " + " ".join(f"{a} = {b};" for a, b in pairs) + " }"
-
-    text = re.sub(r"=> \((this\.[^)]*)\) = \(([^)]*)\);", single, text)
-    return text.replace("MathF.Pow(c, 1 / 2.4f)", "(float)Math.Pow(c, 1 / 2.4f)")
-
-
-@pytest.fixture(scope="module", params=[ELDER, NEWER], ids=["2021", "6"])
-def program(request, tmp_path_factory) -> Path:
-    """The script and the test's gear pair, compiled against the stand-ins of UnityEngine."""
-    if not (shutil.which("mcs") and shutil.which("mono")):
-        pytest.skip("the Mono compiler is not installed (apt-get install mono-mcs)")
-    folder = tmp_path_factory.mktemp("script")
-    sources = []
-    for path in (STAND_INS / f"{name}.cs" for name in ("Bodies", "Joints", "Objects", "Values", "Meshes")):
-        text = path.read_text("utf-8")
-        for name in ("Rigidbody", "Transform"):
-            text = text.replace(f"public sealed class {name} ", f"public sealed partial class {name} ")
-        sources.append(folder / path.name)
-        sources[-1].write_text(for_mono(text), "utf-8")
-    out = folder / "gear.exe"
-    define = [f"-define:{request.param}"] if request.param else []
-    command = [
-        "mcs",
-        "-langversion:7",
-        "-warnaserror+",
-        "-nowarn:0649",
-        *define,
-        f"-out:{out}",
-        *map(str, sources),
-    ]
-    command += [
-        str(FOLDER / SCRIPT),
-        *(
-            str(OWN / f"{name}.cs")
-            for name in ("MotionStandIns", "GearPair", "Slide", "Release", "Recompiled")
-        ),
-    ]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return out
-
-
-@pytest.mark.parametrize(
-    "how",
-    [
-        "moved",
-        "hinge",
-        "configurable",
-        "driven slide",
-        "swapped slide",
-        "moved slide",
-        "from slide",
-        "moved screw",
-        "late moved",
-        "late hinge",
-        "recompiled moved",
-        "recompiled hinge",
-        "recompiled configurable",
-    ],
-)
-def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
-    """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
-    pose of the prefab and not from where their anchors meet; a component that is enabled late, and one whose script is compiled
-    anew while the editor plays."""
-    done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert float(done.stdout) < 2e-3
-
-
-@pytest.mark.parametrize(
-    "how", ["free hinge", "free configurable", "free broken hinge", "free broken configurable"]
-)
-def test_a_joint_that_is_driven_no_longer_has_its_own_drives_again(program, how):
-    """The component is disabled, as a clutch opens, or the joint that leads has broken."""
-    done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert float(done.stdout) == 0
 
 
 def test_a_mimic_that_holds_at_the_pose_has_no_offset(tmp_path):

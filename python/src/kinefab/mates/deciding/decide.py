@@ -23,7 +23,7 @@ from .freedom import RANK, Scale, freedom_of, null_space
 from .inherited import inherit
 from .motions import held_rows, motions_of
 from .pieces import parted
-from .rolling import join_races
+from .rolling import join_races, join_rollers
 from .shafts import shafts_of
 from .twins import fix_loose
 
@@ -46,6 +46,7 @@ def _decided(
     bodies: Bodies, parts: Parts, near: Sequence[tuple[int, int]], shafts: Collection[int]
 ) -> Decided:
     join_races(bodies)
+    join_rollers(bodies, near)
     single = _bolt_groups(bodies, parts, fasten(bodies, parts))
     _clamp(bodies)
     press(bodies, parts)

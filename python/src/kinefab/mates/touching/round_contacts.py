@@ -152,7 +152,7 @@ def _in_terms_of(a: Round, b: Round) -> tuple[float, float]:
     return sorted_pair(shift + sign * b.span[0], shift + sign * b.span[1])
 
 
-def _meeting(a: Round, b: Round) -> tuple[tuple[float, float], ...]:
+def meeting(a: Round, b: Round) -> tuple[tuple[float, float], ...]:
     """Where both are, along a's axis from a's point, in order; faces that follow on each other as one."""
     sign = 1.0 if float(a.direction @ b.direction) > 0.0 else -1.0
     shift = float((b.point - a.point) @ a.direction)
@@ -173,7 +173,7 @@ def _fit(pair: _Pair, touch: float) -> Iterator[Contact]:
     gap = bore.radius - shaft.radius
     if not -TIGHTEST * bore.radius <= gap <= WIDEST * bore.radius or not _coaxial(a, b, pair.size):
         return
-    spans = _meeting(a, b)
+    spans = meeting(a, b)
     if sum(high - low for low, high in spans) < SHORTEST * bore.radius:
         return
     span = spans[0][0], spans[-1][1]
@@ -235,7 +235,7 @@ def _cone(pair: _Pair, touch: float) -> Iterator[Contact]:
         return
     height = float((shaft.point - bore.point) @ bore.direction)
     gap = height * math.sin(bore.half_angle)
-    spans = _meeting(a, b)
+    spans = meeting(a, b)
     if abs(gap) > max(touch, 1e-3 * pair.size) or not spans:
         return
     span = spans[0][0], spans[-1][1]

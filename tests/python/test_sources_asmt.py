@@ -92,7 +92,8 @@ def along(axis: np.ndarray) -> np.ndarray:
     return np.column_stack([across, np.cross(axis, across), axis])
 
 
-@pytest.mark.parametrize("second_first", [False, True], ids=["ground is I", "ground is J"])
+@pytest.mark.parametrize("holder", ["", "Base"])
+@pytest.mark.parametrize("second_first", [False, True], ids=["holder is I", "holder is J"])
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["axis along", "axis against"])
 @pytest.mark.parametrize(
     ("kind", "numbers", "own", "motion", "word"),
@@ -104,13 +105,17 @@ def along(axis: np.ndarray) -> np.ndarray:
     ],
 )
 def test_a_coupling_ties_the_motions_whichever_way_its_joints_count(
-    kind, numbers, own, motion, word, way, second_first, tmp_path: Path
+    kind, numbers, own, motion, word, way, second_first, holder, tmp_path: Path
 ):
     """own: joint and axis of the part with marker I.  motion: radians that J turns about Z for one of I's, or for its metre."""
-    at = {"One": frame([0, 0, 0], along(Z)), "Two": frame([28.0, 3.0, 5.0], rotation_about(Z, 0.3))}
+    at = {
+        "Base": frame([5.0, 2.0, 1.0], rotation_about(X, 0.4)),
+        "One": frame([0, 0, 0], along(Z)),
+        "Two": frame([28.0, 3.0, 5.0], rotation_about(Z, 0.3)),
+    }
     joint, axis = own
-    first = (("", frame([0, 0, 0], along(way * axis))), ("One", frame([0, 0, 0], along(way * axis))))
-    second = (("", frame([28.0, 3.0, 5.0])), ("Two", frame([28.0, 3.0, 5.0])))
+    first = ((holder, frame([0, 0, 0], along(way * axis))), ("One", frame([0, 0, 0], along(way * axis))))
+    second = ((holder, frame([28.0, 3.0, 5.0])), ("Two", frame([28.0, 3.0, 5.0])))
     markers = {
         "J1": first[::-1] if second_first else first,
         "J2": second,

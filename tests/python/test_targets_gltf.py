@@ -342,7 +342,8 @@ def test_tangents_run_along_u_and_their_sense_is_that_of_v(tmp_path):
 
 @pytest.mark.parametrize("shape", ["auto", "none", "hull", "box", "mesh"])
 def test_colliders_are_those_that_were_asked_for(tmp_path, shape):
-    scene = Scene(meshes=[box((1, 2, 3))])
+    middle = [0.3, -0.2, 0.5]
+    scene = Scene(meshes=[replace(box((1, 2, 3)), vertices=box((1, 2, 3)).vertices + middle)])
     scene.nodes = [
         Node("P", "P", bodies=(Body("b", 0),)),
         Node("G", "G", grounded=True, bodies=(Body("b", 0),)),
@@ -366,6 +367,8 @@ def test_colliders_are_those_that_were_asked_for(tmp_path, shape):
     hulls = {"auto": [True, False], "mesh": [True, False], "hull": [True, True]}.get(shape, [])
     assert [g.get("convexHull", False) for g in found if "node" in g] == hulls
     assert shapes == ([{"size": [1, 2, 3]}] if shape == "box" else []) + [{"radius": 1.0}]
+    around = [n["translation"] for n in document["nodes"] if n["name"] == "box"]
+    assert np.allclose(around, [middle] * 2 if shape == "box" else [])
     assert [o.code for o in result.report.outcomes if o.code == "COLLIDER_EMPTY"] == ["COLLIDER_EMPTY"]
 
 

@@ -48,6 +48,28 @@ def test_a_joint_by_its_word_with_limits_drive_spring_and_damping_in_degrees(spr
     assert freedom.passive.rest == pytest.approx(math.radians(-45))
 
 
+def test_a_joint_stands_where_its_parts_do_now():
+    """Its frames meet at the point, along the axis, wherever the two parts stand, and count from there."""
+    scene = kinefab.Scene()
+    for name, turn, at in (
+        ("Base", (20, -50, 70), (1.0, -2.0, 0.5)),
+        ("Arm", (-30, 10, 40), (0.2, 0.7, -3.0)),
+    ):
+        scene.add_part(name, rotation=("XYZ", turn), translation=at)
+    point, axis = np.array([0.4, 1.5, -0.6]), np.array([2.0, -1.0, 2.0]) / 3.0
+    for a in (0, None):
+        joint = scene.add_hinge(a, 1, point=tuple(point), axis=tuple(3.0 * axis), limits=(200, 300))
+        for side, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b)):
+            world = scene.pose(side) @ frame
+            assert np.allclose(world.translation, point) and np.allclose(world.rotation[:, 0], axis)
+        assert joint.freedoms[RX].at == 0.0  # and not a turn away, where its range would have it
+
+
+def test_a_range_may_be_one_value():
+    joint = pair().add_hinge(0, 1, **AT, limits=(5, 5))
+    assert joint.freedoms[RX].lower == joint.freedoms[RX].upper == pytest.approx(math.radians(5))
+
+
 def test_several_freedoms_are_named():
     joint = pair().add_joint(
         "cylindrical", 0, 1, **AT, limits={"tx": (-0.1, 0.2), "rx": (-10, 80)}, damping={"tx": 3}
@@ -131,15 +153,17 @@ def test_joints_of_one_name_are_told_apart(tmp_path):
 
 
 def test_a_coupling_counts_in_degrees_and_metres(tmp_path):
-    """A rack of 2 mm a degree, and a gear of -3 with an offset of 5 degrees."""
+    """A rack of 2 mm a degree and 50 mm before it, and a gear of -3 with an offset of 5 degrees."""
     scene = pair()
     for name in ("Rack", "Wheel"):
         scene.add_part(name)
     pinion = scene.add_hinge(0, 1, **AT, name="Pinion")
     rack = scene.add_slider(0, 2, point=(0, 0, 0), axis=(1, 0, 0))
     wheel = scene.add_hinge(0, 3, point=(1, 0, 0), axis=(0, 0, 1))
-    travel, turn = scene.add_coupling(pinion, rack, 0.002), scene.add_coupling("Pinion", wheel, -3, offset=5)
+    travel = scene.add_coupling(pinion, rack, 0.002, offset=0.05)
+    turn = scene.add_coupling("Pinion", wheel, -3, offset=5)
     assert travel.terms[0].ratio == pytest.approx(0.002 * 180 / math.pi) and travel.kind.value == "rack"
+    assert travel.offset == 0.05 and scene.couplings[0] is travel
     assert (turn.terms[0].ratio, turn.offset) == pytest.approx((-3, math.radians(5)))
     content = json.loads(kinefab.export(scene, tmp_path / "gears.kinefab").path.read_text("utf-8"))
     assert {c["ratio"] for c in content["couplings"]} == {0.002, -3} and content["analysis"]["mobility"] == 1

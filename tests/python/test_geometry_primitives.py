@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from kinefab.geometry.closure import is_closed, welded
+from kinefab.geometry.collision import prism
 from kinefab.geometry.mass import solid_properties
 from kinefab.geometry.primitives import box, capsule, cone, cylinder, ellipsoid, plane, sphere
 
@@ -33,6 +34,20 @@ def test_a_shape_is_closed_wound_outwards_and_of_its_size(name):
     for i in range(3):
         assert (np.einsum("ni,ni->n", outward, mesh.normals[mesh.faces[:, i]]) > 0.0).all()
     assert mesh.uvs[0].min() >= 0.0 and mesh.uvs[0].max() <= 1.0
+
+
+def test_the_prism_of_a_cylinder_is_closed_wound_outwards_and_as_far_out_as_in():
+    mesh = prism(0.2, 1.1)
+    assert is_closed(welded(mesh.vertices, mesh.faces))
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    assert (
+        np.einsum("ni,ni->n", np.cross(b - a, c - a), a + b + c) > 0.0
+    ).all()  # it is convex and about the origin
+    out = np.hypot(*mesh.vertices[:, :2].T).max()
+    assert out - 0.2 == pytest.approx(0.2 - out * math.cos(math.pi / 32), rel=0.01)
+    assert np.ptp(mesh.vertices[:, 2]) == pytest.approx(1.1) and mesh.vertices[:, 2].max() == pytest.approx(
+        0.55
+    )
 
 
 def test_a_plane_faces_upwards():

@@ -15,7 +15,7 @@ from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
 from kinefab.model import RX, TX, ConstraintKind, CouplingKind, JointKind
 from kinefab.sources.asmt.reader import TURN
-from kinefab.spatial import quaternion_from_matrix, rotation_about
+from kinefab.spatial import quaternion_from_matrix, rotation_about, rotation_log
 
 X, Y, Z = np.eye(3)
 HALF = np.diag([1.0, -1.0, -1.0])
@@ -114,8 +114,12 @@ def test_a_coupling_ties_the_motions_whichever_way_its_joints_count(
         "Two": frame([28.0, 3.0, 5.0], rotation_about(Z, 0.3)),
     }
     joint, axis = own
-    first = ((holder, frame([0, 0, 0], along(way * axis))), ("One", frame([0, 0, 0], along(way * axis))))
-    second = ((holder, frame([28.0, 3.0, 5.0])), ("Two", frame([28.0, 3.0, 5.0])))
+    turning = joint == "RevoluteJoint"
+    stands = frame(
+        np.zeros(3) if turning else 4.0 * axis, along(way * axis) @ rotation_about(Z, 0.5 if turning else 0.0)
+    )
+    first = ((holder, frame([0, 0, 0], along(way * axis))), ("One", stands))
+    second = ((holder, frame([28.0, 3.0, 5.0])), ("Two", frame([28.0, 3.0, 5.0], rotation_about(Z, 0.3))))
     markers = {
         "J1": first[::-1] if second_first else first,
         "J2": second,
@@ -125,10 +129,11 @@ def test_a_coupling_ties_the_motions_whichever_way_its_joints_count(
         tmp_path,
         document(at, [(joint, "J1", {}), ("RevoluteJoint", "J2", {}), (kind, "Tie", numbers)], markers),
     )
-    turning = joint == "RevoluteJoint"
     speeds = {"One": TURN @ axis, "Two": motion * (TURN @ Z)}
-    rates = {}
+    rates, here = {}, {}
     for found in scene.joints:
+        between = (scene.pose(found.a) @ found.frame_a).inverse() @ scene.pose(found.b) @ found.frame_b
+        here[found.id] = {RX: rotation_log(between.rotation)[0], TX: between.translation[0]}
         main = (scene.pose(found.a) @ found.frame_a).rotation[:, 0]
         moved, held = (
             np.zeros(3) if n is None else speeds.get(scene.nodes[n].name, np.zeros(3))
@@ -139,6 +144,8 @@ def test_a_coupling_ties_the_motions_whichever_way_its_joints_count(
     (term,) = coupling.terms
     assert coupling.kind is word and {coupling.freedom, term.freedom} == {RX, RX if turning else TX}
     assert rates[coupling.joint] == pytest.approx(term.ratio * rates[term.joint])
+    led, leader = here[coupling.joint][coupling.freedom], here[term.joint][term.freedom]
+    assert led != 0.0 != leader and led == pytest.approx(term.ratio * leader + coupling.offset)
 
 
 def shafts(bend: float, turn: float, way: np.ndarray) -> str:

@@ -94,12 +94,17 @@ def accessor(document: dict, binary: bytes, index: int) -> np.ndarray:
     return np.frombuffer(binary, kind, entry["count"] * columns, view["byteOffset"]).reshape(-1, columns)
 
 
+_ASKEW = rotation_exp(np.array([0.2, 0.1, -0.3]))
+INERTIA = _ASKEW @ np.diag([0.01, 0.02, 0.025]) @ _ASKEW.T
+VELOCITY, SPIN = np.array([0.5, -1.0, 2.0]), np.array([-0.3, 0.4, 0.1])
+
+
 def robot() -> Scene:
     """A cart on a rail with an arm: a slide with a motor, a hinge of -10..80 degrees with a servo, everything asymmetric."""
     turn = rotation_exp(np.array([0.3, -0.2, 0.5]))
     cart = Pose(turn, np.array([1.0, 2.0, 3.0]))
     arm = cart @ Pose(rotation_about(np.array([0.0, 0, 1]), 0.4), np.array([0.1, 0.2, 0.3]))
-    weight = MassProperties(2.0, np.array([0.1, 0.0, -0.2]), np.diag([0.01, 0.02, 0.025]))
+    weight = MassProperties(2.0, np.array([0.1, 0.0, -0.2]), INERTIA)
     paint = Surface(
         "paint", (0.5, 0.25, 0.125, 0.5), 0.25, 0.75, AlphaMode.MASK, 0.3, True, (2.0, 0.0, 1.0),
         color_texture=Texture("a.png", data=PNG, offset=(0.25, 0.5), scale=(2.0, 3.0), rotation=0.1),
@@ -123,7 +128,13 @@ def robot() -> Scene:
         Node("Rail", "Rail", grounded=True, bodies=(Body("b", 0),)),
         Node("Cart", "Cart", pose=cart, mass=weight, bodies=(Body("b", 0, (0, 0), scale=(1.0, -1.0, 2.0)),)),
         Node(
-            "Arm", "Arm", parent=1, pose=arm, mass=weight, colliders=shapes, dynamics=Dynamics(gravity=False)
+            "Arm",
+            "Arm",
+            parent=1,
+            pose=arm,
+            mass=weight,
+            colliders=shapes,
+            dynamics=Dynamics(gravity=False, velocity=VELOCITY, angular_velocity=SPIN),
         ),
     ]
     slide = Freedom(Motion.FREE, drive=Drive(target_velocity=0.3, max_force=5.0, motor=True))
@@ -208,7 +219,11 @@ def test_bodies_weigh_what_the_model_says(exported):
     arm = next(n for n in document["nodes"] if n["name"] == "Arm")["extensions"][BODIES]["motion"]
     assert cart["mass"] == 2.0 and cart["centerOfMass"] == [0.1, 0.0, -0.2]
     turn = matrix_from_quaternion(np.array(cart["inertiaOrientation"]))
-    assert np.allclose(turn @ np.diag(cart["inertiaDiagonal"]) @ turn.T, np.diag([0.01, 0.02, 0.025]))
+    assert np.allclose(turn @ np.diag(cart["inertiaDiagonal"]) @ turn.T, INERTIA)
+    here = world(document, next(i for i, n in enumerate(document["nodes"]) if n["name"] == "Arm"))[:3, :3]
+    assert np.allclose(here @ arm["linearVelocity"], VELOCITY) and np.allclose(
+        here @ arm["angularVelocity"], SPIN
+    )
     assert arm["gravityFactor"] == 0.0 and "gravityFactor" not in cart
 
 
@@ -239,6 +254,24 @@ def test_joint_frames_meet_and_limits_are_of_b_in_a(exported):
     _, slide = joints["Slide a"]
     (motor,) = described[slide["joint"]]["drives"]
     assert (motor["type"], motor["velocityTarget"], motor["maxForce"]) == ("linear", 0.3, 5.0)
+
+
+def test_bodies_that_are_fixed_beside_each_other_meet_as_they_stand(tmp_path):
+    scene = Scene(meshes=[box((1, 2, 3))])
+    poses = [Pose(rotation_exp(np.array(turn)), np.array(at)) for turn, at in (
+        ((0.3, -0.2, 0.5), (1.0, 2.0, 3.0)), ((-0.4, 0.6, 0.1), (4.0, 0.5, -1.0)),
+    )]  # fmt: skip
+    scene.nodes = [Node(name, name, pose=pose, bodies=(Body("b", 0),)) for name, pose in zip("AB", poses)]
+    meets = poses[1].inverse() @ poses[0]
+    scene.joints = [Joint("F", JointKind.FIXED, 0, 1, Pose(), meets, freedoms_of(JointKind.FIXED))]
+    kinefab.export(scene, tmp_path / "a.glb")
+    document, _ = parsed(tmp_path / "a.glb")
+    (joint,) = (
+        (i, n["extensions"][BODIES]["joint"])
+        for i, n in enumerate(document["nodes"])
+        if "joint" in n.get("extensions", {}).get(BODIES, {})
+    )
+    assert np.allclose(world(document, joint[0]), world(document, joint[1]["connectedNode"]))
 
 
 def test_shapes_lie_along_y_and_are_turned_to_their_axis(exported):

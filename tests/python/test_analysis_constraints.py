@@ -13,7 +13,7 @@ from kinefab.analysis.equations.scene_equations import equations_of
 from kinefab.analysis.freedom.rank import factored
 from kinefab.analysis.freedom.twists import twist_space
 from kinefab.diagnostics import Report
-from kinefab.model import Constraint, Feature, Node, Scene, Side
+from kinefab.model import Constraint, Feature, JointKind, Node, Scene, Side
 from kinefab.model import ConstraintKind as C
 from kinefab.model import FeatureKind as F
 from kinefab.spatial import Pose, frame_from_axes, rotation_about
@@ -260,15 +260,38 @@ def test_one_vendors_distance_of_lines_is_three_rows_and_anothers_one():
     assert rows == {"parallel": 3, "skew": 1}
 
 
+@pytest.mark.parametrize("radii", [(0.3, 0.2), (0.2, 0.3)])
 @pytest.mark.parametrize(("side", "apart"), [(Side.OUTSIDE, 0.5), (Side.INSIDE, 0.1)])
-def test_tangent_spheres_touch_from_the_stated_side(side, apart):
-    """Spheres of 0.3 and 0.2 touch outside at 0.5 and inside at 0.1."""
+def test_tangent_spheres_touch_from_the_stated_side(side, apart, radii):
+    """Spheres of 0.3 and 0.2 touch outside at 0.5 and inside at 0.1, whichever is the larger."""
     f = Pose(np.eye(3), np.array([0.1, 0.2, 0.3]))
     scene = scene_with(
-        C.TANGENT, geometry(F.SPHERE, f, 0.3), geometry(F.SPHERE, shifted(f, apart), 0.2), {"side": side}
+        C.TANGENT,
+        geometry(F.SPHERE, f, radii[0]),
+        geometry(F.SPHERE, shifted(f, apart), radii[1]),
+        {"side": side},
     )
     found = analyse(scene)
     assert found.gaps == [] and found.mobility == 5
+
+
+@pytest.mark.parametrize(("side", "height"), [(Side.OUTSIDE, 0.2), (Side.INSIDE, -0.2)])
+def test_a_sphere_touches_a_plane_on_the_stated_side(side, height):
+    """Outside is where the normal points."""
+    f = random_pose(np.random.default_rng(7))
+    there = Pose(f.rotation, f.point(np.array([0.3, -0.1, height])))
+    scene = scene_with(C.TANGENT, geometry(F.PLANE, f), geometry(F.SPHERE, there, 0.2), {"side": side})
+    system = equations_of(scene, Report()).system
+    assert np.abs(system.residual(system.start())).max() < 1e-12
+
+
+@pytest.mark.parametrize("lead", [0.01, -0.004])
+def test_a_screw_of_positive_lead_is_right_handed(lead):
+    """Turned as the right hand's fingers about the axis it goes along it, as a joint's lead says it too."""
+    f = random_pose(np.random.default_rng(8))
+    scene = scene_with(C.SCREW, geometry(F.LINE, f), geometry(F.LINE, f), {"value": lead})
+    (joint,) = analyse(scene).joints
+    assert joint.kind is JointKind.SCREW and joint.lead == pytest.approx(lead)
 
 
 def test_angle_zero_between_axes_needs_a_reference_or_a_common_axis():

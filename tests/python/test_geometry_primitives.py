@@ -50,11 +50,23 @@ def test_the_prism_of_a_cylinder_is_closed_wound_outwards_and_as_far_out_as_in()
     )
 
 
+def test_normals_of_what_is_round_are_those_of_the_round_surface():
+    """An ellipsoid's along its gradient; a cone's across the lines from its base to its tip, which is 0.45 up."""
+    mesh = SHAPES["ellipsoid"][0]
+    gradient = mesh.vertices / np.square((0.1, 0.2, 0.3))
+    assert np.allclose(mesh.normals, gradient / np.linalg.norm(gradient, axis=1)[:, None])
+    mesh = SHAPES["cone"][0]
+    side = (mesh.normals[:, 2] > 0.0) & (mesh.vertices[:, 2] < 0.0)
+    assert side.sum() > 40
+    lines = np.array([0.0, 0.0, 0.45]) - mesh.vertices[side]
+    assert np.allclose(np.einsum("ni,ni->n", lines, mesh.normals[side]), 0.0)
+
+
 def test_a_plane_faces_upwards():
     mesh = plane(2.0, 3.0)
     a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
     assert (np.cross(b - a, c - a)[:, 2] > 0.0).all()
-    assert np.ptp(mesh.vertices, axis=0) == pytest.approx((2.0, 3.0, 0.0))
+    assert np.ptp(mesh.vertices, axis=0) == pytest.approx((2.0, 3.0, 0.0))  # width, length
 
 
 def test_a_cone_stands_on_its_base():

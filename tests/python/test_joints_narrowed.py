@@ -26,7 +26,7 @@ from kinefab.model import (
     Term,
     freedoms_of,
 )
-from kinefab.spatial import Array, Pose, matrix_from_quaternion, rotation_exp
+from kinefab.spatial import Array, Pose, matrix_from_quaternion, rotation_exp, rotation_log
 
 COINCIDENT, PARALLEL = ConstraintKind.COINCIDENT, ConstraintKind.PARALLEL
 PLANE, LINE = FeatureKind.PLANE, FeatureKind.LINE
@@ -140,6 +140,11 @@ def test_a_cylindrical_joint_beside_a_screw_is_a_screw_of_its_range_and_name(swa
     assert codes(scene) == ["JOINT_CONSTRAINTS_DISAGREE"]
     screw = analyse(scene).joints[0]
     assert (screw.name, screw.kind.value, round(screw.lead, 12)) == ("Spindle", "screw", 0.004)
+    here = (scene.pose(screw.a) @ screw.frame_a).inverse() @ scene.pose(screw.b) @ screw.frame_b
+    travel = here.translation[0] - screw.lead * rotation_log(here.rotation)[0] / (2 * np.pi)
+    assert np.remainder(travel + 1e-6, screw.lead) == pytest.approx(
+        1e-6, abs=1e-9
+    )  # whole turns, nothing between
     for end, found in zip(SLID, ends_of(scene, "Spindle.tx")):
         assert same(found, displaced(end, TURN + (end - SLIDE) * 2 * np.pi / 0.004, scene))
 

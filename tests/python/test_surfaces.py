@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import zipfile
 from pathlib import Path
 
 import kinefab
@@ -398,3 +399,67 @@ def test_an_obj_s_physical_numbers_and_colours_of_vertices_are_kept(tmp_path):
     assert file.surfaces[piece.surfaces[0]].color == (1.0, 1.0, 1.0, 1.0)
     bare.write_text(bare.read_text("utf-8").replace("1 0 0 0 0.5 0", "1 0 0"), "utf-8")
     assert read_mesh_file(bare, Report(), "here").pieces[0].colors is None
+
+
+def stl(head: bytes, marks: list[int]) -> bytes:
+    shape = trimesh.creation.box((1, 1, 1))
+    body = b"".join(
+        np.float32([[0, 0, 1], *corners]).tobytes() + mark.to_bytes(2, "little")
+        for corners, mark in zip(shape.triangles, marks)
+    )
+    return head.ljust(80, b" ") + (12).to_bytes(4, "little") + body
+
+
+@pytest.mark.parametrize(
+    "head, marks, expected",
+    [
+        (
+            b"",
+            [0x8000 | 31 << 10] * 6 + [0x8000 | 31] * 6,
+            [[1, 0, 0, 1], [0, 0, 1, 1]],
+        ),  # VisCAM: red on top
+        (
+            b"COLOR=\x00\xff\x00\xff",
+            [31] * 6 + [0x8000] * 6,
+            [[1, 0, 0, 1], [0, 1, 0, 1]],
+        ),  # Magics: red below
+        (b"", [0] * 12, []),
+        (b"", [7] * 12, []),
+    ],
+)
+def test_colours_of_an_stl_are_kept(head, marks, expected, tmp_path):
+    (tmp_path / "c.stl").write_bytes(stl(head, marks))
+    surfaces = read_mesh_file(tmp_path / "c.stl", Report(), "here").surfaces
+    assert [list(surface.color) for surface in surfaces.values()] == expected
+
+
+def test_looks_of_a_collada_file_that_are_passed_over_are_told(tmp_path):
+    """Colours of vertices, transparency, pictures of what glows: trimesh would show the base colour's there."""
+    pytest.importorskip("collada", reason="pycollada is not installed")
+    path = tmp_path / "m.dae"
+    path.write_text(DAE, "utf-8")
+    assert read_mesh_file(path, report := Report(), "here") is not None and report.outcomes == []
+    text = DAE.replace("</phong>", "<transparency><float>0.3</float></transparency></phong>").replace(
+        'offset="0"/><p>0 1 2', 'offset="0"/><input semantic="COLOR" source="#p" offset="0"/><p>0 1 2'
+    )
+    path.write_text(text, "utf-8")
+    read_mesh_file(path, report, "here")
+    told = [(o.feature, o.code) for o in report.outcomes]
+    assert told == [("colors of vertices", "MESH_LOOK"), ("transparency", "MESH_LOOK")]
+
+
+@pytest.mark.parametrize("colors, told", [('displaycolor="#FF0000"', ["colors"]), ("", [])])
+def test_colours_of_a_3mf_are_told(colors, told, tmp_path):
+    for module in ("networkx", "lxml"):
+        pytest.importorskip(module, reason=f"{module} is not installed")
+    base = f'<basematerials id="5"><base name="Red" {colors}/></basematerials>' if colors else ""
+    corners = "".join(f'<vertex x="{x}" y="{y}" z="0"/>' for x, y in ((0, 0), (1, 0), (0, 1)))
+    with zipfile.ZipFile(tmp_path / "c.3mf", "w") as archive:
+        archive.writestr(
+            "3D/3dmodel.model",
+            f'<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>{base}<object id="1">'
+            f'<mesh><vertices>{corners}</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>'
+            '</resources><build><item objectid="1"/></build></model>',
+        )
+    assert read_mesh_file(tmp_path / "c.3mf", report := Report(), "here") is not None
+    assert [o.feature for o in report.outcomes] == told

@@ -14,6 +14,7 @@ from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array
 from .looks.gltf import opened
+from .looks.passed_over import colors_of_stl, tell_3mf, tell_collada
 from .looks.visuals import Look, look_of
 from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
@@ -22,6 +23,7 @@ from .references import (
     UnsafeReference,
     demand_honest_accessors,
     demand_honest_archive,
+    heads_of_3mf,
     metres_of_3mf,
 )
 
@@ -109,6 +111,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     by_node: dict[str, list[tuple[int, ...]]] = {}
     by_ancestor: dict[str, list[int]] = {}
     by_geometry: dict[str, list[tuple[int, ...]]] = {}
+    if suffix in COLLADA:
+        tell_collada(path, report, where)
     document = opened(path, resolver.get, report, where) if gltf else None
     primitives = {} if document is None else document.primitives(list(scene.geometry))
     for node in scene.graph.nodes_geometry:
@@ -118,6 +122,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
             continue
         number = len(pieces)
         if name not in own:
+            if suffix == ".stl":
+                _paint_stl(mesh, path)
             look = look_of(mesh, gltf, suffix in COLLADA)
             places = None
             if document is not None and name in primitives:
@@ -156,7 +162,10 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
             path=path.name,
             detail=detail,
         )
-    metres = metres_of_3mf(path) if path.suffix.lower() in ARCHIVES else None
+    metres = None
+    if suffix in ARCHIVES:
+        metres = metres_of_3mf(heads := heads_of_3mf(path))
+        tell_3mf(heads, path, report, where)
     return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces, metres)
 
 
@@ -188,6 +197,17 @@ def _piece(mesh: Any, look: Look, surfaces: dict[str, Surface]) -> Piece:
         faces = faces[look.order]
     names = tuple("" if s is None else noted(s, surfaces) for s in look.surfaces)
     return Piece(vertices, faces, normals, look.uv, look.face_counts, names, look.colors)
+
+
+def _paint_stl(mesh: Any, path: Path) -> None:
+    """Give a mesh the colours that its triangles have in the file."""
+    marks = mesh.face_attributes.get("stl")
+    if marks is None or not len(marks):
+        return
+    with path.open("rb") as stream:
+        colors = colors_of_stl(np.asarray(marks).reshape(-1).astype(np.int64), stream.read(80))
+    if colors is not None and len(colors) == len(mesh.faces):
+        mesh.visual.face_colors = colors
 
 
 def transformed(piece: Piece, matrix: Array) -> Piece:

@@ -123,16 +123,21 @@ def demand_honest_accessors(path: Path) -> None:
         )
 
 
-def metres_of_3mf(path: Path) -> float:
-    """Metres in the unit that a 3MF archive states; millimetres where it states none (3MF Core Specification, 3.4)."""
+def heads_of_3mf(path: Path) -> list[bytes]:
+    """How each model in a 3MF archive begins."""
+    found: list[bytes] = []
     with _opened(path) as archive:
         for entry in archive.infolist():
             if entry.filename.lower().endswith(".model"):
                 with archive.open(entry) as model:
-                    head = model.read(HEAD_BYTES)
-                if (stated := _UNIT.search(head)) is not None:
-                    return UNITS_OF_3MF.get(stated[1], MILLIMETRE)
-    return MILLIMETRE
+                    found.append(model.read(HEAD_BYTES))
+    return found
+
+
+def metres_of_3mf(heads: list[bytes]) -> float:
+    """Metres in the unit that a 3MF archive states; millimetres where it states none (3MF Core Specification, 3.4)."""
+    stated = next((found[1] for head in heads if (found := _UNIT.search(head))), b"")
+    return UNITS_OF_3MF.get(stated, MILLIMETRE)
 
 
 class FolderResolver:

@@ -91,7 +91,11 @@ def surface_of(material: Any, gltf: bool = False, screen: bool = False) -> Surfa
         red, green, blue = from_screen((red, green, blue))
     if physical:
         found = _of_pbr(name, material, (red, green, blue, alpha), gltf)
-        return replace(found, emission=from_screen(found.emission)) if screen else found
+        if not screen:
+            return found
+        if found.emission_texture is not None:  # trimesh has the base colour's there
+            found = replace(found, emission_texture=None, emission=(0.0, 0.0, 0.0))
+        return replace(found, emission=from_screen(found.emission))
     return Surface(
         name,
         (red, green, blue, alpha),

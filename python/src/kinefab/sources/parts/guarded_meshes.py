@@ -11,7 +11,13 @@ import numpy as np
 from ...diagnostics import Report
 from ...geometry.files import noted
 from ...geometry.pieces import MeshFile, Piece, placed
-from ...geometry.references import UnsafeReference, demand_honest_archive, metres_of_3mf, read_regular
+from ...geometry.references import (
+    UnsafeReference,
+    demand_honest_archive,
+    heads_of_3mf,
+    metres_of_3mf,
+    read_regular,
+)
 from ...model import MeshKey, Surface
 from ...spatial import Array, IntArray
 from ..guard import GuardedCrash, GuardedError, guarded
@@ -46,7 +52,7 @@ def read_guarded(path: Path, report: Report, where: str) -> MeshFile | None:
     module = "step.vrml" if suffix in (".wrl", ".vrml") else "parts.with_assimp"
     try:
         _check(path, suffix)
-        metres = metres_of_3mf(path) if suffix == ".3mf" else METRES.get(suffix)
+        metres = metres_of_3mf(heads_of_3mf(path)) if suffix == ".3mf" else METRES.get(suffix)
         seconds = SECONDS + SECONDS_PER_MEGABYTE * path.stat().st_size / 2**20
         file = str(path.absolute())  # the process may have been begun in another folder
         found: list[Found] = [

@@ -207,7 +207,7 @@ def _paint_stl(mesh: Any, path: Path) -> None:
     with path.open("rb") as stream:
         colors = colors_of_stl(np.asarray(marks).reshape(-1).astype(np.int64), stream.read(80))
     if colors is not None and len(colors) == len(mesh.faces):
-        mesh.visual.face_colors = colors
+        mesh.visual.face_colors = colors.astype(np.uint8)
 
 
 def transformed(piece: Piece, matrix: Array) -> Piece:

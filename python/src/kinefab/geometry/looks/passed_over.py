@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...diagnostics import Report
-from ...spatial import Array
+from ...spatial import IntArray
 
 OF_COLLADA = {
     "colors of vertices": (re.compile(rb"""semantic\s*=\s*["']COLOR["']"""), "its materials alone are shown"),
@@ -45,8 +45,8 @@ def tell_3mf(heads: Iterable[bytes], path: Path, report: Report, where: str) -> 
         report.dropped("colors", "MESH_LOOK", where, what="colors", path=path.name, detail=detail)
 
 
-def colors_of_stl(marks: Array, head: bytes) -> Array | None:
-    """Of the triangles of a binary STL, sRGB bytes RGBA, shape (m, 4); None where it states none.
+def colors_of_stl(marks: IntArray, head: bytes) -> IntArray | None:
+    """Of the triangles of a binary STL, sRGB RGBA of 0..255, shape (m, 4); None where it states none.
 
     marks: of each triangle the two bytes behind its corners, as one number.  head: the first 80 bytes.
     """
@@ -55,9 +55,9 @@ def colors_of_stl(marks: Array, head: bytes) -> Array | None:
     if not stated.any() or magics < 0 and not stated.all():
         return None
     fives = np.stack([marks >> shift & 31 for shift in ((0, 5, 10) if magics >= 0 else (10, 5, 0))], axis=1)
-    found = np.column_stack([(fives * 255 + 15) // 31, np.full(len(marks), 255)]).astype(np.uint8)
+    found = np.column_stack([(fives * 255 + 15) // 31, np.full(len(marks), 255)])
     if magics >= 0 and len(whole := head[magics + len(MAGICS) :][:4]) == 4:
-        found[~stated] = np.frombuffer(whole, np.uint8)
+        found[~stated] = list(whole)
     return found
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 
 import numpy as np
 import pytest
@@ -62,6 +63,18 @@ BOUND = (
     + 'def GeomSubset "S" (prepend apiSchemas = ["MaterialBindingAPI"]) {\nuniform token elementType = "face"\n'
     'uniform token familyName = "materialBind"\nint[] indices = [0]\nrel material:binding = </Looks/Plain>\n}\n}\n'
 )  # fmt: skip
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("what", ["device", "pipe"])
+def test_an_image_that_never_ends_is_not_waited_for(tmp_path, what):
+    if what == "pipe":
+        os.mkfifo(tmp_path / "paint.png")
+    else:
+        (tmp_path / "paint.png").symlink_to("/dev/zero")
+    _, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + MATERIAL, up="Y"))
+    (found,) = [d for d in report.diagnostics if d.code == "USD_TEXTURE_MISSING"]
+    assert "no regular file" in found.message
 
 
 @pytest.mark.parametrize("packed", [False, True])

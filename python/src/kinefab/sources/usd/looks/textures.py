@@ -152,6 +152,8 @@ def _image(
             head = data[:8]
         else:
             data = None
+            if not Path(resolved).is_file():  # of a pipe no byte may ever come
+                return None, "it is no regular file"
             with Path(resolved).open("rb") as stream:
                 head = stream.read(8)
     except (OSError, RuntimeError) as error:

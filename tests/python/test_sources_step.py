@@ -550,7 +550,7 @@ def test_a_library_that_loads_slowly_takes_nothing_of_the_files_time(tmp_path, m
     end_idle()
 
 
-@pytest.mark.skipif(os.name == "nt", reason="timers of Unix")
+@pytest.mark.posix
 def test_what_is_busy_ends_when_nobody_asks_any_more():
     """Whoever asked may have been killed, as by a container's end; the process that reads would have gone on for ever."""
     command = [sys.executable, "-m", "kinefab.sources.guard"]

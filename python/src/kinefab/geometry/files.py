@@ -13,7 +13,8 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array
-from .looks.gltf import opened
+from .gltf_document import gltf_document
+from .looks.gltf import GltfFile
 from .looks.passed_over import colors_of_stl, tell_3mf, tell_collada
 from .looks.visuals import Look, look_of
 from .obj import ObjError, read_obj
@@ -21,7 +22,6 @@ from .pieces import MeshFile, Piece, placed
 from .references import (
     FolderResolver,
     UnsafeReference,
-    demand_honest_accessors,
     demand_honest_archive,
     heads_of_3mf,
     metres_of_3mf,
@@ -101,9 +101,10 @@ def _brief(error: Exception) -> str:
 def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     """Every placed mesh of a trimesh scene as a piece, named by its node, the nodes above and its geometry."""
     resolver = FolderResolver(path.parent)
-    scene = _trimesh_scene(path, resolver)
     suffix = path.suffix.lower()
     gltf = suffix in GLTF
+    document = GltfFile(path, gltf_document(path), resolver.get, report, where) if gltf else None
+    scene = _trimesh_scene(path, resolver)
     parents = scene.graph.transforms.parents
     pieces: list[Piece] = []
     surfaces: dict[str, Surface] = {}
@@ -113,7 +114,6 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     by_geometry: dict[str, list[tuple[int, ...]]] = {}
     if suffix in COLLADA:
         tell_collada(path, report, where)
-    document = opened(path, resolver.get, report, where) if gltf else None
     primitives = {} if document is None else document.primitives(list(scene.geometry))
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
@@ -176,8 +176,6 @@ def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
     library = cast(Any, trimesh)
     if path.suffix.lower() in ARCHIVES:
         demand_honest_archive(path)
-    if path.suffix.lower() in GLTF:
-        demand_honest_accessors(path)
     if hasattr(library, "load_scene"):
         return library.load_scene(str(path), process=False, resolver=resolver)
     return library.load(str(path), force="scene", process=False, resolver=resolver)

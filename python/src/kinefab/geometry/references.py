@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import stat
@@ -97,30 +96,6 @@ def demand_honest_archive(path: Path) -> None:
     allowed = min(MOST_BYTES, max(2**20, MOST_GROWTH * path.stat().st_size))
     if unpacked > allowed:
         raise UnsafeReference(f"it unpacks to {unpacked} bytes; at most {allowed} are read")
-
-
-GLB_HEAD = 20
-"""Bytes before the JSON of a GLB: magic, version, length, then length and type of its first chunk."""
-COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-
-
-def demand_honest_accessors(path: Path) -> None:
-    """Raises UnsafeReference for a glTF file whose accessors without a buffer, all zeros, fill more memory than they may."""
-    with open(path, "rb") as file:
-        head = file.read(GLB_HEAD)
-        binary = head[:4] == b"glTF"
-        text = file.read(int.from_bytes(head[12:16], "little")) if binary else head + file.read()
-    try:
-        accessors = json.loads(text)["accessors"]
-        zeros = sum(
-            4 * entry["count"] * COMPONENTS[entry["type"]] for entry in accessors if "bufferView" not in entry
-        )
-    except (ValueError, LookupError, TypeError, RecursionError):
-        return  # whoever reads it says what is wrong with it
-    if zeros > MOST_BYTES:
-        raise UnsafeReference(
-            f"it holds {zeros} bytes of zeros without a buffer; at most {MOST_BYTES} are read"
-        )
 
 
 def heads_of_3mf(path: Path) -> list[bytes]:

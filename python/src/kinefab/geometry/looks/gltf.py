@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 import math
 import struct
 from collections.abc import Callable, Sequence
@@ -16,9 +15,9 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
 from ...spatial import Array
+from ..gltf_document import GLB_HEAD, Json
 from .visuals import Look, linear_colors
 
-MAGIC = b"glTF"
 READ_MODES = (0, 1, 4, 5)
 """Of primitives that trimesh makes geometries of, one each: points, lines, triangles, strips."""
 WRAPS = {10497: Wrap.REPEAT, 33071: Wrap.CLAMP, 33648: Wrap.MIRROR}
@@ -37,12 +36,12 @@ GLOSSY = "KHR_materials_pbrSpecularGlossiness"
 COMPRESSED = frozenset(("KHR_draco_mesh_compression", "EXT_meshopt_compression"))
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-Json = dict[str, Any]
 
 
 @dataclass(slots=True, eq=False)
 class GltfFile:
-    """document: its JSON.  read: the bytes of a file that it names.  Its lists may hold anything; whoever asks gets a KeyError,
+    """A file that trimesh has read.  document: its JSON.  read: the bytes of a file beside it by its name.  where: the place that
+    names the file.  Its lists may hold anything; whoever asks gets a KeyError,
     IndexError, TypeError or ValueError where they do not fit together."""
 
     path: Path
@@ -167,7 +166,7 @@ class GltfFile:
         if number not in self._buffers:
             address = self.document["buffers"][number].get("uri")
             if address is None:
-                self._buffers[number] = _chunks(self.path.read_bytes())[1]
+                self._buffers[number] = _binary(self.path.read_bytes())
             elif str(address).startswith("data:"):
                 self._buffers[number] = base64.b64decode(str(address).partition(",")[2])
             else:
@@ -175,17 +174,10 @@ class GltfFile:
         return self._buffers[number]
 
 
-def opened(path: Path, read: Callable[[str], bytes], report: Report, where: str) -> GltfFile:
-    """A file that trimesh has read.  read: the bytes of a file beside it by its name.  where: the place that names the file."""
-    content = path.read_bytes()
-    text = _chunks(content)[0] if content.startswith(MAGIC) else content
-    return GltfFile(path, json.loads(text.decode("utf-8-sig")), read, report, where)
-
-
-def _chunks(content: bytes) -> tuple[bytes, bytes]:
-    """JSON and binary of a GLB."""
+def _binary(content: bytes) -> bytes:
+    """The second chunk of a GLB, behind its JSON."""
     (size,) = struct.unpack_from("<I", content, 12)
-    return content[20 : 20 + size], content[28 + size :]
+    return content[GLB_HEAD + size + 8 :]
 
 
 def _placing(info: Json) -> Json:

@@ -312,6 +312,27 @@ def test_coupling_of_a_hinge_and_a_slider(tmp_path, sizes, ratio):
 
 
 @pytest.mark.parametrize(
+    "sizes",
+    [
+        {"kind": "rack", "radius": 20.0},
+        {"kind": "screw", "pitch": 40.0 * math.pi},
+        {"kind": "linear", "ratio": 2.0},
+    ],
+)
+def test_coupling_of_a_slider_that_leads_a_hinge(tmp_path, sizes):
+    """20 mm of travel turn the pinion by a radian; 1 mm by 2 degrees."""
+    hinge = {"id": "H", "type": "revolute", "a": "ground", "b": "A", "frameA": frame((0, 0, 0), (0, 1, 0))}
+    slide = {"id": "S", "type": "slider", "a": "ground", "b": "B", "frameA": frame((0, 0, 0), (1, 0, 0))}
+    coupling = {"id": "C", "a": {"joint": "S", "dof": "tz"}, "b": {"joint": "H", "dof": "rz"}, **sizes}
+    values = bundle(
+        part("A"), part("B"), joints=[hinge, slide], couplings=[coupling], length="mm", angle="deg"
+    )
+    scene, _ = read(values, tmp_path)
+    expected = 50.0 if "ratio" not in sizes else 2.0 * math.pi / 180.0 / 0.001
+    assert scene.couplings[0].terms[0].ratio == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
     "word, meant",
     [
         ("prismatic", "slider"),

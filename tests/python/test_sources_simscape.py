@@ -197,7 +197,12 @@ def test_joints_by_type(tmp_path, tag, kind):
 def test_a_joint_to_the_assembly_itself_is_one_to_the_ground(tmp_path):
     text = f'<Revolute name="j">{frame("BaseFrame", "a", "0 0 0")}{frame("FollowerFrame", "", "2 0 0")}</Revolute>'
     scene, _ = read(document(tmp_path, joints=text))
-    assert (scene.joints[0].a, scene.joints[0].b) == (None, 2)
+    (joint,) = scene.joints
+    assert (joint.a, joint.b) == (None, 2)
+    at = joint.frame_a.translation
+    assert np.allclose(at, (scene.pose(2) @ joint.frame_b).translation) and np.linalg.norm(
+        at
+    ) == pytest.approx(2.0)
 
 
 def test_what_cannot_be_kept_is_told_by_name(tmp_path):

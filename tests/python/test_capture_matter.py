@@ -17,9 +17,12 @@ from cad.onshape import boxes, masses, of_each_part
 from cad.solidworks import SolidWorks
 from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
 from kinefab.capture.draft import BodyMesh, Draft
+from kinefab.capture.inventor.joints import mirrored
 from kinefab.capture.looks import look
-from kinefab.capture.masses import mass_record, mesh_tensor
+from kinefab.capture.masses import mass_record, mesh_tensor, together
 from kinefab.diagnostics import Report
+from kinefab.geometry.mass import combined
+from kinefab.model import MassProperties
 from test_capture_kinds import TURN
 
 PROGRAMS = ("inventor", "solidworks", "fusion", "onshape")
@@ -231,3 +234,28 @@ def test_parts_that_are_called_alike_are_two(program, tmp_path):
     assert [c["definition"] for c in made] == ["Part1", "Part1 (2)", "Part1"]
     assert [c["mass"]["mass"] for c in made] == [2.5, 4.0, 2.5]
     assert made[0]["file"] == made[2]["file"] != made[1]["file"]
+
+
+def test_bodies_weighed_each_are_one_by_the_parallel_axis_theorem():
+    """As the package's own, which shares no code with what runs inside a program."""
+    listed = [
+        (2.0, [0.3, -0.1, 0.5], [0.3, 0.4, 0.5, 0.01, -0.02, 0.03]),
+        (5.0, [-0.2, 0.7, 0.1], [0.6, 0.5, 0.7, -0.03, 0.01, 0.02]),
+    ]
+    tensor = lambda t: np.array([[t[0], t[3], t[5]], [t[3], t[1], t[4]], [t[5], t[4], t[2]]])  # noqa: E731
+    records = [
+        {"mass": m, "center": c, "inertia": t, "extras": {"reading": "as listed"}} for m, c, t in listed
+    ]
+    found = together(records)
+    wanted = combined([MassProperties(m, np.array(c), tensor(t)) for m, c, t in listed])
+    assert found["mass"] == wanted.mass and np.allclose(found["center"], wanted.center)
+    assert np.allclose(tensor(found["inertia"]), wanted.inertia)
+
+
+def test_a_joint_seen_from_its_other_side_counts_the_other_way():
+    dof = {"name": "rz", "value": 0.3, "min": -0.2, "max": 1.4, "minEnabled": True, "maxEnabled": True}
+    seen = mirrored(
+        {"id": "j", "a": "A", "b": "ground", "frameA": {"o": 1}, "frameB": {"o": 2}, "dof": [dof]}
+    )
+    assert (seen["a"], seen["b"], seen["frameA"]["o"], seen["frameB"]["o"]) == ("ground", "A", 2, 1)
+    assert seen["dof"] == [dof | {"value": -0.3, "min": -1.4, "max": 0.2}]

@@ -13,8 +13,8 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import MeshKey, Surface
 from ..spatial import Array
-from .gltf_document import gltf_document
 from .looks.gltf import GltfFile
+from .looks.gltf_document import gltf_document
 from .looks.passed_over import colors_of_stl, tell_3mf, tell_collada
 from .looks.visuals import Look, look_of
 from .obj import ObjError, read_obj

@@ -15,7 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
 from ...spatial import Array
-from ..gltf_document import GLB_HEAD, Json
+from .gltf_document import GLB_HEAD, Json
 from .visuals import Look, linear_colors
 
 READ_MODES = (0, 1, 4, 5)

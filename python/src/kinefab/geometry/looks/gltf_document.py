@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
 
-from .references import MOST_BYTES, UnsafeReference
+from ..references import MOST_BYTES, UnsafeReference
 
 MAGIC = b"glTF"
 GLB_HEAD = 20

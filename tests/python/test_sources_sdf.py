@@ -691,3 +691,24 @@ def test_no_mutation_of_a_file_is_a_traceback(tmp_path, fuzz_count):
             refused += 1
             assert error.diagnostics
     assert 0 < refused < fuzz_count
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_an_include_by_a_models_name_alone_finds_the_model(tmp_path, given):
+    """As PX4's variants of the x500 name it; the name alone is no file beside them."""
+    models = tmp_path / "models"
+    for name, inner in (
+        ("base", "<link name='b'/>"),
+        ("more", "<include merge='true'><uri>base</uri></include>"),
+    ):
+        (models / name).mkdir(parents=True)
+        text = f"<sdf version='1.9'><model name='{name}'>{inner}</model></sdf>"
+        (models / name / "model.sdf").write_text(text, encoding="utf-8")
+    path, options = models / "more" / "model.sdf", {}
+    if given:
+        path = tmp_path / "alone" / "model.sdf"
+        path.parent.mkdir()
+        (models / "more" / "model.sdf").rename(path)
+        options = {"package_path": [str(models)]}
+    scene = read(path, report := Report(), options=options)
+    assert [node.name for node in scene.nodes] == ["more", "b"] and not report.diagnostics

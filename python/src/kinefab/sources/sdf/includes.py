@@ -142,7 +142,9 @@ def _root(path: Path, report: Report) -> Element | None:
 
 
 def _model_file(uri: str, packages: Packages) -> Path | None:
-    """The SDF file of a model's or a relative name, which may be that of a folder with a ``model.config``."""
+    """The SDF file of a model's or a relative name, which may be that of a folder with a ``model.config``.  A name without
+    ``model://`` is looked for beside the file, then among the models, as Gazebo does.
+    """
     if (direct := packages.find(uri).path) is not None:
         return direct
     named = packages.named(uri)
@@ -150,7 +152,7 @@ def _model_file(uri: str, packages: Packages) -> Path | None:
         folder = named[0]
     else:
         files = (packages.find(f"{uri.rstrip('/')}/{name}").path for name in ("model.config", "model.sdf"))
-        folder = next((file.parent for file in files if file is not None), None)
+        folder = next((file.parent for file in files if file is not None), None) or packages.package(uri)
     if folder is None:
         return None
     return configured(folder)

@@ -174,3 +174,17 @@ def test_lines_are_not_cut_into_pieces(tmp_path, monkeypatch):
     scene = replace(machine(wires), nodes=[Node("Bad", "Bad", bodies=(Body("b", 0),))])
     result = kinefab.export(scene, tmp_path / "a.kinefab", options)
     assert "COLLIDER_HOLLOW_AS_HULL" in [d.code for d in result.report.diagnostics]
+
+
+def test_what_trimesh_logs_of_a_texture_does_not_reach_the_user(tmp_path):
+    """Its traceback of a bump map outside the folder; the loss is a finding."""
+    import subprocess
+    import sys
+
+    ask = "import logging, kinefab.geometry.files as f, pathlib, sys\n"
+    ask += "f._trimesh_scene(pathlib.Path(sys.argv[1]), None)\nlogging.getLogger('trimesh').error('heard')"
+    (tmp_path / "a.stl").write_text(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
+    )
+    run = subprocess.run([sys.executable, "-c", ask, str(tmp_path / "a.stl")], capture_output=True, text=True)
+    assert run.returncode == 0 and "heard" not in run.stderr, run.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import replace
 from importlib.util import find_spec
@@ -169,9 +170,15 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
     return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces, metres)
 
 
+_UNHEARD = logging.NullHandler()
+
+
 def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
     """The file as trimesh reads it; its classes state no types."""
     import trimesh
+
+    # What it could not load is a finding of ours; without a handler its tracebacks would go to stderr.
+    logging.getLogger("trimesh").addHandler(_UNHEARD)
 
     library = cast(Any, trimesh)
     if path.suffix.lower() in ARCHIVES:

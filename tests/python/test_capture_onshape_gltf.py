@@ -18,7 +18,7 @@ from cad.gltf import exported
 from cad.onshape import answers, boxed, masses, of_each_part, stl, weighed
 from cad.tetrahedron import FACES, POINTS
 from kinefab.capture.draft import WRONG_ANSWER
-from kinefab.capture.looks import linear
+from kinefab.capture.looks import linear_rgba
 from kinefab.capture.onshape.answers import Answers, Rest
 from kinefab.capture.onshape.gltf import read_gltf
 from kinefab.capture.run import drafted
@@ -194,7 +194,7 @@ def test_colours_as_screens_have_them_are_seen_as_such(tmp_path):
     assert "CAPTURE_COLORS_READ" in {d.code for d in report.diagnostics}
     _, materials = shown(found.path, tmp_path)
     assert [m["color"] for m in materials] == [
-        pytest.approx(LINEAR, abs=1e-5), pytest.approx(linear([0.5, 0.5, 0.5, 1.0]), abs=1e-5)
+        pytest.approx(LINEAR, abs=1e-5), pytest.approx(linear_rgba([0.5, 0.5, 0.5, 1.0]), abs=1e-5)
     ]  # fmt: skip
 
 

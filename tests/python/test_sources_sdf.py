@@ -13,12 +13,12 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.color import linear
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.geometry import primitives
 from kinefab.geometry.mass import solid_properties
 from kinefab.model import RX, RZ, ColliderKind, JointKind
 from kinefab.sources import read
-from kinefab.sources.reading.color import linear
 from kinefab.sources.robots.robot_frame import TURN as TO_SCENE
 from kinefab.sources.robots.robot_frame import rotation_rpy
 from scene_kinematics import SceneKinematics, about, difference, unity_inertia, unity_point, unity_pose

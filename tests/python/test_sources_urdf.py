@@ -11,10 +11,10 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.color import linear
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, JointKind
 from kinefab.sources import read
-from kinefab.sources.reading.color import linear
 from kinefab.sources.robots.packages import Packages
 from kinefab.sources.robots.robot_frame import rotation_rpy
 from kinefab.sources.robots.shapes import Shape, Shapes

@@ -5,6 +5,7 @@ Standard library only: it also runs in a CAD program's own Python.
 
 from __future__ import annotations
 
+from ..color import linear
 from .draft import Draft, Numbers, Record
 
 
@@ -16,7 +17,7 @@ def look(draft: Draft, material: str, color: Numbers | None, part: str) -> str |
     """
     if not material and color is None:
         return None
-    return listed(draft, material, {} if color is None else {"color": linear(color)}, part)
+    return listed(draft, material, {} if color is None else {"color": linear_rgba(color)}, part)
 
 
 def listed(draft: Draft, material: str, wanted: Record, part: str) -> str:
@@ -37,15 +38,7 @@ def painted(draft: Draft, name: str, count: int) -> None:
         )
 
 
-def linear(color: Numbers) -> list[float]:
-    """Of screens' red green blue (sRGB) and opacity a bundle's, IEC 61966-2-1."""
-    return [*(_linear(v) for v in color[:3]), _share(color[3])]
-
-
-def _share(value: float) -> float:
-    return min(1.0, max(0.0, float(value)))
-
-
-def _linear(value: float) -> float:
-    v = _share(value)
-    return v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4
+def linear_rgba(color: Numbers) -> list[float]:
+    """Of screens' red green blue (sRGB) and opacity, 0 to 1, a bundle's."""
+    red, green, blue, opacity = (min(1.0, max(0.0, float(value))) for value in color)
+    return [linear(red), linear(green), linear(blue), opacity]

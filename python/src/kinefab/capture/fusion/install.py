@@ -11,6 +11,7 @@ from ...diagnostics import schema_directory
 NAME = "KinefabCapture"
 PACKAGE = Path(__file__).parents[2]
 MODULES = (
+    "color.py",
     "diagnostics.py",
     "capture/__init__.py",
     "capture/channel.py",

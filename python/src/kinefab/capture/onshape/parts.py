@@ -14,7 +14,7 @@ import numpy as np
 
 from ...spatial import Array
 from ..draft import WRONG_ANSWER, BodyMesh, Draft, Numbers, Record
-from ..looks import linear, listed, look
+from ..looks import linear_rgba, listed, look
 from ..masses import mass_record
 from .answers import Answers, box_question, gltf_question, look_question, mass_question, stl_question
 from .gltf import Paint, Shape, read_gltf
@@ -158,7 +158,7 @@ class Parts:
         self, part: Part, paint: Paint | None, material: str, color: Numbers | None, screens: bool
     ) -> str | None:
         """The material of some faces: the part's own, in the list's exact numbers, where they have its colour."""
-        known: list[float] | None = None if color is None else linear(color)
+        known: list[float] | None = None if color is None else linear_rgba(color)
         if paint is not None and (known is None or not _alike(_counted(paint, screens), known)):
             known = _counted(paint, screens)
         wanted: Record = {} if known is None else {"color": known}
@@ -230,7 +230,7 @@ def _as_screens_show(parts: list[Part]) -> bool:
             continue
         stated = [paint for _, paint in part.shape.runs if paint is not None]
         as_glTF, as_screens = (
-            any(_alike(_counted(paint, screens), linear(color)) for paint in stated)
+            any(_alike(_counted(paint, screens), linear_rgba(color)) for paint in stated)
             for screens in (False, True)
         )
         votes += int(as_screens) - int(as_glTF)
@@ -239,7 +239,7 @@ def _as_screens_show(parts: list[Part]) -> bool:
 
 def _counted(paint: Paint, screens: bool) -> list[float]:
     """A paint's colour as a bundle counts it.  screens: the file has it as screens do."""
-    return linear(paint.color) if screens else [min(1.0, max(0.0, v)) for v in paint.color]
+    return linear_rgba(paint.color) if screens else [min(1.0, max(0.0, v)) for v in paint.color]
 
 
 def _alike(one: Numbers, two: Numbers) -> bool:

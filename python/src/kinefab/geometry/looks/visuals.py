@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...color import linear
 from ...model import AlphaMode, Surface, Texture
 from ...spatial import Array, IntArray
 
@@ -66,10 +67,10 @@ def look_of(mesh: Any, gltf: bool = False, screen: bool = False) -> Look:
     colors: Any = attributes.get("color") if hasattr(attributes, "get") else None
     fits = uv is not None and np.shape(uv) == (len(mesh.vertices), 2)
     surface = None if material is None else surface_of(material, gltf, screen)
-    linear = None
+    of_vertices = None
     if colors is not None and len(colors) == len(mesh.vertices):
-        linear = linear_colors(np.asarray(colors), gltf)
-    return Look(None, (count,), (surface,), np.asarray(uv, dtype=np.float64) if fits else None, linear)
+        of_vertices = linear_colors(np.asarray(colors), gltf)
+    return Look(None, (count,), (surface,), np.asarray(uv, dtype=np.float64) if fits else None, of_vertices)
 
 
 def surface_of(material: Any, gltf: bool = False, screen: bool = False) -> Surface | None:
@@ -218,19 +219,19 @@ def _hex(color: Array) -> str:
 
 
 def from_screen(color: tuple[float, float, float]) -> tuple[float, float, float]:
-    """Red, green and blue as Phong's materials have them, sRGB, as linear ones (IEC 61966-2-1): programs that show such files
+    """Red, green and blue as Phong's materials have them, sRGB, as linear ones: programs that show such files
     show the numbers as they stand.  May exceed 1, as emission does."""
-    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
+    red, green, blue = map(linear, color)
     return red, green, blue
 
 
-def linear_colors(colors: Array, linear: bool) -> Array:
-    """Bytes, shape (n, 3 or 4), as linear RGBA, shape (n, 4).  linear: they are already; else sRGB (IEC 61966-2-1)."""
+def linear_colors(colors: Array, stated_linear: bool) -> Array:
+    """Bytes, shape (n, 3 or 4), as linear RGBA, shape (n, 4).  stated_linear: they are already; else sRGB."""
     values = np.asarray(colors, dtype=np.float64)
     values = np.clip(values / 255.0 if np.asarray(colors).dtype.kind in "ui" else values, 0.0, 1.0)
     if values.shape[1] == 3:
         values = np.column_stack([values, np.ones(len(values))])
-    if not linear:
-        rgb = values[:, :3]
+    if not stated_linear:
+        rgb = values[:, :3]  # as ``linear`` has it, all at once
         values[:, :3] = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     return values

@@ -11,9 +11,9 @@ import struct
 from collections.abc import Callable
 from xml.etree.ElementTree import Element
 
+from ...color import linear
 from ...diagnostics import KinefabError, Report
 from ...model import AlphaMode, Scene, Surface
-from ..reading.color import linear
 from ..reading.record import shown
 from ..reading.xml_text import parse_xml
 from .archive import ArchiveError

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...color import linear
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture
 from ...spatial import IntArray
-from ..reading.color import linear
 from .engine import Compiled
 
 UNCOLOURED = (0.5, 0.5, 0.5, 1.0)

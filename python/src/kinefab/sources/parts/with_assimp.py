@@ -13,7 +13,7 @@ from typing import Any
 import assimp_py
 import numpy as np
 
-from ..reading.color import linear
+from ...color import linear
 
 MOST_LEVELS = 200
 TRIANGLES = 3

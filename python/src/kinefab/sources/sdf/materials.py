@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
+from ...color import linear
 from ...model import AlphaMode, PhysicsMaterial, Surface, Texture
-from ..reading.color import linear
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element
 

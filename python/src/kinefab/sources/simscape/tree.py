@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ...color import linear
 from ...diagnostics import Report
 from ...spatial import Array, Pose
-from ..reading.color import linear
 from ..reading.record import is_encodable
 from ..robots.xml_elements import Element
 

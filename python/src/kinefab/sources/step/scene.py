@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...color import encoded
 from ...diagnostics import Report
 from ...model import Body, Face, Node, NodeKind, Scene, Surface
 from ...spatial import Array
@@ -173,8 +174,7 @@ DEFAULT_COLOR: Color = Surface("").color
 
 def _color_name(color: Color) -> str:
     """The colour as people write it: sRGB, in hexadecimals."""
-    encoded = [12.92 * c if c <= 0.0031308 else 1.055 * c ** (1.0 / 2.4) - 0.055 for c in color[:3]]
-    levels = [round(255.0 * min(max(c, 0.0), 1.0)) for c in (*encoded, color[3])]
+    levels = [round(255.0 * min(max(c, 0.0), 1.0)) for c in (*map(encoded, color[:3]), color[3])]
     return "#" + "".join(f"{level:02X}" for level in (levels if levels[3] < 255 else levels[:3]))
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
+from ...color import linear
 from ...diagnostics import Report
 from ...model import Surface, Texture
-from ..reading.color import linear
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ....color import encoded
 from ....model import AlphaMode
 from ....unity.scene import Color, Material, Vector2
 from ..text.dialects import Dialect, Pipeline
@@ -297,10 +298,6 @@ def _hdrp(material: Material, maps: Maps) -> _Sheet:
 
 
 def srgb(color: Color) -> Color:
-    """A linear colour as the inspector shows it (IEC 61966-2-1); alpha as it is."""
-
-    def encoded(x: float) -> float:
-        return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
-
+    """A linear colour as the inspector shows it; alpha as it is."""
     r, g, b, a = color
     return (encoded(max(r, 0.0)), encoded(max(g, 0.0)), encoded(max(b, 0.0)), a)

@@ -127,3 +127,20 @@ def test_the_tests_run_on_every_core_where_xdist_is_there(monkeypatch, cores, fo
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: range(cores), raising=False)
     monkeypatch.setitem(run.__globals__, "find_spec", lambda name: object() if found else None)
     assert run() == ([*options, "--dist", "loadfile"] if options else [])
+
+
+def test_what_is_missing_is_one_skip_however_many_tests_want_it(tmp_path):
+    outcomes = [
+        "<skipped message='no tool'/>",
+        "",
+        "<skipped message='no tool'/>",
+        "<failure/>",
+        "<skipped message='no disk'/>",
+    ]
+    cases = (f"<testcase classname='t' name='{i}'>{inner}</testcase>" for i, inner in enumerate(outcomes))
+    (tmp_path / "junit.xml").write_text(f"<testsuites><testsuite>{''.join(cases)}</testsuite></testsuites>")
+    run = runpy.run_path(str(ROOT / "tests" / "run.py"))
+    counts = run["Counts"]()
+    run["count"](counts, tmp_path / "junit.xml")
+    assert (counts.passed, counts.failed) == (1, ["t.3"])
+    assert counts.skipped == ["no tool: t.0 and 1 more", "no disk: t.4"]

@@ -288,7 +288,7 @@ def test_a_slerp_drive_turns_to_its_target(tmp_path, on_b):
     joint = component(content, "Ball", "ConfigurableJoint")
     assert joint["rotationDriveMode"] == "Slerp" and joint["slerpDrive"]["positionSpring"] == 400
     if (tool := shutil.which("dotnet-kinefab")) is None:
-        pytest.skip("the C# tool dotnet-kinefab is not on the PATH")
+        pytest.skip("dotnet-kinefab is not on the PATH")
     out = tmp_path / "motion.json"
     command = [
         tool,

@@ -363,7 +363,7 @@ def hinge_on_ground(path, part):
 
 
 @pytest.mark.skipif(
-    TOOL is None, reason="no dotnet-kinefab on the PATH: motions are not held against the C# sweep"
+    TOOL is None, reason="dotnet-kinefab is not on the PATH"
 )
 def test_motion_is_that_of_the_c_sharp_sweep(tmp_path):
     """The exported scene, swept by the other program from its own joints: every body within 1e-9."""

@@ -362,9 +362,7 @@ def hinge_on_ground(path, part):
     return f"{part}[{next(i for i in hinges if components[i].get('connectedBody') == ground)}]"
 
 
-@pytest.mark.skipif(
-    TOOL is None, reason="dotnet-kinefab is not on the PATH"
-)
+@pytest.mark.skipif(TOOL is None, reason="dotnet-kinefab is not on the PATH")
 def test_motion_is_that_of_the_c_sharp_sweep(tmp_path):
     """The exported scene, swept by the other program from its own joints: every body within 1e-9."""
     sources = [

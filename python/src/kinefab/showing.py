@@ -155,15 +155,11 @@ def page_of(
     shown = description(document, buffers, motion_of(back, mechanism), title, blob)
     if mates is not None:
         shown["mates"] = mates
-    words = (
-        report_words(
-            shown,
-            [stroke_of(mechanism, c.name, span_of(document)) for c in mechanism.freedoms[:MOST_STROKES]],
-        )
-        if told
-        else ""
-    )
-    return page(shown, blob, words)
+    if not told:
+        return page(shown, blob, "")
+    span = span_of(document)
+    strokes = [stroke_of(mechanism, freedom.name, span) for freedom in mechanism.freedoms[:MOST_STROKES]]
+    return page(shown, blob, report_words(shown, strokes))
 
 
 def stroke_of(mechanism: Mechanism, name: str, span: float) -> Stroke:

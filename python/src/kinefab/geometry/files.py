@@ -125,14 +125,11 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
         if name not in own:
             if suffix == ".stl":
                 _paint_stl(mesh, path)
-            look = look_of(mesh, gltf, suffix in COLLADA)
-            places = None
+            look, vertices = look_of(mesh, gltf, suffix in COLLADA), None
             if document is not None and name in primitives:
                 look = document.completed(look, primitives[name])
-                places = document.places(primitives[name])
-            own[name] = _piece(mesh, look, surfaces)
-            if places is not None:
-                own[name] = replace(own[name], vertices=places)
+                vertices = document.places(primitives[name])
+            own[name] = _piece(mesh, look, surfaces, vertices)
         placed = np.asarray(transform)
         pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
         by_node.setdefault(str(node), []).append((number,))
@@ -188,9 +185,10 @@ def _trimesh_scene(path: Path, resolver: FolderResolver) -> Any:
     return library.load(str(path), force="scene", process=False, resolver=resolver)
 
 
-def _piece(mesh: Any, look: Look, surfaces: dict[str, Surface]) -> Piece:
-    """One trimesh mesh in its own frame, its surfaces noted."""
-    vertices = np.asarray(mesh.vertices, dtype=np.float64)
+def _piece(mesh: Any, look: Look, surfaces: dict[str, Surface], vertices: Array | None) -> Piece:
+    """One trimesh mesh in its own frame, its surfaces noted.  vertices: instead of those that trimesh has, shape (n, 3)."""
+    if vertices is None:
+        vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces, dtype=np.int64)
     # Normals from the file lie in trimesh's cache; asking for them outright would compute missing ones, and
     # asking the cache itself would hash the whole mesh.

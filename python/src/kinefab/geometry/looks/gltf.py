@@ -15,7 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
 from ...spatial import Array
-from .gltf_document import GLB_HEAD, Json
+from .gltf_document import COMPONENTS, COMPRESSIONS, GLB_HEAD, Json
 from .visuals import Look, linear_colors
 
 READ_MODES = (0, 1, 4, 5)
@@ -33,16 +33,16 @@ SLOTS = {
 STRENGTHS = {"normalTexture": "scale", "occlusionTexture": "strength"}
 TRANSFORM, STRENGTH = "KHR_texture_transform", "KHR_materials_emissive_strength"
 GLOSSY = "KHR_materials_pbrSpecularGlossiness"
-COMPRESSED = frozenset(("KHR_draco_mesh_compression", "EXT_meshopt_compression"))
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 @dataclass(slots=True, eq=False)
 class GltfFile:
-    """A file that trimesh has read.  document: its JSON.  read: the bytes of a file beside it by its name.  where: the place that
-    names the file.  Its lists may hold anything; whoever asks gets a KeyError,
-    IndexError, TypeError or ValueError where they do not fit together."""
+    """A file that trimesh has read.
+
+    document: its JSON, whose lists may hold anything; whoever asks gets a KeyError, IndexError, TypeError or ValueError where
+    they do not fit together.  read: the bytes of a file beside it by its name.  where: the place that names the file.
+    """
 
     path: Path
     document: Json
@@ -146,14 +146,14 @@ class GltfFile:
         """An attribute of a primitive, one row a vertex, whole numbers that stand for shares as these; None where it has none,
         or where they are not plainly in the file (sparse, compressed)."""
         index = primitive["attributes"].get(name)
-        if index is None or not COMPRESSED.isdisjoint(primitive.get("extensions", ())):
+        if index is None or not COMPRESSIONS.keys().isdisjoint(primitive.get("extensions", ())):
             return None
         entry = self.document["accessors"][index]
         if "sparse" in entry or "bufferView" not in entry:
             return None
         view: Json = self.document["bufferViews"][entry["bufferView"]]
         kind: np.dtype[Any] = np.dtype(TYPES[entry["componentType"]])
-        width, count = WIDTHS[entry["type"]], int(entry["count"])
+        width, count = COMPONENTS[entry["type"]], int(entry["count"])
         step = view.get("byteStride") or kind.itemsize * width
         start, at = view.get("byteOffset", 0), entry.get("byteOffset", 0)
         held = self._buffer(view["buffer"])[start : start + view["byteLength"]]

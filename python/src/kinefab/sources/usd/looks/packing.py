@@ -24,9 +24,8 @@ def packed(channels: Sequence[tuple[Sampler, str] | None]) -> Texture | None:
         data = merged([None if c is None else (_bytes_of(c[0].texture), c[1]) for c in channels])
     except MemoryError:
         raise
-    except (
-        Exception
-    ):  # ImportError without Pillow, which itself raises OSError, SyntaxError, struct.error ... by the format
+    # ImportError without Pillow, which itself raises OSError, SyntaxError, struct.error ... by the format.
+    except Exception:
         return None
     name = f"{PurePosixPath(first.name).stem} packed-{hashlib.sha256(data).hexdigest()[:8]}.png"
     return replace(first, name=name, path=None, data=data, media_type="image/png")

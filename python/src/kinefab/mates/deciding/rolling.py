@@ -12,7 +12,7 @@ from ...model import FaceKind, FeatureKind
 from ...spatial import cross
 from ..shapes.features import Round, Shape
 from ..touching.contact import Contact, ContactKind, Side, axial_rows
-from ..touching.round_contacts import COAXIAL, WIDEST, meeting
+from ..touching.round_contacts import COAXIAL, WIDEST, coaxial, meeting
 from .bodies import Bodies
 
 FEWEST = 3
@@ -85,7 +85,7 @@ def join_rollers(bodies: Bodies, near: Sequence[tuple[int, int]]) -> None:
     for part, found in sorted(races.items()):
         for outer, bore in found:
             for inner, shaft in found:
-                if bore.hollow and not shaft.hollow and outer != inner and _are_coaxial(bore, shaft):
+                if bore.hollow and not shaft.hollow and outer != inner and coaxial(bore, shaft, bore.radius):
                     between[outer, inner].setdefault(part, (bore, shaft))
     for (outer, inner), rolling in sorted(between.items()):
         if len(rolling) < FEWEST or outer in rolling or inner in rolling:
@@ -116,11 +116,6 @@ def _raced(roller: Round, shape: Shape) -> Iterator[Round]:
         gap = race.radius - roller.radius - apart if race.hollow else apart - race.radius - roller.radius
         if abs(gap) <= WIDEST * roller.radius and meeting(race, roller):
             yield race
-
-
-def _are_coaxial(a: Round, b: Round) -> bool:
-    apart = float(np.linalg.norm(cross(b.point - a.point, a.direction)))
-    return apart <= COAXIAL * a.radius and float(np.linalg.norm(cross(a.direction, b.direction))) <= COAXIAL
 
 
 def _rolled(pair: tuple[int, int], bore: Round, shaft: Round) -> Contact:

@@ -139,7 +139,8 @@ def _side(r: Round, kind: FeatureKind) -> Side:
     )
 
 
-def _coaxial(a: Round, b: Round, size: float) -> bool:
+def coaxial(a: Round, b: Round, size: float) -> bool:
+    """Whether the axes of two rounds are one, to ``COAXIAL`` of a size in metres and in radians."""
     offset = b.point - a.point
     apart = float(np.linalg.norm(cross(offset, a.direction)))
     return apart <= COAXIAL * size and float(np.linalg.norm(cross(a.direction, b.direction))) <= COAXIAL
@@ -171,7 +172,7 @@ def meeting(a: Round, b: Round) -> tuple[tuple[float, float], ...]:
 def _fit(pair: _Pair, touch: float) -> Iterator[Contact]:
     a, b, shaft, bore = pair.a, pair.b, pair.shaft, pair.bore
     gap = bore.radius - shaft.radius
-    if not -TIGHTEST * bore.radius <= gap <= WIDEST * bore.radius or not _coaxial(a, b, pair.size):
+    if not -TIGHTEST * bore.radius <= gap <= WIDEST * bore.radius or not coaxial(a, b, pair.size):
         return
     spans = meeting(a, b)
     if sum(high - low for low, high in spans) < SHORTEST * bore.radius:
@@ -229,7 +230,7 @@ def _cone(pair: _Pair, touch: float) -> Iterator[Contact]:
     a, b, shaft, bore = pair.a, pair.b, pair.shaft, pair.bore
     if (
         abs(a.half_angle - b.half_angle) > 1e-4
-        or not _coaxial(a, b, pair.size)
+        or not coaxial(a, b, pair.size)
         or float(a.direction @ b.direction) < 0.0
     ):
         return

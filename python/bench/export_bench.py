@@ -1,6 +1,6 @@
 """Export of a large generated assembly against trimesh alone loading the same meshes and writing a GLB.
 
-    python python/bench/export_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500]
+    python python/bench/export_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500] [--format glb|obj]
 
 Every part stands in one mesh file in world coordinates, as CAD programs export them, so the export has to
 find out by itself which parts are copies of one definition.  Both sides run in a process of their own; the

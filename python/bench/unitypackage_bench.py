@@ -1,6 +1,6 @@
 """A large generated assembly to a ``.unitypackage`` against trimesh alone loading the same meshes and writing a GLB.
 
-    python python/bench/unitypackage_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500]
+    python python/bench/unitypackage_bench.py [--parts 10000] [--triangles 10000000] [--definitions 500] [--format glb|obj]
 
 The source is that of ``export_bench.py``, so that reading, finding copies, weighing and hulls are in both figures.  Each side runs in a
 process of its own; the ratio is of one run on one machine, of seconds of the processor.  The arrays are what trimesh holds of the loaded meshes: vertices
@@ -44,11 +44,12 @@ def main() -> None:
     parser.add_argument("--parts", type=int, default=10_000)
     parser.add_argument("--triangles", type=int, default=10_000_000)
     parser.add_argument("--definitions", type=int, default=500)
+    parser.add_argument("--format", choices=("glb", "obj"), default="glb")
     parser.add_argument("--colliders", default="auto", help="as kinefab export takes it")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        bundle, mesh, count = generate(folder, options.parts, options.triangles, options.definitions, ".glb")
+        bundle, mesh, count = generate(folder, options.parts, options.triangles, options.definitions, "." + options.format)
         print(f"{options.parts} parts, {options.definitions} definitions, {count} triangles")
         load, write, arrays = map(float, run(TRIMESH, mesh, folder / "again.glb"))
         print(f"trimesh alone: load {load:.1f} s, write GLB {write:.1f} s, together {load + write:.1f} s")

@@ -59,6 +59,28 @@ def test_init_writes_a_bundle_that_exports(tmp_path):
     assert sizes == [(0.001, 0.003, 0.002), (0.01, 0.03, 0.02)]
 
 
+def test_init_takes_unit_and_up_axis_of_gltf_from_its_definition(tmp_path):
+    """A GLB of Blender or Rhino stands as it stood there: in metres, Y up, unless the user says otherwise."""
+    box(tmp_path / "Base.glb", 0.1, 0.3, 0.2)
+    target = tmp_path / "m.bundle.json"
+    done = run("bundle", "init", tmp_path, "-o", target)
+    assert done.exit_code == 0 and "in m, Y up" in done.output
+    (mesh,) = prepared(target, ExportOptions(), Report()).meshes
+    assert np.ptp(mesh.vertices, axis=0).round(7).tolist() == [0.1, 0.3, 0.2]
+    run("bundle", "init", tmp_path, "-o", target, "--units", "dm", "--up", "z", "--force")
+    (mesh,) = prepared(target, ExportOptions(), Report()).meshes
+    assert sorted(np.ptp(mesh.vertices, axis=0).round(7).tolist()) == [0.01, 0.02, 0.03]
+    assert np.ptp(mesh.vertices, axis=0)[1].round(7) == 0.02
+
+
+def test_init_asks_for_the_up_axis_of_gltf_among_others(tmp_path):
+    box(tmp_path / "a.glb", 1, 1, 1)
+    box(tmp_path / "b.stl", 1, 1, 1)
+    done = run("bundle", "init", tmp_path, "--units", "m")
+    assert done.exit_code == 2 and "glTF is Y up" in done.output and list(tmp_path.glob("*.json")) == []
+    assert run("bundle", "init", tmp_path, "--units", "m", "--up", "Y").exit_code == 0
+
+
 def test_the_example_in_the_comment_is_a_joint(tmp_path):
     """What a person is told to copy into ``joints`` is read without remark."""
     for name, size in (("Base", 10), ("Arm", 5)):

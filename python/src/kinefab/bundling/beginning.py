@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..diagnostics import KinefabError, Report, diagnostic
-from ..geometry.files import FORMATS
+from ..geometry.files import FORMATS, GLTF
 from ..sources.parts.readers import part_readers
 from ..sources.reading.record import is_array, is_object
 
@@ -59,6 +59,12 @@ def known_suffixes() -> tuple[str, ...]:
 
 def _is_mesh(path: Path, known: tuple[str, ...]) -> bool:
     return path.suffix.lower() in known and not path.name.startswith(".") and path.is_file()
+
+
+def are_gltf(files: Sequence[Path]) -> bool | None:
+    """Whether all files are glTF, which is in metres and Y up by its definition (glTF 2.0, 3.4); None where only some are."""
+    found = {path.suffix.lower() in GLTF for path in files}
+    return found.pop() if len(found) == 1 else None
 
 
 def tell_folders(folder: Path, report: Report) -> None:

@@ -41,40 +41,54 @@ def bundle_commands() -> typer.Typer:
             None, "--output", "-o", help="NAME.bundle.json; in the folder, by its name, otherwise."
         ),
         units: Optional[str] = typer.Option(
-            None, "--units", help=f"Unit of the mesh files, asked where not stated: {', '.join(UNITS)}."
+            None,
+            "--units",
+            help=f"Unit of the mesh files, asked where not stated (glTF is in metres): {', '.join(UNITS)}.",
         ),
-        up: str = typer.Option("Z", "--up", help="Axis that is up in the meshes: X, Y or Z."),
+        up: Optional[str] = typer.Option(
+            None,
+            "--up",
+            help="Axis that is up in the meshes: X, Y or Z; by default Y in glTF, Z in all others.",
+            show_default=False,
+        ),
         force: bool = typer.Option(False, "--force", help="Overwrite a bundle that is there."),
         as_json: bool = AS_JSON,
     ) -> None:
         """Begin a bundle of a folder of meshes. It is valid and commented, to go on with by hand."""
-        from ..bundling.beginning import begin, meshes_in, tell_folders
+        from ..bundling.beginning import are_gltf, begin, meshes_in, tell_folders
 
         target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
         if not target.name.endswith(ENDING):
             raise typer.BadParameter(f"{target} does not end in {ENDING}", param_hint="--output")
-        if up.upper() not in ("X", "Y", "Z"):
+        if up is not None and up.upper() not in ("X", "Y", "Z"):
             raise typer.BadParameter(f"{up!r} is no axis: X, Y or Z", param_hint="--up")
-        if units is None and sys.stdin.isatty():
-            units = str(typer.prompt("Unit of the mesh files (mm, cm, m, in, ...)"))
-        if units not in UNITS:
-            told = "mesh files do not tell their unit; state it" if units is None else f"{units!r} is no unit"
-            raise typer.BadParameter(f"{told}: {', '.join(UNITS)}", param_hint="--units")
-        if os.path.lexists(target) and not force:
-            raise typer.BadParameter(
-                f"{target} is there already; --force overwrites it", param_hint="--output"
-            )
         report = Report()
         try:
             files = meshes_in(folder)
+            gltf = are_gltf(files)
+            if units is None and gltf:
+                units = "m"
+            if up is None and gltf is None:
+                told = "glTF is Y up and the other files do not tell; state it: X, Y or Z"
+                raise typer.BadParameter(told, param_hint="--up")
+            up = ("Y" if gltf else "Z") if up is None else up.upper()
+            if units is None and sys.stdin.isatty():
+                units = str(typer.prompt("Unit of the mesh files (mm, cm, m, in, ...)"))
+            if units not in UNITS:
+                told = "mesh files do not tell their unit; state it" if units is None else f"{units!r} is no unit"
+                raise typer.BadParameter(f"{told}: {', '.join(UNITS)}", param_hint="--units")
+            if os.path.lexists(target) and not force:
+                raise typer.BadParameter(
+                    f"{target} is there already; --force overwrites it", param_hint="--output"
+                )
             tell_folders(folder, report)
-            text = begin(files, target, units, up.upper())
+            text = begin(files, target, units, up)
         except KinefabError as error:
             typer.echo(f"{target} was not written.", err=True)
             fail(error, target, as_json, False)
         write(target, text.encode("utf-8"), as_json)
         typer.echo(
-            f"{target}: {len(files)} parts in {units}, {up.upper()} up, no joints yet. "
+            f"{target}: {len(files)} parts in {units}, {up} up, no joints yet. "
             f"Ground a part, add joints, then: kinefab bundle check {target}",
             err=True,
         )

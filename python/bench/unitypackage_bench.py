@@ -49,7 +49,9 @@ def main() -> None:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        bundle, mesh, count = generate(folder, options.parts, options.triangles, options.definitions, "." + options.format)
+        bundle, mesh, count = generate(
+            folder, options.parts, options.triangles, options.definitions, "." + options.format
+        )
         print(f"{options.parts} parts, {options.definitions} definitions, {count} triangles")
         load, write, arrays = map(float, run(TRIMESH, mesh, folder / "again.glb"))
         print(f"trimesh alone: load {load:.1f} s, write GLB {write:.1f} s, together {load + write:.1f} s")

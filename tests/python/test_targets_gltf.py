@@ -256,6 +256,51 @@ def test_joint_frames_meet_and_limits_are_of_b_in_a(exported):
     assert (motor["type"], motor["velocityTarget"], motor["maxForce"]) == ("linear", 0.3, 5.0)
 
 
+def test_the_ground_of_a_joint_is_a_kinematic_body(tmp_path):
+    """A part or the world: Babylon.js with Havok, which joins bodies alone, loaded no file whose joint began at what has no motion."""
+    scene = kinefab.Scene()
+    base, arm, door, _ = (
+        scene.add_part(name, trimesh.creation.box((1, 2, 3)), translation=at, grounded=grounded)
+        for name, at, grounded in (
+            ("Base", (0, 0, 0), True), ("Arm", (0, 3, 0), False), ("Door", (5, 0, 0), False), ("Rack", (9, 0, 0), True),
+        )
+    )  # fmt: skip
+    scene.add_hinge(base, arm, point=(0, 1.5, 0), axis=(0, 0, 1), limits=(-10, 80))
+    scene.add_hinge(None, door, point=(5, 0, 0), axis=(0, 1, 0))
+    kinefab.export(scene, tmp_path / "a.glb")
+    document, _ = parsed(tmp_path / "a.glb")
+    motions = {
+        n["name"]: n["extensions"][BODIES]["motion"].get("isKinematic", False)
+        for n in document["nodes"]
+        if "motion" in n.get("extensions", {}).get(BODIES, {})
+    }
+    world_side = next(
+        n["name"] for n in document["nodes"] if n["name"].endswith(" a") and n["name"] in motions
+    )
+    assert motions == {"Base": True, "Arm": False, "Door": False, world_side: True}
+
+
+def test_a_document_with_colliders_alone_says_that_it_has_physics(tmp_path):
+    """Without joints, materials and shapes too: readers look at the document's own extensions first."""
+    scene = kinefab.Scene()
+    scene.add_part("Stone", trimesh.creation.box((1, 2, 3)))
+    kinefab.export(scene, tmp_path / "a.glb")
+    assert parsed(tmp_path / "a.glb")[0]["extensions"] == {BODIES: {}}
+
+
+def test_a_joint_that_leaves_all_free_has_an_empty_list_of_limits(tmp_path):
+    scene = Scene([Node(n, n, mass=MassProperties(1.0, np.zeros(3), INERTIA)) for n in "AB"])
+    free = {name: Freedom(Motion.FREE) for name in ("tx", "ty", "tz", "rx", "ry", "rz")}
+    of = freedoms_of(
+        JointKind.GENERAL,
+        **free | {"rz": Freedom(Motion.FREE, drive=Drive(0.2, 0.0, 30.0, 4.0))},
+    )
+    scene.joints = [Joint("J", JointKind.GENERAL, 0, 1, Pose(), Pose(), of)]
+    kinefab.export(scene, tmp_path / "a.glb")
+    (joint,) = parsed(tmp_path / "a.glb")[0]["extensions"][BODIES]["physicsJoints"]
+    assert joint["limits"] == [] and len(joint["drives"]) == 1
+
+
 def test_bodies_that_are_fixed_beside_each_other_meet_as_they_stand(tmp_path):
     scene = Scene(meshes=[box((1, 2, 3))])
     poses = [Pose(rotation_exp(np.array(turn)), np.array(at)) for turn, at in (

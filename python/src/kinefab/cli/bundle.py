@@ -75,7 +75,11 @@ def bundle_commands() -> typer.Typer:
             if units is None and sys.stdin.isatty():
                 units = str(typer.prompt("Unit of the mesh files (mm, cm, m, in, ...)"))
             if units not in UNITS:
-                told = "mesh files do not tell their unit; state it" if units is None else f"{units!r} is no unit"
+                told = (
+                    "mesh files do not tell their unit; state it"
+                    if units is None
+                    else f"{units!r} is no unit"
+                )
                 raise typer.BadParameter(f"{told}: {', '.join(UNITS)}", param_hint="--units")
             if os.path.lexists(target) and not force:
                 raise typer.BadParameter(

@@ -73,8 +73,10 @@ class _Document:
         self._tell_rest()
         self.physics.filters = self.filters.written()
         values: dict[str, Any] = {"asset": {"version": "2.0", "generator": f"kinefab {__version__}"}}
-        extensions = self.physics.used()
-        used = sorted({*extensions, *self.looks.extensions, *self._node_extensions()})
+        of_nodes = self._node_extensions()
+        # Readers look here whether the document has physics at all, so it says so where no joint or material is listed, too.
+        extensions = {name: dict[str, Any]() for name in sorted(of_nodes)} | self.physics.used()
+        used = sorted({*extensions, *self.looks.extensions})
         lists = {
             "extensionsUsed": used,
             "extensions": extensions,
@@ -290,10 +292,22 @@ class _Document:
             a, b = (None if n is None else self.node_of[n] for n in (joint.a, joint.b))
             frame = self._node(f"{joint.name or joint.id} a", a, joint.frame_a)
             other = self._node(f"{joint.name or joint.id} b", b, joint.frame_b)
+            for own, at in ((joint.a, frame), (joint.b, other)):
+                self._stand(own, at)
             entry: dict[str, Any] = {"connectedNode": other, "joint": self.physics.joint(driven)}
             if joint.collide:
                 entry["enableCollision"] = True
             self._extend(frame, "joint", entry)
+
+    def _stand(self, own: int | None, frame: int) -> None:
+        """Make a side of a joint that is the ground a kinematic body, as Unity's Ground is: what is joined then does not collide,
+        and Babylon.js, which joins bodies alone, reads it.  frame: the side's node, by itself where it is in the world."""
+        if own is None:
+            self._extend(frame, "motion", {"isKinematic": True})
+            return
+        group = self.content.groups.group_of[own]
+        if group is not None and self.content.groups.grounded[group] and own not in self.placed.carriers:
+            self._extend(self.node_of[own], "motion", {"isKinematic": True})
 
     def _tell_rest(self) -> None:
         for setting in fields(Physics):

@@ -101,9 +101,7 @@ class PhysicsEntries:
                 self._report.dropped(feature, "TARGET_FIELD_DROPPED", joint.where, field=field, target=".glb")
         if len(self._report.outcomes) == before:
             self._report.kept(feature, joint.where)
-        entry: dict[str, Any] = {}
-        if limits:
-            entry["limits"] = limits
+        entry: dict[str, Any] = {"limits": limits}  # some readers want the list where it is empty, too
         if drives:
             entry["drives"] = drives
         self.joints.append(entry)

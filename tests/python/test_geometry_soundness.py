@@ -10,7 +10,9 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.diagnostics import Report
 from kinefab.geometry.contact import decomposition
+from kinefab.geometry.files import read_mesh_file
 from kinefab.geometry.primitives import box
 from kinefab.model import Body, Collider, ColliderKind, Mesh, Node, Scene
 from kinefab.unity.scene import BoxCollider
@@ -188,3 +190,21 @@ def test_what_trimesh_logs_of_a_texture_does_not_reach_the_user(tmp_path):
     )
     run = subprocess.run([sys.executable, "-c", ask, str(tmp_path / "a.stl")], capture_output=True, text=True)
     assert run.returncode == 0 and "heard" not in run.stderr, run.stderr
+
+
+def test_a_ply_of_unlike_polygons_says_what_to_do(tmp_path):
+    """Blender writes them unless told to triangulate; trimesh calls such a file one of unexpected length."""
+    head = "ply\nformat binary_little_endian 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+    head += "element face 2\nproperty list uchar uint vertex_indices\nend_header\n"
+    corners = np.arange(15, dtype="<f4").tobytes()
+    faces = (
+        bytes([4])
+        + np.array([0, 1, 2, 3], "<u4").tobytes()
+        + bytes([3])
+        + np.array([0, 3, 4], "<u4").tobytes()
+    )
+    (tmp_path / "part.ply").write_bytes(head.encode() + corners + faces)
+    report = Report()
+    assert read_mesh_file(tmp_path / "part.ply", report, "x") is None
+    (found,) = report.diagnostics
+    assert found.code == "GEOMETRY_UNREADABLE" and "triangulate" in found.message

@@ -91,12 +91,19 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
     return found
 
 
+_PLY_LENGTH = "PLY is unexpected length"
+"""What trimesh says of a binary file that is cut short, and of a whole one with triangles beside quadrangles."""
+
+
 def _brief(error: Exception) -> str:
     if isinstance(error, UnsafeReference):
         return str(error)
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
-    return " ".join(str(error).split())[:200] or type(error).__name__
+    said = " ".join(str(error).split())[:200]
+    if said.startswith(_PLY_LENGTH):
+        return "it is cut short, or its faces have different numbers of corners: triangulate them"
+    return said or type(error).__name__
 
 
 def _read_scene(path: Path, report: Report, where: str) -> MeshFile:

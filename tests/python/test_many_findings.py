@@ -6,7 +6,17 @@ import json
 
 import pytest
 from command_line import run
-from kinefab.diagnostics import MOST_ALIKE, KinefabError, diagnostic, listed
+from kinefab.diagnostics import (
+    MOST_ALIKE,
+    MOST_NAMES,
+    KinefabError,
+    Report,
+    chained,
+    diagnostic,
+    listed,
+    named,
+)
+from kinefab.sources import read as read_source
 from source_bundles import bundle, part, read
 
 COUNT = 3000
@@ -46,3 +56,26 @@ def test_the_command_line_prints_the_first_and_reports_all(tmp_path):
     assert len(done.stderr.splitlines()) < MOST_ALIKE + 10
     assert f"{COUNT - MOST_ALIKE} more findings are not listed" in done.stderr
     assert json.loads(report.read_text("utf-8"))["errors"] == COUNT
+
+
+def test_a_message_lists_some_names_and_how_many_more():
+    names = [f"part {i}" for i in range(MOST_NAMES + 3)]
+    assert named(names[:MOST_NAMES]) == ", ".join(names[:MOST_NAMES])
+    assert named(names) == ", ".join(names[:MOST_NAMES]) + " and 3 more"
+    assert chained(names[:MOST_NAMES], " -> ").count(" -> ") == MOST_NAMES - 1
+    assert chained(names, " -> ").split(" -> ")[5:8] == ["part 5", "(3 more)", "part 9"]
+
+
+def test_a_cycle_and_the_roots_of_a_robot_are_told_by_some_of_their_links(tmp_path):
+    """A message of a thousand names is none."""
+    links = "".join(f"<link name='link{i}'/>" for i in range(1000))
+    joint = "<joint name='j{0}' type='fixed'><parent link='link{0}'/><child link='link{1}'/></joint>"
+    for name, joints in (
+        ("cycle", "".join(joint.format(i, (i + 1) % 1000) for i in range(1000))),
+        ("roots", ""),
+    ):
+        (tmp_path / f"{name}.urdf").write_text(f"<robot name='r'>{links}{joints}</robot>", "utf-8")
+        with pytest.raises(KinefabError) as raised:
+            read_source(tmp_path / f"{name}.urdf", Report())
+        (found,) = raised.value.diagnostics
+        assert len(found.message) < 300 and ("989 more" if name == "cycle" else "988 more") in found.message

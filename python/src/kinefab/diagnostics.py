@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import lru_cache
@@ -99,6 +99,25 @@ def readable(text: str) -> bool:
 def printable(text: str) -> str:
     """The text as one line that cannot steer a terminal: an id may hold control characters."""
     return text if text.isprintable() else "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+MOST_NAMES = 12
+"""Names that a message lists."""
+
+
+def named(names: Iterable[str]) -> str:
+    """The names in a row for a message: the first ``MOST_NAMES``, and how many more there are."""
+    given = list(names)
+    more = len(given) - MOST_NAMES
+    return ", ".join(given[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
+
+
+def chained(names: Sequence[str], link: str) -> str:
+    """The names as a way from one to the next, ``link`` between them: of a long one its two ends."""
+    if len(names) > MOST_NAMES:
+        half = MOST_NAMES // 2
+        names = [*names[:half], f"({len(names) - 2 * half} more)", *names[-half:]]
+    return link.join(names)
 
 
 MOST_ALIKE = 100

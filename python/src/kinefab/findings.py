@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .diagnostics import chained
 from .model import Joint, JointKind, Scene, kind_of
-
-MOST_NAMES = 12
-"""Parts of a loop that a message lists."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +30,4 @@ class JointFinding:
 
     def loop_names(self, scene: Scene) -> str:
         """The parts of the loop that the joint closes, for a message."""
-        names = [scene.name(node) for node in self.loop]
-        if len(names) > MOST_NAMES:
-            half = MOST_NAMES // 2
-            names[half:-half] = [f"({len(names) - 2 * half} more)"]
-        return " - ".join(names)
+        return chained([scene.name(node) for node in self.loop], " - ")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..collector import collector_paused
-from ..diagnostics import Report
+from ..diagnostics import Report, named
 from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
 from ..options import Closures
@@ -188,9 +188,9 @@ def _report_whole(analysis: Analysis) -> None:
 def _report_singular(assembly: Assembly, report: Report) -> None:
     for first, finite in zip(assembly.freedoms, assembly.finite):
         if finite.mobility < first.mobility:
-            few: list[int] = first.bodies[:4].tolist()
-            nodes = sorted(n for body in few for n in assembly.nodes[body])
-            parts = ", ".join(assembly.scene.nodes[n].id for n in nodes[:4])
+            bodies: list[int] = first.bodies.tolist()
+            nodes = sorted(n for body in bodies for n in assembly.nodes[body])
+            parts = named(assembly.scene.nodes[n].id for n in nodes)
             report.add("MECHANISM_SINGULAR", parts=parts, first=first.mobility, finite=finite.mobility)
 
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from ..analysis import Analysis, NodeFreedom, analyse
-from ..diagnostics import KinefabError, Report
+from ..diagnostics import KinefabError, Report, named
 from ..model import JointKind
 from ..sources.bundle.reader import scene_from_values
 from ..sources.reading.source_frame import DIRECTIONS, FORWARD, METRES, turn_to_scene
@@ -33,7 +33,6 @@ FREEDOMS = {
 GROUND = "ground"
 ALONG = 1e-6
 """Difference of unit vectors, or of places by the size of the assembly, up to which a motion is its own image."""
-MOST_NAMES = 6
 
 
 def compare(draft: Draft) -> None:
@@ -90,7 +89,7 @@ class _Bodies:
                 first.setdefault(body, name)
             if len(first) > 1:
                 self.draft.report.add(
-                    "CAPTURE_GROUP_SPLIT", program=self.draft.program, count=len(first), names=_listed(first.values())
+                    "CAPTURE_GROUP_SPLIT", program=self.draft.program, count=len(first), names=named(first.values())
                 )  # fmt: skip
 
     def _joined(self, groups: dict[int, list[tuple[str, int]]]) -> None:
@@ -100,7 +99,7 @@ class _Bodies:
                 by_body.setdefault(body, {}).setdefault(key, name)
         for body in sorted(by_body):
             if len(by_body[body]) > 1:
-                names = _listed(by_body[body].values())
+                names = named(by_body[body].values())
                 self.draft.report.add(
                     "CAPTURE_GROUP_JOINED", program=self.draft.program, count=len(by_body[body]), names=names
                 )
@@ -145,12 +144,6 @@ class _Bodies:
 def _more(own: JointKind, stated: list[JointKind]) -> bool:
     """Whether a joint leaves more than one of those that hold the same two groups together would."""
     return own in FREEDOMS and FREEDOMS[own] > min(FREEDOMS[kind] for kind in stated)
-
-
-def _listed(names: object) -> str:
-    listed = list(cast("list[str]", names))
-    more = len(listed) - MOST_NAMES
-    return ", ".join(listed[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 def _copies(draft: Draft, found: Analysis, numbers: dict[str, int], pattern: Pattern) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..diagnostics import Report
+from ..diagnostics import Report, named
 from ..model import Constraint, Feature, Scene
 from .mate import AUTO, Mate, Mates, MateSide
 
@@ -38,9 +38,7 @@ def with_found(scene: Scene, found: Mates, report: Report, threshold: float = AU
 def grounded(scene: Scene, ground: int | None, loose: Sequence[int], report: Report, reason: str) -> Scene:
     """The scene with that node on the ground; nodes that nothing holds are told."""
     if loose:
-        names = ", ".join(scene.nodes[i].id for i in loose[:8]) + (
-            f" and {len(loose) - 8} more" if len(loose) > 8 else ""
-        )
+        names = named(scene.nodes[i].id for i in loose)
         report.add("MATE_NONE", scene.source.uri, count=len(loose), names=names)
     if ground is None or any(node.grounded for node in scene.nodes):
         return scene

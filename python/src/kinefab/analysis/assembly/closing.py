@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...model import Constraint, ConstraintKind, Joint, Sense
 from ...spatial import Array, IntArray
 from ..equations.atoms import Atom
@@ -19,7 +19,6 @@ TIGHT = 1e-12
 """Scaled residual below which a pose is taken as it is."""
 ABSORBED = 1e-4
 """Scaled residual (fraction of the length, radians) that counts as rounding of the export."""
-MOST_NAMES = 12
 NUDGES, NUDGE = 3, 0.01
 """How often a part that does not close is tried again, and from how far beside its pose: radians, fractions of the length."""
 
@@ -209,9 +208,7 @@ def _held_fast(system: System, equations: Equations, report: Report) -> list[str
     fast = ~system.joining() & (residual > ABSORBED)
     names = equations.names(system.owner[fast])
     if names:
-        report.add(
-            "CONSTRAINTS_CONTRADICT", names=", ".join(names[:MOST_NAMES]), gap=f"{residual[fast].max():.3g}"
-        )
+        report.add("CONSTRAINTS_CONTRADICT", names=named(names), gap=f"{residual[fast].max():.3g}")
     return names
 
 
@@ -227,8 +224,5 @@ def _contradiction(
         np.abs(residual) > 0.01 * np.abs(residual[solver.row_part == part]).max()
     )
     names = equations.names(system.owner[mine])
-    shown = ", ".join(names[:MOST_NAMES]) + (
-        f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    )
-    report.add("CONSTRAINTS_CONTRADICT", names=shown, gap=f"{np.abs(residual[mine]).max():.3g}")
+    report.add("CONSTRAINTS_CONTRADICT", names=named(names), gap=f"{np.abs(residual[mine]).max():.3g}")
     return names

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...model import Constraint, ConstraintKind, Joint, JointKind, NodeKind, Scene
 from ...rigid import active_nodes
 from ..assembly.assemble import Assembly, assemble
@@ -13,7 +13,6 @@ from ..assembly.assemble import Assembly, assemble
 MOST, WORK = 60, 10_000
 """Joints or constraints that are left out one by one, at most, to see which of them holds the rest; and statements that are
 assembled for it in all, at most: it says why, and must not take longer than what it is about."""
-NAMED = 6
 HOLDING = frozenset({ConstraintKind.LOCK, ConstraintKind.GROUND})
 
 
@@ -30,7 +29,7 @@ def report_still(scene: Scene, assembly: Assembly, mobility: int, report: Report
     parts = sum(a and node.kind is NodeKind.PART for a, node in zip(active, scene.nodes))
     where = stated[0].where
     if all(_is_fixed(statement) for statement in stated):
-        report.add("ALL_FIXED", where, parts=parts, names=_listed([s.id for s in stated]))
+        report.add("ALL_FIXED", where, parts=parts, names=named([s.id for s in stated]))
         return
     most = min(MOST, WORK // len(stated))
     left: dict[int, list[Joint | Constraint]] = {}
@@ -48,7 +47,7 @@ def report_still(scene: Scene, assembly: Assembly, mobility: int, report: Report
         fewest, found = min(left.items())
         names = [f"{statement.id} ({statement.kind.value})" for statement in found]
         freedoms = "1 freedom is" if fewest == 1 else f"{fewest} freedoms are"
-        reason = f"without {'any one of ' if len(names) > 1 else ''}{_listed(names)} {freedoms} left"
+        reason = f"without {'any one of ' if len(names) > 1 else ''}{named(names)} {freedoms} left"
         where = found[0].where
     report.add("NOTHING_MOVES", where, parts=parts, count=len(stated), reason=reason)
 
@@ -90,8 +89,3 @@ def _left_without(
         if count and assembly.floating == floating:
             found.setdefault(count, []).append(statement)
     return found
-
-
-def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    return ", ".join(names[:NAMED]) + more

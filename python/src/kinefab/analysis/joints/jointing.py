@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...findings import JointFinding
 from ...model import RX, TY, TZ, Constraint, Coupling, Joint, MassProperties, Node, free_id
 from ...spatial import Array, Pose
@@ -63,7 +63,7 @@ class _Jointing:
             if not relation.sure:
                 self.report.add(
                     "PAIR_RANK_UNCERTAIN",
-                    names=", ".join(names[:12]),
+                    names=named(names),
                     rank=relation.rank,
                     gap=f"{relation.gap:.3g}",
                 )
@@ -158,12 +158,12 @@ class _Jointing:
                 continue
             near, far = stand
             body = self._middle_node(near.origin, far.origin, names[0], relation)
-            self.report.add("RELATION_BY_MIDDLE_BODY", names=", ".join(names[:12]), body=self.nodes[-1].id)
+            self.report.add("RELATION_BY_MIDDLE_BODY", names=named(names), body=self.nodes[-1].id)
             self._add(relation.first, body, near, relation, names)
             self._add(body, relation.second, far, relation, names)
 
     def _approximate(self, relation: Relation) -> None:
-        names = ", ".join(self._names(relation)[:12])
+        names = named(self._names(relation))
         if relation.tried:
             relation.joint = relation.tried[-1]
             relation.missed = missed(self.assembly.system, relation, relation.joint)

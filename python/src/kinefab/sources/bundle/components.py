@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...diagnostics import chained
 from ...model import Node, NodeKind
 from ...spatial import Array
 from ..reading.placement import ROUNDED, SKEWED, Placement, place
@@ -21,8 +22,6 @@ KINDS = {"part": NodeKind.PART, "assembly": NodeKind.ASSEMBLY}
 
 UNTURNED = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 """Axes of a component whose own cannot be read."""
-MOST_NAMES = 12
-"""Components of a cycle that a message lists."""
 GROUND = "ground"
 """Where a joint or constraint names a component: the world itself."""
 
@@ -111,7 +110,9 @@ def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[
         while name and name not in ordered:
             if name in chain:
                 loop = list(chain)[list(chain).index(name) :]
-                records[name].fault("HIERARCHY_CYCLE", "parent", path=_path([*loop, name]))
+                records[name].fault(
+                    "HIERARCHY_CYCLE", "parent", path=chained([shown(own) for own in (*loop, name)], " -> ")
+                )
                 parents[name] = ""  # cut, so that nobody walks it for ever
                 break
             chain[name] = None
@@ -121,14 +122,6 @@ def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[
             name = parent
         ordered.update(dict.fromkeys(reversed(chain)))
     return list(ordered)
-
-
-def _path(names: list[str]) -> str:
-    """A way from parent to parent for a message: of a long one its two ends."""
-    if len(names) > MOST_NAMES:
-        half = MOST_NAMES // 2
-        names = [*names[:half], f"({len(names) - 2 * half} more)", *names[-half:]]
-    return " -> ".join(map(shown, names))
 
 
 def _axes_and_origins(records: list[Record]) -> tuple[Array, Array]:

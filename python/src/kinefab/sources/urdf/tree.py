@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...diagnostics import Report
+from ...diagnostics import Report, chained, named
 from ...spatial import Pose, rotation_about
 from .robot import Robot, UrdfJoint
 
@@ -19,14 +19,14 @@ def root_of(robot: Robot, report: Report) -> str:
     roots = [name for name in robot.links if name not in parent_of]
     if len(roots) > 1:
         where = robot.links[roots[1]].where
-        report.add("LINK_ROOTS", where, count=len(roots), names=", ".join(roots[:8]))
+        report.add("LINK_ROOTS", where, count=len(roots), names=named(roots))
     reached = set(roots)
     for name in robot.links:
         line = [name]
         while line[-1] not in reached and line[-1] in parent_of:
             above = parent_of[line[-1]].parent
             if above in line:
-                path = " -> ".join([*line[line.index(above) :], above][::-1])
+                path = chained([*line[line.index(above) :], above][::-1], " -> ")
                 report.add("LINK_CYCLE", parent_of[above].where, path=path)
                 break
             line.append(above)

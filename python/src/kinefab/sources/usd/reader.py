@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...model import Scene, Source
 from ..reading.request import Request
 from .animation import read_clips
@@ -88,6 +88,6 @@ def _tell_empty(found: Found, opened: OpenStage, report: Report) -> None:
     """Physics often sits in a variant that is off, or in a payload that is not loaded: say so where there is none."""
     if any(part.body for part in found.parts):
         return
-    variants = ", ".join(opened.variants[:20]) or "none"
-    payloads = ", ".join(opened.unloaded[:20]) or "none"
+    variants = named(opened.variants) or "none"
+    payloads = named(opened.unloaded) or "none"
     report.add("USD_WITHOUT_BODIES", opened.name, variants=variants, payloads=payloads)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...model import SourceFile
 from ..reading.file import MAX_BYTES, read_bytes
 from ..reading.record import MAX_NUMBER
@@ -206,7 +206,7 @@ def _choose_variants(stage: Any, asked: tuple[str, ...], name: str, report: Repo
                     if sets.HasVariantSet(key) and value in sets.GetVariantSet(key).GetVariantNames():
                         found |= sets.GetVariantSet(key).SetVariantSelection(value)
         if not found:
-            known = ", ".join(_variants(stage.GetPseudoRoot())[:20]) or "none"
+            known = named(_variants(stage.GetPseudoRoot())) or "none"
             report.add("USD_VARIANT_UNKNOWN", name, asked=choice, known=known)
     report.raise_for_errors()
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from ...model import FREE, LOCKED, RX, RZ, TZ, Freedom, JointKind
+from ...model import FREE, LOCKED, RX, RZ, TZ, JointKind
 from ...spatial import Array, BoolArray, IntArray, cross, perpendicular
 from ..equations.atoms import Atom
 from ..equations.system import System
@@ -14,7 +15,6 @@ from ..freedom.finite import Candidate
 from .candidates import Geometry
 from .relations import Relation
 
-Placing = Callable[[bool], Candidate]
 CARRIED = tuple(FREE if i in (TZ, RX, RZ) else LOCKED for i in range(6))
 
 
@@ -38,64 +38,42 @@ def middle_body(
         side_a, side_b, first_is_a = side_b, side_a, True
     with np.errstate(divide="ignore", invalid="ignore"):
         on_a, on_b = recipe(*side_a, *side_b, relation.geometry)
-    near, far = (on_a(True), on_b(True)) if first_is_a else (on_b(False), on_a(False))
+    near, far = (on_a, on_b) if first_is_a else (on_b, on_a)
     if not all(np.isfinite(c.axes).all() and np.isfinite(c.origin).all() for c in (near, far)):
         return None  # a rod between points that other constraints hold together has no direction
-    return near, far
+    return near, replace(far, first_is_a=not far.first_is_a)  # there the middle body comes first
 
 
-def _joint(
-    kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = True, freedoms: tuple[Freedom, ...] = ()
-) -> Placing:
-    """A candidate between an outer body and the middle one.
-
-    outer_is_a: the outer body carries the joint's translations and Z axis.  The returned function takes
-    whether the joint is the one at body a of the atom (its outer body then comes first, else last).
-    """
-
-    def place(outer_first: bool) -> Candidate:
-        return Candidate(kind, axes, origin, outer_is_a == outer_first, freedoms=freedoms)
-
-    return place
-
-
-def _rod(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Placing, Placing]:
+def _rod(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Candidate, Candidate]:
     along = (p_b - p_a) / np.linalg.norm(p_b - p_a)
     z = perpendicular(along, geometry.axes)
     axes = np.column_stack([cross(along, z), along, z])  # Y, the rod's own axis, is the locked one
-    return _joint(JointKind.UNIVERSAL, axes, p_a), _far(JointKind.SPHERICAL, geometry.axes, p_b)
-
-
-def _far(
-    kind: JointKind, axes: Array, origin: Array, outer_is_a: bool = False, freedoms: tuple[Freedom, ...] = ()
-) -> Placing:
-    """As ``_joint``, for the joint at the atom's body b: there the middle body comes first."""
-
-    def place(middle_first: bool) -> Candidate:
-        return Candidate(kind, axes, origin, outer_is_a != middle_first, freedoms=freedoms)
-
-    return place
+    return Candidate(JointKind.UNIVERSAL, axes, p_a), Candidate(
+        JointKind.SPHERICAL, geometry.axes, p_b, first_is_a=False
+    )
 
 
 def _point_round_line(
     p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry
-) -> tuple[Placing, Placing]:
+) -> tuple[Candidate, Candidate]:
     foot = p_a + a * (a @ (p_b - p_a))
-    return _joint(JointKind.CYLINDRICAL, geometry.frame(a), foot), _far(
-        JointKind.SPHERICAL, geometry.axes, p_b
+    return Candidate(JointKind.CYLINDRICAL, geometry.frame(a), foot), Candidate(
+        JointKind.SPHERICAL, geometry.axes, p_b, first_is_a=False
     )
 
 
 def _line_round_line(
     p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry
-) -> tuple[Placing, Placing]:
+) -> tuple[Candidate, Candidate]:
     foot = p_a + a * (a @ (p_b - p_a))
-    return _joint(JointKind.REVOLUTE, geometry.frame(a), foot), _far(
-        JointKind.CYLINDRICAL, geometry.frame(a), p_b
+    return Candidate(JointKind.REVOLUTE, geometry.frame(a), foot), Candidate(
+        JointKind.CYLINDRICAL, geometry.frame(a), p_b, first_is_a=False
     )
 
 
-def _skew_lines(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Placing, Placing]:
+def _skew_lines(
+    p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry
+) -> tuple[Candidate, Candidate]:
     normal = cross(a, b)
     size = normal @ normal
     offset = p_b - p_a
@@ -104,23 +82,29 @@ def _skew_lines(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) 
     z, x = b, normal / np.sqrt(size)
     carried = np.column_stack([x, cross(z, x), z])  # slides along b and turns about b, all swinging about n
     return (
-        _joint(JointKind.CYLINDRICAL, geometry.frame(a), foot_a),
-        _far(JointKind.GENERAL, carried, foot_b, outer_is_a=True, freedoms=CARRIED),
+        Candidate(JointKind.CYLINDRICAL, geometry.frame(a), foot_a),
+        Candidate(JointKind.GENERAL, carried, foot_b, freedoms=CARRIED),
     )
 
 
-def _angled(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Placing, Placing]:
-    return _joint(JointKind.PARALLEL_PLANES, geometry.frame(a), p_b), _far(
-        JointKind.REVOLUTE, geometry.frame(b), p_b
+def _angled(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Candidate, Candidate]:
+    return Candidate(JointKind.PARALLEL_PLANES, geometry.frame(a), p_b), Candidate(
+        JointKind.REVOLUTE, geometry.frame(b), p_b, first_is_a=False
     )
 
 
-def _cone_on_plane(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Placing, Placing]:
+def _cone_on_plane(
+    p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry
+) -> tuple[Candidate, Candidate]:
     """The middle body slides and turns on the plane under the apex; the cone turns in it about its own axis."""
-    return _joint(JointKind.PLANAR, geometry.frame(a), p_b), _far(JointKind.REVOLUTE, geometry.frame(b), p_b)
+    return Candidate(JointKind.PLANAR, geometry.frame(a), p_b), Candidate(
+        JointKind.REVOLUTE, geometry.frame(b), p_b, first_is_a=False
+    )
 
 
-def _edge_on_plane(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry) -> tuple[Placing, Placing]:
+def _edge_on_plane(
+    p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometry
+) -> tuple[Candidate, Candidate]:
     """The middle body turns in the circle and carries the tangent at its lowest point, which lies in the plane."""
     down = b * (b @ a) - a
     size = np.linalg.norm(down)
@@ -128,12 +112,12 @@ def _edge_on_plane(p_a: Array, a: Array, p_b: Array, b: Array, geometry: Geometr
     along = cross(a, b) / size
     in_plane = np.column_stack([along, cross(a, along), a])
     return (
-        _joint(JointKind.LINE_IN_PLANE, in_plane, touching),
-        _far(JointKind.REVOLUTE, geometry.frame(b), p_b),
+        Candidate(JointKind.LINE_IN_PLANE, in_plane, touching),
+        Candidate(JointKind.REVOLUTE, geometry.frame(b), p_b, first_is_a=False),
     )
 
 
-_Recipe = Callable[[Array, Array, Array, Array, Geometry], tuple[Placing, Placing]]
+_Recipe = Callable[[Array, Array, Array, Array, Geometry], tuple[Candidate, Candidate]]
 _RECIPES: Mapping[tuple[Atom, ...], _Recipe] = {
     (Atom.DIST,): _rod,
     (Atom.PLD,): _point_round_line,
@@ -144,7 +128,7 @@ _RECIPES: Mapping[tuple[Atom, ...], _Recipe] = {
     (Atom.CPT,): _edge_on_plane,
 }
 """By the kinds of a constraint's atoms.  Each takes a point and the direction of the sides a and b of the last of them,
-WORLD, metres, and returns the joints on a and on b."""
+WORLD, metres, and returns the joints on a and on b, each with the outer body first and the middle one second."""
 
 _SIDED = (_point_round_line, _cone_on_plane, _edge_on_plane)
 """Those whose side a is another kind of thing than b."""

@@ -197,6 +197,15 @@ def quaternions_from_matrices(r: Array) -> Array:
     return np.where(unit[..., 3:] < 0.0, -unit, unit)
 
 
+def without_flips(q: Array) -> Array:
+    """Quaternions of several bodies over frames, shape (frames, n, 4), each with the sign that is nearer to the frame
+    before."""
+    if not len(q):
+        return q
+    signs = np.where(np.einsum("fni,fni->fn", q[1:], q[:-1]) < 0.0, -1.0, 1.0)
+    return q * np.cumprod(np.concatenate([np.ones((1, q.shape[1])), signs]), axis=0)[..., None]
+
+
 def matrix_from_quaternion(q: Array) -> Array:
     """Rotation matrix of a quaternion (x, y, z, w) of any length above zero, shape (3, 3)."""
     return np.array(_turned_rows(*(q / math.hypot(*q)).tolist()))

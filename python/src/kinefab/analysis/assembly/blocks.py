@@ -38,6 +38,11 @@ class Blocks:
         starts = np.searchsorted(self.block[order], np.arange(len(self.root) + 1))
         return [order[starts[i] : starts[i + 1]] for i in range(len(self.root))]
 
+    def of_pair(self, a: int, b: int) -> int:
+        """The block that two joined bodies are in: that in which the one further out is not the root."""
+        inside = self.block[b] >= 0 and (self.block[a] == self.block[b] or self.root[self.block[b]] == a)
+        return int(self.block[b] if inside else self.block[a])
+
     def of_edges(self, ends: IntArray) -> IntArray:
         """The block of each pair of joined bodies, shape (edges, 2) to (edges,)."""
         age = _block_age(self)[ends]

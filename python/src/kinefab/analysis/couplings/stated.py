@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...diagnostics import Report
-from ...model import RX, TX, Constraint, ConstraintKind, Coupling, CouplingKind, Feature, Scene, Term
+from ...model import Constraint, ConstraintKind, Coupling, CouplingKind, Feature, Scene, Term
 from ..assembly.assemble import Assembly
 from ..joints.links import Link
 
 _KINDS = {
-    ConstraintKind.GEAR: (CouplingKind.GEAR, RX, RX),
-    ConstraintKind.BELT: (CouplingKind.BELT, RX, RX),
-    ConstraintKind.RACK: (CouplingKind.RACK, RX, TX),
-    ConstraintKind.LINEAR: (CouplingKind.LINEAR, TX, TX),
+    ConstraintKind.GEAR: (CouplingKind.GEAR, True, True),
+    ConstraintKind.BELT: (CouplingKind.BELT, True, True),
+    ConstraintKind.RACK: (CouplingKind.RACK, True, False),
+    ConstraintKind.LINEAR: (CouplingKind.LINEAR, False, False),
 }
-ALONG = 1.0 - 1e-6
+"""What becomes of a constraint, and whether what it counts of its first and second feature is a turn."""
 
 
 def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Coupling]:
@@ -30,11 +30,11 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
     for statement in assembly.equations.statements:
         if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
             continue
-        kind, *freedoms = _KINDS[statement.kind]
+        kind, *turns = _KINDS[statement.kind]
         carrier = assembly.body_of(statement.features[2].node) if len(statement.features) > 2 else 0
         ends: list[tuple[Link, int, float]] = []
-        for feature, first in zip(statement.features, freedoms):
-            end = _coordinate(assembly, by_pair, scene, feature, carrier, first)
+        for feature, turning in zip(statement.features, turns):
+            end = _coordinate(assembly, by_pair, scene, feature, carrier, turning)
             if end is None:
                 part = "ground" if feature.node is None else scene.nodes[feature.node].id
                 report.dropped(
@@ -70,7 +70,7 @@ def _coordinate(
     scene: Scene,
     feature: Feature,
     carrier: int,
-    first: int,
+    turning: bool,
 ) -> tuple[Link, int, float] | None:
     """(link, freedom, sign) of the joint coordinate along or about a feature's direction, or None."""
     body = assembly.body_of(feature.node)
@@ -78,10 +78,5 @@ def _coordinate(
     if link is None or feature.direction is None:
         return None
     direction = scene.pose(feature.node).direction(feature.direction)
-    axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
-    for i in range(3):
-        cosine = float(direction @ axes[:, i])
-        if abs(cosine) > ALONG and first + i in link.joint.unlocked:
-            sign = (1.0 if cosine > 0.0 else -1.0) * (1.0 if link.b == body else -1.0)
-            return link, first + i, sign
-    return None
+    found = link.freedom_along(direction, turning, body, scene)
+    return None if found is None else (link, *found)

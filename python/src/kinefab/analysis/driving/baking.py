@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...model import RX, JointKind, Scene
-from ...spatial import Array, quaternions_from_matrices
-from ..equations.scene_equations import joint_sides
+from ...spatial import Array, quaternions_from_matrices, without_flips
+from ..equations.scene_equations import is_about_an_axis_of_b, joint_sides
 from ..equations.system import System
 from .coordinates import DrivenBlock
 from .mechanism import Mechanism
@@ -57,11 +57,11 @@ def baked(mechanism: Mechanism) -> list[Baked]:
             "coordinates": [mechanism.name_of(block, i) for i in range(len(block.joints))],
             "held": [mechanism.name_of(block, i) for i in held],
         }
-        single = _single(block)
+        single = _is_single(block)
         curve = None
-        if single is None and block.mobility == 1 and held and curves < MOST_CURVES:
+        if not single and block.mobility == 1 and held and curves < MOST_CURVES:
             curve, curves = _curve(block, held[0]), curves + 1
-        if single is not None:
+        if single:
             entry |= {"mode": "joint"} | _joint(block, mechanism.scene)
         elif curve is not None:
             driver = curve.pop("driver")
@@ -72,40 +72,30 @@ def baked(mechanism: Mechanism) -> list[Baked]:
     return found
 
 
-def _single(block: DrivenBlock) -> DrivenBlock | None:
-    """The block where it is one joint with at most two rotations, and nothing else."""
+def _is_single(block: DrivenBlock) -> bool:
+    """Whether the block is one joint with at most two rotations, and nothing else."""
     if len(block.measured.bodies) != 1 or len({driven.joint.id for driven, _ in block.joints}) != 1:
-        return None
+        return False
     driven = block.joints[0][0]
     turns = [i for i in driven.joint.unlocked if i >= RX]
     owners = np.unique(block.measured.system.owner)
     plain = driven.joint.kind is not JointKind.SCREW and driven.moving == driven.joint.unlocked
-    return block if plain and len(turns) < 3 and len(owners) == 1 else None
+    return plain and len(turns) < 3 and len(owners) == 1
 
 
 def _joint(block: DrivenBlock, scene: Scene) -> Baked:
     """frame: of a at the closed pose, WORLD, rows of 3 x 4; start: of b.  inverse: whether a is what moves."""
-    joint = block.joints[0][0].joint
+    joint, first = block.joint(0)
     sides = joint_sides(joint, scene)
     frame, start = (np.column_stack([s.z, s.x, s.y, s.p]).tolist() for s in sides)
-    moving = (
-        bool(block.measured.probe.body_a[0] != 0)
-        if not _swapped(block)
-        else bool(block.measured.probe.body_b[0] != 0)
-    )
+    probe = block.measured.probe
+    of_a = probe.body_b if is_about_an_axis_of_b(first, joint) else probe.body_a
     return {
         "frame": frame,
         "start": start,
-        "inverse": moving,
+        "inverse": bool(of_a[0] != 0),
         "freedoms": [freedom for _, freedom in block.joints],
     }
-
-
-def _swapped(block: DrivenBlock) -> bool:
-    """Whether the first coordinate is measured from b (see ``joint_coordinate``)."""
-    driven, freedom = block.joints[0]
-    turns = [i for i in driven.joint.unlocked if i >= RX]
-    return len(turns) == 2 and freedom == turns[0]
 
 
 def _curve(block: DrivenBlock, first: int) -> Baked | None:
@@ -191,15 +181,12 @@ def _sampled(block: DrivenBlock, i: int, ends: Sequence[float], dead: Sequence[b
     shift = np.concatenate([p.shift[:, 1:] for p in pieces])
     center = block.measured.system.center[1:]
     moves = center + shift - np.einsum("fbij,bj->fbi", rotation, center)
-    quaternions = quaternions_from_matrices(rotation)
-    flips = np.where(np.einsum("fni,fni->fn", quaternions[1:], quaternions[:-1]) < 0.0, -1.0, 1.0)
-    signs = np.cumprod(np.concatenate([np.ones((1, flips.shape[1])), flips]), axis=0)
     return {
         "low": low,
         "high": high,
         "even": even,
         "values": np.concatenate(values),
-        "rotations": quaternions * signs[..., None],
+        "rotations": without_flips(quaternions_from_matrices(rotation)),
         "shifts": moves,
     }
 

@@ -22,11 +22,7 @@ freedoms without any."""
 def block_of(assembly: Assembly, joint: Joint) -> int | None:
     """Number among ``Assembly.freedoms`` of the block that a joint is in; None where it joins one body to itself."""
     a, b = (assembly.body_of(node) for node in (joint.a, joint.b))
-    block, root = assembly.blocks.block, assembly.blocks.root
-    if a == b:
-        return None
-    inside = block[b] >= 0 and (block[a] == block[b] or root[block[b]] == a)
-    return assembly.part_of_block.get(int(block[b] if inside else block[a]))
+    return None if a == b else assembly.part_of_block.get(assembly.blocks.of_pair(a, b))
 
 
 def links_to(assembly: Assembly, coordinates: Sequence[tuple[Joint, int]]) -> list[tuple[Link, int]]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...model import RX, Joint, Motion, Scene
 from ...model.freedoms import Amount
-from ...spatial import Array, quaternions_from_matrices
+from ...spatial import Array, quaternions_from_matrices, without_flips
 from ..assembly.assemble import Assembly
 from .coordinates import Driven, DrivenBlock, coordinate_names, driven_blocks
 from .run import Run, shares, straight
@@ -331,7 +331,7 @@ class Mechanism:
             placed = [(pose.rotation, pose.translation) for pose in assembly.poses]
             rotation, translation = (np.array(column) for column in zip(*placed))
             poses[:, :, :3] = np.einsum("fnij,nj->fni", turn[:, at], translation) + move[:, at]
-            poses[:, :, 3:] = _continuous(quaternions_from_matrices(turn[:, at] @ rotation))
+            poses[:, :, 3:] = without_flips(quaternions_from_matrices(turn[:, at] @ rotation))
         coordinates: dict[str, Array] = {}
         for name, (block, i) in self._place.items():
             joint, freedom = block.joint(i)
@@ -352,15 +352,6 @@ def _carry(assembly: Assembly, turn: Array, move: Array) -> None:
         root = blocks.root[blocks.block[bodies]]
         move[:, bodies] = np.einsum("fbij,fbj->fbi", turn[:, root], move[:, bodies]) + move[:, root]
         turn[:, bodies] = turn[:, root] @ turn[:, bodies]
-
-
-def _continuous(q: Array) -> Array:
-    """Quaternions over frames, each with the sign that is nearer to the one before."""
-    if not len(q):
-        return q
-    flips = np.sign(np.einsum("fni,fni->fn", q[1:], q[:-1]))
-    signs = np.cumprod(np.concatenate([np.ones((1, q.shape[1])), np.where(flips < 0.0, -1.0, 1.0)]), axis=0)
-    return q * signs[..., None]
 
 
 def _coordinate(name: str, joint: Joint, freedom: int, value: float) -> Coordinate:

@@ -222,7 +222,7 @@ def joint_rows(rows: Rows, joint: Joint, a: Side, b: Side) -> None:
     if screw:
         row = rows.row(True)
         coordinate(rows, row, a, b, TX, 1.0)
-        coordinate(rows, row, a, b, RX, -joint.lead / (2.0 * np.pi))
+        coordinate(rows, row, a, b, RX, -joint.lead / math.tau)
 
 
 def coordinate(
@@ -249,16 +249,21 @@ def coordinate(
         )
 
 
+def is_about_an_axis_of_b(freedom: int, joint: Joint) -> bool:
+    """Whether it is the first (RX; RY where X is locked) of two rotations: b carries its axis."""
+    turns = [i for i in joint.unlocked if i >= RX]
+    return len(turns) == 2 and freedom == turns[0]
+
+
 def joint_coordinate(rows: Rows, row: slice, a: Side, b: Side, freedom: int, joint: Joint) -> None:
     """A coordinate as the joint means it, added to a row.
 
-    Of two rotations the first (RX; RY where X is locked) is about an axis that b carries, measured from a's second axis,
-    which is always square to it.
+    One about an axis that b carries is measured from a's second axis, which is always square to it.
     """
-    turns = [i for i in joint.unlocked if i >= RX]
-    if len(turns) != 2 or freedom != turns[0]:
+    if not is_about_an_axis_of_b(freedom, joint):
         coordinate(rows, row, a, b, freedom, 1.0)
         return
+    turns = [i for i in joint.unlocked if i >= RX]
     axes_a, axes_b = (a.z, a.x, a.y), (b.z, b.x, b.y)
     about, across = axes_b[turns[0] - RX], turns[1] - RX
     rows.atom(

@@ -7,8 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ...findings import JointFinding
-from ...model import RX, Joint, Node, Scene
+from ...model import RX, TX, Joint, Node, Scene
+from ...spatial import Array
 from ..pairs.relations import Relation
+
+ALONG = 1.0 - 1e-6
+"""Cosine above which two directions are one."""
 
 
 @dataclass(slots=True, eq=False)
@@ -27,6 +31,19 @@ class Link:
     def found(self, **changes: Any) -> Link:
         """The link with what was found of its joint changed so."""
         return replace(self, finding=replace(self.finding, **changes))
+
+    def freedom_along(
+        self, direction: Array, turning: bool, body: int, scene: Scene
+    ) -> tuple[int, float] | None:
+        """The freedom TX..RZ along or (``turning``) about a direction of the WORLD, and the sign by which it counts the
+        motion of ``body``, one of the two; None where it has none."""
+        axes = (scene.pose(self.joint.a) @ self.joint.frame_a).rotation
+        first = RX if turning else TX
+        for i in range(3):
+            cosine = float(direction @ axes[:, i])
+            if abs(cosine) > ALONG and first + i in self.joint.unlocked:
+                return first + i, math.copysign(1.0, cosine) * (1.0 if self.b == body else -1.0)
+        return None
 
     def coordinate(self, freedom: int, scene: Scene) -> float:
         """Where the joint stands on a freedom TX..RZ in a scene, metres or radians from where its frames meet.

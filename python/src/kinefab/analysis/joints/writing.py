@@ -12,9 +12,7 @@ from ...spatial import Array, BoolArray, IntArray, Pose
 from ..assembly.assemble import Assembly
 from ..freedom.finite import Candidate
 from ..pairs.relations import Relation
-from .links import Link
-
-ALONG = 1.0 - 1e-6
+from .links import ALONG, Link
 
 
 @dataclass(frozen=True, slots=True, eq=False)

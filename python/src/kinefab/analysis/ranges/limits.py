@@ -129,14 +129,10 @@ def _stopped(link: Link, freedom: int, steps: int, seen: tuple[float, float]) ->
 
 def _by_block(assembly: Assembly, links: list[Link]) -> dict[int, list[Link]]:
     """The links between the assembly's own bodies, by the block they are in."""
-    block, root = assembly.blocks.block, assembly.blocks.root
     found: dict[int, list[Link]] = {}
     for link in links:
-        if max(link.a, link.b) >= len(block):
-            continue
-        own = [int(block[x]) for x in (link.a, link.b)]
-        inside = own[0] if own[0] == own[1] or (own[0] >= 0 and root[own[0]] == link.b) else own[1]
-        found.setdefault(inside, []).append(link)
+        if max(link.a, link.b) < len(assembly.blocks.block):
+            found.setdefault(assembly.blocks.of_pair(link.a, link.b), []).append(link)
     return found
 
 

@@ -6,12 +6,9 @@ import math
 from dataclasses import replace
 
 from ...diagnostics import Report
-from ...model import RX, TX, Motion, Scene
+from ...model import Motion, Scene
 from ..assembly.assemble import Assembly
-from ..equations.bounded import RangedCoordinate
 from ..joints.links import Link
-
-ALONG = 1.0 - 1e-6
 
 
 def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Report) -> list[Link]:
@@ -24,7 +21,8 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         constraint = coordinate.constraint
         bodies = (int(assembly.body[coordinate.body_a]), int(assembly.body[coordinate.body_b]))
         index = by_pair.get((min(bodies), max(bodies)))
-        place = None if index is None else _freedom(links[index], scene, coordinate, bodies)
+        axis, turns = coordinate.axis, coordinate.is_angle
+        place = None if index is None else links[index].freedom_along(axis, turns, bodies[1], scene)
         if index is None or place is None:
             report.dropped(
                 f"constraint {constraint.id}", "CONSTRAINT_RANGE_DROPPED", constraint.where, id=constraint.id
@@ -45,16 +43,3 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         links[index] = links[index].changed(freedoms=tuple(freedoms), because=(*joint.because, constraint.id))
         report.add("CONSTRAINT_RANGE_KEPT", constraint.where, id=constraint.id, joint=joint.id)
     return links
-
-
-def _freedom(
-    link: Link, scene: Scene, coordinate: RangedCoordinate, bodies: tuple[int, int]
-) -> tuple[int, float] | None:
-    """The joint's freedom that measures the coordinate, and its sign."""
-    axes = (scene.pose(link.joint.a) @ link.joint.frame_a).rotation
-    first = RX if coordinate.is_angle else TX
-    for i in range(3):
-        cosine = float(coordinate.axis @ axes[:, i])
-        if abs(cosine) > ALONG and first + i in link.joint.unlocked:
-            return first + i, math.copysign(1.0, cosine) * (1.0 if link.b == bodies[1] else -1.0)
-    return None

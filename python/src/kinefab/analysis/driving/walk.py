@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...spatial import Array
+from ...spatial import Array, BoolArray
 from ..equations.solve import Solver
 from ..equations.system import State, System, joined, repeated
 from ..ranges.measured import Measured
@@ -49,9 +49,9 @@ class Poses:
     shift: Array
     angle: Array
 
-    def predicted(self, at: Array, degree: int = DEGREE) -> Poses:
+    def predicted(self, at: Array) -> Poses:
         """The poses at other places, by the polynomial through the nearest ones."""
-        count = min(degree + 1, len(self.at))
+        count = min(DEGREE + 1, len(self.at))
         first = np.searchsorted(self.at, at) - (count + 1) // 2
         near = np.clip(first, 0, len(self.at) - count)[:, None] + np.arange(count)
         weight = _lagrange(self.at[near], at)
@@ -64,7 +64,7 @@ class Poses:
     def state(self, i: int) -> State:
         return State(self.rotation[i], self.shift[i], self.angle[i])
 
-    def taken(self, which: np.ndarray) -> Poses:
+    def taken(self, which: BoolArray) -> Poses:
         """Some of the poses (a mask)."""
         return Poses(self.at[which], self.rotation[which], self.shift[which], self.angle[which])
 

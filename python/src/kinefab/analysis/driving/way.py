@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...model import RX, Motion
-from ...spatial import Array
+from ...spatial import Array, BoolArray
 from .coordinates import DrivenBlock
 from .walk import Poses, Walk, coordinates_at
 
@@ -34,7 +34,7 @@ class Way:
     knots: Poses
 
 
-def watched(block: DrivenBlock) -> np.ndarray:
+def watched(block: DrivenBlock) -> BoolArray:
     """Which coordinates have a limit that is the coordinate's own: slides, and turns about one or two axes.
 
     The three angles of a ball are limited together, as a twist and a cone; those are not watched.

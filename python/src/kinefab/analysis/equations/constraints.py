@@ -172,7 +172,7 @@ def _angle(
         else:
             rows.dot(first, first.z, second, second.z, math.sin(c.value))
         return
-    about = _angle_axis(c, a, b, reference, context)
+    about = _angle_axis(a, b, reference, context)
     if about is not None:
         measured = math.atan2(about @ cross(a.z, b.z), a.z @ b.z)
         signed = reference is not None or c.reading.get("angle") == "directed"
@@ -195,7 +195,7 @@ def _angle(
 
 def _tilt_range(c: Constraint, plane: Side, line: Side, reference: Side | None, context: Context) -> None:
     """How far a line may be tilted out of a plane, about an axis that lies in the plane and across the line."""
-    about = _angle_axis(c, plane, line, reference, context)
+    about = _angle_axis(plane, line, reference, context)
     if about is not None:
         within = cross(about, plane.z)
         within = within if within @ line.z >= 0.0 else -within
@@ -204,7 +204,7 @@ def _tilt_range(c: Constraint, plane: Side, line: Side, reference: Side | None, 
         context.ranges.append(bounded(c, bodies, about, measured, True, reference is not None))
 
 
-def _angle_axis(c: Constraint, a: Side, b: Side, reference: Side | None, context: Context) -> Array | None:
+def _angle_axis(a: Side, b: Side, reference: Side | None, context: Context) -> Array | None:
     """The axis the angle turns about: the stated one, else one that the pair's bodies share."""
     if reference is not None:
         candidates = [reference.z]

@@ -115,11 +115,6 @@ def _beside(z: Array, given: Array, axes: Array) -> tuple[Array, BoolArray]:
     return _unit(np.where(framed[:, None], across, beside)), framed
 
 
-def family(kind: FeatureKind) -> str:
-    """What a feature is for a constraint: a sphere is its centre, a cylinder or circle its axis."""
-    return _FAMILY[kind]
-
-
 _FAMILY = {
     FeatureKind.POINT: "point",
     FeatureKind.SPHERE: "point",
@@ -128,15 +123,14 @@ _FAMILY = {
     FeatureKind.CIRCLE: "line",
     FeatureKind.CYLINDER: "line",
     FeatureKind.CONE: "line",
-    FeatureKind.FRAME: "frame",
+    FeatureKind.FRAME: "line",
     FeatureKind.PLANE: "plane",
 }
 
 
 def plain_family(side: Side) -> str:
-    """As ``family``, with a frame taken for its main axis."""
-    name = family(side.kind)
-    return "line" if name == "frame" else name
+    """What a feature is for a constraint: a sphere is its centre, a cylinder, circle or frame its axis."""
+    return _FAMILY[side.kind]
 
 
 class UnknownPairing(Exception):

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...model import FeatureKind
 from ...spatial import Array, IntArray
-from .atoms import LENGTHS, Atom
+from .atoms import Atom
 from .system import System
 
 NOWHERE = np.zeros(3)
@@ -157,7 +157,3 @@ class Rows:
 
 def has_direction(kind: FeatureKind) -> bool:
     return kind not in (FeatureKind.POINT, FeatureKind.SPHERE, FeatureKind.BODY)
-
-
-def is_length(kind: Atom) -> bool:
-    return kind in LENGTHS

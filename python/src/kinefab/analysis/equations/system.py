@@ -7,6 +7,7 @@ in assemblies far from the origin.  Body 0 never moves.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
@@ -15,11 +16,15 @@ import numpy as np
 from ...spatial import Array, BoolArray, IntArray, cross, skew
 from .atoms import LENGTHS, USED, Atom, Valued, evaluate
 
-TURN = 2.0 * np.pi
 IN_ONE_PLACE = 1e-5
 """Geometry within this fraction of the assembly's size, a few roundings of the export, is one point."""
 DEFAULT_SHARE = 0.1
 """Length of a part whose geometry is in one place, as a fraction of the whole assembly's."""
+
+_OF_ATOMS = ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")
+"""Arrays of a ``System`` with an entry for each atom, ``row`` left out."""
+_OF_ROWS = ("owner", "is_length", "row_length")
+"""Those with an entry for each row."""
 
 
 @dataclass(slots=True, eq=False)
@@ -110,9 +115,8 @@ class System:
         )
 
     def _arrays_of(self, atoms: IntArray | BoolArray, rows: IntArray | BoolArray) -> dict[str, Any]:
-        of_atoms = ("kind", "weight", "body_a", "body_b", "p_a", "a", "k", "p_b", "b", "d")
-        of_rows = ("owner", "is_length", "row_length")
-        return {f: getattr(self, f)[atoms] for f in of_atoms} | {f: getattr(self, f)[rows] for f in of_rows}
+        """Every array of some atoms and rows but ``row``, whose numbers are to be found anew."""
+        return {f: getattr(self, f)[atoms] for f in _OF_ATOMS} | {f: getattr(self, f)[rows] for f in _OF_ROWS}
 
     def joining(self) -> BoolArray:
         """Rows that join different bodies (a mask); the others are inside one."""
@@ -157,11 +161,10 @@ class System:
         part = row_part[self.row]
         count = max(int(row_part.max(initial=-1)), int(body_part.max(initial=-1))) + 2
         sides = [(self.p_a, self.body_a), (self.p_b, self.body_b)]
-        points = np.concatenate([p[pointed] for p, _ in sides])
-        for group, target in ((np.concatenate([b[pointed] for _, b in sides]), self.center),):
-            size = np.maximum(np.bincount(group, minlength=self.bodies), 1)
-            for i in range(3):
-                target[:, i] = summed(group, points[:, i], self.bodies) / size
+        points, bodies = (np.concatenate([side[pointed] for side in own]) for own in zip(*sides))
+        count_of = np.maximum(np.bincount(bodies, minlength=self.bodies), 1)
+        for i in range(3):
+            self.center[:, i] = summed(bodies, points[:, i], self.bodies) / count_of
         where = np.concatenate([part[pointed]] * 2) + 1
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
         np.minimum.at(low, where, points)
@@ -209,7 +212,7 @@ class System:
                 )
                 if kind is Atom.ANG:
                     last = state.angle[atoms] - self.d[atoms]
-                    value[atoms] = last + np.remainder(value[atoms] - last + np.pi, TURN) - np.pi
+                    value[atoms] = last + np.remainder(value[atoms] - last + np.pi, math.tau) - np.pi
         return value, f, c, tau
 
     def remember(self, state: State) -> None:
@@ -269,30 +272,9 @@ def summed(group: IntArray, values: Array, count: int) -> Array:
 
 def joined(first: System, second: System) -> System:
     """The rows of both, over the bodies of the first; owners of the second count on from the first's."""
-    arrays = {
-        f: np.concatenate([getattr(first, f), getattr(second, f)])
-        for f in (
-            "kind",
-            "weight",
-            "body_a",
-            "body_b",
-            "p_a",
-            "a",
-            "k",
-            "p_b",
-            "b",
-            "d",
-            "is_length",
-            "row_length",
-        )
-    }
-    offset = int(first.owner.max(initial=-1)) + 1
-    return replace(
-        first,
-        row=np.concatenate([first.row, second.row + first.rows]),
-        owner=np.concatenate([first.owner, second.owner + offset]),
-        **arrays,
-    )
+    second = replace(second, owner=second.owner + int(first.owner.max(initial=-1)) + 1)
+    arrays = {f: np.concatenate([getattr(first, f), getattr(second, f)]) for f in (*_OF_ATOMS, *_OF_ROWS)}
+    return replace(first, row=np.concatenate([first.row, second.row + first.rows]), **arrays)
 
 
 def repeated(system: System, times: int) -> System:
@@ -301,17 +283,14 @@ def repeated(system: System, times: int) -> System:
     copy = np.repeat(np.arange(times), len(system.kind))
     tiled = {
         f: np.tile(getattr(system, f), (times,) + (1,) * (getattr(system, f).ndim - 1))
-        for f in ("kind", "weight", "p_a", "a", "k", "p_b", "b", "d", "owner", "is_length", "row_length")
+        for f in (*_OF_ATOMS, *_OF_ROWS)
     }
-    ends = {
-        f: np.where((number := np.tile(getattr(system, f), times)) > 0, number + n * copy, 0)
-        for f in ("body_a", "body_b")
-    }
+    ends = {f: np.where(tiled[f] > 0, tiled[f] + n * copy, 0) for f in ("body_a", "body_b")}
     sizes = {
         f: np.concatenate([(of := getattr(system, f))[:1], np.tile(of[1:], (times,) + (1,) * (of.ndim - 1))])
         for f in ("center", "length")
     }
-    return replace(system, row=np.tile(system.row, times) + system.rows * copy, **tiled, **ends, **sizes)
+    return replace(system, row=np.tile(system.row, times) + system.rows * copy, **tiled | ends | sizes)
 
 
 def exponential(w: Array) -> Array:
@@ -319,5 +298,5 @@ def exponential(w: Array) -> Array:
     angle = np.sqrt(np.einsum("...i,...i->...", w, w))
     k = skew(w)
     s = np.sinc(angle / np.pi)[..., None, None]
-    half = np.sinc(angle / TURN)[..., None, None]
+    half = np.sinc(angle / math.tau)[..., None, None]
     return np.eye(3) + s * k + 0.5 * half * half * (k @ k)

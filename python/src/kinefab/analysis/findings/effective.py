@@ -85,7 +85,6 @@ def _relative_twists(assembly: Assembly, body_a: int, body_b: int, origin: Array
     own: dict[int, BlockFreedom] = {}
     for freedom in assembly.freedoms:
         own[int(blocks.block[freedom.bodies[0]])] = freedom
-    columns = []
     sides: dict[int, Array] = {}
     for body, sign in ((body_b, 1.0), (body_a, -1.0)):
         for step in _path(assembly, body):

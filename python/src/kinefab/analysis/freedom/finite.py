@@ -6,6 +6,7 @@ only finite motions tell.  Equations are analytic, so a few random motions settl
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -17,7 +18,7 @@ from scipy.sparse import csr_matrix
 from ...model import RX, RY, RZ, TX, UNLOCKED, Freedom, JointKind, freedoms_of, unlocked_of
 from ...spatial import Array, IntArray
 from ..equations.atoms import USED, Atom, evaluate
-from ..equations.system import TURN, System, exponential
+from ..equations.system import System, exponential
 from .stacks import alike
 
 SAMPLES = 24
@@ -75,7 +76,7 @@ def motions(candidates: list[Candidate], lengths: Array, samples: int, seed: int
         if screw:
             members: list[int] = own.tolist()
             lead = np.array([candidates[i].lead for i in members])
-            q[own, :, TX] = lead[:, None] / TURN * q[own, :, RX]
+            q[own, :, TX] = lead[:, None] / math.tau * q[own, :, RX]
         turning = tuple(i for i in unlocked if i >= RX)
         if turning == (RX, RZ):
             rotation[own] = _about(2, q[own, :, RZ]) @ _about(0, q[own, :, RX])
@@ -191,7 +192,7 @@ def _violations(
             )
             value[atoms] = evaluate(kind, p_a, a, k, p_b, b, d)[0]
     angles = system.kind == Atom.ANG
-    value[angles] = np.remainder(value[angles] + np.pi, TURN) - np.pi
+    value[angles] = np.remainder(value[angles] + np.pi, math.tau) - np.pi
     scale = system.weight / np.where(system.is_length[system.row], lengths[atom_pair], 1.0)
     gather = csr_matrix((scale, (system.row, np.arange(len(scale)))), shape=(system.rows, len(scale)))
     gathered = cast(Array, gather @ value)  # sparse times dense is dense

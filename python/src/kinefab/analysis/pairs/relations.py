@@ -28,6 +28,7 @@ class Pairs:
     """The pairs of bodies that rows join, in the order of (first, second), first < second.
 
     row_pair: shape (rows,), the row's pair, -1 where it joins more than two bodies, -2 inside one body.
+    atom_pair: shape (atoms,), that of its row, -2 where the atom itself is inside one body.
     """
 
     first: IntArray
@@ -98,9 +99,8 @@ def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Ar
     Returns (rows (m, 6), origin (pairs, 3), length (pairs,)) with zero rows for rows of no pair.
     """
     _, f, c, tau = system.values(state)
-    inside = system.row.copy() * 0 + pairs.atom_pair
-    used = inside >= 0
-    p = inside[used]
+    used = pairs.atom_pair >= 0
+    p = pairs.atom_pair[used]
     pointed = np.isin(system.kind[used], LENGTHS)
     count = np.bincount(p[pointed], minlength=len(pairs))
     p_a, _, _, p_b, _ = system.current(state, np.flatnonzero(used), "p_a p_b")
@@ -115,7 +115,8 @@ def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Ar
         np.maximum.at(reach, p[pointed], np.linalg.norm(points[pointed] - origin[p[pointed]], axis=1))
     whole = system.length[pairs.second]
     length = np.where(reach > IN_ONE_PLACE * whole, reach, whole)
-    sign = np.where(system.body_b == np.where(used, pairs.second[np.maximum(inside, 0)], -1), 1.0, -1.0)
+    second = np.append(pairs.second, [-1, -1])[pairs.atom_pair]
+    sign = np.where(system.body_b == second, 1.0, -1.0)
     scale = (system.weight * sign)[used, None]
     lever = c[used] - origin[p]
     wrench = np.concatenate(

@@ -36,10 +36,10 @@ class Item:
     def all(self, *words: str) -> Iterator[Item]:
         return (item for item in self.below if item.text in words)
 
-    def value(self, word: str, default: str = "") -> str:
-        """The line below the item of that word."""
+    def value(self, word: str) -> str:
+        """The line below the item of that word, "" where there is none."""
         found = self.find(word)
-        return found.below[0].text.strip() if found is not None and found.below else default
+        return found.below[0].text.strip() if found is not None and found.below else ""
 
     def number(self, word: str, default: float | None = None) -> float:
         """As ``value``, a number; ``default``, where there is one, stands for a word that is not there.  Raises AsmtError."""

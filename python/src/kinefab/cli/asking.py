@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable
-from pathlib import Path
 from typing import Any, Optional
 
 import typer
@@ -69,7 +68,7 @@ def _shown_as(asked: Command, command: Command, parameters: list[inspect.Paramet
 
 
 def _parameter(option: FormatOption) -> inspect.Parameter:
-    kind: Any = {str: str, float: float, int: int, bool: bool, Path: Path}[option.kind]
+    kind: Any = option.kind
     annotation: Any = list[kind] if option.repeated else kind if option.kind is bool else Optional[kind]
     flag = f"--{option.name.replace('_', '-')}"
     default: Any = False if option.kind is bool else [] if option.repeated else None

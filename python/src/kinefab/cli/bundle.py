@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report, Severity
-from .console import count, fail, tell, write
-from .declared import AS_JSON
+from .console import count, demand_axis, demand_ending, fail, tell, write
+from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
     from ..pipeline import Analysed
 
-ENDING = ".bundle.json"
 UNITS = "mm cm dm m um in ft yd millimeter centimeter micron inch foot".split()
 
 
@@ -57,21 +56,19 @@ def bundle_commands() -> typer.Typer:
         """Begin a bundle of a folder of meshes. It is valid and commented, to go on with by hand."""
         from ..bundling.beginning import are_gltf, begin, meshes_in, tell_folders
 
-        target = folder / f"{folder.resolve().name or 'parts'}{ENDING}" if output is None else output
-        if not target.name.endswith(ENDING):
-            raise typer.BadParameter(f"{target} does not end in {ENDING}", param_hint="--output")
-        if up is not None and up.upper() not in ("X", "Y", "Z"):
-            raise typer.BadParameter(f"{up!r} is no axis: X, Y or Z", param_hint="--up")
+        target = folder / f"{folder.resolve().name or 'parts'}{BUNDLE}" if output is None else output
+        demand_ending(target, BUNDLE)
+        axis = None if up is None else demand_axis(up)
         report = Report()
         try:
             files = meshes_in(folder)
             gltf = are_gltf(files)
             if units is None and gltf:
                 units = "m"
-            if up is None and gltf is None:
+            if axis is None and gltf is None:
                 told = "glTF is Y up and the other files do not tell; state it: X, Y or Z"
                 raise typer.BadParameter(told, param_hint="--up")
-            up = ("Y" if gltf else "Z") if up is None else up.upper()
+            axis = axis or ("Y" if gltf else "Z")
             if units is None and sys.stdin.isatty():
                 units = str(typer.prompt("Unit of the mesh files (mm, cm, m, in, ...)"))
             if units not in UNITS:
@@ -86,13 +83,13 @@ def bundle_commands() -> typer.Typer:
                     f"{target} is there already; --force overwrites it", param_hint="--output"
                 )
             tell_folders(folder, report)
-            text = begin(files, target, units, up)
+            text = begin(files, target, units, axis)
         except KinefabError as error:
             typer.echo(f"{target} was not written.", err=True)
             fail(error, target, as_json, False)
         write(target, text.encode("utf-8"), as_json)
         typer.echo(
-            f"{target}: {len(files)} parts in {units}, {up} up, no joints yet. "
+            f"{target}: {len(files)} parts in {units}, {axis} up, no joints yet. "
             f"Ground a part, add joints, then: kinefab bundle check {target}",
             err=True,
         )
@@ -105,7 +102,7 @@ def bundle_commands() -> typer.Typer:
     ) -> None:
         """Tell everything that is missing or wrong in a bundle, at once."""
         if not file.name.lower().endswith(".json"):
-            raise typer.BadParameter(f"{file} does not end in {ENDING}", param_hint="FILE")
+            raise typer.BadParameter(f"{file} does not end in {BUNDLE}", param_hint="FILE")
         from ..bundling.checking import check as run
 
         found, analysed = run(file)

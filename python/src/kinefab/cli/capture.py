@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report
-from .console import fail, tell, unwritable_as_finding
-from .declared import AS_JSON
+from .console import demand_axis, demand_ending, fail, tell, unwritable_as_finding
+from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
     from ..capture.run import Captured
@@ -25,7 +25,6 @@ RECORD: Optional[Path] = typer.Option(
 )
 BLANK: bool = typer.Option(False, "--blank-names", help="With --record: replace every name by a number.")
 UP: Optional[str] = typer.Option(None, "--up", help="Axis that is up in the assembly: X, Y or Z.")
-TARGET = ".bundle.json"
 
 HELP_COM = f"""Capture the assembly that is open in {{name}} (Windows).
 
@@ -165,14 +164,12 @@ def _no_output(output: Path | None) -> None:
 
 
 def _axis(up: str | None) -> str:
-    if up is not None and up.upper() not in ("X", "Y", "Z"):
-        raise typer.BadParameter(f"{up!r} is no axis", param_hint="--up")
-    return (up or "").upper()
+    """ "" where it is not stated."""
+    return "" if up is None else demand_axis(up)
 
 
 def _finish(run: Callable[[Report], Captured], output: Path, as_json: bool) -> None:
-    if not output.name.endswith(TARGET):
-        raise typer.BadParameter(f"{output} does not end in {TARGET}", param_hint="--output")
+    demand_ending(output, BUNDLE)
     report = Report()
     try:
         done = run(report)

@@ -24,6 +24,13 @@ def demand_ending(output: Path, *endings: str) -> None:
         raise typer.BadParameter(f"{output} does not end in {' or '.join(endings)}", param_hint="--output")
 
 
+def demand_axis(up: str) -> str:
+    """The axis that ``--up`` names, as a capital."""
+    if up.upper() not in ("X", "Y", "Z"):
+        raise typer.BadParameter(f"{up!r} is no axis: X, Y or Z", param_hint="--up")
+    return up.upper()
+
+
 def count(number: int, word: str, words: str) -> str:
     """``1 joint``, ``2 joints``."""
     return f"{number} {word if number == 1 else words}"

@@ -14,6 +14,8 @@ from .asking import asking
 SOURCE_HELP = f"Assembly to read: {', '.join(sorted(known_suffixes()))}."
 TARGET_HELP = f"File to write; its ending chooses the kind: {', '.join(known_endings())}."
 DENSITY: Any = typer.Option(DEFAULT_DENSITY, "--density", help="kg/m^3 of bodies that state none.")
+BUNDLE = ".bundle.json"
+"""How a CAD bundle's name ends."""
 AS_JSON: bool = typer.Option(False, "--json", help="Print the same as JSON.")
 CLOSURES: Any = typer.Option(
     Closures.EXACT,

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from ..diagnostics import Report
+from ..diagnostics import Report, named
 from ..model import MeshKey, MeshReference
 from .pieces import MeshFile
 
@@ -154,10 +154,8 @@ def _report_unused(file: MeshFile, found: Sequence[tuple[int, ...] | None], repo
     unused = [n for n in range(len(file.pieces)) if n not in taken]
     if not unused:
         return
-    named = {
+    name_of = {
         number: name for kind in MeshKey for name, os in file.named[kind].items() for o in os for number in o
     }
-    shown = [named.get(n, "(no name)") for n in unused[:5]] + ["..."] * (len(unused) > 5)
-    report.add(
-        "BODY_UNUSED", str(file.path.name), count=len(unused), path=file.path.name, names=", ".join(shown)
-    )
+    names = named(name_of.get(n, "(no name)") for n in unused)
+    report.add("BODY_UNUSED", file.path.name, count=len(unused), path=file.path.name, names=names)

@@ -27,6 +27,10 @@ class RigidGroups:
         group = self.group_of[node]
         return group is not None and self.grounded[group]
 
+    def without_body(self, joint: Joint) -> int | None:
+        """The first of a joint's nodes that is no body, None where both sides are one or the world."""
+        return next((n for n in (joint.a, joint.b) if n is not None and self.group_of[n] is None), None)
+
     def together(self, a: int | None, b: int | None) -> bool:
         """Whether two sides of a joint can never move against each other."""
         if a is None or b is None or self.is_ground(a) or self.is_ground(b):

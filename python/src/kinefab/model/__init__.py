@@ -17,6 +17,7 @@ from .freedoms import (
     FREE,
     FREEDOM_NAMES,
     LOCKED,
+    MOTOR_DAMPING,
     RX,
     RY,
     RZ,
@@ -34,7 +35,7 @@ from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_
 from .meshes import Mesh, MeshKey, MeshReference
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
 from .scene import EARTH, Physics, Scene, Source, SourceFile
-from .surfaces import AlphaMode, Surface, Texture, Wrap
+from .surfaces import PLAIN, AlphaMode, Surface, Texture, Wrap
 
 __all__ = [
     "AlphaMode",
@@ -62,11 +63,13 @@ __all__ = [
     "Joint",
     "JointKind",
     "LOCKED",
+    "MOTOR_DAMPING",
     "MassProperties",
     "Mesh",
     "MeshKey",
     "MeshReference",
     "Motion",
+    "PLAIN",
     "Node",
     "NodeKind",
     "Passive",

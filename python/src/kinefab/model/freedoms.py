@@ -15,6 +15,8 @@ FREEDOM_NAMES = ("tx", "ty", "tz", "rx", "ry", "rz")
 """Their names, by index."""
 
 
+MOTOR_DAMPING = 1e9
+"""N s/m or N m s/rad, of a drive that stands for a motor where a format has none: its force is then the motor's largest."""
 Amount = TypeVar("Amount", float, Array)
 SEAM = 1e-6
 """Turns by which half a turn outside of a range may be the rounding of half a turn inside."""

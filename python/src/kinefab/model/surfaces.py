@@ -79,3 +79,7 @@ class Surface:
         """
         seen_through = self.alpha_mode is AlphaMode.OPAQUE and self.color[3] < 1.0
         return AlphaMode.BLEND if seen_through else self.alpha_mode
+
+
+PLAIN = Surface("Default")
+"""Stands in where the source names no surface."""

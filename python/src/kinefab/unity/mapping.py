@@ -9,7 +9,7 @@ from typing import Any
 
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import Body, Collider, PhysicsMaterial, Scene, Surface, free_id
+from ..model import PLAIN, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes
 from ..spatial import Pose
@@ -18,7 +18,7 @@ from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
-from .bodies.rigidbodies import Rigidbodies, is_kinematic, map_rigidbody, place_rigidbodies
+from .bodies.rigidbodies import Rigidbodies, is_dynamic, is_kinematic, map_rigidbody, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -40,8 +40,6 @@ from .scene import (
 )
 from .scene.vectors import vector3
 
-PLAIN = Surface("Default")
-"""Stands in where the source names no surface."""
 GROUND_ID = "kinefab:ground"
 """Of the object that stands for the ground; no source has such an id."""
 
@@ -147,18 +145,11 @@ class _Builder:
         self.components.append([])
         return len(self.objects) - 1
 
-    def _dynamic(self, index: int) -> bool:
-        """Whether a node's body is moved by forces."""
-        group = self.groups.group_of[index]
-        if group is None or self.groups.grounded[group]:
-            return False
-        return not is_kinematic(self.scene, self.groups.members[group])
-
     def _add_bodies(self, index: int, parent: int) -> None:
         """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""
         node = self.scene.nodes[index]
         bodies = [body for body in node.bodies if body.mesh is not None]
-        dynamic = self._dynamic(index)
+        dynamic = is_dynamic(self.scene, self.groups, index)
         for body in bodies:
             assert body.mesh is not None
             holder = parent
@@ -184,7 +175,7 @@ class _Builder:
                 collider,
                 self.colliders,
                 self.scene.meshes,
-                self._dynamic(index),
+                is_dynamic(self.scene, self.groups, index),
                 material,
                 node.id,
                 self.report,
@@ -262,7 +253,7 @@ class _Builder:
 
     def couplings(self) -> list[Coupling]:
         stated = self.scene.couplings
-        screws = screw_couplings((mapped for mapped, _ in self.joints.values()), stated)
+        screws = screw_couplings([mapped for mapped, _ in self.joints.values()], stated)
         mapped = (map_coupling(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
         return [coupling for coupling in mapped if coupling is not None]
 

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from ... import __version__
-from ...model import Body, Collider, ColliderKind, Mesh, Physics, Repeat, Surface
+from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics, Repeat
 from ...options import ColliderShape
 from ...replacing import replacing
 from ...rigid import active_nodes
 from ...spatial import Array, Pose, quaternion_from_matrix
-from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_kinematic, place_rigidbodies
+from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_dynamic, place_rigidbodies
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
 from ..tangents import tangents_along
@@ -26,8 +26,6 @@ from .looks import Looks
 from .physics import BODIES, PhysicsEntries, bounding_box, motion, shape_pose
 
 MAGIC, VERSION, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
-PLAIN = Surface("Default")
-"""Stands in where the source names no surface."""
 
 
 def write(content: Content, target: Path) -> tuple[Path, ...]:
@@ -144,10 +142,7 @@ class _Document:
 
     def _moves(self, node: int) -> bool:
         """Whether forces move a node's body."""
-        group = self.content.groups.group_of[node]
-        if group is None or self.content.groups.grounded[group]:
-            return False
-        return not is_kinematic(self.scene, self.content.groups.members[group])
+        return is_dynamic(self.scene, self.content.groups, node)
 
     def _add_body(self, node: int, parent: int, body: Body) -> None:
         assert body.mesh is not None
@@ -283,8 +278,7 @@ class _Document:
             if groups.together(joint.a, joint.b):
                 self.report.kept(f"joint {joint.id}", joint.where)
                 continue
-            if any(n is not None and groups.group_of[n] is None for n in (joint.a, joint.b)):
-                lost = next(n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None)
+            if (lost := groups.without_body(joint)) is not None:
                 names = {"joint": joint.id, "node": self.scene.nodes[lost].id}
                 self.report.dropped(f"joint {joint.id}", "JOINT_WITHOUT_BODY", joint.where, **names)
                 continue

@@ -14,6 +14,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...geometry.mass import principal
 from ...model import (
+    MOTOR_DAMPING,
     RX,
     Collider,
     ColliderKind,
@@ -191,7 +192,3 @@ def _drive(index: int, freedom: Freedom) -> dict[str, Any]:
     if math.isfinite(drive.max_force):
         entry["maxForce"] = drive.max_force
     return entry
-
-
-MOTOR_DAMPING = 1e9
-"""N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""

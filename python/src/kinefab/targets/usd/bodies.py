@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ...model import Joint, Scene
 from ...rigid import RigidGroups
-from ...unity.bodies.rigidbodies import Rigidbodies, is_kinematic, place_rigidbodies
+from ...unity.bodies.rigidbodies import Rigidbodies, is_dynamic, place_rigidbodies
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,10 +42,7 @@ class Bodies:
 
     def dynamic(self, node: int) -> bool:
         """Whether forces move a node's body."""
-        group = self.groups.group_of[node]
-        if group is None or self.groups.grounded[group]:
-            return False
-        return not is_kinematic(self.scene, self.groups.members[group])
+        return is_dynamic(self.scene, self.groups, node)
 
     def taken_out(self, node: int) -> bool:
         """Whether a node stands beside the body that is above it in the source."""

@@ -74,8 +74,7 @@ class Stage:
     def _is_written(self, joint: Joint) -> bool:
         """Whether a joint moves something; the report tells of the others."""
         groups, report, feature = self.content.groups, self.content.report, f"joint {joint.id}"
-        lost = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
-        if lost is not None:
+        if (lost := groups.without_body(joint)) is not None:
             names = {"joint": joint.id, "node": self.content.scene.nodes[lost].id}
             report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, **names)
         elif not groups.together(joint.a, joint.b):

@@ -108,6 +108,12 @@ def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
     return any(scene.nodes[i].dynamics.kinematic for i in moved_nodes)
 
 
+def is_dynamic(scene: Scene, groups: RigidGroups, node: int) -> bool:
+    """Whether forces move a node's body."""
+    group = groups.group_of[node]
+    return group is not None and not groups.grounded[group] and not is_kinematic(scene, groups.members[group])
+
+
 def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> Dynamics:
     """What the body's nodes say of how it moves: the carrier first, then whoever says something."""
     if moved_nodes == (carrier,):

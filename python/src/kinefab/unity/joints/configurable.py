@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import RX, Drive, Freedom, Joint, Motion, SphericalDrive
+from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Joint, Motion, SphericalDrive
 from ...spatial import Array, quaternion_from_matrix, rotation_exp, rotation_log
 from ..frames import Senses
 from ..scene import JointDrive, SoftJointLimit, SoftJointLimitSpring
@@ -26,8 +26,6 @@ OPEN_TRAVEL = 100.0
 """Metres of travel written for a slide that ends on one side only: Unity's linear limit has two ends."""
 TURNED = 1e-4
 """Radians that the frames may be turned against each other before it is reported."""
-MOTOR_DAMPER = 1e9
-"""Damper, N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
 
 _MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
 MOTION_TITLES = (
@@ -258,6 +256,6 @@ def _slerp_drive(w: _Writing, drive: SphericalDrive, coordinates: Coordinates) -
 
 def _joint_drive(w: _Writing, drive: Drive, freedom: int) -> JointDrive:
     if drive.motor:
-        w.approximated("JOINT_MOTOR_AS_DRIVE", freedom=w.name(freedom), damper=f"{MOTOR_DAMPER:g}")
-        return JointDrive(0.0, MOTOR_DAMPER, drive.max_force)
+        w.approximated("JOINT_MOTOR_AS_DRIVE", freedom=w.name(freedom), damper=f"{MOTOR_DAMPING:g}")
+        return JointDrive(0.0, MOTOR_DAMPING, drive.max_force)
     return JointDrive(drive.stiffness, drive.damping, drive.max_force, drive.acceleration)

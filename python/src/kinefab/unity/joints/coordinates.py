@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...model import FREE, LOCKED, RX, RY, RZ, Freedom, Joint, Motion, unlocked_of
+from ...model import FREE, LOCKED, RX, RY, RZ, Freedom, Joint, Motion, Scene, unlocked_of
 from ...spatial import Array, Pose, quaternion_from_matrix, rotation_about, rotation_log
 
 AXES = np.eye(3)
@@ -101,6 +101,12 @@ def _hold_single_values(joint: CanonicalJoint) -> CanonicalJoint:
         frame_b=joint.frame_b @ Pose(twist, np.zeros(3)),
         freedoms=freedoms,
     )
+
+
+def coordinates_in(scene: Scene, joint: Joint, shape: CanonicalJoint) -> Coordinates:
+    """Where a joint stands in a scene.  shape: the same joint, see ``canonical``."""
+    frame_a, frame_b = scene.pose(joint.a) @ shape.frame_a, scene.pose(joint.b) @ shape.frame_b
+    return read_coordinates(shape, frame_a.inverse() @ frame_b)
 
 
 def read_coordinates(joint: CanonicalJoint, relative: Pose) -> Coordinates:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...diagnostics import Report
-from ...model import RX, TX, Coupling, CouplingKind, JointKind, Term
+from ...model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Term
 from ..scene import Coupling as UnityCoupling
 from ..scene import CouplingTerm, JointCoordinate
 from .mapping import UnityCoordinate, UnityJoint
@@ -65,28 +65,30 @@ def map_coupling(
     return UnityCoupling(coupling.id, coupling.kind.value, own.coordinate, tuple(terms), offset * own.unit)
 
 
-def screw_couplings(joints: Iterable[UnityJoint], stated: Sequence[Coupling]) -> list[Coupling]:
+def screw_couplings(joints: Sequence[UnityJoint], stated: Sequence[Coupling]) -> list[Coupling]:
     """Couplings for the screws among ``joints`` that ``stated`` does not couple already: a component alone
-    leaves the slide free of the turn.  They hold at the exported pose.
-    """
+    leaves the slide free of the turn."""
+    mapped = {own.source.id: own.coordinates for own in joints if own.coordinates.keys() >= {TX, RX}}
+    sources = (own.source for own in joints if own.source.id in mapped)
+    return [
+        lead_coupling(joint, mapped[joint.id][TX].zero, mapped[joint.id][RX].zero)
+        for joint in uncoupled_screws(sources, stated)
+    ]
+
+
+def uncoupled_screws(joints: Iterable[Joint], couplings: Sequence[Coupling]) -> list[Joint]:
+    """The screws whose slide no coupling ties to their turn."""
     coupled = {
         c.joint
-        for c in stated
+        for c in couplings
         if c.joints == frozenset({c.joint}) and {c.freedom, *(term.freedom for term in c.terms)} == {TX, RX}
     }
-    found: list[Coupling] = []
-    for mapped in joints:
-        joint = mapped.source
-        if (
-            joint.kind is not JointKind.SCREW
-            or joint.id in coupled
-            or not mapped.coordinates.keys() >= {TX, RX}
-        ):
-            continue
-        ratio = joint.lead / (2.0 * math.pi)
-        offset = mapped.coordinates[TX].zero - ratio * mapped.coordinates[RX].zero
-        terms = (Term(joint.id, RX, ratio),)
-        found.append(
-            Coupling(f"lead:{joint.id}", CouplingKind.SCREW, joint.id, TX, terms, offset, joint.where)
-        )
-    return found
+    return [joint for joint in joints if joint.kind is JointKind.SCREW and joint.id not in coupled]
+
+
+def lead_coupling(joint: Joint, slide: float, turn: float) -> Coupling:
+    """A screw's lead, which holds at the exported pose.  slide, turn: where it stands there, metres and radians."""
+    ratio = joint.lead / (2.0 * math.pi)
+    terms = (Term(joint.id, RX, ratio),)
+    offset = slide - ratio * turn
+    return Coupling(f"lead:{joint.id}", CouplingKind.SCREW, joint.id, TX, terms, offset, joint.where)

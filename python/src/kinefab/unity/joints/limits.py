@@ -1,4 +1,4 @@
-"""Findings about a joint's ranges that hinge and configurable joints share."""
+"""Findings about a joint's pose and ranges that all its forms share, in Unity and in USD."""
 
 from __future__ import annotations
 
@@ -9,6 +9,10 @@ from ...diagnostics import Report
 from ...model import RX, TX, Freedom, Joint, JointKind, Motion
 from .coordinates import CanonicalJoint, Coordinates
 
+GAP_LENGTH = 1e-5
+"""Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
+GAP_ANGLE = 1e-4
+"""Radians, likewise."""
 HALF_TURN = math.pi
 """Radians to either side of the exported pose that a ConfigurableJoint counts a twist by."""
 
@@ -34,6 +38,21 @@ def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, re
         upper=f"{upper:g}",
         unit="degrees" if angle else "m",
     )
+
+
+def report_gap(joint: Joint, coordinates: Coordinates, report: Report) -> bool:
+    """Whether the exported pose meets the joint; a warning with the misfit where it does not."""
+    if coordinates.gap_length <= GAP_LENGTH and coordinates.gap_angle <= GAP_ANGLE:
+        return True
+    report.approximated(
+        f"joint {joint.id}",
+        "JOINT_POSE_GAP",
+        joint.where,
+        joint=joint.id,
+        metres=f"{coordinates.gap_length:.3g}",
+        degrees=f"{math.degrees(coordinates.gap_angle):.3g}",
+    )
+    return False
 
 
 def one_sided(low: float, high: float, furthest: float) -> tuple[float, float]:

@@ -13,7 +13,6 @@ Signs and frames: ``schemas/SPEC.md``, "Joints".  In short, with X Y Z the joint
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -27,15 +26,10 @@ from .. import frames
 from ..scene import ConfigurableJoint, FixedJoint, HingeJoint
 from ..scene.vectors import vector3
 from .configurable import MOTION_TITLES, configurable_fields
-from .coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
+from .coordinates import CanonicalJoint, Coordinates, canonical, coordinates_in
 from .hinge import fits_hinge, hinge_fields
-from .limits import turns_as_travel
+from .limits import report_gap, turns_as_travel
 from .placement import Placement, place
-
-GAP_LENGTH = 1e-5
-"""Metres that the two sides of a joint may be apart before it is reported; CAD files carry 1e-6 or so."""
-GAP_ANGLE = 1e-4
-"""Radians, likewise."""
 
 LOSSES = ("JOINT_BETWEEN_LED", "JOINT_REDUNDANT", "JOINT_REMOVES_NOTHING")
 """Why a joint has no component, where that loses something."""
@@ -86,8 +80,7 @@ def map_joint(
     """
     found = finding or JointFinding(joint.id)
     feature = f"joint {joint.id}"
-    unbodied = next((n for n in (joint.a, joint.b) if n is not None and groups.group_of[n] is None), None)
-    if unbodied is not None:
+    if (unbodied := groups.without_body(joint)) is not None:
         report.dropped(
             feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id
         )
@@ -99,10 +92,9 @@ def map_joint(
     if idle and counted is not None:  # there to be counted by alone, however scripts move the two
         joint = replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
     shape = canonical(joint)
-    relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
-    coordinates = read_coordinates(shape, relative)
+    coordinates = coordinates_in(scene, joint, shape)
     shape = turns_as_travel(joint, shape, coordinates)
-    lossless = _report_gap(joint, coordinates, report)
+    lossless = report_gap(joint, coordinates, report)
     unneeded = _why_none(joint, shape, found, groups, counted is not None, idle)
     if unneeded in LOSSES:
         report.dropped(feature, unneeded, joint.where, joint=joint.id)
@@ -252,18 +244,3 @@ def _readings(
         zero = shape.freedoms[i].nearest_turn(coordinates.values[i]) if i >= RX else coordinates.values[i]
         readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
     return readings
-
-
-def _report_gap(joint: Joint, coordinates: Coordinates, report: Report) -> bool:
-    """Whether the exported pose meets the joint; a warning with the misfit where it does not."""
-    if coordinates.gap_length <= GAP_LENGTH and coordinates.gap_angle <= GAP_ANGLE:
-        return True
-    report.approximated(
-        f"joint {joint.id}",
-        "JOINT_POSE_GAP",
-        joint.where,
-        joint=joint.id,
-        metres=f"{coordinates.gap_length:.3g}",
-        degrees=f"{math.degrees(coordinates.gap_angle):.3g}",
-    )
-    return False

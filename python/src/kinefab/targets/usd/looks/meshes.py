@@ -9,15 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ....model import Mesh, Scene, Surface
+from ....model import PLAIN, Mesh, Scene, Surface
 from ....spatial import Array
 from ..api import Gf, Vt
 from ..physics.colliders import Contact, write_contact
 from ..prims import Prim
 from .materials import Materials, uv_name
-
-PLAIN = Surface("Default")
-"""Of a submesh that has no surface where others have one."""
 
 
 @dataclass(frozen=True, slots=True)

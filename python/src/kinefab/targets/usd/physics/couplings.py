@@ -8,8 +8,9 @@ from dataclasses import replace
 from typing import Any
 
 from ....diagnostics import Report
-from ....model import RX, TX, Coupling, CouplingKind, Joint, JointKind, Scene, Term
-from ....unity.joints.coordinates import canonical, read_coordinates
+from ....model import RX, TX, Coupling, Joint, Scene, Term
+from ....unity.joints.coordinates import canonical, coordinates_in
+from ....unity.joints.couplings import lead_coupling, uncoupled_screws
 from .joints import WrittenJoint
 
 TURNS = ("rotX", "rotY", "rotZ")
@@ -138,25 +139,16 @@ def _write(
 
 def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:
     """Couplings for screws that nothing couples yet: a generic joint leaves the slide free of the turn."""
-    coupled = {c.joint for c in scene.couplings if c.joints == frozenset({c.joint})}
-    found: list[Coupling] = []
-    for joint in scene.joints:
-        if joint.kind is not JointKind.SCREW or joint.id in coupled or joint.id not in joints:
-            continue
-        slide, turn = (standing(scene, joint, freedom) for freedom in (TX, RX))
-        ratio = joint.lead / (2.0 * math.pi)
-        terms = (Term(joint.id, RX, ratio),)
-        offset = slide - ratio * turn
-        found.append(
-            Coupling(f"lead:{joint.id}", CouplingKind.SCREW, joint.id, TX, terms, offset, joint.where)
-        )
-    return found
+    return [
+        lead_coupling(joint, *(standing(scene, joint, freedom) for freedom in (TX, RX)))
+        for joint in uncoupled_screws(scene.joints, scene.couplings)
+        if joint.id in joints
+    ]
 
 
 def standing(scene: Scene, joint: Joint, freedom: int) -> float:
     """A joint's coordinate TX..RZ at the exported pose, metres or radians."""
     shape = canonical(joint)
-    relative = (scene.pose(joint.a) @ shape.frame_a).inverse() @ (scene.pose(joint.b) @ shape.frame_b)
     at = shape.name_of.index(freedom)
-    value = float(read_coordinates(shape, relative).values[at])
+    value = float(coordinates_in(scene, joint, shape).values[at])
     return value if freedom < RX else float(shape.freedoms[at].nearest_turn(value))

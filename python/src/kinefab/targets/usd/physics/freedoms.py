@@ -8,13 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from ....model import RX, Drive, Freedom, Motion, Passive
+from ....model import MOTOR_DAMPING, RX, Drive, Freedom, Motion, Passive
 from ..prims import Prim
 
 DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
 """USD's names of the freedoms TX..RZ."""
-MOTOR_DAMPING = 1e9
-"""N s/m or N m s/rad, of a drive that stands for a motor: its force is then the motor's largest."""
 
 
 def coordinate(value: float, turns: bool) -> float:

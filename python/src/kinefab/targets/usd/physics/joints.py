@@ -13,8 +13,8 @@ from ....diagnostics import Report
 from ....findings import JointFinding
 from ....model import RX, RZ, TX, Drive, Freedom, Joint, Motion, Passive, Scene, unlocked_of
 from ....spatial import Pose, quaternion_from_matrix, rotation_log
-from ....unity.joints.coordinates import CanonicalJoint, canonical, read_coordinates
-from ....unity.joints.mapping import GAP_ANGLE, GAP_LENGTH
+from ....unity.joints.coordinates import CanonicalJoint, canonical, coordinates_in
+from ....unity.joints.limits import report_gap
 from ....unity.joints.passive import with_passive_drives
 from ..bodies import Bodies
 from ..prims import Prim, quaternion32, quaternion64, rounded, vector3d, vector3f
@@ -180,15 +180,8 @@ class Joints:
 
     def _standing(self, joint: Joint, shape: CanonicalJoint) -> list[float]:
         """The six coordinates at the exported pose, metres and radians; the report tells where it does not meet the joint."""
-        relative = (self.scene.pose(joint.a) @ shape.frame_a).inverse() @ (
-            self.scene.pose(joint.b) @ shape.frame_b
-        )
-        found = read_coordinates(shape, relative)
-        if found.gap_length > GAP_LENGTH or found.gap_angle > GAP_ANGLE:
-            self.report.approximated(
-                f"joint {joint.id}", "JOINT_POSE_GAP", joint.where, joint=joint.id,
-                metres=f"{found.gap_length:.3g}", degrees=f"{math.degrees(found.gap_angle):.3g}",
-            )  # fmt: skip
+        found = coordinates_in(self.scene, joint, shape)
+        report_gap(joint, found, self.report)
         return [
             float(freedom.nearest_turn(value)) if i >= RX else float(value)
             for i, (freedom, value) in enumerate(zip(shape.freedoms, found.values))

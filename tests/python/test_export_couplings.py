@@ -9,7 +9,18 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.analysis import analyse
-from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind, Term
+from kinefab.model import (
+    RX,
+    TX,
+    Constraint,
+    ConstraintKind,
+    Coupling,
+    CouplingKind,
+    Feature,
+    FeatureKind,
+    JointKind,
+    Term,
+)
 from kinefab.spatial import rotation_about
 from scenes import BOX, exported, lid_scene
 
@@ -116,3 +127,55 @@ def test_two_joints_that_a_coupling_keeps_in_step_stay_two(kind: str) -> None:
     ]
     stop = mechanism.sweep("Lead", 0.0, whole).stop
     assert stop is not None and "Follow" in str(stop)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("kind", [ConstraintKind.BELT, ConstraintKind.LINEAR])
+def test_constraint_may_count_a_part_from_what_it_hangs_on_by_way_of_others(
+    kind: ConstraintKind, sense: float, tmp_path
+) -> None:
+    """A pulley on an arm, or a table on a carriage, whose constraint counts it from the ground: what the arm or the carriage
+    makes of its way is taken back by its own joint.  sense: of the direction that the constraint states for it."""
+    axis, place = np.array([0.0, 0.6, 0.8]), np.array([[0.0, 0, 0], [0.2, 0, 0], [0.5, 0.1, 0]])
+    scene = kinefab.Scene()
+    lead, arm, last = (
+        scene.add_part(n, BOX, density=1000, translation=p) for n, p in zip(("A", "B", "C"), place)
+    )
+    add = scene.add_hinge if kind is ConstraintKind.BELT else scene.add_slider
+    for name, a, b in (("Lead", None, lead), ("Arm", None, arm), ("Last", arm, last)):
+        add(a, b, point=place[b], axis=axis, name=name)
+    ends = (
+        Feature(lead, FeatureKind.LINE, np.zeros(3), axis),
+        Feature(last, FeatureKind.LINE, np.zeros(3), sense * axis),
+    )
+    scene.constraints.append(Constraint("tie", kind, ends, value=0.5))
+    content, result = exported(scene, tmp_path)
+    assert [c.get("id", "tie") for c in content["couplings"]] == ["tie"]
+    assert {o.outcome.value for o in result.report.outcomes if "tie" in o.feature} == {"kept"}
+    unit = 1.0 if kind is ConstraintKind.BELT else 0.01
+    for moving in (kinefab.motion(scene), kinefab.motion(result.path)):
+        reached = moving.follow({"Lead": [0.0, 40.0 * unit], "Arm": [0.0, -30.0 * unit]})
+        assert reached.stop is None
+        assert reached["Last"][-1] == pytest.approx((sense * 20.0 + 30.0) * unit, abs=1e-6)
+
+
+def test_constraints_may_count_a_part_along_two_directions(tmp_path) -> None:
+    """A table on two slides over each other follows one slide along its first direction, another against its second."""
+    along, across = np.array([0.0, 0.6, 0.8]), np.array([0.0, 0.8, -0.6])
+    scene = kinefab.Scene()
+    carriage, table, one, two = (scene.add_part(n, BOX, density=1000) for n in ("C", "T", "One", "Two"))
+    for a, b, way in (
+        (None, carriage, along),
+        (carriage, table, across),
+        (None, one, along),
+        (None, two, across),
+    ):
+        scene.add_slider(a, b, point=(0, 0, 0), axis=way, name=scene.nodes[b].name)
+    for part, way, ratio in ((one, along, 0.5), (two, across, -2.0)):
+        ends = [Feature(node, FeatureKind.LINE, np.zeros(3), way) for node in (part, table)]
+        scene.constraints.append(Constraint(f"tie {part}", ConstraintKind.LINEAR, tuple(ends), value=ratio))
+    content, result = exported(scene, tmp_path)
+    assert len(content["couplings"]) == 2
+    for moving in (kinefab.motion(scene), kinefab.motion(result.path)):
+        reached = moving.follow({"One": [0.0, 0.3], "Two": [0.0, 0.1]})
+        assert (reached["C"][-1], reached["T"][-1]) == pytest.approx((0.15, -0.2), abs=1e-9)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ...diagnostics import Report
 from ...model import Constraint, ConstraintKind, Coupling, CouplingKind, Feature, Scene, Term
 from ..assembly.assemble import Assembly
 from ..joints.links import Link
 
-_KINDS = {
+COUNTED = {
     ConstraintKind.GEAR: (CouplingKind.GEAR, True, True),
     ConstraintKind.BELT: (CouplingKind.BELT, True, True),
     ConstraintKind.RACK: (CouplingKind.RACK, True, False),
@@ -23,18 +21,17 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
 
     scene: with middle bodies, at the closed pose, where every found joint's coordinates are zero.
     """
-    by_pair: dict[tuple[int, int], Link] = {}
-    for link in links:
-        by_pair.setdefault((min(link.a, link.b), max(link.a, link.b)), link)
+    by_pair = by_pair_of(links)
     found = list(scene.couplings)
     for statement in assembly.equations.statements:
-        if not isinstance(statement, Constraint) or statement.kind not in _KINDS:
+        if not isinstance(statement, Constraint) or statement.kind not in COUNTED:
             continue
-        kind, *turns = _KINDS[statement.kind]
+        kind, *turns = COUNTED[statement.kind]
         carrier = assembly.body_of(statement.features[2].node) if len(statement.features) > 2 else 0
         ends: list[tuple[Link, int, float]] = []
         for feature, turning in zip(statement.features, turns):
-            end = _coordinate(assembly, by_pair, scene, feature, carrier, turning)
+            body = assembly.body_of(feature.node)
+            end = coordinate_of(by_pair.get(frozenset((body, carrier)), []), scene, feature, body, turning)
             if end is None:
                 part = "ground" if feature.node is None else scene.nodes[feature.node].id
                 report.dropped(
@@ -64,19 +61,25 @@ def couplings_of(assembly: Assembly, links: list[Link], scene: Scene, report: Re
     return found[:first] + sorted(found[first:], key=lambda c: assembly.equations.places[c.id])
 
 
-def _coordinate(
-    assembly: Assembly,
-    by_pair: Mapping[tuple[int, int], Link],
-    scene: Scene,
-    feature: Feature,
-    carrier: int,
-    turning: bool,
+def by_pair_of(links: list[Link]) -> dict[frozenset[int], list[Link]]:
+    """The links between each two bodies."""
+    by_pair: dict[frozenset[int], list[Link]] = {}
+    for link in links:
+        by_pair.setdefault(frozenset((link.a, link.b)), []).append(link)
+    return by_pair
+
+
+def coordinate_of(
+    links: list[Link], scene: Scene, feature: Feature, body: int, turning: bool
 ) -> tuple[Link, int, float] | None:
-    """(link, freedom, sign) of the joint coordinate along or about a feature's direction, or None."""
-    body = assembly.body_of(feature.node)
-    link = by_pair.get((min(body, carrier), max(body, carrier)))
-    if link is None or feature.direction is None:
+    """(link, freedom, sign) of the joint coordinate along or about a feature's direction, or None.
+
+    links: those between ``body``, the feature's, and its carrier.  turning: about it, not along it.
+    """
+    if feature.direction is None:
         return None
     direction = scene.pose(feature.node).direction(feature.direction)
-    found = link.freedom_along(direction, turning, body, scene)
-    return None if found is None else (link, *found)
+    for link in links:
+        if (found := link.freedom_along(direction, turning, body, scene)) is not None:
+            return link, *found
+    return None

@@ -130,7 +130,7 @@ MOBILITY = {
     "fixed": 0, "revolute": 1, "cylindrical": 2, "slider": 1, "ball": 3, "parallel": 4, "perpendicular": 5, "angle": 5,
     "distance_planes": 3, "distance_lines": 3, "distance_points": 5, "distance_plane_point": 5, "distance_point_line": 5,
     "distance_cylinders": 3, "distance_plane_cylinder": 4, "distance_plane_sphere": 5, "distance_cylinder_sphere": 5,
-    "couplings": 2, "four_bar": 0, "wheel_unit": 1, "linked": 7, "stretched": 2,
+    "couplings": 2, "four_bar": 0, "wheel_unit": 1, "linked": 7, "stretched": 2, "deep": 2,
 }  # fmt: skip
 """6 less the rows of the solver's joint (``*Joint::initializeGlobally``); couplings: six joints, four couplings;
 linked: 1 + 0 + 1 + 3 + 1 + 0 + 0 + 1 of its joints; elements of arrays that no joint holds are no part of an island."""

@@ -63,17 +63,19 @@ def resolve(target: Target, root: Occurrence, parts: Parts) -> Reference:
     if here is start or node is None:
         raise Lost("it names no part of the assembly")
     moving = _moving(here, parts)
-    return Reference(parts.of[id(moving)], moving.pose @ moving.jcs.inverse() @ pose, element, owner)
+    return Reference(node, moving.pose @ moving.jcs.inverse() @ pose, element, owner)
 
 
 def _moving(here: Occurrence, parts: Parts) -> Occurrence:
-    """The occurrence whose frame the node has that this one is or goes with."""
-    node = parts.node(here)
-    found = here
-    while found.parent is not None and parts.of.get(id(found)) != node:
-        found = found.parent
-    while found.parent is not None and parts.of.get(id(found.parent)) == node:
-        found = found.parent
+    """What FreeCAD moves where it moves this occurrence: the outermost one round it that moves as one."""
+    found, above = here, here.parent
+    while above is not None:
+        node = parts.of.get(id(above))
+        if node is not None and parts.nodes[node].flexible:
+            break
+        if not above.is_group:
+            found = above
+        above = above.parent
     return found
 
 

@@ -75,19 +75,26 @@ def changes(event: str, arguments: tuple, folder: Path) -> bool:
     return any(isinstance(a, (str, bytes, os.PathLike)) and str(folder) in os.fsdecode(a) for a in arguments)
 
 
-def killed_before(number: int, scene: kinefab.Scene, folder: Path, exchanges: bool) -> bool:
-    """Export in a process that is killed before its call of that number; False where it had fewer and came to its end."""
+def killed_before(
+    number: int, scene: kinefab.Scene, folder: Path, exchanges: bool, interrupted: bool = False
+) -> bool:
+    """Export in a process that is killed before its call of that number; False where it had fewer and came to its end.
+
+    interrupted: by Ctrl+C instead, after which it still runs what it has to run at its end.
+    """
     child = os.fork()
     if child:
         _, status = os.waitpid(child, 0)
-        assert os.WIFSIGNALED(status) or os.WEXITSTATUS(status) == 0
-        return os.WIFSIGNALED(status)
+        assert os.WIFSIGNALED(status) or os.WEXITSTATUS(status) in (0, 130)
+        return status != 0
     seen = 0
 
     def hook(event: str, arguments: tuple) -> None:
         nonlocal seen
         if changes(event, arguments, folder):
             seen += 1
+            if seen == number and interrupted:
+                raise KeyboardInterrupt
             if seen == number:
                 os.kill(os.getpid(), signal.SIGKILL)
 
@@ -96,6 +103,8 @@ def killed_before(number: int, scene: kinefab.Scene, folder: Path, exchanges: bo
             moment.exchanged = lambda first, second: False
         sys.addaudithook(hook)
         kinefab.export(scene, folder / "Robot.prefab")
+    except KeyboardInterrupt:
+        os._exit(130)
     except BaseException:
         os._exit(1)
     os._exit(0)
@@ -132,8 +141,11 @@ def sets(tmp_path_factory) -> dict[str, Path]:
     return found
 
 
+@pytest.mark.parametrize("interrupted", [False, True], ids=["killed", "interrupted"])
 @pytest.mark.parametrize("exchanges", [True, False])
-def test_killed_before_any_call_nothing_dangles_and_the_next_export_ends_it(tmp_path, sets, exchanges):
+def test_killed_before_any_call_nothing_dangles_and_the_next_export_ends_it(
+    tmp_path, sets, exchanges, interrupted
+):
     """Where the system exchanges folders there is the old set or the new one; between folder and prefab, which no system
     renames in one step, the old prefab over the assets of both."""
     old, new = kept(sets["old"]), kept(sets["new"])
@@ -141,7 +153,7 @@ def test_killed_before_any_call_nothing_dangles_and_the_next_export_ends_it(tmp_
     for number in range(1, 1000):
         folder = tmp_path / str(number)
         shutil.copytree(sets["old"], folder)
-        alive = not killed_before(number, new_machine(), folder, exchanges)
+        alive = not killed_before(number, new_machine(), folder, exchanges, interrupted)
         files = kept(folder)
         assert all(files[name] == data for name, data in THEIRS.items())
         if files["Robot.prefab"] == old["Robot.prefab"] and files != old:

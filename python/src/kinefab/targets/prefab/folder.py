@@ -16,7 +16,15 @@ from ...diagnostics import KinefabError, Report
 from ...replacing import one_at_a_time, sync_directory
 from .files import AssetFile
 from .manifest import MANIFEST, Manifest, Pending, read_manifest
-from .moment import complete, files_below, meta_of, remove_leftovers, staging_prefix, take_place
+from .moment import (
+    complete,
+    files_below,
+    is_needed,
+    meta_of,
+    remove_leftovers,
+    staging_prefix,
+    take_place,
+)
 from .project import moved_away
 from .text.metas import guid_in
 
@@ -48,7 +56,8 @@ def put_in_place(
             pending = Pending(staging.name, tuple(sorted(gone)))
             take_place(staging, target, folder, Manifest(written, pending, identity))
         finally:
-            shutil.rmtree(staging, ignore_errors=True)
+            if not is_needed(staging, folder):
+                shutil.rmtree(staging, ignore_errors=True)
         sync_directory(parent)
     return tuple(parent / file.path for file in files if file.content is not None)
 

@@ -62,6 +62,12 @@ def take_place(staging: Path, target: Path, folder: Path, manifest: Manifest) ->
     complete(target, folder)
 
 
+def is_needed(staging: Path, folder: Path) -> bool:
+    """Whether the export was broken off after its folder took the old one's place: the prefab that belongs to it lies there yet."""
+    pending = read_manifest(folder).pending
+    return pending is not None and pending.staging == staging.name
+
+
 def complete(target: Path, folder: Path) -> None:
     """End the export that stands under way in the folder's manifest, if any does: first the prefab takes its place, then what
     is left of the old set goes.  Killed, it can be done again.  Raises OSError."""

@@ -201,6 +201,19 @@ def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
     assert list(tmp_path.glob("out/.*.tmp")) == []
 
 
+def test_a_converting_process_that_nobody_hears_ends_without_a_word(tmp_path):
+    """Its batch was killed while the file was converted: its traceback stood below the job that was stopped."""
+    child = [sys.executable, "-m", "kinefab.batching.child"]
+    job = jobs.Job(str(tmp_path / "none.urdf"), str(tmp_path / "none.kinefab"), str(tmp_path / "ledger"))
+    with subprocess.Popen(
+        child, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        process.stdout.close()
+        process.stdin.write(json.dumps(job.as_json()).encode() + b"\n")
+        process.stdin.flush()
+        assert process.wait(timeout=60) == 1 and process.stderr.read() == b""
+
+
 def test_a_batch_that_is_broken_off_ends_what_is_under_way_and_begins_nothing(tmp_path, hostile):
     """As by Ctrl+C, which a terminal sends to a whole session: the converting processes have one of their own."""
     folder = bundles(tmp_path / "in", "hang", "ok1", "ok2", "ok3")

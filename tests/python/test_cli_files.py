@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 import sys
 
@@ -128,3 +129,24 @@ def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
         "export", tmp_path / "none.bundle.json", "-o", tmp_path / "x.kinefab", "--report", "/dev/stdout"
     )
     assert json.loads(done.stdout)["written"] is False
+
+
+@pytest.mark.posix  # has the signals
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize("target", ["lever.kinefab", "Lever.prefab", "lever.glb"])
+def test_a_job_that_is_stopped_leaves_nothing_half_written(tmp_path, target, name):
+    """What is written stands under a hidden name yet when it is made lasting; the shell sees the signal in the exit status."""
+    number = getattr(signal, name)
+    stopped = f"import os; os.fsync = lambda file: os.kill(os.getpid(), {number:d})\nimport kinefab.cli as c; c.main()"
+    command = [sys.executable, "-c", stopped, "export", LEVER, "-o", tmp_path / target]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 128 + number and done.stderr == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.posix
+def test_nohup_is_kept_to(tmp_path):
+    ignored = "import os, signal; signal.signal(signal.SIGHUP, signal.SIG_IGN)\n"
+    held = f"{ignored}os.fsync = lambda file: os.kill(os.getpid(), signal.SIGHUP)\nimport kinefab.cli as c; c.main()"
+    command = [sys.executable, "-c", held, "export", LEVER, "-o", tmp_path / "lever.kinefab"]
+    assert subprocess.run(command, capture_output=True, timeout=60).returncode == 0

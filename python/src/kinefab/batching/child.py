@@ -37,8 +37,11 @@ def serve() -> None:
     for line in _lines():
         job = Job(**json.loads(line))
         record = _watched(job, reading) if hasattr(os, "fork") else _done(job, reading)
-        answers.write(json.dumps(record.as_json()) + "\n")
-        answers.flush()
+        try:
+            answers.write(json.dumps(record.as_json()) + "\n")
+            answers.flush()
+        except BrokenPipeError:  # nobody asks any more
+            os._exit(1)
 
 
 def _lines() -> Iterator[bytes]:

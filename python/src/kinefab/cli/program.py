@@ -5,8 +5,9 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import signal
 import sys
-from typing import Any
+from typing import Any, NoReturn
 
 import typer
 
@@ -65,9 +66,22 @@ def _start_light() -> None:
     atexit.register(gc.freeze)
 
 
+def _end(number: int, _: object) -> NoReturn:
+    sys.exit(128 + number)
+
+
+def _end_in_order() -> None:
+    """Whoever stops a job in CI or closes a terminal gets what Ctrl+C gives: what is half written goes, and what works beside."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:  # nohup has it ignored
+            signal.signal(number, _end)
+
+
 def main() -> None:
     """Entry point of the ``kinefab`` script."""
     _start_light()
+    _end_in_order()
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         # Closed by whoever started this; each takes the number of its own again.
         if getattr(sys, name) is None:

@@ -20,6 +20,7 @@ from kinefab.views.raster.solid import solid
 
 ROOT = Path(__file__).parents[2]
 LEVER = ROOT / "fixtures" / "lever" / "lever.kinefab"
+BUNDLE = LEVER.with_name("lever.bundle.json")
 FRONT = View(np.array([1.0, 0, 0]), np.array([0, 1.0, 0]), np.array([0, 0, 1.0]), 40.0, np.zeros(3), 200, 200)
 with_pillow = pytest.mark.skipif(
     importlib.util.find_spec("PIL") is None, reason="no Pillow: GIF and WebP are not tried"
@@ -129,6 +130,24 @@ def test_the_moving_svg_shows_one_frame_at_a_time():
         values = animate.get("values").split(";")
         assert len(times) == len(values) and times[0] == 0.0 and values.count("inline") == 1
         assert times[values.index("inline")] == pytest.approx(i / 40, abs=1e-5)
+
+
+def test_a_source_is_drawn_as_its_scene_is_and_moves_only_when_asked(tmp_path):
+    kinefab.export(BUNDLE, tmp_path / "lever.kinefab")
+    for source, name in ((BUNDLE, "source.svg"), (tmp_path / "lever.kinefab", "scene.svg")):
+        assert run("draw", source, "-o", tmp_path / name).returncode == 0
+    assert (tmp_path / "source.svg").read_bytes() == (tmp_path / "scene.svg").read_bytes()
+    assert run("draw", BUNDLE, "--motion", "-o", tmp_path / "moving.svg").returncode == 0
+    assert b"<animate" in (tmp_path / "moving.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "arguments", [["x.png", "--motion"], ["x.png", "--joint", "Shaft"], ["x.svg", "--joint", "Shaft"]]
+)
+def test_what_is_said_of_a_motion_is_refused_for_a_picture_that_stands_still(tmp_path, arguments):
+    done = run("draw", LEVER, "-o", *arguments, cwd=tmp_path)
+    assert done.returncode == 2 and arguments[1] in done.stderr and "--motion" in done.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(

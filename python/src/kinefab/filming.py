@@ -1,4 +1,4 @@
-"""A source or a written scene as a picture that moves: animated SVG, GIF or WebP, or one PNG."""
+"""A source or a written scene as a picture: one that moves (animated SVG, GIF or WebP), one PNG; a source also as a still SVG."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from .unity import frames
 from .unity.back.restored import Restored, restored
 from .views.freedoms import Placement
 from .views.overview import unsound_as_finding
+from .views.picture import draw
 from .views.raster.film import Writer, animated_svg, by_pillow, pictures
 
 FRAMES = 40
@@ -46,6 +47,16 @@ def film(
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
         images = pictures(document, buffers, _placements(back, motion))
     return writer(images, title_of(document, source))
+
+
+def still(source: str | Path, options: ExportOptions = ExportOptions(), found: Report | None = None) -> bytes:
+    """A source as the SVG of the scene that would be written of it: its bodies, its joints and how far they move.
+
+    options, found: as of ``film``.  Raises KinefabError when the data is wrong.
+    """
+    with unsound_as_finding(Path(source)):
+        document, buffers = read_document(source, options, found)
+        return draw(document, buffers).encode("utf-8")
 
 
 def _writer(ending: str) -> Writer:

@@ -32,16 +32,21 @@ def draw(
 ) -> None:
     """Draw a scene: its bodies, its joints and how far they move."""
     demand_ending(output, ".svg", ".png", ".gif", ".webp")
-    found = Report()
+    ending, options, found = output.suffix.lower(), _options(file, reading), Report()
+    _demand_motion(ending, motion, joint)
     try:
-        if output.suffix.lower() == ".svg" and not motion and file.suffix.lower() == ".kinefab":
+        if ending == ".svg" and not motion and file.suffix.lower() == ".kinefab":
             from ..views.overview import picture
 
             content = picture(file).encode("utf-8")
+        elif ending == ".svg" and not motion:
+            from ..filming import still
+
+            content = still(file, options, found)
         else:
             from ..filming import film
 
-            content = film(file, output.suffix.lower(), joint, _options(file, reading), found)
+            content = film(file, ending, joint, options, found)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:
@@ -96,6 +101,15 @@ def report(
     except KinefabError as error:
         fail(error, output, as_json, False)
     _tell(found, output, as_json)
+
+
+def _demand_motion(ending: str, motion: bool, joint: str | None) -> None:
+    """What is said of a motion would go unheard in a picture that stands still."""
+    if ending == ".png" and motion:
+        raise typer.BadParameter("a .png stands still; write .svg, .gif or .webp", param_hint="--motion")
+    if joint is not None and not motion and ending in (".png", ".svg"):
+        told = "nothing is driven in a picture that stands still; write .svg with --motion, .gif or .webp"
+        raise typer.BadParameter(told, param_hint="--joint")
 
 
 def _tell(found: Report, written: Path, as_json: bool) -> None:

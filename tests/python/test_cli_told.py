@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import kinefab
 import pytest
-from command_line import runner
+from command_line import LEVER, runner
+from command_line import run as run_apart
 from kinefab.cli import app
 
 FIXTURES = Path(__file__).parents[2] / "fixtures"
@@ -105,3 +107,18 @@ def test_what_is_looked_at_tells_what_was_found_and_where_it_is(command: str, tm
     assert "MESH_NOT_FOUND" in done.stderr
     told = json.loads(run(command, robot, "-o", target, "--json").stdout)
     assert [d["code"] for d in told["diagnostics"] if d["severity"] == "warning"] == ["MESH_NOT_FOUND"]
+
+
+@pytest.mark.linux  # where xdg-open is what opens pages
+@pytest.mark.parametrize("status", [0, 3])
+def test_what_opens_a_page_says_nothing_here_and_where_nothing_does_that_is_told(tmp_path: Path, status: int):
+    """Without a browser, or with one that complains, a terminal was full of xdg-open's lines, also after the command's end."""
+    opener = tmp_path / "bin" / "xdg-open"
+    opener.parent.mkdir()
+    opener.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/asked\necho noise; echo noise >&2\nexit {status}\n')
+    opener.chmod(0o755)
+    path = f"{opener.parent}{os.pathsep}{os.environ['PATH']}"
+    done = run_apart("view", LEVER, "-o", "-lever.html", "--open", cwd=tmp_path, PATH=path)
+    assert done.returncode == 0 and done.stdout == "-lever.html\n"
+    assert (tmp_path / "asked").read_text() == f"{tmp_path / '-lever.html'}\n"
+    assert done.stderr == ("No browser could be started; open -lever.html in one.\n" if status else "")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any, Optional
 
@@ -10,11 +12,14 @@ import typer
 from ..diagnostics import KinefabError, Report
 from ..options import ExportOptions, Ground
 from ..sources import source_options
+from . import console
 from .asking import asking
 from .console import demand_ending, fail, tell, write
 from .declared import AS_JSON
 
 SOURCE: Path = typer.Argument(..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False)
+BROWSER_SECONDS = 3.0
+"""After which what was started is a browser, which stays."""
 
 
 @asking(("reading", source_options()))
@@ -80,8 +85,8 @@ def view(
     except KinefabError as error:
         fail(error, page, as_json, False)
     _tell(found, page, as_json)
-    if open_:
-        typer.launch(str(page))
+    if open_ and not _opened(page) and console.verbosity >= 0:
+        typer.echo(f"No browser could be started; open {page} in one.", err=True)
 
 
 @asking(("reading", source_options()))
@@ -110,6 +115,20 @@ def _demand_motion(ending: str, motion: bool, joint: str | None) -> None:
     if joint is not None and not motion and ending in (".png", ".svg"):
         told = "nothing is driven in a picture that stands still; write .svg with --motion, .gif or .webp"
         raise typer.BadParameter(told, param_hint="--joint")
+
+
+def _opened(page: Path) -> bool:
+    """Show a page in the browser; False where none could be started.  What that says on its way is not for this terminal."""
+    if not sys.platform.startswith(("linux", "freebsd")):
+        return typer.launch(str(page)) == 0
+    silent: dict[str, Any] = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+    try:
+        started = subprocess.Popen(["xdg-open", page.resolve()], start_new_session=True, **silent)
+        return started.wait(BROWSER_SECONDS) == 0
+    except subprocess.TimeoutExpired:
+        return True
+    except OSError:
+        return False
 
 
 def _tell(found: Report, written: Path, as_json: bool) -> None:

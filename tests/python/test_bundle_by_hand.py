@@ -215,6 +215,8 @@ def test_the_example_of_the_bundle_page(tmp_path):
         ("a.fbx", "bundle init"),
         ("a.jt", "STEP"),
         ("a.stl", "bundle init"),
+        ("a.kinefab", "kinefab view"),
+        ("a.prefab", "the source"),
     ],
 )
 def test_an_unknown_ending_names_its_road(name, word):
@@ -228,6 +230,12 @@ def test_a_name_without_a_file_is_told_as_that(tmp_path):
     with pytest.raises(KinefabError) as refused:
         sources.read(tmp_path / "robotz", Report())
     assert [found.code for found in refused.value.diagnostics] == ["SOURCE_NOT_FOUND"]
+
+
+def test_a_folder_is_told_as_that(tmp_path):
+    with pytest.raises(KinefabError) as refused:
+        sources.read(tmp_path, Report())
+    assert [found.code for found in refused.value.diagnostics] == ["SOURCE_IS_FOLDER"]
 
 
 def test_the_page_of_cad_programs_is_short():

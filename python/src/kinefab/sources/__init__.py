@@ -122,6 +122,9 @@ def read(
         if not road and not os.path.lexists(path):
             report.add("SOURCE_NOT_FOUND", path.name, path=path)
             report.raise_for_errors()
+        if path.is_dir():
+            report.add("SOURCE_IS_FOLDER", path.name, path=path)
+            report.raise_for_errors()
         report.add(
             "SOURCE_FORMAT_UNKNOWN", path.name, path=path, road=f"{road} " if road else "", known=known
         )

@@ -30,7 +30,14 @@ JSON = (
 )
 XML = "This XML is none that is read: its root is neither mujoco (MJCF) nor SimscapeMultibodyImportXML (Simscape Multibody 2.0)."
 
+WRITTEN = (
+    "It was exported already: kinefab view or kinefab inspect show it; give the source that it was made of."
+)
+UNITY = "Unity's own file, which is written and not read: give the source that it was made of."
+
 ROADS = {
+    ".kinefab": WRITTEN,
+    **dict.fromkeys((".prefab", ".unitypackage", ".unity"), UNITY),
     ".json": JSON,
     ".xml": XML,
     **dict.fromkeys((".iam", ".ipt", ".idw", ".ipn"), INVENTOR),

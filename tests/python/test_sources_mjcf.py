@@ -93,7 +93,7 @@ def test_a_range_is_that_of_the_file_whatever_the_reference(tmp_path):
     assert math.degrees(freedom.at) == pytest.approx(15.0)
     target = kinefab.export(scene, tmp_path / "j.kinefab").path
     motion = SceneKinematics.load(target)
-    coordinate, sense = motion.reading("j", unity_point([0.0, 0.6, 0.8], ROS), True, "body1")
+    coordinate, sense = motion.reading("j", unity_point([0.0, 0.6, 0.8], ROS), True, "body")
     assert sorted(sense * v for v in motion.range_of(coordinate)) == pytest.approx([-25.0, 65.0])
 
 
@@ -412,7 +412,7 @@ def test_what_holds_a_mocap_body_where_it_is_led_is_left_out_and_told(tmp_path, 
     path = model(tmp_path, inner, tail=f"<equality><{kind} body1='guide' {other}/></equality>")
     result = kinefab.export(path, tmp_path / "scene.kinefab")
     told = [(o.feature, o.where) for o in result.report.outcomes if o.code == "JOINT_BETWEEN_LED"]
-    assert told == [("joint weld 0" if kind == "weld" else "joint connect", "m.xml:5")]
+    assert told == [(f"joint {kind.split()[0]} guide {'other' if other else 'world'}", "m.xml:5")]
     bodies = json.loads(result.path.read_text("utf-8"))["gameObjects"]
     led = {o["name"] for o in bodies for c in o.get("components", ()) if c.get("isKinematic")}
     assert {"guide", "other"} <= led  # each for itself
@@ -633,5 +633,41 @@ def test_an_equality_closes_its_loop_whatever_it_leaves_free(tmp_path, points, t
     path = model(tmp_path, bodies, tail=f"<equality>{ends}</equality>")
     target = kinefab.export(path, tmp_path / "loop.kinefab").path
     motion = SceneKinematics.load(target)
-    assert [tuple(j.fields["because"]) for j in motion.joints if j.closure] == [("connect",)]
+    assert [tuple(j.fields["because"]) for j in motion.joints if j.closure] == [("connect rod lever",)]
     assert scored(target, MujocoModel(path), 20, set())["wrong"] == []
+
+
+def test_what_has_no_name_keeps_its_identity_where_others_are_put_in_before_it(tmp_path):
+    """It is known by its kind or its mesh, by the named body above it, by what it holds together."""
+    mesh = "<asset><mesh name='horn' vertex='0 0 0 .3 0 0 0 .2 0 0 0 .1'/></asset>"
+
+    def identities(folder, first="", more="", held=""):
+        folder.mkdir()
+        inner = (
+            f"{first}<body name='arm' pos='0 0 1'>{more}<joint axis='0 1 0' range='-10 80'/><geom size='.1'/>"
+            "<geom type='mesh' mesh='horn'/><geom type='capsule' size='.1 .3'/><geom name='box' type='box' size='.1 .2 .3'/>"
+            f"<body pos='.3 0 0'><joint axis='0 1 0'/>{BALL}<body pos='.3 0 0'><joint axis='0 1 0'/>{BALL}</body></body></body>"
+            f"<body name='b' pos='2 0 0'><freejoint/>{BALL}</body><body name='c' pos='2 1 0'><freejoint/>{BALL}</body>"
+        )
+        tail = f"<equality>{held}<weld body1='b' body2='c'/><joint joint1='x'/></equality>"
+        inner += f"<body pos='3 0 0'><joint name='x' type='slide'/>{BALL}</body>"
+        path = model(folder, inner, head=mesh, tail=tail)
+        scene = json.loads(kinefab.export(path, folder / "m.kinefab").path.read_text("utf-8"))
+        joints = {
+            (o["name"], c["extras"]["name"])
+            for o in scene["gameObjects"]
+            for c in o.get("components", ())
+            if "Joint" in c["type"] and "name" in c.get("extras", {})
+        }
+        return {o["id"] for o in scene["gameObjects"]} | joints
+
+    before = identities(tmp_path / "before")
+    assert {"m/arm/body:horn", "m/arm/body:box", "m/arm body_2/body:sphere"} <= before
+    other = "<body name='other' pos='5 0 0'><freejoint/><geom type='box' size='.1 .1 .1'/></body>"
+    after = identities(
+        tmp_path / "after",
+        first=other,
+        more="<geom type='ellipsoid' size='.1 .2 .3'/><geom type='box' size='.3 .2 .1'/>",
+        held="<weld body1='other' body2='b'/>",
+    )
+    assert before <= after

@@ -114,7 +114,7 @@ def test_thousands_of_geoms_of_one_body_are_read_soon(tmp_path):
     scene = read(path, Report())
     assert time.process_time() - start < 0.5 * SOON
     (names,) = ([c.name for c in node.colliders] for node in scene.nodes if node.name == "a")
-    assert len(set(names)) == 10_000 and names[:2] + names[-1:] == ["geom", "geom_2", "geom_10000"]
+    assert len(set(names)) == 10_000 and names[:2] + names[-1:] == ["sphere", "sphere_2", "sphere_10000"]
 
 
 def test_thousands_of_missing_meshes_are_told_soon(tmp_path):

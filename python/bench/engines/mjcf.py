@@ -37,10 +37,10 @@ class MujocoModel:
             mujoco.mj_resetDataKeyframe(self.model, self.data, self.model.key(keyframe).id)
         self.random = np.random.default_rng(14)
         self.start = np.array(self.data.qpos)
-        self.body_names = _named([self.model.body(i).name for i in range(self.model.nbody)], "body{}")
+        self.body_names = self._body_names()
         owners = [self.body_names[int(b)] for b in self.model.jnt_bodyid]
         self.joint_names = _named(
-            [self.model.joint(i).name or f"{owners[i]} joint" for i in range(self.model.njnt)], ""
+            [self.model.joint(i).name for i in range(self.model.njnt)], [f"{o} joint" for o in owners]
         )
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_comPos(self.model, self.data)
@@ -48,6 +48,17 @@ class MujocoModel:
         self.bent = self._bent()
         self.adrift = self._adrift()
         self.mobility = self._mobility()
+
+    def _body_names(self) -> list[str]:
+        """Bodies without a name are called after the nearest one above that has one."""
+        given = [self.model.body(i).name for i in range(self.model.nbody)]
+        instead = []
+        for i in range(self.model.nbody):
+            above = int(self.model.body_parentid[i])
+            while above and not given[above]:
+                above = int(self.model.body_parentid[above])
+            instead.append(f"{given[above]} body" if above else "body")
+        return _named(given, instead)
 
     def _coordinate(self, i: int) -> EngineJoint | None:
         m, kinds = self.model, self.mujoco.mjtJoint
@@ -215,15 +226,15 @@ class MujocoModel:
         return Mass(mass, np.array(center), inertia)
 
 
-def _named(names: list[str], instead: str) -> list[str]:
+def _named(given: list[str], instead: list[str]) -> list[str]:
     """Each with a name of its own, as the scene has them."""
-    found: list[str] = []
-    for i, name in enumerate(names):
-        wanted = name or instead.format(i)
-        unique, count = wanted, 1
-        while unique in found:
+    taken, found = {name for name in given if name}, []
+    for name, wanted in zip(given, instead):
+        unique, count = name or wanted, 1
+        while not name and unique in taken:
             count += 1
             unique = f"{wanted}_{count}"
+        taken.add(unique)
         found.append(unique)
     return found
 

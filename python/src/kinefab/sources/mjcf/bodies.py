@@ -40,11 +40,12 @@ class Bodies:
             inertia = np.diag(np.array(m.body_inertia[body], dtype=np.float64))
             at = pose_of(m.body_ipos[body], m.body_iquat[body])
             link.inertial = Inertial(float(m.body_mass[body]), at, inertia)
-        names: tuple[dict[str, None], dict[str, None]] = ({}, {})
         first = int(m.body_geomadr[body])
-        for geom in range(first, first + int(m.body_geomnum[body])):
-            if geom not in compiled.lost:
-                self._add_geom(link, geom, *names)
+        geoms = [g for g in range(first, first + int(m.body_geomnum[body])) if g not in compiled.lost]
+        given = dict.fromkeys(filter(None, (compiled.name("geom", g) for g in geoms)))
+        seen, felt = dict(given), dict(given)
+        for geom in geoms:
+            self._add_geom(link, geom, seen, felt)
         self._add_frames(link, body)
         self._add_gravity(link, body)
         link.kinematic = int(m.body_mocapid[body]) >= 0
@@ -74,13 +75,14 @@ class Bodies:
                     link.frames[unique(link.frames, name)] = pose_of(positions[i], turns[i])
 
     def _add_geom(self, link: Link, geom: int, seen: dict[str, None], felt: dict[str, None]) -> None:
-        """seen, felt: names of what the link has already that is drawn, and that is touched."""
+        """seen, felt: names that are taken of what the link has that is drawn, and that is touched: all that the file gives,
+        and those of the geoms before."""
         m = self.compiled.model
         touches = bool(m.geom_contype[geom] or m.geom_conaffinity[geom]) or self._paired(geom)
         drawn = int(m.geom_group[geom]) < DRAWN_GROUPS and float(m.geom_rgba[geom][3]) > 0.0
         given = self.compiled.name("geom", geom)
         where = self.compiled.where("geom", given) if given else link.where
-        label = given or "geom"
+        label = given or self._called(geom)
         feature = f"geom {link.name}/{label}"
         pose = pose_of(m.geom_pos[geom], m.geom_quat[geom])
         shape = self._shape(geom, where)
@@ -89,16 +91,26 @@ class Bodies:
             return
         if drawn:
             uvs = shape.kind == "plane" or (shape.mesh is not None and bool(self.meshes[shape.mesh].uvs))
-            name = unique(seen, label)
+            name = given or unique(seen, label)
             seen[name] = None
             link.drawn.append(Part(name, shape, pose, self.looks.of(geom, uvs)))
         if touches:
-            name = unique(felt, label)
+            name = given or unique(felt, label)
             felt[name] = None
             material, group = self._material(geom), self._group(geom)
             link.touched.append(Part(name, shape, pose, material=material, group=group))
         if not (drawn or touches):
             self.report.dropped(feature, "MJCF_GEOM_UNSEEN", where)
+
+    def _called(self, geom: int) -> str:
+        """What a geom without a name is called: like its mesh, or by its kind, so that one of another kind that is put in
+        before it changes nothing of it."""
+        m = self.compiled.model
+        index, kind = int(m.geom_dataid[geom]), self.compiled.mujoco.mjtGeom(int(m.geom_type[geom]))
+        word = str(kind.name).removeprefix("mjGEOM_").lower()
+        if index < 0:
+            return word
+        return self.compiled.name("hfield" if word == "hfield" else "mesh", index) or word
 
     def _paired(self, geom: int) -> bool:
         """Whether a contact pair is stated for it."""

@@ -304,13 +304,30 @@ def _posed(
         mujoco.mj_resetDataKeyframe(model, data, number)
         ctrl = np.array(model.key_ctrl[number])
     mujoco.mj_kinematics(model, data)
-    bodies: dict[str, None] = {}
-    for i in range(model.nbody):
-        bodies[unique(bodies, str(model.body(i).name) or f"body{i}")] = None
-    owners, joints = list(bodies), dict[str, None]()
-    for i in range(model.njnt):
-        owner = owners[int(model.jnt_bodyid[i])]
-        joints[unique(joints, str(model.joint(i).name) or f"{owner} joint")] = None
+    bodies = _body_names(model)
+    owners = [f"{bodies[int(body)]} joint" for body in model.jnt_bodyid]
+    joints = _named([str(model.joint(i).name) for i in range(model.njnt)], owners)
     return Compiled(
-        mujoco, model, data, files, ctrl, lost, library.textures, library.flipped, list(bodies), list(joints), keyframes
+        mujoco, model, data, files, ctrl, lost, library.textures, library.flipped, bodies, joints, keyframes
     )  # fmt: skip
+
+
+def _body_names(model: Any) -> list[str]:
+    """One without a name is called after the nearest body above that has one, so that what is put in elsewhere changes
+    nothing of it: scenes and prefabs are known again by their names."""
+    given = [str(model.body(i).name) for i in range(model.nbody)]
+    above = [""] * model.nbody  # of each body, the name of the next one towards the world that has one
+    for i in range(1, model.nbody):
+        parent = int(model.body_parentid[i])
+        above[i] = given[parent] if parent and given[parent] else above[parent]
+    return _named(given, [f"{name} body" if name else "body" for name in above])
+
+
+def _named(given: list[str], instead: list[str]) -> list[str]:
+    """Each its own: those that the file gives, else what it is called instead, with a number among its likes."""
+    taken: dict[str, None] = dict.fromkeys(filter(None, given))
+    names: list[str] = []
+    for name, other in zip(given, instead):
+        names.append(name or unique(taken, other))
+        taken[names[-1]] = None
+    return names

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -31,8 +31,8 @@ APART = 1e-6
 @dataclass(slots=True, eq=False)
 class Equalities:
     """carriers: by MuJoCo's id of a body; None for the world where nothing of it is a node.
-    apart: pairs of bodies that do not collide.  Its own: the index in the scene of each joint by its id, and the
-    coordinates that couplings give."""
+    apart: pairs of bodies that do not collide.  Its own: the index in the scene of each joint by its id, names that are
+    taken, and the coordinates that couplings give."""
 
     compiled: Compiled
     carriers: Sequence[Carrier | None]
@@ -41,22 +41,27 @@ class Equalities:
     report: Report
     apart: frozenset[frozenset[int]] = frozenset()
     _places: dict[str, int] = field(default_factory=dict[str, int])
+    _called: dict[str, None] = field(default_factory=dict[str, None])
     _given: set[tuple[str, int]] = field(default_factory=set[tuple[str, int]])
 
     def read(self) -> None:
         m, kinds = self.compiled.model, self.compiled.mujoco.mjtEq
         self._places |= {joint.id: i for i, joint in enumerate(self.scene.joints)}
         anchored: dict[tuple[int, int, bool], list[tuple[str, str, Array, Array]]] = {}
+        without: dict[tuple[int, int, bool], str] = {}  # names of connects of two bodies that state none
+        self._called |= dict.fromkeys(filter(None, (self.compiled.name("eq", i) for i in range(m.neq))))
         for i in range(m.neq):
             kind = int(m.eq_type[i])
             word = str(kinds(kind).name).removeprefix("mjEQ_").lower()
-            name = self.compiled.name("eq", i) or f"{word} {i}"
+            name = self.compiled.name("eq", i) or unique(self._called, self._called_like(i, word))
+            self._called[name] = None
             where = self.compiled.files.nth("equality", i, m.neq)
             active = bool(m.eq_active0[i])
             if kind == int(kinds.mjEQ_CONNECT):
                 a, b, frame_a, frame_b = self._ends(i, False)
                 point = (self.compiled.name("eq", i), where, frame_a.translation, frame_b.translation)
                 anchored.setdefault((a, b, active), []).append(point)
+                without.setdefault((a, b, active), name)
             elif kind == int(kinds.mjEQ_WELD):
                 a, b, frame_a, frame_b = self._ends(i, True)
                 fixed = float(m.eq_data[i][10]) != 0.0  # its torquescale: without torques it holds a point
@@ -72,7 +77,20 @@ class Equalities:
                 feature = f"equality {name}"
                 self.report.dropped(f"{feature} ({word})", "MJCF_LEFT_OUT", where)
         for (a, b, active), points in anchored.items():
-            self._connect(a, b, active, points)
+            self._connect(a, b, active, points, without[a, b, active])
+
+    def _called_like(self, i: int, word: str) -> str:
+        """What an equality without a name is called: by its kind and what it holds together."""
+        m, kinds = self.compiled.model, self.compiled.mujoco.mjtObj
+        owners: dict[int, Callable[[int], str]] = {
+            int(kinds.mjOBJ_BODY): lambda k: self.compiled.bodies[k],
+            int(kinds.mjOBJ_SITE): lambda k: self.compiled.bodies[int(m.site_bodyid[k])],
+            int(kinds.mjOBJ_JOINT): lambda k: self.compiled.joints[k],
+            int(kinds.mjOBJ_TENDON): lambda k: self.compiled.name("tendon", k) or str(k),
+        }
+        called = owners.get(int(m.eq_objtype[i]), str)
+        ends = (int(m.eq_obj1id[i]), int(m.eq_obj2id[i]))
+        return " ".join([word, *(called(k) for k in ends if k >= 0)])
 
     # Loops ..............................................................................................................
 
@@ -104,8 +122,11 @@ class Equalities:
         )  # fmt: skip
         return seen
 
-    def _connect(self, a: int, b: int, active: bool, points: list[tuple[str, str, Array, Array]]) -> None:
-        """One point is a ball; two hold an axis; three that are not in line hold all.  MuJoCo has no other hinge here."""
+    def _connect(
+        self, a: int, b: int, active: bool, points: list[tuple[str, str, Array, Array]], without: str
+    ) -> None:
+        """One point is a ball; two hold an axis; three that are not in line hold all.  MuJoCo has no other hinge here.
+        without: name of the joint where none of them has one."""
         where = points[0][1]
         names = tuple(p[0] for p in points if p[0])  # further points of one joint need no names
         on_a, on_b = (np.array([p[i] for p in points]) for i in (2, 3))
@@ -113,7 +134,7 @@ class Equalities:
         far = int(np.argmax(np.linalg.norm(along_a, axis=1)))
         if not np.linalg.norm(along_a[far]) > APART or not np.linalg.norm(along_b[far]) > APART:
             for name, at, p, q in points:
-                names, ends = (name or "connect",), (Pose(translation=p), Pose(translation=q))
+                names, ends = (name or without,), (Pose(translation=p), Pose(translation=q))
                 self._close(names, at, JointKind.SPHERICAL, a, b, *ends, active)
             return
         off = [_off(along_a[far], v) for v in along_a]
@@ -125,7 +146,7 @@ class Equalities:
         frame_b = Pose(frame_from_axes(along_b[far], side_b), on_b[0] + 0.5 * along_b[far])
         if planar:
             frame_b = self._turned_alike(a, b, frame_a, frame_b)
-        self._close(names or ("connect",), where, kind, a, b, frame_a, frame_b, active)
+        self._close(names or (without,), where, kind, a, b, frame_a, frame_b, active)
 
     def _turned_alike(self, a: int, b: int, frame_a: Pose, frame_b: Pose) -> Pose:
         """b's frame turned about its X so that the angle is zero at the exported pose."""

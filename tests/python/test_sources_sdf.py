@@ -605,6 +605,18 @@ def test_a_model_that_includes_itself_is_refused(tmp_path):
     assert [d.code for d in refused.value.diagnostics] == ["INCLUDE_CYCLE"]
 
 
+def test_a_model_may_include_the_servers_model_of_its_own_name(tmp_path):
+    """It is another one, which is not here unless its folder is given."""
+    uri = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Lidar"
+    path = written(tmp_path, model(A + f"<include><uri>{uri}</uri></include>"), "lidar/model.sdf")
+    report = Report()
+    assert [node.name for node in read(path, report).nodes][:2] == ["m", "a"]
+    assert [(d.code, d.where) for d in report.diagnostics] == [("INCLUDE_NOT_FOUND", "model.sdf:4")]
+    written(tmp_path, model(link("beam")), "cache/lidar/3/model.sdf")
+    scene = read(path, Report(), options={"package_path": [tmp_path / "cache"]})
+    assert [node.name for node in scene.nodes].count("beam") == 1
+
+
 def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
     """Both are found: what stands before it, and what the included file has."""
     (tmp_path / "other.sdf").write_text(model(link("b", "<pose>0 0 nan 0 0 0</pose>")), encoding="utf-8")

@@ -167,6 +167,11 @@ def packages_of(source: Path, request: Request, report: Report) -> Packages:
     return Packages(source.parent, given)
 
 
+def is_served(uri: str) -> bool:
+    """Whether it is the address of a model of Gazebo's server."""
+    return _SERVED.fullmatch(uri.strip().replace("\\", "/")) is not None
+
+
 def _is_name(name: str) -> bool:
     return bool(name) and name not in (".", "..") and not re.search(r"[\0/\\:]", name)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...diagnostics import KinefabError, Report
 from ..reading.file import read_bytes
-from ..robots.packages import Packages
+from ..robots.packages import Packages, is_served
 from ..robots.xml_elements import Element, parse_xml
 from .scopes import Entry, Scope
 
@@ -88,7 +88,8 @@ def _include(scope: Scope, element: Element, files: tuple[Path, ...]) -> None:
         element.fault("XML_MISSING", element="include", field="uri")
         return
     path = _model_file(uri, scope.packages)
-    if path is None:
+    # What asks for the server's model of its own name does not mean itself.
+    if path is None or (path in files and is_served(uri)):
         scope.report.dropped(f"include {uri}", "INCLUDE_NOT_FOUND", element.where, uri=uri)
         return
     if path in files or len(files) >= DEEPEST:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
@@ -198,3 +199,56 @@ def test_a_texture_s_file_has_one_ending(tmp_path):
     plain = ("wood", "Stone", "v1.2")
     assert found >= {f"{name}.png" for name in plain} | {f"{name} normal.png" for name in plain}
     assert len(found) == 8
+
+
+BASE_AND_GLOW = {
+    "builtin": ("_MainTex", "_EmissionMap", {"normal", "occlusion", "emission"}),
+    "urp": ("_BaseMap", "_EmissionMap", {"normal", "occlusion", "emission"}),
+    "hdrp": ("_BaseColorMap", "_EmissiveColorMap", {"normal", "occlusion"}),
+}
+
+
+@pytest.mark.parametrize("pipeline", BASE_AND_GLOW)
+def test_the_shaders_place_every_map_as_they_place_the_colour(tmp_path, pipeline):
+    """UnityStandardInput.cginc, URP's LitInput.hlsl and HDRP's LitDataIndividualLayer.hlsl know one scale and offset, that of the
+    colour's slot; HDRP's emission has its own.  A map that lies otherwise is told, and one without a colour lies as it did."""
+    pytest.importorskip("PIL", reason="pillow, which repacks maps, is not installed")
+    image = model.Texture("Bumps", data=png(tmp_path / "Bumps.png", np.full((4, 4, 4), 128)).read_bytes())
+    tiled = replace(image, scale=(4.0, 3.0), offset=(0.25, 0.125))
+    plain = model.Surface("Plain", normal_texture=tiled, occlusion_texture=tiled)
+    mixed = model.Surface(
+        "Mixed",
+        emission=(1.0, 1.0, 1.0),
+        color_texture=tiled,
+        normal_texture=image,
+        metallic_roughness_texture=tiled,
+        occlusion_texture=replace(tiled, scale=(1.0, 1.0), uv_set=1),
+        emission_texture=replace(tiled, offset=(0.0, 0.0)),
+    )
+    scene = model.Scene(surfaces=[plain, mixed], meshes=[block("Block", (0.1, 0.2, 0.3), uvs=True)])
+    scene.nodes = [
+        model.Node(s.name, s.name, bodies=(model.Body("b", 0, (i,)),)) for i, s in enumerate((plain, mixed))
+    ]
+    options = kinefab.ExportOptions(writing={"pipeline": pipeline})
+    result = kinefab.export(scene, tmp_path / "A.prefab", options)
+    base, glow, told = BASE_AND_GLOW[pipeline]
+    for name in ("Plain", "Mixed"):
+        (found,) = [
+            d
+            for d in documents((tmp_path / "A" / "Materials" / f"{name}.mat").read_text())
+            if d.kind == "Material"
+        ]
+        slots = {k: v for entry in found.fields["m_SavedProperties"]["m_TexEnvs"] for k, v in entry.items()}
+        assert (slots[base]["m_Scale"], slots[base]["m_Offset"]) == (
+            {"x": "4", "y": "3"},
+            {"x": "0.25", "y": "0.125"},
+        )
+        assert (slots[base]["m_Texture"]["fileID"] == "0") == (name == "Plain")
+    assert (slots[glow]["m_Scale"], slots[glow]["m_Offset"]) == ({"x": "4", "y": "3"}, {"x": "0", "y": "0"})
+    lost = {
+        (o.feature, o.message.partition("no place for ")[2].partition(" of ")[0])
+        for o in result.report.outcomes
+        if o.code
+    }
+    expected = {(f"{slot} texture of material Mixed", "its own scale and offset") for slot in told}
+    assert lost == expected | {("occlusion texture of material Mixed", "uv_set")}

@@ -31,6 +31,7 @@ from .names import file_name, folded, most_bytes, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
 from .objects.hierarchy import Hierarchy, References
 from .options import PrefabOptions
+from .text.dialects import Pipeline
 from .text.ids import guid
 from .text.metas import assembly_meta, folder_meta, native_meta, prefab_meta, script_meta
 from .text.yaml import HEADER, Plain, external
@@ -154,7 +155,9 @@ class _Export:
     def _materials(self) -> dict[int, Plain]:
         materials, options = self.scene.materials, self.options
         shader, identities = f"the {options.pipeline.value} shader", named_identities(materials)
-        textures = Textures(self.content.report, shader, twins_of(materials))
+        textures = Textures(
+            self.content.report, shader, twins_of(materials), own_emission=options.pipeline is Pipeline.HDRP
+        )
         slots = [textures.wanted(*each) for each in zip(materials, identities)]
         references = self._textures(list(textures.files.values()))
         maps = [shown(s, references, m) for s, m in zip(slots, materials)]

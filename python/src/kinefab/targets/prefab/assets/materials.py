@@ -42,9 +42,10 @@ class Map:
 
 @dataclass(frozen=True, slots=True)
 class Maps:
-    """packed: metallic in R, occlusion in G, smoothness in A.  occlusion: whether packed holds it."""
+    """color: where it has no texture it says how all maps lie, as the shaders place them alike (HDRP's emission by itself).
+    packed: metallic in R, occlusion in G, smoothness in A.  occlusion: whether packed holds it."""
 
-    color: Map | None = None
+    color: Map
     normal: Map | None = None
     packed: Map | None = None
     metallic: bool = False

@@ -9,10 +9,10 @@ from pathlib import PurePosixPath
 
 from ....diagnostics import Report
 from ....model import Texture, Wrap
-from ....unity.scene import Material
+from ....unity.scene import Material, Vector2
 from ...images import ImageError, bytes_of
 from ..text.metas import texture_meta
-from ..text.yaml import Plain, external
+from ..text.yaml import NULL, Plain, external
 from .images import ENDINGS, Images, content_of, packed
 from .materials import Map, Maps
 
@@ -49,12 +49,14 @@ class TextureFile:
 class Textures:
     """Collects the textures of materials; the report gets what cannot be shown.
 
-    shader: its name, for the report.  twins: names that different images have.
+    shader: its name, for the report.  twins: names that different images have.  own_emission: whether the shader places the map of
+    emission by itself; it places all others as it places the colour.
     """
 
     report: Report
     shader: str
     twins: Collection[str] = ()
+    own_emission: bool = False
     files: dict[str, TextureFile] = field(default_factory=dict[str, TextureFile])
     images: Images = field(default_factory=Images)
 
@@ -74,6 +76,7 @@ class Textures:
         rough = material.metallicRoughnessTexture or material.occlusionTexture
         if rough is not None and (image := self._packed(material, identity, rough)):
             found["packed"] = (image, rough)
+        self._tell_placing(material, found)
         return found
 
     def _plain(self, material: Material, slot: str, texture: Texture, use: str) -> str | None:
@@ -81,7 +84,6 @@ class Textures:
             ending = self.images.ending(texture)
         except ImageError as error:
             return self._lost(material, slot, texture, error)
-        self._tell_placing(material, slot, texture)
         held = f"|{content_of(texture)}" if texture.name in self.twins else ""
         identity = f"{texture.name}{held}|{use}|{texture.wrap.value}"
         shown = PurePosixPath(texture.name)
@@ -97,7 +99,6 @@ class Textures:
                     self.images.demand_pixels(image)
         except ImageError as error:
             return self._lost(material, "metallic, roughness or occlusion", texture, error)
-        self._tell_placing(material, "metallic and roughness", texture)
         identity = f"{own}|mask|{texture.name}|{texture.wrap.value}"
         name = f"{material.name} mask"
         file = TextureFile(identity, name, DATA, texture.wrap, ".png", texture, material)
@@ -108,11 +109,33 @@ class Textures:
         feature = f"{slot} texture of material {material.name}"
         self.report.dropped(feature, "TEXTURE_NOT_WRITTEN", texture=texture.name, detail=str(error))
 
-    def _tell_placing(self, material: Material, slot: str, texture: Texture) -> None:
-        feature = f"{slot} texture of material {material.name}"
-        for told, is_plain in (("uv_set", texture.uv_set == 0), ("rotation", texture.rotation == 0.0)):
-            if not is_plain:
-                self.report.dropped(feature, "TARGET_FIELD_DROPPED", field=told, target=self.shader)
+    def _tell_placing(self, material: Material, found: Mapping[str, tuple[str, Texture]]) -> None:
+        shared = _place_of_all(found)
+        for slot, texture, file in (
+            ("color", material.colorTexture, "color"),
+            ("normal", material.normalTexture, "normal"),
+            ("metallic and roughness", material.metallicRoughnessTexture, "packed"),
+            ("occlusion", material.occlusionTexture, "packed"),
+            ("emission", material.emissionTexture, "emission"),
+        ):
+            if texture is None or file not in found:
+                continue
+            alone = self.own_emission and slot == "emission"
+            for told, is_plain in (
+                ("uv_set", texture.uv_set == 0),
+                ("rotation", texture.rotation == 0.0),
+                ("its own scale and offset", alone or (texture.scale, texture.offset) == shared),
+            ):
+                if not is_plain:
+                    feature = f"{slot} texture of material {material.name}"
+                    self.report.dropped(feature, "TARGET_FIELD_DROPPED", field=told, target=self.shader)
+
+
+def _place_of_all(slots: Mapping[str, tuple[str, Texture]]) -> tuple[Vector2, Vector2]:
+    """Scale and offset that the shaders give to every map: the colour's, else those of the first map that is there."""
+    placed = (slots[slot][1] for slot in ("color", "normal", "packed", "emission") if slot in slots)
+    first = next(placed, None)
+    return ((1.0, 1.0), (0.0, 0.0)) if first is None else (first.scale, first.offset)
 
 
 def twins_of(materials: Iterable[Material]) -> frozenset[str]:
@@ -136,7 +159,7 @@ def shown(
         return Map(references[identity], texture.scale, texture.offset)
 
     return Maps(
-        placed("color"),
+        placed("color") or Map(NULL, *_place_of_all(slots)),
         placed("normal"),
         placed("packed"),
         material.metallicRoughnessTexture is not None and "packed" in slots,

@@ -55,7 +55,7 @@ def program(request, tmp_path_factory) -> Path:
         str(FOLDER / SCRIPT),
         *(
             str(OWN / f"{name}.cs")
-            for name in ("MotionStandIns", "GearPair", "Slide", "Release", "Recompiled")
+            for name in ("MotionStandIns", "GearPair", "Slide", "Several", "Release", "Recompiled")
         ),
     ]
     done = subprocess.run(command, capture_output=True, text=True)
@@ -79,12 +79,15 @@ def program(request, tmp_path_factory) -> Path:
         "recompiled moved",
         "recompiled hinge",
         "recompiled configurable",
+        "two turns",
+        "swapped two turns",
+        "other terms",
     ],
 )
 def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
     pose of the prefab and not from where their anchors meet; a component that is enabled late, and one whose script is compiled
-    anew while the editor plays."""
+    anew while the editor plays; two on one joint, about two of its axes; and one whose terms change on the way."""
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3

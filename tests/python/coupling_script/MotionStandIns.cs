@@ -1,5 +1,7 @@
 // What KinefabCoupling needs of UnityEngine beside the stand-ins that the example importer is held against.
 using System;
+using System.Collections.Generic;
+using System.Linq;
 
 namespace UnityEngine
 {
@@ -19,5 +21,14 @@ namespace UnityEngine
         public void MovePosition(Vector3 position) => transform.position = position;
 
         public void MoveRotation(Quaternion rotation) => transform.rotation = rotation;
+    }
+
+    public static class Searching
+    {
+        public static void GetComponents<T>(this GameObject own, List<T> found)
+        {
+            found.Clear();
+            found.AddRange(own.Components.OfType<T>());
+        }
     }
 }

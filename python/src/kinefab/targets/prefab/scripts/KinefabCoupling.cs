@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using UnityEngine;
 
 namespace Kinefab
@@ -42,10 +43,13 @@ namespace Kinefab
         /// <summary>As stiffness; the default settles without swinging.</summary>
         public float damping = 200;
 
+        private static readonly List<KinefabCoupling> Beside = new List<KinefabCoupling>();
+
         // Recompiling while the editor plays keeps what can be serialized and loses the rest.
         private Reading _driven;
         private Reading[] _terms;
         private bool _isReady;
+        private Vec _halves; // radians, of the turn about each of the joint's axes to which this coupling drives it
         private Action _release;
 
         private void Awake()
@@ -69,6 +73,7 @@ namespace Kinefab
 
         private void OnDisable()
         {
+            _halves = default(Vec);
             if (_isReady && driven != null)
             {
                 _release();
@@ -101,6 +106,7 @@ namespace Kinefab
                 return;
             }
 
+            Renew();
             double target = offset, beside = 0;
             for (int i = 0; i < terms.Length; i++)
             {
@@ -126,6 +132,23 @@ namespace Kinefab
             else if (driven is ConfigurableJoint configurable)
             {
                 Drive(configurable, target);
+            }
+        }
+
+        /// <summary>Reads the terms that are there now, which a script or the inspector may change; those that were there go on counting.</summary>
+        private void Renew()
+        {
+            if (_terms.Length != terms.Length)
+            {
+                Array.Resize(ref _terms, terms.Length);
+            }
+
+            for (int i = 0; i < terms.Length; i++)
+            {
+                if (_terms[i] == null || !_terms[i].Reads(terms[i].joint, terms[i].coordinate))
+                {
+                    _terms[i] = new Reading(terms[i].joint, terms[i].coordinate);
+                }
             }
         }
 
@@ -215,8 +238,8 @@ namespace Kinefab
             }
 
             double half = sense * target * Math.PI / 360;
-            var sine = (float)Math.Sin(half);
-            joint.targetRotation = new Quaternion(axis == 3 ? sine : 0, axis == 4 ? sine : 0, axis == 5 ? sine : 0, (float)Math.Cos(half));
+            _halves = new Vec(axis == 3 ? half : 0, axis == 4 ? half : 0, axis == 5 ? half : 0);
+            joint.targetRotation = Goal();
             joint.rotationDriveMode = RotationDriveMode.XYAndZ;
             if (axis == 3)
             {
@@ -228,11 +251,33 @@ namespace Kinefab
             }
         }
 
+        /// <summary>Where all couplings of the joint together turn it: each angle is that of the sine about its axis and of w.</summary>
+        private Quaternion Goal()
+        {
+            driven.gameObject.GetComponents(Beside);
+            double x = 0, y = 0, z = 0;
+            foreach (KinefabCoupling coupling in Beside)
+            {
+                if (coupling.driven == driven)
+                {
+                    x += coupling._halves.X;
+                    y += coupling._halves.Y;
+                    z += coupling._halves.Z;
+                }
+            }
+
+            double a = Math.Cos(x), b = Math.Cos(y), c = Math.Cos(z);
+            Vec sines = new Vec(Math.Sin(x) * b * c, a * Math.Sin(y) * c, a * b * Math.Sin(z));
+            double length = Math.Sqrt(sines.Dot(sines) + a * b * c * a * b * c);
+            return new Quaternion((float)(sines.X / length), (float)(sines.Y / length), (float)(sines.Z / length), (float)(a * b * c / length));
+        }
+
         /// <summary>One coordinate of a joint: where it stands, and where its body would stand at another value.</summary>
         [Serializable]
         private sealed class Reading
         {
             private Joint _joint;
+            private Coordinate _coordinate;
             private bool _isAngle;
             private Vec _axis;
             private Vec _anchor;
@@ -244,6 +289,7 @@ namespace Kinefab
             public Reading(Joint joint, Coordinate coordinate)
             {
                 _joint = joint;
+                _coordinate = coordinate;
                 _isAngle = coordinate == Coordinate.Angle || coordinate >= Coordinate.AngularX;
                 _axis = Axis(joint, coordinate == Coordinate.Angle ? 0 : ((int)coordinate - 1) % 3);
                 _anchor = new Vec(joint.anchor);
@@ -255,6 +301,8 @@ namespace Kinefab
 
             /// <summary>Metres by which the anchors stood apart at the start: there a slide is at zero, as an angle is.</summary>
             public double Zero => _zero;
+
+            public bool Reads(Joint joint, Coordinate coordinate) => _joint == joint && _coordinate == coordinate;
 
             /// <summary>Degrees, over whole turns, or metres.</summary>
             public double Value()

@@ -240,3 +240,53 @@ def test_couplings_are_told(tmp_path):
     )
     told = [o.feature for o in result.report.outcomes if o.code == "COUPLING_NOT_IN_PREFAB"]
     assert told == ["coupling Gear", "coupling Rack"]
+
+
+RING = trimesh.creation.annulus(0.05, 0.1, 0.04)
+
+
+def colliders_below(node: Node, body: str = "") -> list[tuple[str, dict]]:
+    """Each mesh collider with the class of the body that it is of, the nearest above it; "" where there is none."""
+    kinds = [c["type"] for c in node.components if c["type"] in ("ArticulationBody", "Rigidbody")]
+    body = kinds[0] if kinds else body
+    found = [(body, c) for c in node.components if c["type"] == "MeshCollider"]
+    return found + [each for child in node.children for each in colliders_below(child, body)]
+
+
+def ringed(stated: bool, joined: bool = True) -> kinefab.Scene:
+    """A base with a hole, drawn or also stated as a true mesh, and a ring that a script leads; something turns on each."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", RING, grounded=True)
+    if stated:
+        mesh = scene.nodes[base].bodies[0].mesh
+        collider = kinefab.model.Collider(kinefab.model.ColliderKind.MESH, mesh=mesh)
+        scene.nodes[base] = replace(scene.nodes[base], colliders=(collider,))
+    led = scene.add_part("Led", RING, translation=(1, 0, 0))
+    scene.nodes[led] = replace(scene.nodes[led], dynamics=kinefab.model.Dynamics(kinematic=True))
+    for name, below, at in (("Arm", base if joined else led, 0.3), ("Hand", led, 0.7)):
+        part = scene.add_part(name, BOX, translation=(at, 0, 0))
+        scene.add_hinge(below, part, point=(at, 0, 0), axis=(0, 0, 1), limits=(-10, 80), name=name)
+    return scene
+
+
+@pytest.mark.parametrize("ground", ["body", "world"])
+@pytest.mark.parametrize("stated", [False, True])
+def test_a_link_has_convex_colliders_however_it_is_held(tmp_path, stated, ground):
+    """Unity refuses others: "Non-convex MeshCollider with ArticulationBody is not supported", the kinematic ground's among them.
+    What no joint makes a link keeps its true mesh, and hollows stay as convex pieces."""
+    pytest.importorskip("manifold3d")
+    root, _ = exported(ringed(stated), tmp_path, ground=ground)
+    found = colliders_below(root)
+    assert {body for body, c in found if not c["convex"]} == (set() if ground == "body" else {""})
+    assert sum(body == "ArticulationBody" for body, _ in found) > (4 if ground == "body" else 2)
+    (tmp_path / "plain").mkdir()
+    options = kinefab.ExportOptions(ground=ground)
+    plain = kinefab.export(ringed(stated), tmp_path / "plain" / "Arm.prefab", options)
+    stands = [c["convex"] for _, c in colliders_below(read_prefab(plain.path)[0])]
+    assert stands.count(False) == 2  # of the base and of what is led
+
+
+def test_a_ground_that_nothing_is_joined_to_is_no_link(tmp_path):
+    pytest.importorskip("manifold3d")
+    root, _ = exported(ringed(stated=True, joined=False), tmp_path)
+    assert [body for body, c in colliders_below(root) if not c["convex"]] == ["Rigidbody"]

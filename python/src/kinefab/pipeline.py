@@ -19,7 +19,7 @@ from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
-from .geometry.collision import collision_meshes
+from .geometry.collision import ConvexOnly, collision_meshes
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
 from .geometry.looks.soundness import with_sound_meshes
@@ -209,7 +209,7 @@ def export(
             found.scene,
             found.groups,
             found.analysis.findings,
-            lambda: _mapped(found, options, report),
+            lambda links: _mapped(found, options, links, report),
             report,
             asked,
             options.strict,
@@ -256,10 +256,12 @@ def _enabled(scene: Scene, report: Report) -> Scene:
     return replace(scene, joints=[joint for joint in scene.joints if joint.enabled]) if off else scene
 
 
-def _mapped(found: Analysed, options: ExportOptions, report: Report) -> UnityScene:
+def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report) -> UnityScene:
+    """links: whether joints make links of the bodies that they join."""
     scene, groups = with_normals(found.scene, options.smooth), found.groups
-    made = collision_meshes(found.scene, groups, options.colliders, options.ground, report)
-    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground)
+    convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()
+    made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
+    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     check_overlaps(mapped, report)

@@ -38,6 +38,17 @@ class RigidGroups:
         return self.group_of[a] == self.group_of[b]
 
 
+def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
+    """Whether one of a body's nodes is moved by scripts alone: then all of it is."""
+    return any(scene.nodes[i].dynamics.kinematic for i in moved_nodes)
+
+
+def is_dynamic(scene: Scene, groups: RigidGroups, node: int) -> bool:
+    """Whether forces move a node's body."""
+    group = groups.group_of[node]
+    return group is not None and not groups.grounded[group] and not is_kinematic(scene, groups.members[group])
+
+
 def active_nodes(scene: Scene) -> list[bool]:
     """For each node whether neither it nor an ancestor is suppressed."""
     active: list[bool] = []

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import ColliderKind, Mesh, Scene
+from ..model import Collider, ColliderKind, Mesh, Scene
 from ..options import ColliderShape, Ground
-from ..rigid import RigidGroups
+from ..rigid import RigidGroups, is_dynamic
 from .contact.decomposition import convex_pieces
 from .contact.neighbours import meshes_near_others
 from .hulls import collision_hulls
@@ -21,6 +21,41 @@ SIDES = 32
 
 Cylinder = tuple[float, float]
 """Radius and length, metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class ConvexOnly:
+    """On which bodies Unity takes convex meshes only: on what forces move, and on every link of an articulation, however it is held.
+
+    links: the groups that are such links.
+    """
+
+    links: frozenset[int | None] = frozenset()
+
+    @classmethod
+    def with_links(cls, scene: Scene, groups: RigidGroups, ground: Ground) -> ConvexOnly:
+        """Where joints make links of the bodies that they join, and of the ground where it is a body."""
+        held = groups.grounded.index(True) if any(groups.grounded) else None
+        sides = [n for joint in scene.joints for n in (joint.a, joint.b)]
+        joined = {held if n is None else groups.group_of[n] for n in sides}
+        return cls(frozenset(joined if ground is Ground.BODY else joined - {held}))
+
+    def on(self, node: int, scene: Scene, groups: RigidGroups) -> bool:
+        """Whether the body that a node is of takes no others."""
+        group = groups.group_of[node]
+        if group is None or group in self.links:
+            return group is not None
+        return is_dynamic(scene, groups, node)
+
+    def stated(self, collider: Collider, node: int, groups: RigidGroups) -> Collider:
+        """A collider that the source states of a node, as it can be: a true mesh of the ground keeps its hollows as convex pieces,
+        for something may run in them."""
+        cut = (
+            collider.kind is ColliderKind.MESH
+            and groups.is_ground(node)
+            and groups.group_of[node] in self.links
+        )
+        return replace(collider, kind=ColliderKind.PIECES) if cut else collider
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,7 +69,12 @@ class CollisionMeshes:
 
 
 def collision_meshes(
-    scene: Scene, groups: RigidGroups, shape: ColliderShape, ground: Ground, report: Report
+    scene: Scene,
+    groups: RigidGroups,
+    shape: ColliderShape,
+    ground: Ground,
+    convex: ConvexOnly,
+    report: Report,
 ) -> CollisionMeshes:
     """What the colliders of a scene need.
 
@@ -45,8 +85,7 @@ def collision_meshes(
     cylinders: dict[Cylinder, Mesh] = {}
     not_convex: list[str] = []
     for i, node in enumerate(scene.nodes):
-        group = groups.group_of[i]
-        moves = group is not None and not groups.grounded[group]
+        moves = convex.on(i, scene, groups)
         asked = node.collision or shape
         if node.colliders is None:
             own = [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
@@ -57,7 +96,8 @@ def collision_meshes(
             if asked is ColliderShape.DECOMPOSE or (asked is ColliderShape.AUTO and moves):
                 split += own
             not_convex += [name for _, name in own] if asked is ColliderShape.MESH and moves else []
-        for collider in node.colliders or ():
+        for stated in node.colliders or ():
+            collider = convex.stated(stated, i, groups)
             name = f"{node.id}/{collider.name or collider.kind.value}"
             if collider.kind is ColliderKind.CYLINDER:
                 size = (collider.radius, collider.length)

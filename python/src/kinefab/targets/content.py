@@ -20,7 +20,8 @@ class Content:
 
     scene: right-handed, with the joints that were found (see ``Analysis.scene``).  groups: its rigid groups.
     findings: what the analysis found of the joints, by their ids.
-    mapped: the scene in Unity's terms; ``unity`` makes it when a target asks, and the report tells its losses then.
+    mapped: the scene in Unity's terms; ``unity`` makes it when a target asks, and the report tells its losses then.  Asked whether
+    joints make links of the bodies that they join.
     report: gets what the target cannot say.  options: values by the names of the target's ``options``.
     colliders: shape asked for where a part states no colliders.
     strict: whether a loss that is worth a warning is an error.  progress: how much is written, 0 to 1.
@@ -29,7 +30,7 @@ class Content:
     scene: Scene
     groups: RigidGroups
     findings: Mapping[str, JointFinding]
-    mapped: Callable[[], UnityScene]
+    mapped: Callable[[bool], UnityScene]
     report: Report
     options: Mapping[str, Any] = field(default_factory=dict[str, Any])
     strict: bool = False
@@ -37,10 +38,10 @@ class Content:
     colliders: ColliderShape = ColliderShape.AUTO
     _unity: UnityScene | None = None
 
-    def unity(self) -> UnityScene:
-        """In Unity's terms, mapped once."""
+    def unity(self, links: bool = False) -> UnityScene:
+        """In Unity's terms, mapped once.  links: see ``mapped``, for a target that asks first."""
         if self._unity is None:
-            self._unity = self.mapped()
+            self._unity = self.mapped(links)
         return self._unity
 
     @property

@@ -11,14 +11,14 @@ from ..diagnostics import Report
 from ..findings import JointFinding
 from ..model import PLAIN, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
-from ..rigid import RigidGroups, active_nodes
+from ..rigid import RigidGroups, active_nodes, is_kinematic
 from ..spatial import Pose
 from . import frames
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
-from .bodies.rigidbodies import Rigidbodies, is_dynamic, is_kinematic, map_rigidbody, place_rigidbodies
+from .bodies.rigidbodies import Rigidbodies, map_rigidbody, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -149,7 +149,7 @@ class _Builder:
         """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""
         node = self.scene.nodes[index]
         bodies = [body for body in node.bodies if body.mesh is not None]
-        dynamic = is_dynamic(self.scene, self.groups, index)
+        convex = self.colliders.convex.on(index, self.scene, self.groups)
         for body in bodies:
             assert body.mesh is not None
             holder = parent
@@ -165,17 +165,18 @@ class _Builder:
             ]
             if node.colliders is None:
                 shape = node.collision or self.colliders.shape
-                self.components[holder] += chosen_colliders(self.colliders, shape, body.mesh, mesh, dynamic)
+                self.components[holder] += chosen_colliders(self.colliders, shape, body.mesh, mesh, convex)
 
     def _add_colliders(self, index: int, parent: int) -> None:
         node = self.scene.nodes[index]
-        for collider in node.colliders or ():
+        for stated in node.colliders or ():
+            collider = self.colliders.convex.stated(stated, index, self.groups)
             material = self._physics_material(collider)
             for placed in stated_collider(
                 collider,
                 self.colliders,
                 self.scene.meshes,
-                is_dynamic(self.scene, self.groups, index),
+                self.colliders.convex.on(index, self.scene, self.groups),
                 material,
                 node.id,
                 self.report,

@@ -14,9 +14,9 @@ from ... import __version__
 from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics, Repeat
 from ...options import ColliderShape
 from ...replacing import replacing
-from ...rigid import active_nodes
+from ...rigid import active_nodes, is_dynamic
 from ...spatial import Array, Pose, quaternion_from_matrix
-from ...unity.bodies.rigidbodies import body_dynamics, body_mass, is_dynamic, place_rigidbodies
+from ...unity.bodies.rigidbodies import body_dynamics, body_mass, place_rigidbodies
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
 from ..tangents import tangents_along
@@ -298,9 +298,7 @@ class _Document:
         and Babylon.js, which joins bodies alone, reads it.  frame: the side's node, by itself where it is in the world."""
         if own is None:
             self._extend(frame, "motion", {"isKinematic": True})
-            return
-        group = self.content.groups.group_of[own]
-        if group is not None and self.content.groups.grounded[group] and own not in self.placed.carriers:
+        elif self.content.groups.is_ground(own) and own not in self.placed.carriers:
             self._extend(self.node_of[own], "motion", {"isKinematic": True})
 
     def _tell_rest(self) -> None:

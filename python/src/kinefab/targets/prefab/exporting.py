@@ -68,7 +68,7 @@ class _Export:
     ):
         self.scripts_folder, self.identity = scripts_folder, identity or name
         self.content, self.name, self.options = content, name, options
-        self.scene = content.unity()
+        self.scene = content.unity(links=options.articulation)
         self.couplings = self.scene.couplings if options.articulation else ()
         if options.articulation:
             stated = {joint.id: joint for joint in content.scene.joints}

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...model import Joint, Scene
-from ...rigid import RigidGroups
-from ...unity.bodies.rigidbodies import Rigidbodies, is_dynamic, place_rigidbodies
+from ...rigid import RigidGroups, is_dynamic
+from ...unity.bodies.rigidbodies import Rigidbodies, place_rigidbodies
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.collision import CollisionMeshes
+from ...geometry.collision import CollisionMeshes, ConvexOnly
 from ...model import Collider, ColliderKind, Mesh
 from ...options import ColliderShape, Ground
 from ...spatial import Array, Pose
@@ -33,7 +33,8 @@ class Colliders:
     cylinder_of: for each (radius, length) the index of a mesh of it along Z.
     pieces_of: for each hollow mesh the indices of its convex pieces.
     made: those meshes, to stand behind the scene's own.
-    ground: what stands for it; as a body it is kinematic, where Unity takes meshes of every shape.
+    ground: what stands for it; as a body it is kinematic, where Unity takes meshes of every shape, unless it is a link.
+    convex: which bodies take convex meshes only.
     """
 
     shape: ColliderShape = ColliderShape.HULL
@@ -42,9 +43,12 @@ class Colliders:
     made: tuple[Mesh, ...] = ()
     pieces_of: Mapping[int, Sequence[int]] = field(default_factory=dict[int, Sequence[int]])
     ground: Ground = Ground.WORLD
+    convex: ConvexOnly = ConvexOnly()
 
     @classmethod
-    def behind(cls, own: int, made: CollisionMeshes, shape: ColliderShape, ground: Ground) -> Colliders:
+    def behind(
+        cls, own: int, made: CollisionMeshes, shape: ColliderShape, ground: Ground, convex: ConvexOnly
+    ) -> Colliders:
         """Those of a scene with ``own`` meshes, behind which the made ones stand: hulls, cylinders, pieces."""
         numbers = itertools.count(own)
         hull_of = {mesh: next(numbers) for mesh in made.hulls}
@@ -52,7 +56,7 @@ class Colliders:
         pieces_of = {mesh: [next(numbers) for _ in pieces] for mesh, pieces in made.pieces.items()}
         pieces = itertools.chain.from_iterable(made.pieces.values())
         meshes = (*made.hulls.values(), *made.cylinders.values(), *pieces)
-        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground)
+        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground, convex)
 
 
 def chosen_colliders(

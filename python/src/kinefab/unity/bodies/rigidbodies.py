@@ -10,7 +10,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...geometry.mass import combined, moved, principal
 from ...model import Dynamics, MassProperties, Node, NodeKind, Scene
-from ...rigid import RigidGroups
+from ...rigid import RigidGroups, is_kinematic
 from ...spatial import quaternion_from_matrix
 from .. import frames
 from ..scene import Rigidbody
@@ -101,17 +101,6 @@ def map_rigidbody(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], repo
         isKinematic=dynamics.kinematic,
         maxAngularVelocity=dynamics.max_angular_velocity,
     )
-
-
-def is_kinematic(scene: Scene, moved_nodes: tuple[int, ...]) -> bool:
-    """Whether one of a body's nodes is moved by scripts alone: then all of it is."""
-    return any(scene.nodes[i].dynamics.kinematic for i in moved_nodes)
-
-
-def is_dynamic(scene: Scene, groups: RigidGroups, node: int) -> bool:
-    """Whether forces move a node's body."""
-    group = groups.group_of[node]
-    return group is not None and not groups.grounded[group] and not is_kinematic(scene, groups.members[group])
 
 
 def body_dynamics(scene: Scene, carrier: int, moved_nodes: tuple[int, ...]) -> Dynamics:

@@ -164,6 +164,33 @@ def test_a_mesh_s_guid_does_not_hang_on_who_else_uses_it(tmp_path):
         assert {guid for guids in after.values() for guid in guids} == before, name
 
 
+CUBE = """
+def Xform "{0}" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+{{
+    def Cube "geo"
+    {{
+        double size = 0.1
+        double3 xformOp:scale = (1, {1}, 1)
+        uniform token[] xformOpOrder = ["xformOp:scale"]
+    }}
+}}
+"""
+
+
+def test_a_shape_of_usd_is_what_it_measures(tmp_path):
+    """The cubes of a robot are one mesh, whose guid stays whichever of them comes or goes; scales stand above it."""
+    pytest.importorskip("pxr")
+    found: list[set[str]] = []
+    for parts in ({"A": 1, "B": 2, "C": 3}, {"B": 2, "C": 3}, {"A": 1, "A0": 1, "B": 2}, {"C": 7}):
+        cubes = "".join(CUBE.format(*part) for part in parts.items())
+        text = f'#usda 1.0\n(metersPerUnit = 1)\ndef Xform "R"\n{{\n{cubes}}}\n'
+        (tmp_path / "r.usda").write_text(text)
+        kinefab.export(tmp_path / "r.usda", tmp_path / "Robot.prefab")
+        shown = shown_guids(tmp_path / "Robot.prefab")
+        found.append({guid for guids in shown.values() for guid in guids})
+    assert len(found[0]) == 1 and all(guids == found[0] for guids in found)
+
+
 def test_a_mesh_s_guid_does_not_hang_on_colliders(tmp_path):
     """Nor a hull's on whether all users of the mesh are hulls."""
     ball = trimesh.creation.icosphere(1, 0.1)

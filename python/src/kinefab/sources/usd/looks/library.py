@@ -83,7 +83,7 @@ class Library:
             )  # fmt: skip
         name = self.values.title(prim)
         index = self._added(name, polygons, bake)
-        mesh, origin = self.meshes[index], _origin(prim)
+        mesh, origin = self.meshes[index], _origin(prim, polygons)
         if not mesh.origin or origin < mesh.origin:  # of prims alike, whichever is read first
             self.meshes[index] = replace(mesh, origin=origin)
         return Shared(index, name, polygons.subsets, polygons.uv_names)
@@ -127,8 +127,11 @@ class Library:
         return None
 
 
-def _origin(prim: Any) -> str:
-    """Where the prim is defined: in the file that all which refer to it have in common, if it comes from another."""
+def _origin(prim: Any, polygons: Polygons) -> str:
+    """Where the prim is defined: in the file that all which refer to it have in common, if it comes from another.  A shape is what
+    it measures, in whichever prims it stands."""
+    if (kind := str(prim.GetTypeName())) in SHAPES:
+        return " ".join([kind, *(f"{size:.9g}" for size in np.ptp(polygons.vertices, axis=0))])
     stack = prim.GetPrimStack()
     if not stack:
         return f"<{prim.GetPath()}>"

@@ -450,6 +450,28 @@ def test_colliders_are_those_that_were_asked_for(tmp_path, shape):
     assert [o.code for o in result.report.outcomes if o.code == "COLLIDER_EMPTY"] == ["COLLIDER_EMPTY"]
 
 
+@pytest.mark.parametrize("shape", ["auto", "box"])
+def test_what_is_not_drawn_collides_all_the_same(tmp_path, shape):
+    """As in a prefab, where its renderer alone is off; the mesh that collides is no node's of the scene."""
+    scene = Scene(meshes=[box((1, 2, 3))])
+    hidden = Body("b", 0, scale=(1.0, 2.0, 1.0), visible=False)
+    scene.nodes = [
+        Node("P", "P", bodies=(hidden,)),
+        Node("G", "G", grounded=True, bodies=(hidden,), visible=False),
+    ]
+    options = kinefab.ExportOptions(colliders=kinefab.ColliderShape(shape))
+    result = kinefab.export(scene, tmp_path / "a.glb", options)
+    nodes = parsed(tmp_path / "a.glb")[0]["nodes"]
+    held = {n["name"]: n for n in nodes if "collider" in n.get("extensions", {}).get(BODIES, {})}
+    assert list(held) == (["b"] if shape == "auto" else ["box"]) and sum("scale" in n for n in nodes) == 2
+    for node in (n for n in nodes if n["name"] in held):
+        geometry = node["extensions"][BODIES]["collider"]["geometry"]
+        assert "mesh" not in node and (shape == "box" or "mesh" in nodes[geometry["node"]])
+    below = {child for n in nodes for child in n.get("children", ())}
+    assert not any("mesh" in nodes[i] for i in below)
+    assert sum(o.code == "TARGET_FIELD_DROPPED" for o in result.report.outcomes) == 2
+
+
 def test_a_jpeg_of_inks_is_told(tmp_path):
     image = pytest.importorskip("PIL.Image")
     for mode in ("CMYK", "L", "RGB"):

@@ -159,14 +159,14 @@ class _Document:
                 target=".glb",
             )
         shape = own.collision or self.content.colliders
-        if own.colliders is not None or shape is ColliderShape.NONE or "mesh" not in self.nodes[index]:
+        if own.colliders is not None or shape is ColliderShape.NONE:
             return
         holder = index
         if shape is ColliderShape.BOX:
             around = bounding_box(self.scene.meshes[body.mesh])
             holder, geometry = self._node("box", index, around.pose), self.physics.geometry(around)
         else:
-            geometry = {"node": index}
+            geometry = {"node": index if "mesh" in self.nodes[index] else self._shape(body.name, body.mesh)}
             if self._moves(node) or shape is ColliderShape.HULL:
                 geometry["convexHull"] = True
         entry = {"geometry": geometry}
@@ -182,13 +182,8 @@ class _Document:
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
         if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
             assert collider.mesh is not None
-            self.nodes.append(
-                {
-                    "name": f"{collider.name or collider.kind.value} shape",
-                    "mesh": self._mesh(collider.mesh, ()),
-                }
-            )
-            geometry: dict[str, Any] = {"node": len(self.nodes) - 1}
+            shape = self._shape(collider.name or collider.kind.value, collider.mesh)
+            geometry: dict[str, Any] = {"node": shape}
             if collider.kind is not ColliderKind.MESH or self._moves(node):
                 geometry["convexHull"] = True
         else:
@@ -198,6 +193,11 @@ class _Document:
             entry["physicsMaterial"] = self.physics.material(collider.material)
         self.filters.add(node, collider.group, entry)
         self._extend(index, "trigger" if collider.trigger else "collider", entry)
+
+    def _shape(self, name: str, mesh: int) -> int:
+        """Index of a node that is in no scene, so that its mesh collides and is not drawn."""
+        self.nodes.append({"name": f"{name} shape", "mesh": self._mesh(mesh, ())})
+        return len(self.nodes) - 1
 
     def _mesh(self, number: int, surfaces: tuple[int, ...]) -> int:
         """Index of a mesh with these surfaces; its arrays are shared with the same mesh in others."""

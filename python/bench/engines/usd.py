@@ -51,7 +51,10 @@ class Stage:
             raise Refused(str(error).splitlines()[-1]) from None
         self.length = float(UsdGeom.GetStageMetersPerUnit(self.stage))
         self.kilograms = float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
-        self.turn = TURNS[str(UsdGeom.GetStageUpAxis(self.stage))]
+        up = str(UsdGeom.GetStageUpAxis(self.stage))
+        if up not in TURNS:
+            raise Refused(f"{up} is no axis that points up")
+        self.turn = TURNS[up]
         cache = UsdGeom.XformCache()
         prims, walked = [], iter(Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()))
         for prim in walked:

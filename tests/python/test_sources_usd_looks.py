@@ -401,3 +401,85 @@ def test_an_opacity_of_its_own_is_the_alpha_of_the_base_colour(tmp_path):
     with image.open(io.BytesIO(paint.color_texture.data)) as found:
         assert found.getpixel((0, 0)) == (10, 20, 30, 51)
     assert not [o for o in report.outcomes if "opacity" in o.feature]
+
+
+def told(report: Report) -> set[str]:
+    """What is lost or not quite kept, each by its outcome and feature."""
+    return {f"{o.outcome.value} {o.feature}" for o in report.outcomes if o.outcome.value != "kept"}
+
+
+def test_looks_of_samples_alone_are_the_first_of_them_and_it_is_told(tmp_path):
+    """Exporters that write each frame give no default: of a colour, a shader's input, faces, subsets, indices."""
+    looks = MATERIAL.replace(
+        "inputs:diffuseColor = (0.1, 0.2, 0.3)", "inputs:diffuseColor.timeSamples = {1: (0.1, 0.2, 0.3), 9: (1, 1, 1)}"
+    )  # fmt: skip
+    cage = QUAD.replace("Counts = [4, 4]", "Counts.timeSamples = {1: [4, 4]}").replace(
+        "Indices = [0, 1, 2, 3, 1, 4, 5, 2]", "Indices.timeSamples = {1: [0, 1, 2, 3, 1, 4, 5, 2]}"
+    )
+    subset = BOUND[BOUND.index("def GeomSubset") : -2].replace(
+        "indices = [0]", "indices.timeSamples = {1: [1], 9: [0]}"
+    )
+    coordinates = (
+        'texCoord2f[] primvars:st = [(0,0), (1,0), (1,1)] (interpolation = "faceVarying")\n'
+        "int[] primvars:st:indices.timeSamples = {1: [0, 1, 2, 2, 1, 0, 0, 2]}\n"
+    )
+    color = (
+        'color3f[] primvars:displayColor (interpolation = "constant")\n'
+        "color3f[] primvars:displayColor.timeSamples = {1: [(1, 0, 0)], 9: [(0, 1, 0)]}\n"
+    )
+    inside = f'def Mesh "M" {{\n{cage}{coordinates}{color}{subset}}}\n'
+    scene, report = scene_of(tmp_path, stage(body("B", inside=inside) + looks))
+    (drawn,) = scene.nodes[0].bodies
+    mesh = scene.meshes[drawn.mesh]
+    assert mesh.face_counts == (2, 2) and len(mesh.uvs) == 1
+    assert 2.0 in mesh.vertices[mesh.faces[:2]], "the second face is the subset's"
+    colors = [scene.surfaces[i].color for i in drawn.surfaces]
+    assert colors == [pytest.approx((0.1, 0.2, 0.3, 0.5)), (1.0, 0.0, 0.0, 1.0)]
+    assert told(report) == {
+        "dropped animation of Looks/Plain/Shader.inputs:diffuseColor",
+        "dropped animation of B/M/S.indices",
+        "dropped animation of B/M.primvars:displayColor",
+    }
+
+
+def test_a_colour_by_its_index_and_several_where_a_shape_has_one(tmp_path):
+    by_index = 'color3f[] primvars:displayColor = [(1,0,0), (0,1,0)] (interpolation = "constant")\nint[] primvars:displayColor:indices = [1]\n'
+    of_faces = 'color3f[] primvars:displayColor = [(1,0,0), (0,1,0), (0,0,1), (1,1,0), (0,1,1), (1,1,1)] (interpolation = "uniform")\n'
+    inside = f'def Mesh "M" {{\n{QUAD}{by_index}}}\ndef Cube "C" {{\n{of_faces}}}\n'
+    scene, report = scene_of(tmp_path, stage(body("B", inside=inside)))
+    mesh, cube = scene.nodes[0].bodies
+    assert [scene.surfaces[i].color for i in mesh.surfaces] == [(0.0, 1.0, 0.0, 1.0)]
+    assert cube.surfaces == () and told(report) == {"dropped displayColor of /B/C"}
+
+
+@pytest.mark.parametrize(
+    ("stated", "feature"),
+    [
+        ("float inputs:ior = 1.8", "approximated ior"),
+        ("float inputs:ior = 1.5", ""),
+        ("float inputs:occlusion = 0.3", "dropped occlusion"),
+        ("normal3f inputs:normal = (0, 1, 0)", "dropped normal"),
+        ("float inputs:metallic = 2", "approximated metallic"),
+        ("float inputs:roughness = -0.5", "approximated roughness"),
+        ("float inputs:roughness = 1.00000001", ""),
+        ("color3f inputs:diffuseColor = (3, 0.2, 0.3)", "approximated diffuseColor"),
+    ],
+)
+def test_what_a_surface_of_unity_cannot_be_is_told(tmp_path, stated, feature):
+    looks = MATERIAL.replace("   color3f inputs:diffuseColor = (0.1, 0.2, 0.3)\n", "")
+    looks = looks.replace("float inputs:opacity = 0.5", stated)
+    mesh = f'def Mesh "M" (prepend apiSchemas = ["MaterialBindingAPI"]) {{\nrel material:binding = </Looks/Plain>\n{QUAD}}}\n'
+    scene, report = scene_of(tmp_path, stage(body("B", inside=mesh) + looks))
+    assert told(report) == ({f"{feature} of /Looks/Plain/Shader"} if feature else set())
+    assert painted(scene, "Plain").metallic == (1.0 if "metallic" in stated else 0.0)
+
+
+def test_an_image_of_occlusion_that_is_multiplied_is_told(tmp_path):
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    looks = MATERIAL.replace(
+        "color3f inputs:diffuseColor.connect = </Looks/Paint/Image.outputs:rgb>",
+        "float inputs:occlusion.connect = </Looks/Paint/Image.outputs:r>",
+    ).replace("   float3 outputs:rgb", "   float outputs:r\n   float4 inputs:scale = (0.5, 1, 1, 1)")
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    assert painted(scene).occlusion_texture is not None
+    assert told(report) == {"approximated occlusion of /Looks/Paint/Shader"}

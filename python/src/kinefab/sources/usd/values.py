@@ -101,14 +101,18 @@ class Values:
         if name in traits.names:
             self._asked.add(name)
             attribute = prim.GetAttribute(name)
-            value, moves = value_of(attribute) if attribute else (None, False)
-            if moves:
-                self.tell_samples(prim, name)
-            return value
+            return self.current(attribute) if attribute else None
         if name not in traits.fallbacks:
             attribute = prim.GetAttribute(name)
             traits.fallbacks[name] = attribute.Get() if attribute else None
         return traits.fallbacks[name]
+
+    def current(self, attribute: Any) -> Any:
+        """The raw value of an attribute at the exported time; that it changes over time is told."""
+        value, moves = value_of(attribute)
+        if moves:
+            self.tell_samples(attribute.GetPrim(), str(attribute.GetName()))
+        return value
 
     def authored(self, prim: Any, name: str) -> bool:
         self._asked.add(name)
@@ -250,6 +254,13 @@ class Values:
                 detail="it stays as at the exported time",
             )  # fmt: skip
 
+    def tell_unusable(self, prim: Any, name: str, value: object) -> None:
+        """That a value is passed over which the rest can do without.  name: of the attribute."""
+        self.report.dropped(
+            f"{name.removeprefix('inputs:')} of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim, name),
+            detail=f"it cannot be {shown(value)}",
+        )  # fmt: skip
+
     def wrong(self, prim: Any, name: str, value: object) -> None:
         self.report.add(
             "USD_VALUE_IMPOSSIBLE",
@@ -263,13 +274,6 @@ def shown(value: object) -> str:
     """A value as findings have it: what is long is cut."""
     text = str(value)
     return text if len(text) <= 60 else text[:57] + "..."
-
-
-def tell_unusable(prim: Any, name: str, value: object, opened: OpenStage, report: Report) -> None:
-    """That a value is passed over which the rest can do without.  name: of the attribute."""
-    feature = f"{name.removeprefix('inputs:')} of {prim.GetPath()}"
-    detail = f"it cannot be {shown(value)}"
-    report.dropped(feature, "USD_FEATURE_DROPPED", opened.place(prim, name), detail=detail)
 
 
 def _numbers(value: Any) -> Array:

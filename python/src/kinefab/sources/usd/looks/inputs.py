@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from ....diagnostics import Report
 from ..api import UsdShade
-from ..stage import OpenStage
 from ..values import Values, shown
 from .textures import Sampler, read_fallback, read_input, read_sampler
 
@@ -17,6 +15,8 @@ T = TypeVar("T")
 
 DISPLAY = {"displayColor": 3, "displayOpacity": 1}
 """Primvars of a prim's own looks, with how many numbers they have."""
+ROUNDED = 1e-6
+"""A share that is beyond 0 or 1 by less is not."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,9 +27,7 @@ class Inputs:
     shader: Any
     uv_names: tuple[str, ...]
     display: Mapping[str, tuple[float, ...]]
-    opened: OpenStage
     values: Values
-    report: Report
     read: dict[str, Any] = field(default_factory=dict[str, Any])
 
     def _value(self, name: str) -> Any:
@@ -40,7 +38,7 @@ class Inputs:
             return None
         for attribute in given.GetValueProducingAttributes():
             if attribute.GetPrim() == self.shader.GetPrim() or not UsdShade.Shader(attribute.GetPrim()):
-                return attribute.Get()
+                return self.values.current(attribute)
         return None
 
     def number(self, name: str, default: float) -> float:
@@ -63,6 +61,21 @@ class Inputs:
             return self._wrong(name, value, default)
         return numbers[0], numbers[1], numbers[2]
 
+    def share(self, name: str, default: float) -> float:
+        """A number from 0 to 1."""
+        return self.within(name, self.number(name, default))
+
+    def within(self, name: str, value: float) -> float:
+        """What an input comes to, brought between 0 and 1; that it was beyond is told."""
+        found = min(1.0, max(0.0, value))
+        if abs(found - value) > ROUNDED:
+            self.approximated(name, f"{value:g} is beyond a surface's range from 0 to 1; {found:g} was taken")
+        return found
+
+    def color_within(self, name: str, color: tuple[float, float, float]) -> tuple[float, float, float]:
+        r, g, b = color
+        return self.within(name, r), self.within(name, g), self.within(name, b)
+
     def _wrong(self, name: str, value: object, default: T) -> T:
         """The default; that the value cannot be used is told."""
         self.lost(name, f"it cannot be {shown(value)}")
@@ -80,9 +93,9 @@ class Inputs:
             if source.GetIdAttr().Get() == "UsdUVTexture":
                 self._tell_space(name, source)
                 output = attribute.GetBaseName()
-                found = read_sampler(source, output, self.uv_names, self.opened, self.report)
+                found = read_sampler(source, output, self.uv_names, self.values)
                 if found is None:
-                    value = read_fallback(source, output, self.opened, self.report)
+                    value = read_fallback(source, output, self.values)
             elif is_reader(source):
                 value = self._of_primvar(name, source)
             else:
@@ -95,13 +108,13 @@ class Inputs:
 
     def _of_primvar(self, name: str, reader: Any) -> Any:
         """What a reader gives for the whole mesh: a colour that it displays, else its fallback."""
-        varname = str(read_input(reader, "varname") or "")
+        varname = str(read_input(reader, "varname", self.values) or "")
         if varname in self.display:
             values = list(self.display[varname])
             return values if DISPLAY[varname] > 1 else values[0]
         if varname not in DISPLAY:
             self.lost(name, f"it follows the primvar '{varname}', which is not read")
-        return read_input(reader, "fallback")
+        return read_input(reader, "fallback", self.values)
 
     def _tell_space(self, name: str, source: Any) -> None:
         """That an image is said to be counted otherwise than Unity counts what it is used for."""
@@ -109,17 +122,22 @@ class Inputs:
         space = given.Get() if given else None
         usual = "sRGB" if name in ("diffuseColor", "emissiveColor") else "raw"
         if space in ("raw", "sRGB") and space != usual and name != "opacity":  # alpha is never sRGB
-            prim = source.GetPrim()
-            self.report.approximated(
-                f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self.opened.place(prim, "inputs:sourceColorSpace"),
+            prim, opened = source.GetPrim(), self.values.opened
+            self.values.report.approximated(
+                f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", opened.place(prim, "inputs:sourceColorSpace"),
                 detail=f"as {name} it is taken as {usual}, not as {space}",
             )  # fmt: skip
 
     def lost(self, name: str, detail: str) -> None:
         prim = self.shader.GetPrim()
-        self.report.dropped(
-            f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim, name), detail=detail
-        )
+        where = self.values.opened.place(prim, name)
+        self.values.report.dropped(f"{name} of {prim.GetPath()}", "USD_FEATURE_DROPPED", where, detail=detail)
+
+    def approximated(self, name: str, detail: str) -> None:
+        prim = self.shader.GetPrim()
+        self.values.report.approximated(
+            f"{name} of {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", self.values.opened.place(prim, name), detail=detail
+        )  # fmt: skip
 
 
 def is_reader(shader: Any) -> bool:

@@ -114,7 +114,7 @@ class Library:
         source = source_path(prim)
         kind = str(prim.GetTypeName())
         if kind == "Mesh":
-            return read_mesh(prim, self.opened, self.report)
+            return read_mesh(prim, self.values)
         if kind in SHAPES:
             s = shape_of(prim, self.values)
             return Polygons(s.vertices, s.faces, s.normals, subsets=(None,))

@@ -7,11 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ....diagnostics import Report
 from ....spatial import Array, lengths_of
-from ..api import Usd, UsdGeom, Vt
-from ..stage import OpenStage
-from ..values import tell_unusable
+from ..api import UsdGeom, Vt
+from ..values import Values, value_of
 from .triangulate import triangles
 
 MAX_UVS = 8
@@ -52,22 +50,23 @@ class _Primvar:
         return elements if self.indices is None else self.indices[elements]
 
 
-def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
+def read_mesh(prim: Any, values: Values) -> Polygons | None:
     """The cage of a mesh; None, and a loss in the report, where it cannot be drawn."""
     mesh = UsdGeom.Mesh(prim)
-    time = _time(mesh, opened, report)
-    points = _array(mesh.GetPointsAttr().Get(time), 3)
-    counts = _integers(mesh.GetFaceVertexCountsAttr().Get(time))
-    corners = _integers(mesh.GetFaceVertexIndicesAttr().Get(time))
+    cage = [mesh.GetPointsAttr(), mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()]
+    (given, *topology), moves = zip(*map(value_of, cage))
+    points, (counts, corners) = _array(given, 3), map(_integers, topology)
+    where, report = values.opened.place(prim), values.report
+    if any(moves) or prim.HasAttribute("primvars:skel:jointIndices"):
+        report.approximated(f"deformation of {prim.GetPath()}", "USD_DEFORMATION", where)
     detail = _unsound(points, counts, corners)
-    where = opened.place(prim)
     if detail:
         report.dropped(f"mesh {prim.GetPath()}", "USD_MESH_UNSOUND", where, detail=detail)
         return None
     assert points is not None
     tri, owner = triangles(points, counts, corners)
-    _tell_mistyped(prim, _TYPES, time, opened, report)
-    holes = _integers(mesh.GetHoleIndicesAttr().Get(time))
+    _tell_mistyped(prim, _TYPES, values)
+    holes = _integers(values.current(mesh.GetHoleIndicesAttr()))
     if len(holes):
         keep = ~np.isin(owner, holes)
         tri, owner = tri[keep], owner[keep]
@@ -76,7 +75,7 @@ def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
         return None
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         tri = tri[:, ::-1]
-    tri, owner, face_counts, subsets = _submeshes(mesh, tri, owner, len(counts), opened, report)
+    tri, owner, face_counts, subsets = _submeshes(mesh, tri, owner, len(counts), values)
     if mesh.GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none:
         report.approximated(f"subdivision of {prim.GetPath()}", "USD_SUBDIVISION", where)
     sizes = {
@@ -86,7 +85,7 @@ def read_mesh(prim: Any, opened: OpenStage, report: Report) -> Polygons | None:
         "vertex": len(points),
         "faceVarying": len(corners),
     }
-    primvars = _primvars(prim, mesh, sizes, time, opened, report)
+    primvars = _primvars(prim, mesh, sizes, values)
     found = _indexed(points, _Corners(tri.ravel(), np.repeat(owner, 3), corners[tri].ravel()), primvars)
     found.face_counts, found.subsets = face_counts, subsets
     return found
@@ -106,23 +105,12 @@ _SUBSET_TYPES: dict[str, tuple[Any, ...]] = {
 """Of values that would be passed over, were they of another type; what a mesh cannot do without is told anyway."""
 
 
-def _tell_mistyped(
-    prim: Any, types: dict[str, tuple[Any, ...]], time: Any, opened: OpenStage, report: Report
-) -> None:
+def _tell_mistyped(prim: Any, types: dict[str, tuple[Any, ...]], values: Values) -> None:
     for name, kinds in types.items():
         attribute = prim.GetAttribute(name)
-        value = attribute.Get(time) if attribute and attribute.HasAuthoredValue() else None
+        value = value_of(attribute)[0] if attribute and attribute.HasAuthoredValue() else None
         if value is not None and not isinstance(value, kinds):
-            tell_unusable(prim, name, value, opened, report)
-
-
-def _time(mesh: Any, opened: OpenStage, report: Report) -> Any:
-    attribute = mesh.GetPointsAttr()
-    prim = mesh.GetPrim()
-    if attribute.GetNumTimeSamples() > 1 or prim.HasAttribute("primvars:skel:jointIndices"):
-        report.approximated(f"deformation of {prim.GetPath()}", "USD_DEFORMATION", opened.place(prim))
-    time = Usd.TimeCode.Default()
-    return Usd.TimeCode.EarliestTime() if attribute.Get(time) is None else time
+            values.tell_unusable(prim, name, value)
 
 
 def _array(value: Any, width: int) -> Array | None:
@@ -159,22 +147,22 @@ def _unsound(points: Array | None, counts: np.ndarray, corners: np.ndarray) -> s
 
 
 def _submeshes(
-    mesh: Any, tri: np.ndarray, owner: np.ndarray, count: int, opened: OpenStage, report: Report
+    mesh: Any, tri: np.ndarray, owner: np.ndarray, count: int, values: Values
 ) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[Any, ...]]:
     """Triangles ordered by the material subsets; what is in none comes last."""
     for subset in UsdGeom.Subset.GetAllGeomSubsets(mesh):
-        _tell_mistyped(subset.GetPrim(), _SUBSET_TYPES, Usd.TimeCode.Default(), opened, report)
+        _tell_mistyped(subset.GetPrim(), _SUBSET_TYPES, values)
     subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
     if not subsets:
         return tri, owner, (), (None,)
     of_face = np.full(count, len(subsets), dtype=np.int64)
     for number, subset in enumerate(subsets):
-        named = _integers(subset.GetIndicesAttr().Get())
+        named = _integers(values.current(subset.GetIndicesAttr()))
         sound = named[(named >= 0) & (named < count)]
         taken = of_face[sound] != len(subsets)
         if len(sound) < len(named) or taken.any():
-            report.approximated(
-                f"subset {subset.GetPath()}", "USD_SUBSET_UNSOUND", opened.place(subset.GetPrim()),
+            values.report.approximated(
+                f"subset {subset.GetPath()}", "USD_SUBSET_UNSOUND", values.opened.place(subset.GetPrim()),
                 faces=len(named) - len(sound) + int(taken.sum()),
             )  # fmt: skip
         of_face[sound[~taken]] = number
@@ -274,22 +262,21 @@ def _identities(primvar: _Primvar) -> np.ndarray:
     return mixed
 
 
-def _primvars(
-    prim: Any, mesh: Any, sizes: dict[str, int], time: Any, opened: OpenStage, report: Report
-) -> list[_Primvar]:
+def _primvars(prim: Any, mesh: Any, sizes: dict[str, int], values: Values) -> list[_Primvar]:
     """Normals, texture coordinates ("st" first) and colours that differ over the mesh."""
     api = UsdGeom.PrimvarsAPI(prim)
     found: list[_Primvar] = []
     normals = api.GetPrimvar("normals")
     if normals and normals.HasAuthoredValue():
-        found += _primvar("normals", normals, 3, sizes, time, opened, report)
+        found += _primvar("normals", normals, 3, sizes, values)
     elif mesh.GetNormalsAttr().HasAuthoredValue():
-        values = _array(mesh.GetNormalsAttr().Get(time), 3)
+        directions = _array(value_of(mesh.GetNormalsAttr())[0], 3)
         interpolation = str(mesh.GetNormalsInterpolation())
-        if values is not None and len(values) == sizes.get(interpolation) and np.isfinite(values).all():
-            found.append(_Primvar("normals", values, None, interpolation))
-        elif values is not None and len(values):
-            _report_primvar("normals", opened, prim, report)
+        sound = directions is not None and np.isfinite(directions).all()
+        if sound and directions is not None and len(directions) == sizes.get(interpolation):
+            found.append(_Primvar("normals", directions, None, interpolation))
+        elif directions is not None and len(directions):
+            _report_primvar("normals", prim, values)
     coordinates: list[tuple[bool, str, Any]] = []
     for primvar in api.FindPrimvarsWithInheritance():
         kind, name = str(primvar.GetTypeName()), primvar.GetPrimvarName()
@@ -298,41 +285,40 @@ def _primvars(
         ):
             coordinates.append((name != "st", name, primvar))
         elif name == "st":
-            _report_primvar(name, opened, prim, report)
+            _report_primvar(name, prim, values)
         elif name in ("displayColor", "displayOpacity") and primvar.GetInterpolation() != "constant":
-            found += _primvar(name, primvar, 3 if name == "displayColor" else 1, sizes, time, opened, report)
+            found += _primvar(name, primvar, 3 if name == "displayColor" else 1, sizes, values)
     for number, (_, name, primvar) in enumerate(sorted(coordinates, key=lambda entry: entry[:2])):
         if number == MAX_UVS:
-            report.dropped(
+            values.report.dropped(
                 f"uv sets of {prim.GetPath()}",
                 "USD_FEATURE_DROPPED",
-                opened.place(prim),
+                values.opened.place(prim),
                 detail=f"Unity has {MAX_UVS}, the mesh {len(coordinates)}",
             )
             break
-        found += _primvar(name, primvar, 2, sizes, time, opened, report)
+        found += _primvar(name, primvar, 2, sizes, values)
     return found
 
 
-def _primvar(
-    name: str, primvar: Any, width: int, sizes: dict[str, int], time: Any, opened: OpenStage, report: Report
-) -> list[_Primvar]:
+def _primvar(name: str, primvar: Any, width: int, sizes: dict[str, int], values: Values) -> list[_Primvar]:
     """The primvar, or none and a loss in the report where it does not fit the mesh."""
     interpolation = str(primvar.GetInterpolation())
-    raw = primvar.Get(time)
-    values = _array(raw if raw is not None else primvar.Get(Usd.TimeCode.EarliestTime()), width)
-    if values is None or not len(values):
+    numbers = _array(values.current(primvar.GetAttr()), width)
+    if numbers is None or not len(numbers):
         return []
-    indices = _integers(primvar.GetIndices(time)) if primvar.IsIndexed() else None
-    count = len(values) if indices is None else len(indices)
-    sound = count == sizes.get(interpolation) and np.isfinite(values).all()
+    indices = _integers(values.current(primvar.GetIndicesAttr())) if primvar.IsIndexed() else None
+    count = len(numbers) if indices is None else len(indices)
+    sound = count == sizes.get(interpolation) and np.isfinite(numbers).all()
     if not sound or (
-        indices is not None and len(indices) and (indices.min() < 0 or indices.max() >= len(values))
+        indices is not None and len(indices) and (indices.min() < 0 or indices.max() >= len(numbers))
     ):
-        _report_primvar(name, opened, primvar.GetAttr().GetPrim(), report)
+        _report_primvar(name, primvar.GetAttr().GetPrim(), values)
         return []
-    return [_Primvar(name, values, indices, interpolation)]
+    return [_Primvar(name, numbers, indices, interpolation)]
 
 
-def _report_primvar(name: str, opened: OpenStage, prim: Any, report: Report) -> None:
-    report.dropped(f"primvar {name} of {prim.GetPath()}", "USD_PRIMVAR_UNSOUND", opened.place(prim, name))
+def _report_primvar(name: str, prim: Any, values: Values) -> None:
+    values.report.dropped(
+        f"primvar {name} of {prim.GetPath()}", "USD_PRIMVAR_UNSOUND", values.opened.place(prim, name)
+    )

@@ -13,7 +13,7 @@ from ..api import Usd, UsdGeom, UsdShade
 from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
-from ..values import Values, tell_unusable
+from ..values import Values
 from .inputs import DISPLAY, Inputs, is_reader
 from .packing import packed
 from .textures import Sampler, read_input
@@ -29,6 +29,10 @@ CONSTANTS = {
     "specular_roughness": "roughness", "roughness": "roughness",
 }  # fmt: skip
 """What the inputs of MDL's and MaterialX's surfaces are called here."""
+USUAL = 1.5
+"""The index of refraction that Unity's standard surface reflects as."""
+FLAT = (0.0, 0.0, 1.0)
+"""A normal that leaves the mesh's own."""
 DISPLAYED = (0.5, 0.5, 0.5)
 """Colour of a prim that states none, as UsdGeom's fallback has it in viewers."""
 
@@ -103,7 +107,7 @@ class Surfaces:
             return False
         value = piece.seen.prim.GetAttribute("doubleSided").Get()
         if value is not None and not isinstance(value, bool):
-            tell_unusable(piece.prim, "doubleSided", value, self.opened, self.report)
+            self.values.tell_unusable(piece.prim, "doubleSided", value)
         return value is True
 
     def _plain(self, double: bool) -> int:
@@ -115,7 +119,7 @@ class Surfaces:
         return self._by_color[key]
 
     def _displayed(self, piece: Piece, colored: bool, double: bool) -> int | None:
-        stated = _display(piece, colored)
+        stated = self._display(piece, colored)
         if not stated:
             return None
         rgba = (*stated.get("displayColor", DISPLAYED), *stated.get("displayOpacity", (1.0,)))
@@ -128,6 +132,39 @@ class Surfaces:
             self._by_color[key] = len(self.surfaces) - 1
         return self._by_color[key]
 
+    def _display(self, piece: Piece, colored: bool) -> dict[str, tuple[float, ...]]:
+        """Colour and opacity that a prim states by itself, by primvar.  colored: its vertices have them, which they
+        multiply."""
+        api = UsdGeom.PrimvarsAPI(piece.prim)
+        found: dict[str, tuple[float, ...]] = {}
+        for name, width in DISPLAY.items():
+            primvar = api.FindPrimvarWithInheritance(name)
+            values = self._constant(primvar)
+            if values is not None and len(values) == width:
+                found[name] = tuple(values)
+            elif colored:
+                found[name] = (1.0,) * width
+            elif piece.seen.traits.kind != "Mesh" and primvar and primvar.GetInterpolation() != "constant":
+                self.report.dropped(
+                    f"{name} of {piece.path}", "USD_FEATURE_DROPPED", self.opened.place(piece.path),
+                    detail=f"it is {primvar.GetInterpolation()}, and a {piece.seen.traits.kind} has one here",
+                )  # fmt: skip
+        return found
+
+    def _constant(self, primvar: Any) -> list[float] | None:
+        """Numbers of a constant primvar, None for another."""
+        if not primvar or not primvar.HasAuthoredValue() or primvar.GetInterpolation() != "constant":
+            return None
+        value = self.values.current(primvar.GetAttr())
+        try:
+            number = self.values.current(primvar.GetIndicesAttr())[0] if primvar.IsIndexed() else 0
+            if number < 0:
+                return None
+            first = value[number]
+            return [float(c) for c in first] if hasattr(first, "__len__") else [float(first)]
+        except (TypeError, ValueError, IndexError):  # empty, or of another type than the schema's
+            return None
+
     def _unique(self, name: str) -> str:
         wanted, count = name, 1
         while wanted in self._names:
@@ -139,7 +176,7 @@ class Surfaces:
     def _of_material(
         self, material: Any, piece: Piece, uv_names: tuple[str, ...], colored: bool, double: bool
     ) -> int | None:
-        display = _display(piece, colored) if self._displays(material) else {}
+        display = self._display(piece, colored) if self._displays(material) else {}
         key = (source_path(material), uv_names, double, *display.items())
         if key not in self._by_material:
             surface = self._read(material, uv_names, display)
@@ -153,7 +190,9 @@ class Surfaces:
         path = source_path(material)
         if path not in self._shown:
             readers = [UsdShade.Shader(prim) for prim in Usd.PrimRange(material) if prim.IsA(UsdShade.Shader)]
-            names = {str(read_input(each, "varname") or "") for each in readers if is_reader(each)}
+            names = {
+                str(read_input(each, "varname", self.values) or "") for each in readers if is_reader(each)
+            }
             self._shown[path] = frozenset(names.intersection(DISPLAY))
         return self._shown[path]
 
@@ -200,11 +239,11 @@ class Surfaces:
         self, material: Any, shader: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
     ) -> Surface:
         where, feature = self.opened.place(material), f"material {material.GetPath()}"
-        inputs = Inputs(shader, uv_names, display, self.opened, self.values, self.report)
+        inputs = Inputs(shader, uv_names, display, self.values)
         diffuse = inputs.sampler("diffuseColor")
         opacity = inputs.sampler("opacity")
-        alpha = inputs.number("opacity", 1.0)
-        threshold = inputs.number("opacityThreshold", 0.0)
+        alpha = inputs.share("opacity", 1.0)
+        threshold = inputs.share("opacityThreshold", 0.0)
         shown = diffuse.texture if diffuse else None
         if opacity is not None and (
             diffuse is None or opacity.texture.name != diffuse.texture.name or opacity.output != "a"
@@ -219,15 +258,15 @@ class Surfaces:
         for name, default in (("clearcoat", 0.0), ("displacement", 0.0)):
             if inputs.number(name, default) != default or inputs.sampler(name) is not None:
                 inputs.lost(name, "there is no such thing in Unity's standard surface")
+        if inputs.number("ior", USUAL) != USUAL or inputs.sampler("ior") is not None:
+            inputs.approximated("ior", f"Unity's standard surface reflects as one of {USUAL:g} does")
         if inputs.number("useSpecularWorkflow", 0.0):
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
-        emissive, occlusion = inputs.sampler("emissiveColor"), inputs.sampler("occlusion")
-        shade = _texture(occlusion)
-        if occlusion is not None and occlusion.output not in ("r", "rgb"):
-            shade = packed([(occlusion, occlusion.output), None, None])
-        if occlusion is not None and shade is None:
-            inputs.lost("occlusion", f"Unity's map has it in r, the texture gives {occlusion.output}")
+        r, g, b = inputs.color_within("diffuseColor", base)
+        emissive, normal = inputs.sampler("emissiveColor"), inputs.sampler("normal")
+        if normal is None and inputs.color("normal", FLAT) != FLAT:
+            inputs.lost("normal", "Unity has it as an image alone")
         mode = (
             AlphaMode.MASK
             if threshold > 0.0
@@ -237,30 +276,41 @@ class Surfaces:
         )
         return Surface(
             self._unique(self.values.title(material)),
-            (
-                _unit(base[0]),
-                _unit(base[1]),
-                _unit(base[2]),
-                _unit(alpha if opacity is None else opacity.alpha),
-            ),
+            (r, g, b, alpha if opacity is None else inputs.within("opacity", opacity.alpha)),
             metallic,
             1.0 - roughness,
             mode,
-            _unit(threshold) if mode is AlphaMode.MASK else 0.5,
+            threshold if mode is AlphaMode.MASK else 0.5,
             False,
             _emission(emissive.tint if emissive else inputs.color("emissiveColor", (0.0, 0.0, 0.0))),
             shown,
-            _texture(inputs.sampler("normal")),
+            _texture(normal),
             rough,
-            shade,
+            self._shade(inputs),
             emissive.texture if emissive else None,
         )
+
+    def _shade(self, inputs: Inputs) -> Texture | None:
+        """The image of the occlusion, with it in r."""
+        sampler = inputs.sampler("occlusion")
+        if sampler is None:
+            if inputs.number("occlusion", 1.0) != 1.0:
+                inputs.lost("occlusion", "Unity has it as an image alone")
+            return None
+        if sampler.amount != 1.0:
+            inputs.approximated("occlusion", f"its image was taken whole, and not {sampler.amount:g} times")
+        if sampler.output in ("r", "rgb"):
+            return sampler.texture
+        image = packed([(sampler, sampler.output), None, None])
+        if image is None:
+            inputs.lost("occlusion", f"Unity's map has it in r, the texture gives {sampler.output}")
+        return image
 
     def _packed(self, inputs: Inputs) -> tuple[Texture | None, float, float]:
         """The image of roughness and metallic, and what each is, or is multiplied by in the image."""
         metal, rough = inputs.sampler("metallic"), inputs.sampler("roughness")
-        metallic = _unit(metal.amount if metal else inputs.number("metallic", 0.0))
-        roughness = _unit(rough.amount if rough else inputs.number("roughness", 0.5))
+        metallic = inputs.within("metallic", metal.amount) if metal else inputs.share("metallic", 0.0)
+        roughness = inputs.within("roughness", rough.amount) if rough else inputs.share("roughness", 0.5)
         if metal is None and rough is None:
             return None, metallic, roughness
         used = [sampler for sampler in (metal, rough) if sampler is not None]
@@ -316,31 +366,6 @@ def _bound(prims: list[Any], purpose: str) -> list[Any]:
         return []
     materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)
     return [material.GetPrim() if material else None for material in materials]
-
-
-def _display(piece: Piece, colored: bool) -> dict[str, tuple[float, ...]]:
-    """Colour and opacity that a prim states by itself, by primvar.  colored: its vertices have them, which they multiply."""
-    api = UsdGeom.PrimvarsAPI(piece.prim)
-    found: dict[str, tuple[float, ...]] = {}
-    for name, width in DISPLAY.items():
-        values = _constant(api.FindPrimvarWithInheritance(name))
-        if values is not None and len(values) == width:
-            found[name] = tuple(values)
-        elif colored:
-            found[name] = (1.0,) * width
-    return found
-
-
-def _constant(primvar: Any) -> list[float] | None:
-    """Numbers of a constant primvar, None for another."""
-    if not primvar or not primvar.HasAuthoredValue() or primvar.GetInterpolation() != "constant":
-        return None
-    value = primvar.Get()
-    try:
-        first = value[0]
-        return [float(c) for c in first] if hasattr(first, "__len__") else [float(first)]
-    except (TypeError, ValueError, IndexError):  # empty, or of another type than the schema's
-        return None
 
 
 def _unit(value: float) -> float:

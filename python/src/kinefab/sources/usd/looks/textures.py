@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ....diagnostics import Report
 from ....model import Texture, Wrap
 from ..api import Ar, Sdf, UsdShade
 from ..stage import OpenStage
-from ..values import shown, tell_unusable
+from ..values import Values, shown
 
 MEDIA = {
     ".png": ("image/png", b"\x89PNG"),
@@ -54,13 +53,11 @@ class Sampler:
         return self.alpha if self.output == "a" else self.tint["rgb".index(self.output[:1])]
 
 
-def read_sampler(
-    shader: Any, output: str, uv_names: tuple[str, ...], opened: OpenStage, report: Report
-) -> Sampler | None:
+def read_sampler(shader: Any, output: str, uv_names: tuple[str, ...], values: Values) -> Sampler | None:
     """None, and a loss in the report, where the image is not there or is none."""
-    prim = shader.GetPrim()
+    prim, opened, report = shader.GetPrim(), values.opened, values.report
     where, feature = opened.place(prim, "inputs:file"), f"texture {prim.GetPath()}"
-    given = read_input(shader, "file")
+    given = read_input(shader, "file", values)
     if given is None:
         report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
         return None
@@ -72,8 +69,8 @@ def read_sampler(
         report.dropped(feature, "USD_TEXTURE_MISSING", where, path=given.path, detail=detail)
         return None
     name, path, data, media = image
-    uv_set, scale, offset, rotation = _coordinates(shader, uv_names, opened, report)
-    wraps = {str(read_input(shader, key) or "useMetadata") for key in ("wrapS", "wrapT")}
+    uv_set, scale, offset, rotation = _coordinates(shader, uv_names, values)
+    wraps = {str(read_input(shader, key, values) or "useMetadata") for key in ("wrapS", "wrapT")}
     wrap = next((WRAPS[w] for w in sorted(wraps) if w in WRAPS), Wrap.REPEAT)
     if len(wraps) > 1 or "black" in wraps:
         report.approximated(
@@ -82,8 +79,8 @@ def read_sampler(
             where,
             detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
         )
-    *tint, alpha = _floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), opened, report)
-    bias = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), opened, report)[:3]
+    *tint, alpha = _floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), values)
+    bias = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), values)[:3]
     normal_map = tint == [2.0, 2.0, 2.0] and bias == (-1.0, -1.0, -1.0)
     if any(bias) and not normal_map:
         report.approximated(
@@ -95,29 +92,26 @@ def read_sampler(
     return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha)
 
 
-def read_fallback(
-    shader: Any, output: str, opened: OpenStage, report: Report
-) -> float | tuple[float, ...] | None:
+def read_fallback(shader: Any, output: str, values: Values) -> float | tuple[float, ...] | None:
     """What the shader says to take where its image is not there, None for nothing."""
-    if read_input(shader, "fallback") is None or output not in CHANNELS:
+    if read_input(shader, "fallback", values) is None or output not in CHANNELS:
         return None
-    found = _floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), opened, report)[CHANNELS[output]]
+    found = _floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), values)[CHANNELS[output]]
     return found[0] if len(found) == 1 else found
 
 
-def read_input(shader: Any, name: str) -> Any:
+def read_input(shader: Any, name: str, values: Values) -> Any:
+    """What an input is at the exported time, wherever its value stands; None where nothing is said."""
     given = shader.GetInput(name)
     if not given:
         return None
     producing = given.GetValueProducingAttributes()
-    return producing[0].Get() if producing else None
+    return values.current(producing[0]) if producing else None
 
 
-def _floats(
-    shader: Any, name: str, default: tuple[float, ...], opened: OpenStage, report: Report
-) -> tuple[float, ...]:
+def _floats(shader: Any, name: str, default: tuple[float, ...], values: Values) -> tuple[float, ...]:
     """As many finite numbers as the default has; the default where nothing is said, or, told, something else."""
-    value = read_input(shader, name)
+    value = read_input(shader, name, values)
     if value is None:
         return default
     try:
@@ -126,7 +120,7 @@ def _floats(
         found = ()
     if len(found) == len(default) and all(map(math.isfinite, found)):
         return found
-    tell_unusable(shader.GetPrim(), f"inputs:{name}", value, opened, report)
+    values.tell_unusable(shader.GetPrim(), f"inputs:{name}", value)
     return default
 
 
@@ -175,7 +169,7 @@ def _relative(path: str, opened: OpenStage, packed: bool) -> str:
 
 
 def _coordinates(
-    shader: Any, uv_names: tuple[str, ...], opened: OpenStage, report: Report
+    shader: Any, uv_names: tuple[str, ...], values: Values
 ) -> tuple[int, tuple[float, float], tuple[float, float], float]:
     """Which uv set, and scale, offset and rotation (radians) of it."""
     moves: list[_Move] = []
@@ -186,16 +180,16 @@ def _coordinates(
         source: Any = UsdShade.Shader(producing[0].GetPrim()) if producing else None
         kind = "" if not source else str(source.GetIdAttr().Get() or "")
         if kind == "UsdTransform2d":
-            s = _floats(source, "scale", (1.0, 1.0), opened, report)
-            t = _floats(source, "translation", (0.0, 0.0), opened, report)
-            (turn,) = _floats(source, "rotation", (0.0,), opened, report)
+            s = _floats(source, "scale", (1.0, 1.0), values)
+            t = _floats(source, "translation", (0.0, 0.0), values)
+            (turn,) = _floats(source, "rotation", (0.0,), values)
             moves.append(((s[0], s[1]), (t[0], t[1]), math.radians(turn)))
             given = source.GetInput("in")
             continue
         if kind.startswith("UsdPrimvarReader"):
-            name = str(read_input(source, "varname") or "")
+            name = str(read_input(source, "varname", values) or "")
         break
-    prim = shader.GetPrim()
+    prim, opened, report = shader.GetPrim(), values.opened, values.report
     (scale, offset, rotation), sheared = _chained(moves)
     if sheared:
         report.approximated(

@@ -483,3 +483,12 @@ def test_an_image_of_occlusion_that_is_multiplied_is_told(tmp_path):
     scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
     assert painted(scene).occlusion_texture is not None
     assert told(report) == {"approximated occlusion of /Looks/Paint/Shader"}
+
+
+def test_a_material_that_is_bound_without_the_schema_is_taken_and_is_no_loss(tmp_path):
+    """pxr takes it and warns, and most stages of before 2023 are so."""
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(40))
+    bound = BOUND.replace('(prepend apiSchemas = ["MaterialBindingAPI"])', "")
+    scene, report = scene_of(tmp_path, stage(body("B", inside=bound) + MATERIAL))
+    assert [scene.surfaces[i].name for i in scene.nodes[0].bodies[0].surfaces] == ["Plain", "Paint"]
+    assert told(report) == set()

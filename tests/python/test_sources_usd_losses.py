@@ -299,3 +299,36 @@ def test_what_is_soft_stands_still_and_is_told(tmp_path, schema, stated):
         told = {o.feature for o in report.outcomes if o.outcome.value == "dropped"}
         path = "X" if above else "M"
         assert told == {f"{schema} of /{path}"} | ({f"omniphysics:mass of {path}"} if stated else set())
+
+
+@pytest.mark.parametrize(
+    ("content", "feature"),
+    [
+        ('def XForm "A" {\n}\ndef XForm "C" {\n}\n', "XForm /A and 1 more"),
+        ('def OmniGraph "A" {\n}\n', "OmniGraph /A"),
+        ('def Skeleton "A" {\n}\n', "Skeleton /A"),
+        ('def SpatialAudio "A" {\n}\n', "SpatialAudio /A"),
+        ('def Cube "A" (prepend apiSchemas = ["MeshLightAPI"]) {\n}\n', "light /A"),
+        ('def Xform "A" {\n}\ndef Scope "C" {\n}\ndef SkelRoot "D" {\n}\ndef "E" {\n}\n', ""),
+    ],
+)
+def test_types_that_nothing_is_read_of_are_told_once_each(tmp_path, content, feature):
+    """A type that is misspelt has no place to stand: what lies below it stands at its origin, as in usdview."""
+    scene, report = scene_of(tmp_path, stage(body("B") + content))
+    assert scene is not None
+    assert [o.feature for o in report.outcomes if o.outcome.value == "dropped"] == [feature] * bool(feature)
+
+
+@pytest.mark.parametrize(
+    ("material", "code"), [("", "USD_TARGET_MISSING"), ('def Scope "M" {\n}\n', "USD_FEATURE_DROPPED")]
+)
+def test_a_material_that_is_not_there_is_told_once_where_it_is_named(tmp_path, material, code):
+    meshes = "".join(
+        f'def Mesh "{name}" {{\n{MESH}\nuniform token subdivisionScheme = "none"\n}}\n' for name in "PQ"
+    )
+    inside = f'def Xform "X" (prepend apiSchemas = ["MaterialBindingAPI"]) {{\nrel material:binding = </M>\n{meshes}}}\n'
+    _, report = scene_of(tmp_path, stage(body("B", inside=inside) + material))
+    (found,) = [o for o in report.outcomes if o.outcome.value == "dropped"]
+    assert (found.feature, found.code) == ("material of /B/X", code) and "/M" in report.diagnostics[
+        -1
+    ].message

@@ -14,6 +14,7 @@ from ...spatial import Array, Pose
 from .api import UsdGeom, UsdShade
 from .found import Found, Part, Piece
 from .looks.library import Library
+from .looks.materials import Materials
 from .looks.surfaces import Surfaces
 from .physics.colliders import Colliders
 from .physics.held import held_parts
@@ -53,7 +54,8 @@ class Parts:
         """groups: collision group of each collider's path.  purposes: those that are drawn."""
         self._opened, self._values, self._found, self._report = opened, values, found, report
         self._groups, self._purposes = groups, purposes or DEFAULT_PURPOSES
-        self.looks = Surfaces(opened, values, report)
+        self._shown = Materials(opened, values, report)
+        self.looks = Surfaces(opened, values, report, self._shown)
         self.library = Library(opened, values, self.looks.covers, report)
         self._colliders = Colliders(opened, values, self.library, report)
         self._masses = MassApis(opened, values, report)
@@ -94,7 +96,7 @@ class Parts:
     def _resolve(self) -> None:
         """Materials of everything at once."""
         pieces = [piece for part in self._found.parts for piece in part.pieces]
-        self.looks.resolve({p.path: p.prim for p in pieces if p.dressed and self._drawn(p)})
+        self._shown.resolve({p.path: p.prim for p in pieces if p.dressed and self._drawn(p)})
         colliding = {p.path: p.prim for p in pieces if p.collides}
         if colliding:
             materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(

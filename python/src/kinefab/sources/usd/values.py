@@ -43,7 +43,7 @@ DRESSING = ("material:binding", "primvars:displayColor", "primvars:displayOpacit
 class Traits:
     """What is asked of prims again and again; prims that agree in it share it.
 
-    kind: name of the type.  ranks: what it is a kind of, of ``RANKS``.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
+    kind: name of the type.  ranks: what it is a kind of, of ``RANKS``; "Known" where pxr knows the type.  schemas: as ``schemas`` has them.  names: of properties with an opinion of their own.
     fallbacks: what other properties give, by name: that of the type and its schemas.
     dressed: it states a material or colours, which what lies below inherits.
     """
@@ -85,6 +85,8 @@ class Values:
         if found is None:
             fallbacks = self._fallbacks.setdefault((kind, applied), {})
             ranks = frozenset(rank for rank, schema in RANKS.items() if prim.IsA(schema))
+            if prim.GetPrimTypeInfo().GetSchemaTypeName():
+                ranks |= {"Known"}
             dressed = any(name.startswith(DRESSING) for name in names)
             found = Traits(kind, ranks, applied, frozenset(names), fallbacks, dressed)
             self._traits[kind, applied, names] = found

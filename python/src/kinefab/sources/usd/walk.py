@@ -24,8 +24,14 @@ LOOKS = frozenset("Material Shader NodeGraph GeomSubset RenderSettings RenderPro
 BODIES = ("physics:body0", "physics:body1")
 WEIGHTS = ("physics:mass", "physics:density")
 SKIPPED = frozenset("Skeleton SkelAnimation BlendShape".split())
+HOLDERS = frozenset("Xform SkelRoot PointInstancer Camera".split())
+"""Types that stand somewhere and are no geometry, of which all is read or told."""
 SOFT = ("Deformable", "PhysxParticle")
 """A part of the names of schemas for soft bodies, and the beginning of those for particles."""
+SHINING = frozenset(("LightAPI", "MeshLightAPI", "VolumeLightAPI"))
+"""Schemas that make a light of a prim."""
+UNKNOWN = "OpenUSD knows no such type; only what lies below it was read"
+UNLIKE = "nothing of the scene is like it"
 LIGHTS = frozenset(
     "DistantLight DomeLight DomeLight_1 SphereLight RectLight DiskLight CylinderLight PortalLight GeometryLight PluginLight".split()
 )
@@ -78,6 +84,7 @@ def walk(opened: OpenStage, values: Values, report: Report) -> Found:
             pending += look.instanced(seen, below)
         else:
             pending += [(child, below) for child in reversed(look.prims.below(seen))]
+    look.tell_strange()
     return look.found
 
 
@@ -88,17 +95,24 @@ class _Look:
         self.found, self.prims = Found(), Prims(values)
         self._opened, self._values, self._report = opened, values, report
         self._groups: dict[str, int] = {}  # of those made so far, by their ids
+        self._strange: dict[tuple[str, str], list[str]] = {}  # paths by type and why nothing of it is read
 
     def at(self, seen: Seen, context: _Context) -> _Context | None:
         """What a prim's children inherit, or None where nothing below it matters."""
         traits = seen.traits
         kind, applied, ranks = traits.kind, traits.schemas, traits.ranks
-        if kind in LOOKS or kind in SKIPPED:
-            return None
         path = f"{context.path}/{seen.name}"
+        if kind in LOOKS or kind in SKIPPED:
+            if kind == "Skeleton":
+                self._strange.setdefault((kind, UNLIKE), []).append(path)
+            return None
         joint = "Joint" in ranks or kind.endswith("Joint") or "PhysicsJoint" in kind
         if not joint and self._ends(seen, path):
             return None
+        if not (joint or kind in HOLDERS or "Gprim" in ranks):
+            self._look_at_type(seen, path)
+        if not SHINING.isdisjoint(applied):
+            self._dropped("light", path, "lights are not carried over")
         if "PhysicsFilteredPairsAPI" in applied:
             self.found.filtered.append(seen.at(path))
         if "PhysicsArticulationRootAPI" in applied:
@@ -160,6 +174,22 @@ class _Look:
             )
             copies.append((copied, below))
         return copies[::-1]
+
+    def _look_at_type(self, seen: Seen, path: str) -> None:
+        """Note a prim of whose type nothing is read, so that what is behind it is lost."""
+        kind, ranks = seen.traits.kind, seen.traits.ranks
+        if kind and "Known" not in ranks:
+            self._strange.setdefault((kind, UNKNOWN), []).append(path)
+        elif "Xformable" in ranks:
+            self._strange.setdefault((kind, UNLIKE), []).append(path)
+
+    def tell_strange(self) -> None:
+        """What types nothing is read of, each once."""
+        for (kind, detail), paths in sorted(self._strange.items()):
+            first, *others = sorted(paths)
+            more = f" and {len(others)} more" if others else ""
+            place = self._opened.place(first)
+            self._report.dropped(f"{kind} {first}{more}", "USD_FEATURE_DROPPED", place, detail=detail)
 
     def _ends(self, seen: Seen, path: str) -> bool:
         """Note what has no place in the scene's tree; whether the prim is such, and what lies below it nothing to read."""

@@ -9,19 +9,17 @@ from typing import Any
 
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
-from ..api import Usd, UsdGeom, UsdShade
+from ..api import UsdGeom
 from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values
-from .inputs import DISPLAY, Inputs, is_reader
+from .inputs import DISPLAY, Inputs
+from .materials import PREVIEW, Materials, surface_of
 from .packing import packed
-from .textures import Sampler, read_input
+from .textures import Sampler
 
-PREVIEW = "UsdPreviewSurface"
 BIND = "materialBind"
-CONTEXTS = ("", "mtlx", "mdl")
-"""Of renderers whose surfaces are looked at, the first that a material has."""
 CONSTANTS = {
     "diffuse_color_constant": "color", "metallic_constant": "metallic", "reflection_roughness_constant": "roughness",
     "base_color": "color", "diffuseColor": "color",
@@ -44,39 +42,26 @@ class Surfaces:
     opened: OpenStage
     values: Values
     report: Report
+    materials: Materials
     surfaces: list[Surface] = field(default_factory=list[Surface])
     _by_material: dict[tuple[object, ...], int | None] = field(
         default_factory=dict[tuple[object, ...], int | None]
     )
     _by_color: dict[tuple[float, ...], int] = field(default_factory=dict[tuple[float, ...], int])
-    _bound: dict[str, Any] = field(default_factory=dict[str, Any])
     _names: set[str] = field(default_factory=set[str])
-    _kinds: dict[str, str] = field(default_factory=dict[str, str])
-    _shown: dict[str, frozenset[str]] = field(default_factory=dict[str, frozenset[str]])
-
-    def resolve(self, prims: Mapping[str, Any]) -> None:
-        """Find the materials of many prims, by their paths, in one go, which is far cheaper than one by one.
-
-        Where the full look is none that is read, that for previews stands in for it, if there is one."""
-        fresh = [path for path in prims if path not in self._bound]
-        for path, material in zip(fresh, _bound([prims[path] for path in fresh], UsdShade.Tokens.full)):
-            self._bound[path] = material
-        unread = [path for path in fresh if self._kind(self._bound[path]) != PREVIEW]
-        for path, material in zip(unread, _bound([prims[path] for path in unread], UsdShade.Tokens.preview)):
-            if self._bound[path] is None or self._kind(material) == PREVIEW:
-                self._bound[path] = material
 
     def covers(self, piece: Piece) -> bool:
         """Whether a mesh shows materials alone, and nothing of the colours that it states for its points or faces."""
         mesh = UsdGeom.Mesh(piece.prim)
         subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, BIND)
         paths = [str(subset.GetPath()) for subset in subsets]
-        self.resolve({piece.path: piece.prim, **{p: s.GetPrim() for p, s in zip(paths, subsets)}})
-        own = self._bound[piece.path]
-        materials = [self._bound[path] or own for path in paths]
+        self.materials.resolve({piece.path: piece.prim, **{p: s.GetPrim() for p, s in zip(paths, subsets)}})
+        own = self.materials.of(piece.path)
+        materials = [self.materials.of(path) or own for path in paths]
         if UsdGeom.Subset.GetUnassignedIndices(mesh, UsdGeom.Tokens.face, BIND):
             materials.append(own)
-        return all(m is not None and self._kind(m) and not self._displays(m) for m in materials)
+        kind, displays = self.materials.kind, self.materials.displays
+        return all(m is not None and kind(m) and not displays(m) for m in materials)
 
     def of(
         self, piece: Piece, subsets: tuple[Any, ...], uv_names: tuple[str, ...], colored: bool
@@ -89,10 +74,10 @@ class Surfaces:
         if not piece.dressed and not colored and not double and subsets == (None,):
             return ()
         paths = ["" if subset is None else str(subset.GetPath()) for subset in subsets]
-        self.resolve({piece.path: piece.prim, **{p: s for p, s in zip(paths, subsets) if p}})
+        self.materials.resolve({piece.path: piece.prim, **{p: s for p, s in zip(paths, subsets) if p}})
         found: list[int | None] = []
         for path in paths:
-            material = self._bound.get(path) or self._bound[piece.path]
+            material = self.materials.of(path) or self.materials.of(piece.path)
             index = (
                 None if material is None else self._of_material(material, piece, uv_names, colored, double)
             )
@@ -176,7 +161,7 @@ class Surfaces:
     def _of_material(
         self, material: Any, piece: Piece, uv_names: tuple[str, ...], colored: bool, double: bool
     ) -> int | None:
-        display = self._display(piece, colored) if self._displays(material) else {}
+        display = self._display(piece, colored) if self.materials.displays(material) else {}
         key = (source_path(material), uv_names, double, *display.items())
         if key not in self._by_material:
             surface = self._read(material, uv_names, display)
@@ -185,37 +170,14 @@ class Surfaces:
             self._by_material[key] = None if surface is None else len(self.surfaces) - 1
         return self._by_material[key]
 
-    def _displays(self, material: Any) -> frozenset[str]:
-        """Which of the colours that a prim states by itself a material shows."""
-        path = source_path(material)
-        if path not in self._shown:
-            readers = [UsdShade.Shader(prim) for prim in Usd.PrimRange(material) if prim.IsA(UsdShade.Shader)]
-            names = {
-                str(read_input(each, "varname", self.values) or "") for each in readers if is_reader(each)
-            }
-            self._shown[path] = frozenset(names.intersection(DISPLAY))
-        return self._shown[path]
-
-    def _kind(self, material: Any) -> str:
-        """What its surface is; "" for none: a physics material."""
-        if material is None:
-            return ""
-        path = source_path(material)
-        if path not in self._kinds:
-            shader = _surface_of(material)
-            kind = "" if not shader else shader.GetIdAttr().Get() or shader.GetSourceAssetSubIdentifier("mdl")
-            stated = bool(shader) or bool(UsdShade.Material(material).GetOutputs())
-            self._kinds[path] = str(kind or "none") if stated else ""
-        return self._kinds[path]
-
     def _read(
         self, material: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
     ) -> Surface | None:
         where, feature = self.opened.place(material), f"material {material.GetPath()}"
-        kind = self._kind(material)
+        kind = self.materials.kind(material)
         if not kind:
             return None
-        shader = _surface_of(material)
+        shader = surface_of(material)
         if kind == PREVIEW:
             return self._preview(material, shader, uv_names, display)
         found: dict[str, Any] = {}
@@ -352,20 +314,6 @@ class Surfaces:
                 detail=f"Unity has roughness and metallic in one image, so the {', '.join(still)}",
             )  # fmt: skip
         return image, amounts[0], amounts[1]
-
-
-def _surface_of(material: Any) -> Any:
-    """The shader of a material's surface, none where it has no such."""
-    sources = (UsdShade.Material(material).ComputeSurfaceSource(context)[0] for context in CONTEXTS)
-    return next((shader for shader in sources if shader), None)
-
-
-def _bound(prims: list[Any], purpose: str) -> list[Any]:
-    """Prims of the materials that are bound to these for a purpose, None for none."""
-    if not prims:
-        return []
-    materials, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)
-    return [material.GetPrim() if material else None for material in materials]
 
 
 def _unit(value: float) -> float:

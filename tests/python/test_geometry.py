@@ -13,6 +13,7 @@ from kinefab.geometry.files import FORMATS, read_mesh_file, transformed
 from kinefab.geometry.loading import MeshFiles, load_geometry
 from kinefab.geometry.mass import solid_properties
 from kinefab.geometry.pieces import Piece
+from kinefab.geometry.wavefront import tables
 from kinefab.model import Body, Mesh, MeshKey, MeshReference, Node, Scene
 from kinefab.spatial import Pose, rotation_exp
 
@@ -194,6 +195,37 @@ def test_an_obj_is_read_as_trimesh_reads_it(tmp_path, named):
         numbers = np.array(corners)[:, :, 2] - 1
         stated = np.array([row.split()[1:] for row in rows if row.startswith("vn")], dtype=float)
         assert np.array_equal(piece.normals[piece.faces], stated[numbers])
+
+
+@pytest.mark.parametrize("form", ["{}", "{}/{}", "{0}//{2}", "{}/{}/{}", "-{}"])
+def test_an_obj_of_any_polygons_is_the_same_at_once_and_line_by_line(tmp_path, monkeypatch, form):
+    """What is read as one table, in pieces of a few lines, against the text in which each fan of triangles is written out; two corners
+    are no face, and materials and bodies get the triangles of their own lines."""
+    rng = np.random.default_rng(5)
+    rows = [
+        f"{word} {a} {b} {c}" for word in ("v", "vt", "vn") for a, b, c in rng.normal(size=(9, 3)).tolist()
+    ]
+    polygons = [rng.permutation(9)[: rng.integers(2, 8)] + 1 for _ in range(40)]
+    polygons[20:] = [p[:3] if form == "{}" else p for p in polygons[20:]]
+    corners = [[form.format(k, 10 - k, k % 9 + 1) for k in polygon] for polygon in polygons]
+    statements = {0: ["o A", "usemtl red"], 11: ["usemtl blue"], 25: ["o B"], 33: ["usemtl red"]}
+    whole, cut = ([*rows] for _ in range(2))
+    for i, polygon in enumerate(corners):
+        whole += [*statements.get(i, []), "f " + " ".join(polygon)]
+        fan = [f"f {polygon[0]} {polygon[k]} {polygon[k + 1]}" for k in range(1, len(polygon) - 1)]
+        cut += [*statements.get(i, []), *(line + " # one" for line in fan)]
+    monkeypatch.setattr(tables, "AT_ONCE", 40)
+    once, by_line = (
+        read_mesh_file(write(tmp_path / name, lines), Report(), "x")
+        for name, lines in (("a.obj", whole), ("b.obj", cut))
+    )
+    assert [p.face_counts for p in once.pieces] == [p.face_counts for p in by_line.pieces]
+    assert len(once.pieces) == 2 and once.pieces[0].surfaces == ("red", "blue")
+    for one, other in zip(once.pieces, by_line.pieces):
+        for values in ("vertices", "uv", "normals"):
+            ours, theirs = getattr(one, values), getattr(other, values)
+            assert (ours is None) == (theirs is None)
+            assert ours is None or np.array_equal(ours[one.faces], theirs[other.faces])
 
 
 def test_obj_corners_that_name_different_things_keep_their_places(tmp_path):

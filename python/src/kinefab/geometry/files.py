@@ -18,7 +18,6 @@ from .looks.gltf import GltfFile
 from .looks.gltf_document import gltf_document
 from .looks.passed_over import colors_of_stl, tell_3mf, tell_collada
 from .looks.visuals import Look, look_of
-from .obj import ObjError, read_obj
 from .pieces import MeshFile, Piece, placed
 from .references import (
     FolderResolver,
@@ -27,6 +26,7 @@ from .references import (
     heads_of_3mf,
     metres_of_3mf,
 )
+from .wavefront.reader import ObjError, read_obj
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
 ARCHIVES = (".3mf",)

@@ -1,48 +1,31 @@
-"""Wavefront OBJ with its bodies kept apart.
-
-The file is first written out as triangles with plain indices, so that numpy takes its numbers as tables; the whole is one mesh,
-which is cut up into bodies by counting faces.
-"""
+"""Wavefront OBJ with its bodies kept apart: the whole is one mesh, which is cut up into bodies by counting faces."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from ..diagnostics import Report
-from ..model import MeshKey, Surface
-from ..spatial import Array, IntArray
-from .looks.libraries import library_statements, library_textures
-from .looks.visuals import WHITE, from_screen, linear_colors, phong_smoothness
-from .pieces import MeshFile, Piece, cut
-from .references import read_reference
+from ...diagnostics import Report
+from ...model import MeshKey, Surface
+from ...spatial import Array, IntArray
+from ..looks.libraries import library_statements, library_textures
+from ..looks.visuals import WHITE, from_screen, linear_colors, phong_smoothness
+from ..pieces import MeshFile, Piece, cut
+from ..references import read_reference
+from .tables import Faces, Lines, faces_of, numbers_of
 
-# A literal beginning lets the engine skip from hit to hit through hundreds of megabytes.
 _STATEMENTS = {
     word: re.compile(rb"\n" + word + rb"(?: +([^\n]*?))? *(?=\n)") for word in (b"o", b"g", b"usemtl")
 }
 _INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
-_CORNER = rb" +[1-9][0-9]*(?:/[0-9]*){0,2}"
-_UNUSUAL_FACE = re.compile(rb"^f(?!(?:" + _CORNER + rb"){3} *$)", re.MULTILINE)
-_ALIKE = {
-    named: re.compile(rb"^(?!(?:" + names + rb"(?: +|$)){3}$)", re.MULTILINE)
-    for named, names in {
-        (0,): rb"[0-9]+",
-        (0, 1): rb"[0-9]+/[0-9]+",
-        (0, 2): rb"[0-9]+//[0-9]+",
-        (0, 1, 2): rb"[0-9]+/[0-9]+/[0-9]+",
-    }.items()
-}
-"""What all corners of a file name, of vertex, texture coordinates and normal, and what finds a face of which one does not."""
 MOST_LIBRARY_BYTES = 16 * 2**20
 """Of one material library."""
 _LIBRARY = re.compile(rb"\nmtllib +([^\n]*?) *(?=\n)")
 
-_VERTEX = re.compile(rb"\nv +([^\n]*)")
 COLORED = (6, 7)
 """Numbers of a vertex that has a colour: place, red, green, blue, and opacity of some."""
 NOTHING = Piece(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
@@ -68,12 +51,13 @@ class _Section:
 
 def read_obj(path: Path, report: Report) -> MeshFile:
     """Read bodies and surfaces of an OBJ file.  Raises ObjError or OSError."""
-    text = _plain_text(path.read_bytes())
-    if _UNUSUAL_FACE.search(text):
-        text = _with_plain_faces(text)
-    statements = _statements(text)
-    sections = [s for s in _sections(text, statements) if s.faces]
-    whole = _parse(_without(text, statements)) if sections else NOTHING
+    lines = Lines(_plain_text(path.read_bytes()))
+    faces = faces_of(lines.joined(lines.which(b"f ")))
+    if faces is None:
+        lines = Lines(_with_plain_faces(lines.text))
+        faces = _uneven_faces(lines.joined(lines.which(b"f ")))
+    sections = [s for s in _sections(lines, faces) if s.faces]
+    whole = _parse(lines, faces) if sections else NOTHING
     unnamed = "" if whole.colors is None else WHITE.name
     pieces: list[Piece] = []
     named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = {key: {} for key in MeshKey}
@@ -93,7 +77,7 @@ def read_obj(path: Path, report: Report) -> MeshFile:
         named[key].setdefault(name, []).append(tuple(numbers))
     if start != len(whole.faces):
         raise ObjError(f"{len(whole.faces)} faces were read where {start} were counted")
-    surfaces = _surfaces(text, path, report)
+    surfaces = _surfaces(lines, path, report)
     return MeshFile(path, pieces, named, surfaces if not unnamed else {WHITE.name: WHITE, **surfaces})
 
 
@@ -101,42 +85,38 @@ def _plain_text(data: bytes) -> bytes:
     """LF line ends, no continuations, no tabs or indents, and a line end at both ends."""
     data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     data = data.replace(b"\\\n", b" ").replace(b"\t", b" ")
-    return b"\n" + (_INDENT.sub(b"", data) if b"\n " in data else data).strip() + b"\n"
+    text = b"".join((b"\n", data, b"\n"))
+    return _INDENT.sub(b"", text) if b"\n " in text else text
 
 
 @dataclass(frozen=True, slots=True)
 class _Statement:
-    """An ``o``, ``g`` or ``usemtl`` line: where it stands (from the line end before it), its word and its name."""
+    """An ``o``, ``g`` or ``usemtl`` line: where the line end before it is, its word and its name."""
 
     start: int
-    stop: int
     word: bytes
     name: str
 
 
-def _statements(text: bytes) -> list[_Statement]:
+def _statements(lines: Lines) -> list[_Statement]:
     """The statements in file order."""
-    found = [
-        _Statement(match.start(), match.end(), word, (match[1] or b"").decode("utf-8", "replace").strip())
-        for word, pattern in _STATEMENTS.items()
-        for match in pattern.finditer(text)
-    ]
+    found: list[_Statement] = []
+    for word, pattern in _STATEMENTS.items():
+        for start in lines.starts[lines.which(word[:3])].tolist():
+            if match := pattern.match(lines.text, start):
+                name = (match[1] or b"").decode("utf-8", "replace").strip()
+                found.append(_Statement(start, word, name))
     return sorted(found, key=lambda statement: statement.start)
 
 
-def _without(text: bytes, statements: list[_Statement]) -> bytes:
-    """The text less its statements."""
-    starts = [0, *(s.stop for s in statements)]
-    stops = [*(s.start for s in statements), len(text)]
-    return b"".join(text[start:stop] for start, stop in zip(starts, stops))
-
-
-def _sections(text: bytes, statements: list[_Statement]) -> list[_Section]:
+def _sections(lines: Lines, faces: Faces) -> list[_Section]:
     """The sections in file order, each with its runs of one material."""
+    statements = _statements(lines)
+    stops = [*(s.start for s in statements), len(lines.text)]
+    before = np.concatenate([[0], np.cumsum(faces.triangles)])
+    until: list[int] = before[np.searchsorted(lines.starts[lines.which(b"f ")], stops)].tolist()
     current_object, current_group, material = (0, ""), (0, ""), ""
-    sections = [_Section(current_object, current_group, [])]
-    stops = [*(s.start for s in statements), len(text)]
-    sections[-1].runs.append((material, text.count(b"\nf ", 0, stops[0])))
+    sections = [_Section(current_object, current_group, [(material, until[0])])]
     for number, statement in enumerate(statements, 1):
         if statement.word == b"usemtl":
             material = statement.name
@@ -146,7 +126,7 @@ def _sections(text: bytes, statements: list[_Statement]) -> list[_Section]:
         else:
             current_group = (number, statement.name)
             sections.append(_Section(current_object, current_group, []))
-        sections[-1].runs.append((material, text.count(b"\nf ", statement.stop, stops[number])))
+        sections[-1].runs.append((material, until[number] - until[number - 1]))
     return sections
 
 
@@ -183,72 +163,66 @@ def _absolute(corner: bytes, counts: list[int]) -> bytes:
     return b"/".join(indices)
 
 
-def _parse(text: bytes) -> Piece:
+def _parse(lines: Lines, faces: Faces) -> Piece:
     """The whole text as one piece; face order is kept.  A vertex is repeated for each texture coordinate and normal it is used with."""
-    corners = _corners(re.findall(rb"\nf +([^\n]*)", text))
-    vertices = _numbers(text, b"v", 3)
-    if corners[..., 0].max(initial=0) > len(vertices):
+    numbers = _numbers(lines, b"v", 3)
+    vertices, colors = np.ascontiguousarray(numbers[:, :3]), _vertex_colors(numbers)
+    corner = faces.of(0)
+    assert corner is not None
+    if corner.max(initial=0) > len(vertices):
         raise ObjError("its vertices and faces do not fit together; it may be cut short")
-    colors = _vertex_colors(text, len(vertices))
-    uv, normals = (
-        _whole(corners[..., k], _numbers(text, word, n)) for k, word, n in ((1, b"vt", 2), (2, b"vn", 3))
-    )
+    texture, normal = faces.of(1), faces.of(2)
+    uv, normals = _values(texture, lines, b"vt", 2), _values(normal, lines, b"vn", 3)
     if uv is None and normals is None:
-        return Piece(vertices, corners[..., 0] - 1, colors=colors)
-    named = corners.reshape(-1, 3)[:, [True, uv is not None, normals is not None]] - 1
+        return Piece(vertices, corner - 1, colors=colors)
+    columns = [corner, texture if uv is not None else None, normal if normals is not None else None]
+    named: IntArray = np.stack([c.reshape(-1) for c in columns if c is not None], axis=1) - 1
     key = named[:, -1]
     for column in named.T[-2::-1]:
         _, key = np.unique(key, return_inverse=True)
         key = np.reshape(key, -1) * (int(column.max()) + 1) + column
-    _, first, faces = np.unique(key, return_index=True, return_inverse=True)
-    vertex, texture, normal = corners.reshape(-1, 3)[first].T - 1
+    _, first, numbered = np.unique(key, return_index=True, return_inverse=True)
+    of_each: IntArray = named[first].T
     return Piece(
-        vertices[vertex],
-        np.reshape(faces, (-1, 3)),
-        None if normals is None else normals[normal],
-        None if uv is None else uv[texture],
-        colors=None if colors is None else colors[vertex],
+        vertices[of_each[0]],
+        np.reshape(numbered, (-1, 3)),
+        None if normals is None else normals[of_each[-1]],
+        None if uv is None else uv[of_each[1]],
+        colors=None if colors is None else colors[of_each[0]],
     )
 
 
-def _vertex_colors(text: bytes, count: int) -> Array | None:
-    """Linear RGBA behind the places of so many vertices, shape (n, 4), None where there are none, or white alone."""
-    first = _VERTEX.search(text)
-    if first is None or len(first[1].split()) not in COLORED:
+def _vertex_colors(numbers: Array) -> Array | None:
+    """Linear RGBA behind the places, shape (n, 4), None where there are none, or white alone.  numbers: of each vertex line."""
+    if numbers.shape[1] not in COLORED:
         return None
-    try:
-        found = np.loadtxt(_VERTEX.findall(text), comments=None, usecols=(3, 4, 5), ndmin=2)
-    except ValueError:  # not all have one
-        return None
-    if (
-        len(found) != count
-        or not np.isfinite(found).all()
-        or (found == found.max()).all()
-        and found[0, 0] >= 1.0
-    ):
+    found = numbers[:, 3:6]
+    if not np.isfinite(found).all() or (found == found.max()).all() and found[0, 0] >= 1.0:
         return None
     return linear_colors(found / (255.0 if found.max() > 1.0 else 1.0), False)
 
 
-def _corners(faces: Sequence[bytes]) -> IntArray:
-    """Vertex, texture coordinates and normal of each corner, counted from 1, 0 where it names none, shape (m, 3, 3)."""
-    found = np.zeros((len(faces), 3, 3), dtype=np.int64)
-    text = b"\n".join(faces)
-    for named, other in _ALIKE.items():
-        if other.search(text) is None:
-            rows = text.replace(b"/", b" ").split(b"\n")
-            found[:, :, named] = np.loadtxt(rows, np.int64, comments=None, ndmin=2).reshape(-1, 3, len(named))
-            return found
-    for face, corners in enumerate(faces):
-        for corner, names in enumerate(corners.split()):
+def _uneven_faces(lines: bytes) -> Faces:
+    """As ``faces_of`` has triangles, where their corners do not all name the same; 0 for what one does not name.  Slow."""
+    if (found := faces_of(lines)) is not None:
+        return found
+    triangles = lines.split(b"\n")[1:]
+    numbers = np.zeros((len(triangles), 3, 3), dtype=np.int64)
+    for triangle, line in enumerate(triangles):
+        for corner, names in enumerate(line.split()[1:]):
             for k, name in enumerate(names.split(b"/")):
-                found[face, corner, k] = int(name or 0)
-    return found
+                numbers[triangle, corner, k] = int(name or 0)
+    return Faces(numbers, np.ones(len(triangles), dtype=np.int64), (0, 1, 2))
 
 
-def _numbers(text: bytes, word: bytes, columns: int) -> Array:
-    """The first numbers of each line of a kind, shape (n, columns).  Raises ObjError where one is missing or none."""
-    rows: list[bytes] = re.findall(rb"\n" + word + rb" +([^\n]*)", text)
+def _numbers(lines: Lines, word: bytes, columns: int) -> Array:
+    """The numbers of each line of a word, at least the first columns, shape (n, columns) or wider.  Raises ObjError where one is missing
+    or none."""
+    text = lines.joined(lines.which(word + b" "))
+    found = numbers_of(text, word)
+    if found is not None and found.shape[1] >= columns:
+        return found
+    rows = [line[len(word) :] for line in text.split(b"\n")[1:]]
     if not rows:
         return np.zeros((0, columns))
     if word == b"vt":  # it may state u alone
@@ -262,15 +236,20 @@ def _numbers(text: bytes, word: bytes, columns: int) -> Array:
     return found
 
 
-def _whole(numbers: IntArray, values: Array) -> Array | None:
-    """The values, or None where a corner names none or one that is not there."""
-    return values if numbers.min(initial=1) > 0 and 0 < numbers.max(initial=0) <= len(values) else None
+def _values(named: IntArray | None, lines: Lines, word: bytes, columns: int) -> Array | None:
+    """What corners name, shape (n, columns), or None where one names none or one that is not there."""
+    if named is None or named.min(initial=1) < 1:
+        return None
+    values = _numbers(lines, word, columns)[:, :columns]
+    return values if 0 < named.max(initial=0) <= len(values) else None
 
 
-def _surfaces(text: bytes, path: Path, report: Report) -> dict[str, Surface]:
+def _surfaces(lines: Lines, path: Path, report: Report) -> dict[str, Surface]:
     """The surfaces of every ``mtllib`` that is there; a warning for one that is not."""
     surfaces: dict[str, Surface] = {}
-    for match in _LIBRARY.finditer(text):
+    for start in lines.starts[lines.which(b"mtl")].tolist():
+        if (match := _LIBRARY.match(lines.text, start)) is None:
+            continue
         library = match[1].decode("utf-8", "replace")
         try:
             content = read_reference(path.parent, library, MOST_LIBRARY_BYTES)

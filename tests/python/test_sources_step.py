@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import kinefab
 import numpy as np
 import pytest
 from kinefab.diagnostics import KinefabError, Report
@@ -201,6 +202,18 @@ def test_a_finer_tolerance_gives_more_triangles():
 def test_up_axis_can_be_told():
     scene, _ = read_whole(PLATES, up="Y")
     np.testing.assert_allclose(scene.nodes[3].pose.translation, [0.1, 0.02, 0.005], atol=1e-9)
+
+
+def test_export_tells_how_far_the_reading_is(tmp_path: Path):
+    """Shapes of an assembly take most of the time: each is a step."""
+    told: list[float] = []
+    kinefab.export(
+        LEVER,
+        tmp_path / "lever.kinefab",
+        progress=lambda stage, done: told.append(done) if stage == "read" else None,
+    )
+    assert told[0] == 0.0 and told[-1] == 1.0 and told == sorted(told)
+    assert sum(0.0 < done < 1.0 for done in told) > 2
 
 
 def test_reading_twice_gives_the_same(tmp_path: Path):

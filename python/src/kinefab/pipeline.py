@@ -241,7 +241,7 @@ def _read(
 ) -> Scene:
     progress("read", 0.0)
     if isinstance(source, (str, Path)):
-        scene = read(source, report, files.vertices, options)
+        scene = read(source, report, files.vertices, options, lambda done: progress("read", done))
     else:
         scene = read_stage(source, report, options)
     progress("read", 1.0)

@@ -8,7 +8,7 @@ report what it found wrong, approximated or dropped.  Where the geometry is in f
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
@@ -107,10 +107,11 @@ def read(
     report: Report,
     vertices: Vertices | None = None,
     options: Mapping[str, Any] | None = None,
+    progress: Callable[[float], None] = lambda fraction: None,
 ) -> Scene:
     """Read a source by whichever reader knows it.
 
-    report: receives every finding.  vertices: see ``Request``.  options: by name; one that the format does not have
+    report: receives every finding.  vertices, progress: see ``Request``.  options: by name; one that the format does not have
     is a warning.  Raises KinefabError with every error found.
     """
     from .reading.request import Request
@@ -141,7 +142,7 @@ def read(
         report.add("SOURCE_OPTION_UNUSED", path.name, option=name.replace("_", "-"), format=found.name)
         del asked[name]
     reader = import_module(f".{found.module}", __name__)
-    scene: Scene = reader.read(path, report, Request(asked, vertices))
+    scene: Scene = reader.read(path, report, Request(asked, vertices, progress))
     return scene
 
 

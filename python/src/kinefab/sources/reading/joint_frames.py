@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ...model import RX, RZ, TX, TZ, JointKind
-from ...spatial import Array
+from ...spatial import Array, BoolArray
 
 Z_MAIN = {"tz": TX, "tx": TX + 1, "ty": TX + 2, "rz": RX, "rx": RX + 1, "ry": RX + 2}
 """Freedom in the scene's joint frame by its name in the source's Z-main frame."""
@@ -31,7 +31,7 @@ def frame_axes(z: Array, x: Array) -> Array:
     return np.stack([x, np.cross(z, x), z], axis=2)
 
 
-def relabel(axes: Array, universal: np.ndarray, second: bool) -> Array:
+def relabel(axes: Array, universal: BoolArray, second: bool) -> Array:
     """Z-main frames to the scene's X-main frames; shape (n, 3, 3).
 
     universal: which joints keep their labels, shape (n,).  second: the frames belong to b, where a universal

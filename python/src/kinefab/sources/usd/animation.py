@@ -14,7 +14,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import AnimationClip, Node, Repeat, Track
-from ...spatial import Array, quaternion_from_matrix
+from ...spatial import Array, quaternion_from_matrix, without_flips
 from .api import Usd, UsdGeom
 from .found import Found
 from .keys import key_times, pose_at
@@ -145,9 +145,7 @@ def _track(
     poses = [pose_at(key, above, time, placing, opened) for time in times.tolist()]
     translations = np.array([pose.translation for pose in poses])
     rotations = np.array([quaternion_from_matrix(pose.rotation) for pose in poses])
-    for i in range(1, len(rotations)):
-        if rotations[i] @ rotations[i - 1] < 0.0:
-            rotations[i] = -rotations[i]
+    rotations = without_flips(rotations[:, None])[:, 0]
     slides = bool(np.ptp(translations, axis=0).max() > STILL)
     turns = bool(np.ptp(rotations, axis=0).max() > STILL)
     if not (slides or turns):

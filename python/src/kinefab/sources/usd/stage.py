@@ -184,7 +184,7 @@ def _root(stage: Any, asked: str, name: str, report: Report) -> Any:
     wanted = asked if asked.startswith("/") else f"/{asked}"
     prim = stage.GetPrimAtPath(wanted) if Sdf.Path.IsValidPathString(wanted) else None
     if not prim:
-        known = ", ".join(str(p.GetPath()) for p in stage.GetPseudoRoot().GetChildren()) or "none"
+        known = named(str(p.GetPath()) for p in stage.GetPseudoRoot().GetChildren()) or "none"
         report.add("USD_ROOT_UNKNOWN", name, path=asked, known=known)
         return stage.GetPseudoRoot()
     return prim

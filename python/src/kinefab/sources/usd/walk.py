@@ -16,7 +16,7 @@ from .instancer import instances
 from .prims import Prims, Seen
 from .stage import OpenStage
 from .transforms import placed
-from .values import Values
+from .values import WHOLE, Values
 
 MAX_PRIMS = 5_000_000
 """Most prims that are looked at: a small file may multiply itself by nested instances."""
@@ -117,11 +117,7 @@ class _Look:
             self.found.filtered.append(seen.at(path))
         if "PhysicsArticulationRootAPI" in applied:
             self.found.articulations.append(seen.at(path))
-        for schema in applied:
-            if SOFT[0] in schema or schema.startswith(SOFT[1]):
-                self._dropped(
-                    f"{schema} of", path, "what is soft or made of particles stands still here, as it is"
-                )
+        self._tell_soft(seen, path)
         # An instance of a PointInstancer has an id of its own beside the prototype's path.
         own = f"{context.id}/{seen.name}" if context.id else path[1:]
         if joint:
@@ -137,14 +133,8 @@ class _Look:
             if below.id:
                 self.found.body_of[f"/{own}"] = below.part
         collides = "PhysicsCollisionAPI" in applied
-        if (
-            "PhysicsMassAPI" in applied
-            and "PhysicsRigidBodyAPI" not in applied
-            and not (collides and below.part >= 0)
-        ):
-            if any(self._values.get(seen.at(path), key) for key in WEIGHTS):
-                detail = "only rigid bodies and colliders of theirs weigh, and it is neither"
-                self._dropped("mass of", path, detail)
+        if "PhysicsRigidBodyAPI" not in applied and not (collides and below.part >= 0):
+            self._tell_mass(seen, path)
         if "Gprim" in ranks:
             self._piece(seen, context, below, own)
             return below
@@ -191,6 +181,19 @@ class _Look:
             place = self._opened.place(first)
             self._report.dropped(f"{kind} {first}{more}", "USD_FEATURE_DROPPED", place, detail=detail)
 
+    def _tell_soft(self, seen: Seen, path: str) -> None:
+        for schema in seen.traits.schemas:
+            if SOFT[0] in schema or schema.startswith(SOFT[1]):
+                detail = "what is soft or made of particles stands still here, as it is"
+                self._dropped(f"{schema} of", path, detail)
+
+    def _tell_mass(self, seen: Seen, path: str) -> None:
+        """That a mass is stated of what weighs nothing."""
+        if "PhysicsMassAPI" in seen.traits.schemas:
+            if any(self._values.get(seen.at(path), key) for key in WEIGHTS):
+                detail = "only rigid bodies and colliders of theirs weigh, and it is neither"
+                self._dropped("mass of", path, detail)
+
     def _ends(self, seen: Seen, path: str) -> bool:
         """Note what has no place in the scene's tree; whether the prim is such, and what lies below it nothing to read."""
         kind, ranks = seen.traits.kind, seen.traits.ranks
@@ -200,7 +203,7 @@ class _Look:
             self.found.collision_groups.append(seen.at(path))
         elif kind in LIGHTS:
             self._dropped("light", path, "lights are not carried over")
-        elif kind.startswith(("Mjc", "Newton", "Physx")):
+        elif kind.startswith(WHOLE):
             self.found.vendor.append(seen.at(path))
         else:
             return False

@@ -4,12 +4,12 @@
 
 * What a constraint says: ``constraints`` (every pairing), of ``atoms``, ``distances``, ``tangency``, ``coupled``;
   geometry brought into the world by ``features``.
-* As numbers: ``equations`` writes a scene's statements through ``rows`` into a ``system``; ``duplicates`` counts
-  what is said twice once.
+* As numbers: ``scene_equations`` writes a scene's statements, the alike ones in stacks (``building``), through ``rows``
+  into a ``system``; ``duplicates`` counts what is said twice once.
 * In which order: ``canonical``, so that no name and no source's order decides.
 * Poses: ``solve`` (Gauss-Newton), ``closing`` (does the exported pose fit), ``driving`` (along stated coordinates:
   ``walk`` from knot to knot, ``way`` with what ends it, ``mechanism`` by names).
-* Freedoms: ``rank``, ``freedom`` (first order, block by ``blocks``), ``motion`` (finite), ``idle``, ``freedoms``
+* Freedoms: ``rank``, ``first_order`` (block by ``blocks``), ``motion`` (finite), ``idle`` (by ``tied`` parts), ``freedoms``
   (of each part against ground).
 * Joints: ``pairs`` and ``effective`` by ``twists``, ``candidates`` and the ``finite`` test; ``jointing`` to the
   ``links`` that Unity can have; ``resolving`` what is no one joint's twists, with ``middle`` bodies; ``rehanging``.

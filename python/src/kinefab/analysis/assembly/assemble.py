@@ -17,7 +17,7 @@ from ..equations.scene_equations import Equations, equations_of
 from ..equations.solve import Solver
 from ..equations.system import State, System
 from ..freedom.bodies import stated_bodies
-from ..freedom.first_order import BlockFreedom, block_freedoms
+from ..freedom.first_order import BlockFreedom, block_freedoms, moved_to_one_point
 from ..freedom.motion import STEP, FiniteFreedom, displaced, finite_freedoms
 from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
 from .blocks import Blocks, blocks_of, edges_of, relative_system
@@ -248,16 +248,10 @@ def _moving_as_one(
     return partition.labels() if together else None
 
 
-def _at_origin(relative: System, bodies: IntArray, twist: Array) -> Array:
-    """Twists (v / length, w) about one common point, that of the block's first body."""
-    length = relative.length[bodies[0]]
-    arm = (relative.center[bodies] - relative.center[bodies[0]]) / length
-    return np.concatenate([twist[:, :3] - cross(twist[:, 3:], arm), twist[:, 3:]], axis=1)
-
-
 def _same_twists(relative: System, root: int, bodies: IntArray, twist: Array) -> list[IntArray]:
     """Groups of two or more bodies (the root at rest among them) with the same twist."""
-    common = np.concatenate([np.zeros((1, 6)), _at_origin(relative, bodies, twist)])
+    moved = moved_to_one_point(twist[..., None], bodies, relative)[..., 0]
+    common = np.concatenate([np.zeros((1, 6)), moved])
     names = np.concatenate([[root], bodies])
     near = np.abs(common[:, None] - common[None]).max(axis=2) < SAME * np.abs(common).max()
     groups: list[IntArray] = []

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...spatial import Array, cross
+from ...spatial import Array
 from ..assembly.assemble import Assembly
 from ..equations.solve import Solver
 from ..freedom.first_order import BlockFreedom, block_freedoms
@@ -102,15 +102,9 @@ def _turning_in_a_loop(
 
     ring: the bodies in the loop's order, its root left out.
     """
-    place = {int(b): k for k, b in enumerate(freedom.bodies)}
-    relative, length = assembly.relative, float(assembly.relative.length[freedom.bodies[0]])
-    twists = [np.zeros((6, freedom.mobility))]
-    for body in ring:
-        own = freedom.basis[6 * place[body] : 6 * place[body] + 6]
-        arm = (relative.center[body] - relative.center[ring[0]]) / length
-        v = own[:3] * relative.length[body] / length - cross(own[3:].T, arm).T
-        twists.append(np.concatenate([v, own[3:]]))
-    twists.append(twists[0])
+    still = np.zeros((6, freedom.mobility))
+    of_body = dict(zip(freedom.bodies.tolist(), freedom.about_one_point(assembly.relative)))
+    twists = [still, *(of_body[body] for body in ring), still]
     joints = spans([after - before for before, after in zip(twists, twists[1:])], MOVING)
     found: list[tuple[list[int], int]] = []
     known = np.zeros((6 * len(ring), 0))

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...spatial import Array, IntArray, cross
+from ...spatial import Array, IntArray
 from ..assembly.assemble import Assembly
 from ..assembly.blocks import Blocks, blocks_of
 from ..freedom.first_order import BlockFreedom
@@ -98,14 +98,7 @@ def _with_held(
     assembly: Assembly, freedom: BlockFreedom, members: list[int], held: list[tuple[int, int]]
 ) -> BlockFreedom:
     """Motions of some bodies while joints stand still.  members, held: the root is 0, the block's bodies count from 1."""
-    relative = assembly.relative
-    twists = np.zeros((len(freedom.bodies) + 1, 6, freedom.mobility))
-    length = float(relative.length[freedom.bodies[0]])
-    for k, body in enumerate(freedom.bodies.tolist()):
-        own = freedom.basis[6 * k : 6 * k + 6]
-        arm = (relative.center[body] - relative.center[freedom.bodies[0]]) / length
-        v = own[:3] * relative.length[body] / length - cross(own[3:].T, arm).T
-        twists[k + 1] = np.concatenate([v, own[3:]])
+    twists = np.concatenate([np.zeros((1, 6, freedom.mobility)), freedom.about_one_point(assembly.relative)])
     basis: Array = freedom.basis
     if held:
         still = np.concatenate([twists[b] - twists[a] for a, b in held])

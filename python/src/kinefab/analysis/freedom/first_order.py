@@ -16,7 +16,7 @@ from scipy.linalg.lapack import dgeqrf, dgeqrf_lwork, dormqr
 from scipy.sparse import csr_matrix, diags
 
 from ...partition import Partition
-from ...spatial import Array, IntArray, skew
+from ...spatial import Array, IntArray, cross, skew
 from ..equations.solve import DENSE, Solver
 from ..equations.system import State, System
 from .rank import factored, rank_of
@@ -40,6 +40,19 @@ class BlockFreedom:
     @property
     def mobility(self) -> int:
         return self.basis.shape[1]
+
+    def about_one_point(self, system: System) -> Array:
+        """The same twists, all about the own point g of the first body, shape (n, 6, mobility).  system: the block's."""
+        twists = self.basis.reshape(len(self.bodies), 6, -1)
+        return moved_to_one_point(twists, self.bodies, system)
+
+
+def moved_to_one_point(twists: Array, bodies: IntArray, system: System) -> Array:
+    """Scaled twists (v / length, w) of a block's bodies, shape (n, 6, k), each about its own point g, about that of the first
+    one.  system: in which the bodies of a block have one length."""
+    arm = (system.center[bodies] - system.center[bodies[0]]) / system.length[bodies[0]]
+    turned = np.swapaxes(cross(np.swapaxes(twists[:, 3:], 1, 2), arm[:, None]), 1, 2)
+    return np.concatenate([twists[:, :3] - turned, twists[:, 3:]], axis=1)
 
 
 def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:

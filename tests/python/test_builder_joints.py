@@ -48,6 +48,16 @@ def test_a_joint_by_its_word_with_limits_drive_spring_and_damping_in_degrees(spr
     assert freedom.passive.rest == pytest.approx(math.radians(-45))
 
 
+@pytest.mark.parametrize("word", ["hinge", "slider", "ball", "fixed"])
+def test_a_joint_by_the_word_of_its_own_method_is_the_same(word: str) -> None:
+    """Who writes ``add_hinge`` writes ``add_joint("hinge")``; it was refused with the words of the model."""
+    scene = pair()
+    at = {} if word == "fixed" else AT
+    own = getattr(scene, f"add_{word}")(0, 1, **at)
+    asked = scene.add_joint(word, 0, 1, **AT)
+    assert (asked.kind, asked.freedoms) == (own.kind, own.freedoms)
+
+
 def test_a_joint_stands_where_its_parts_do_now():
     """Its frames meet at the point, along the axis, wherever the two parts stand, and count from there."""
     scene = kinefab.Scene()
@@ -102,7 +112,7 @@ def test_freedoms_by_keyword_are_ranges_in_degrees():
             ValueError,
             "slides along its axis, which is tx; rx is locked in it: pass tx=",
         ),
-        ("hinge", {}, ValueError, "pass one of: fixed, revolute"),
+        ("door", {}, ValueError, "pass one of: hinge, slider, ball, fixed, revolute"),
         ("revolute", {"turn": 1}, TypeError, "'turn' is no freedom; pass one of: tx"),
         ("planar", {"limits": (0, 1)}, ValueError, "leaves ty, tz, rx; pass limits by name"),
         ("revolute", {"drive": 5}, TypeError, "pass a dict such as"),

@@ -34,13 +34,22 @@ DRIVE_WORDS = frozenset(
 )
 
 
+KINDS_BY_WORD = {
+    "hinge": JointKind.REVOLUTE,
+    "slider": JointKind.PRISMATIC,
+    "ball": JointKind.SPHERICAL,
+    **{member.value: member for member in JointKind},
+}
+"""The words of ``add_hinge``, ``add_slider`` and ``add_ball``, as Unity's and CAD's users have them, beside the model's."""
+
+
 def kind_of_word(kind: Any) -> JointKind:
-    """A joint kind, or its word (``revolute``)."""
-    try:
-        return JointKind(kind)
-    except ValueError:
-        words = ", ".join(member.value for member in JointKind)
-        raise ValueError(f"the kind is {shown(kind)}; pass one of: {words}") from None
+    """A joint kind, or its word (``revolute``, ``hinge``)."""
+    if isinstance(kind, JointKind):
+        return kind
+    if isinstance(kind, str) and kind in KINDS_BY_WORD:
+        return KINDS_BY_WORD[kind]
+    raise ValueError(f"the kind is {shown(kind)}; pass one of: {', '.join(KINDS_BY_WORD)}")
 
 
 def checked_lead(kind: JointKind, lead: Any) -> float:

@@ -231,7 +231,7 @@ class Scene(model.Scene):
     ) -> Joint:
         """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
 
-        kind: a JointKind or its word (``revolute``).
+        kind: a JointKind or its word (``revolute``); ``hinge``, ``slider`` and ``ball`` too.
         point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD; Z is across both.  A universal joint
         turns about X, which stays in ``b``, and Z, which stays in ``a``.  lead: of a screw, metres a turn.
         limits: (lower, upper) in degrees or metres from the present pose.

@@ -30,7 +30,10 @@ pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kin
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path.insert(0, str(FIXTURES))
 
+from kinefab.sources.occ.sewing import sewn  # noqa: E402
+from kinefab.sources.occ.tessellation import faces_of  # noqa: E402
 from kinefab.sources.step.xcaf import _children, _name  # noqa: E402
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut  # noqa: E402
 from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB  # noqa: E402
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool  # noqa: E402
 from step.linkages import two_plates  # noqa: E402
@@ -145,6 +148,34 @@ def test_iges_gives_the_same_faces(tmp_path: Path):
     np.testing.assert_allclose(vertices.min(axis=0), [0.0, 0.0, -0.0708], atol=1e-6)
     np.testing.assert_allclose(vertices.max(axis=0), [0.1, 0.015, 0.0], atol=1e-6)
     assert scene.source.meters_per_unit == 1e-3
+
+
+def test_trimmed_surfaces_of_iges_enclose_the_solids_that_they_are_of(tmp_path: Path):
+    """Bores and hollows too, each face turned to the side that it has in the solid, in its colour."""
+    machine = two_plates()
+    hollow = BRepAlgoAPI_Cut(
+        box((0.0, 0.0, 0.0), (30.0, 30.0, 30.0)), box((5.0, 6.0, 7.0), (10.0, 10.0, 10.0))
+    ).Shape()
+    machine.add("Hollow", hollow, (200.0, 0.0, 0.0), color=(0.0, 0.0, 1.0))
+    found = []
+    for solids in (True, False):
+        write_iges(machine, tmp_path / "plates.igs", solids)
+        scene, report = read_whole(tmp_path / "plates.igs", tolerance="0.001,5")
+        assert not report.diagnostics
+        meshes = [scene.meshes[b.mesh] for n in scene.nodes for b in n.bodies]
+        assert len(meshes) == 3 and all(is_closed(welded(m.vertices, m.faces)) for m in meshes)
+        found.append([solid_properties(m.vertices, m.faces, 1.0).mass for m in meshes])
+        assert "#0000FF" in {surface.name for surface in scene.surfaces}
+    plate = (50.8 * 25.4 - np.pi * 25.0) * 10.0 * 1e-9
+    assert sorted(found[0]) == pytest.approx([plate, plate, (27000 - 60) * 1e-9], rel=1e-4)
+    assert sorted(found[1]) == pytest.approx(sorted(found[0]), rel=1e-4)
+
+
+def test_surfaces_that_enclose_nothing_stay_as_they_are(tmp_path: Path):
+    """A box without its lid."""
+    faces = faces_of(box((0.0, 0.0, 0.0), (10.0, 20.0, 30.0)))[:5]
+    enclosed, rest, _ = sewn(faces)
+    assert not enclosed and len(rest) == 5 and all(a.IsSame(b) for a, b in zip(rest, faces))
 
 
 @pytest.mark.parametrize(

@@ -12,13 +12,14 @@ from typing import Any
 
 from OCP.BRep import BRep_Builder
 from OCP.Quantity import Quantity_ColorRGBA
-from OCP.TopAbs import TopAbs_FACE, TopAbs_SHAPE, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_FACE, TopAbs_FORWARD, TopAbs_SHAPE, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound
 from OCP.XCAFDoc import XCAFDoc_ColorType
 
 from ..occ.faces import boundary_of
+from ..occ.sewing import sewn
 from ..occ.tessellation import faces_of, tessellate
 from ..occ.triangles import Tolerance
 from .records import Color, Piece
@@ -36,13 +37,19 @@ class Colors:
 
     def __init__(self, tool: Any, whole: Color | None, names: list[tuple[Any, str]]) -> None:
         self._tool, self._whole, self._names = tool, whole, names
+        self._was: dict[int, Any] = {}
+
+    def know(self, sewn: list[tuple[Any, Any]]) -> None:
+        """Faces that stand in the place of others, whose colours they have."""
+        self._was = {hash(new.Oriented(TopAbs_FORWARD)): old for new, old in sewn}
 
     def of(self, *shapes: Any) -> Color | None:
         """The colour of the first of these shapes that has one."""
         color = Quantity_ColorRGBA()
         for shape in shapes:
+            stated = self._was.get(hash(shape.Oriented(TopAbs_FORWARD)), shape)
             for kind in KINDS:
-                if self._tool.GetColor(shape, kind, color):
+                if self._tool.GetColor(stated, kind, color):
                     return linear(color)
         return self._whole
 
@@ -57,20 +64,23 @@ def linear(color: Any) -> Color:
 
 
 def meshed_shape(shape: Any, name: str, colors: Colors, tolerance: Tolerance) -> list[Piece]:
-    """The shape's solids, then its faces that belong to none, as pieces; its own location is left out."""
+    """The shape's solids, then those that its other faces enclose, then what is left of these, as pieces; its own
+    location is left out."""
     shape = shape.Located(TopLoc_Location())
     solids = list(_explored(shape, TopAbs_SOLID))
+    enclosed, loose, was = sewn(list(_explored(shape, TopAbs_FACE, TopAbs_SOLID)))
+    colors.know(was)
+    solids += enclosed
     pieces = [
         _piece(solid, colors.name(solid) or (name if len(solids) == 1 else f"{name}:{i}"), colors, tolerance)
         for i, solid in enumerate(solids, 1)
     ]
-    loose, builder, count = TopoDS_Compound(), BRep_Builder(), 0
-    builder.MakeCompound(loose)
-    for face in _explored(shape, TopAbs_FACE, TopAbs_SOLID):
-        builder.Add(loose, face)
-        count += 1
-    if count:
-        pieces.append(_piece(loose, f"{name}:faces" if solids else name, colors, tolerance))
+    if loose:
+        compound, builder = TopoDS_Compound(), BRep_Builder()
+        builder.MakeCompound(compound)
+        for face in loose:
+            builder.Add(compound, face)
+        pieces.append(_piece(compound, f"{name}:faces" if solids else name, colors, tolerance))
     return [piece for piece in pieces if len(piece.mesh.triangles)]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -74,6 +75,17 @@ def test_what_somebody_else_has_in_the_target_folder_stays(tmp_path):
     assert records["b"].outcome is Outcome.WRITTEN
     assert (tmp_path / "out" / "a.kinefab").read_text() == "mine"
     assert (tmp_path / "out" / "notes.bundle.json").read_bytes() == PAIR.read_bytes()
+
+
+def test_a_name_in_many_folders_is_told_briefly(tmp_path):
+    """Each of the files named all others: of a thousand a megabyte of the same."""
+    sources(tmp_path, *(f"{number}/arm" for number in range(40)))
+    records = kinefab.batch([tmp_path / str(n) for n in range(40)], tmp_path / "out", jobs=1).records
+    assert len(records) == 40
+    for record in records:
+        assert told(record, "BATCH_TARGET_SHARED", "and 36 more")
+        assert len(re.findall(r"\d/arm\.bundle", record.messages[0])) == 3
+        assert record.source not in record.messages[0]
 
 
 def test_one_name_in_two_folders_is_written_from_neither(tmp_path):

@@ -19,6 +19,10 @@ VAGUE = (".json", ".txt", ".xml")
 """Endings that most files bear for other reasons: in a folder they count only where the format looks into the file."""
 
 
+NAMED = 3
+"""Of the files that share a target, those that each one's finding names: with all of them a thousand told a million."""
+
+
 @dataclass(frozen=True, slots=True)
 class Plan:
     """work: (source, target) of each file to convert.  refused: what is not even tried, and why."""
@@ -68,7 +72,9 @@ def planned(inputs: Iterable[str], out: str, ending: str) -> Plan:
         sharing.setdefault(target.casefold(), []).append(file)
     for files in sharing.values():
         for file in files if len(files) > 1 else ():
-            others = ", ".join(other for other in files if other != file)
+            named = [other for other in files[: NAMED + 1] if other != file][:NAMED]
+            more = len(files) - 1 - len(named)
+            others = ", ".join(named) + (f" and {more} more" if more else "")
             shared = diagnostic("BATCH_TARGET_SHARED", path=targets[file], others=others)
             refused.append(unmade(file, targets.pop(file), Outcome.FAILED, shared))
     return Plan(list(targets.items()), refused)

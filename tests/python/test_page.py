@@ -93,7 +93,7 @@ def test_scenes_with_nothing_to_show_have_a_page(tmp_path):
     """Empty, or without joints: a page that says so."""
     scene = kinefab.Scene()
     scene.add_part("Lonely", grounded=True)
-    page = described(kinefab.view(scene, tmp_path / "page.html").read_text("utf-8"))
+    page = described(kinefab.view(scene, tmp_path / "page.html").read_text("utf-8").read_text("utf-8"))
     assert page["coordinates"] == {} and page["joints"] == []
     empty = tmp_path / "empty.kinefab"
     empty.write_text('{"format": "kinefab.scene", "version": "1.0", "gameObjects": []}', "utf-8")
@@ -220,10 +220,23 @@ def test_names_in_a_report_stay_text(tmp_path):
     assert evil not in kinefab.report(scene, tmp_path / "report.html").read_text("utf-8")
 
 
+def test_an_empty_page_says_so_and_a_loose_part_counts_alike_everywhere(tmp_path):
+    data = described(kinefab.view(kinefab.Scene(), tmp_path / "empty.html").read_text("utf-8"))
+    assert data["notices"] == ["This scene is empty."] and "islands" not in dict(data["facts"])
+    scene = kinefab.Scene()
+    scene.add_part("Block", trimesh.creation.box((0.1, 0.2, 0.3)))
+    data = described(kinefab.view(scene, tmp_path / "block.html").read_text("utf-8"))
+    assert data["subtitle"] == "1 object · 0 joints · mobility 6" and dict(data["facts"])["mobility"] == "6"
+
+
 def test_round_numbers_on_the_axes():
     from kinefab.views.page.plots import ticks
 
     assert ticks(0.0, 360.0) == [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0]
+    assert ticks(0.0, 360.0, True) == [0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0]
+    assert ticks(-10.0, 80.0, True) == [0.0, 15.0, 30.0, 45.0, 60.0, 75.0]
+    assert ticks(-4.0, 8.0, True) == ticks(-4.0, 8.0)
+    assert ticks(-1900.0, 1900.0, True) == [-1440.0, -720.0, 0.0, 720.0, 1440.0]
     assert ticks(-0.026, 0.0251) == [-0.02, -0.01, 0.0, 0.01, 0.02]
 
 

@@ -363,3 +363,20 @@ def test_a_narrow_page_s_closed_panels_are_no_stops_of_tab(running, tmp_path):
     assert page.evaluate("document.activeElement.id") == "search"
     opened.demand_quiet()
     page.close()
+
+
+def test_a_printed_page_has_the_mechanism_on_white(running, tmp_path):
+    """The part of the page that is drawn was left out on paper: of a page without a report nothing came out at all."""
+    opened = shown(window(running, dark=True), tmp_path, LEVER)
+    opened.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert opened.page.evaluate("document.documentElement.dataset.theme") == "light"
+    opened.page.emulate_media(media="print")
+    image = PIL.open(BytesIO(opened.page.locator("#printed").screenshot())).convert("RGB")
+    pixels = np.asarray(image, dtype=int)
+    assert (pixels[:4] == 255).all() and (np.ptp(pixels.reshape(-1, 3), axis=0) > 150).all()
+    opened.page.emulate_media(media="screen")
+    opened.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert opened.page.evaluate("document.documentElement.dataset.theme") == "dark"
+    assert not opened.page.locator("#printed").is_visible()
+    opened.demand_quiet()
+    opened.page.close()

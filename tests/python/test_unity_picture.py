@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
 import xml.etree.ElementTree as ElementTree
 
+import kinefab
 import numpy as np
 import pytest
-from kinefab.views import picture
+import trimesh
+from kinefab.filming import film
+from kinefab.views import overview, picture
+from kinefab.views.bars import COLOURS, bars
 from kinefab.views.camera import looking
+from kinefab.views.freedoms import world_placements
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4")
 
@@ -110,3 +116,59 @@ def test_text_of_the_file_stays_text():
     svg = picture.draw(scene, buffers)
     text = " ".join(ElementTree.fromstring(svg.encode("utf-8")).itertext())
     assert all(words in text for words in ("a\\x1b\\ud800<b>", "<c>\\x00", "mobility </text><script>"))
+
+
+def chain(mesh: bool = False, z: float = 0.3) -> kinefab.Scene:
+    """A post and three links, hinged at heights of 0.1, 0.3 and 0.7 m; the last one ends at nothing."""
+    scene = kinefab.Scene()
+    below = scene.add_part("Post", grounded=True)
+    for i, height in enumerate((0.1, 0.3, 0.7)):
+        shape = trimesh.creation.box((0.02, 0.1, 0.02)) if mesh else None
+        link = scene.add_part(f"Link {i}", shape, translation=(0.2, height + 0.05, z))
+        scene.add_hinge(
+            below, link, point=(0.2, height, z), axis=(0, 0, 1), limits=(-10, 80), name=f"Pin {i}"
+        )
+        below = link
+    return scene
+
+
+def test_bodies_without_a_mesh_are_bars_between_their_joints(tmp_path):
+    """Of a robot whose meshes are missing only the joints' signs hung in the air."""
+    written = json.loads(kinefab.export(chain(), tmp_path / "chain.kinefab").path.read_text())
+    placements = world_placements(written["gameObjects"])
+    found = [ends @ placements[i][0].T + placements[i][1] for i, _, ends in bars(written["gameObjects"])]
+    mirrored = [[(-0.2, 0.1, 0.3), (-0.2, 0.3, 0.3)], [(-0.2, 0.3, 0.3), (-0.2, 0.7, 0.3)]]
+    assert len(found) == 2 and np.allclose([sorted(ends.tolist()) for ends in found], mirrored, atol=1e-6)
+    assert len({colour for _, colour, _ in bars(written["gameObjects"])}) == 2
+    assert picture.draw(written, []).count('stroke-width="9"') == 2
+    solid = kinefab.export(chain(mesh=True), tmp_path / "solid.kinefab").path
+    assert bars(json.loads(solid.read_text())["gameObjects"]) == []
+
+
+def test_bars_go_with_their_bodies_in_a_film(tmp_path):
+    grey = np.array([int(COLOURS[1][k : k + 2], 16) for k in (1, 3, 5)])
+    kept: list[np.ndarray] = []
+
+    def seen(images, _):
+        kept.extend(images)
+        return b""
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("kinefab.filming.animated_svg", seen)
+        film(chain(), ".svg", "Pin 1")
+    shown = [(np.abs(image.astype(int) - grey).max(axis=2) < 3) for image in kept]
+    assert (
+        all(image.sum() > 200 for image in shown)
+        and (shown[0] & shown[len(shown) // 2]).sum() < shown[0].sum() / 2
+    )
+
+
+def test_a_picture_bears_the_scene_s_name_and_counts_one_as_one(tmp_path):
+    scene = kinefab.Scene()
+    scene.add_part("Block", trimesh.creation.box((0.1, 0.2, 0.3)))
+    text = " ".join(
+        ElementTree.fromstring(
+            overview.picture(kinefab.export(scene, tmp_path / "block.kinefab").path)
+        ).itertext()
+    )
+    assert "block" in text and "1 object, 0 joints, mobility 6" in text

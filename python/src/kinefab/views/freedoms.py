@@ -32,6 +32,14 @@ def world_placements(objects: Sequence[Mapping[str, Any]]) -> list[Placement]:
     return found
 
 
+def counted(objects: Sequence[object], joints: Sequence[object]) -> tuple[str, str]:
+    """``2 objects``, ``1 joint``."""
+    return (
+        f"{len(objects)} object{'' if len(objects) == 1 else 's'}",
+        f"{len(joints)} joint{'' if len(joints) == 1 else 's'}",
+    )
+
+
 def joint_name(component: Mapping[str, Any]) -> str:
     """What the user calls a joint, empty where the file does not say."""
     name = component.get("extras", {}).get("name", "")

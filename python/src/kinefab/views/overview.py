@@ -111,7 +111,7 @@ def picture(path: Path) -> str:
 
     scene = read_scene_file(path)
     with unsound_as_finding(path):
-        return draw(scene, read_buffers(path, scene))
+        return draw(scene, read_buffers(path, scene), path.name.split(".")[0])
 
 
 def overview(path: Path, as_json: bool) -> str:

@@ -15,8 +15,9 @@ import numpy as np
 
 from ..diagnostics import printable
 from ..spatial import Array, IntArray, Pose, frame_from_axes, rotation_about
+from .bars import Bar, bars
 from .camera import View, looking
-from .freedoms import Placement, angle_range, freedoms_of_component, joint_name, world_placements
+from .freedoms import Placement, angle_range, counted, freedoms_of_component, joint_name, world_placements
 from .raster.fragments import nearest_last
 from .raster.image import Canvas
 from .raster.solid import solid
@@ -30,10 +31,10 @@ LISTED = 18
 COLOURS = {"HingeJoint": "#d9480f", "ConfigurableJoint": "#1864ab", "FixedJoint": "#495057"}
 
 
-def draw(document: Mapping[str, Any], buffers: Sequence[bytes]) -> str:
+def draw(document: Mapping[str, Any], buffers: Sequence[bytes], title: str = "scene") -> str:
     """The SVG text of a scene.
 
-    document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.
+    document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.  title: of one that names no source.
     """
     placements = world_placements(document["gameObjects"])
     poses = [Pose(turn, place) for turn, place, _ in placements]
@@ -49,10 +50,11 @@ def draw(document: Mapping[str, Any], buffers: Sequence[bytes]) -> str:
         f'<rect width="{WIDTH + LEGEND}" height="{HEIGHT}" fill="#ffffff"/>',
         _surfaces(triangles, colours, view),
         _edges(triangles, view),
+        *(_bar(bar, placements, view) for bar in bars(document["gameObjects"])),
         *(_tie(ends, view) for ends in tied(document, placements)),
         *(_glyph(joint, view, size) for joint in joints),
         *_badges(joints[:LISTED], view),
-        _legend(document, joints),
+        _legend(document, joints, title),
         "</svg>",
     ]
     return "\n".join(part for part in parts if part) + "\n"
@@ -244,6 +246,13 @@ def tied(document: Mapping[str, Any], placements: Sequence[Placement]) -> list[A
     return found
 
 
+def _bar(bar: Bar, placements: Sequence[Placement], view: View) -> str:
+    index, colour, ends = bar
+    turn, place, _ = placements[index]
+    (a, b), (c, d) = view.project(ends @ turn.T + place)
+    return f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" stroke="{colour}" stroke-width="9" stroke-linecap="round"/>'
+
+
 def _tie(ends: Array, view: View) -> str:
     (a, b), (c, d) = view.project(ends)
     line = f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" fill="none" stroke="#862e9c" stroke-width="2"'
@@ -328,12 +337,12 @@ def _slide_middle(joint: DrawnJoint, place: Array, axis: Array) -> Array:
     return place if anchor is None else place + axis * float(axis @ (anchor - place))
 
 
-def _legend(document: Mapping[str, Any], joints: Sequence[DrawnJoint]) -> str:
+def _legend(document: Mapping[str, Any], joints: Sequence[DrawnJoint], title: str) -> str:
     lines = [f'<g transform="translate({WIDTH + 10} 36)" fill="#212529">']
-    title = document.get("source", {}).get("uri", "scene")
+    title = document.get("source", {}).get("uri", title)
     lines.append(f'<text font-size="16" font-weight="600">{_text(title)}</text>')
     mobility = document.get("analysis", {}).get("mobility")
-    count = f"{len(document['gameObjects'])} objects, {len(joints)} joints"
+    count = ", ".join(counted(document["gameObjects"], joints))
     lines.append(
         f'<text y="22" fill="#495057">{count}{"" if mobility is None else f", mobility {_text(mobility)}"}</text>'
     )

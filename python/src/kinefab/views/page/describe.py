@@ -12,7 +12,7 @@ import numpy as np
 from ...model import FREEDOM_NAMES, Joint
 from ...spatial import Array, Pose
 from ..extent import ends_in_sight, span_of
-from ..freedoms import world_placements
+from ..freedoms import counted, world_placements
 from .blob import Blob
 from .joints import coordinate_label, joint_entry
 from .meshes import packed_meshes
@@ -65,7 +65,9 @@ def description(
     notices: list[str] = []
     if kept < total:
         notices.append(f"Thinned out: {kept:,} of {total:,} triangles are shown.")
-    if not used:
+    if not parts:
+        notices.append("This scene is empty.")
+    elif not used:
         notices.append("This scene has no meshes: parts are drawn as bars between their joints.")
     islands, island_of = _islands(document, motion)
     return {
@@ -91,8 +93,13 @@ def description(
 
 def _subtitle(document: Entry, joints: Sequence[Entry], motion: Motion) -> str:
     uri = document.get("source", {}).get("uri", "")
-    counts = f"{len(document['gameObjects'])} objects · {len(joints)} joints · mobility {motion.mobility}"
-    return f"{uri} · {counts}" if uri else counts
+    words = [*counted(document["gameObjects"], joints), f"mobility {_mobility(document, motion)}"]
+    return " · ".join([uri, *words] if uri else words)
+
+
+def _mobility(document: Entry, motion: Motion) -> Any:
+    """As the file counts it, with bodies that no joint holds; else what the joints leave."""
+    return document.get("analysis", {}).get("mobility", motion.mobility)
 
 
 def _coordinates(
@@ -165,12 +172,13 @@ def _facts(document: Entry, joints: Sequence[Entry], motion: Motion) -> list[tup
     facts = [
         ("objects", str(len(document["gameObjects"]))),
         ("joints", f"{len(joints)}, {closing} of them closing loops" if closing else str(len(joints))),
-        ("mobility", str(analysis.get("mobility", motion.mobility))),
+        ("mobility", str(_mobility(document, motion))),
     ]
     if analysis:
         facts.append(("redundant rows", str(analysis.get("redundant", 0))))
         if analysis.get("idle"):
             facts.append(("idle spins", str(analysis["idle"])))
+    if islands:
         counts = (
             f"{i.get('mobility')} free"
             + (f", {n} loop{'s' if n > 1 else ''}" if (n := i.get("loops", 0)) else "")

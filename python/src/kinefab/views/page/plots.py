@@ -15,6 +15,8 @@ LEFT, RIGHT, TOP, BOTTOM = 92, 190, 12, 40
 COLOURS = ("#e8590c", "#1c7ed6", "#2f9e44", "#9c36b5")
 STEPS = 6
 """Lines of the grid each way, about."""
+OF_A_TURN, LEAST_OF_A_TURN = (15, 30, 60, 90, 180, 360), 12.0
+"""Degrees between two lines of the grid, and from which on they are not tens."""
 FLAT, NOTHING = 1e-6, 1e-9
 """What is no curve but the last digits of a solution: of the largest value, and in metres or degrees."""
 
@@ -27,8 +29,11 @@ class Curve:
     values: Array
 
 
-def plot(driven: Array, curves: Sequence[Curve], across: str, up: str) -> str:
-    """The SVG text.  driven: shape (frames,), ascending.  across, up: what the axes count, with the unit."""
+def plot(
+    driven: Array, curves: Sequence[Curve], across: str, up: str, turns: tuple[bool, bool] = (False, False)
+) -> str:
+    """The SVG text.  driven: shape (frames,), ascending.  across, up: what the axes count, with the unit; turns: whether that
+    is degrees, of either."""
     x0, x1 = float(driven[0]), float(driven[-1])
     everything = np.concatenate([c.values for c in curves])
     y0, y1 = _span(float(everything.min()), float(everything.max()))
@@ -41,10 +46,10 @@ def plot(driven: Array, curves: Sequence[Curve], across: str, up: str) -> str:
         return HEIGHT - BOTTOM - (y - y0) / (y1 - y0) * (HEIGHT - TOP - BOTTOM)
 
     lines = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" font-size="12" fill="currentColor">']
-    for x in ticks(x0, x1):
+    for x in ticks(x0, x1, turns[0]):
         lines.append(_line(at_x(x), TOP, at_x(x), HEIGHT - BOTTOM))
         lines.append(f'<text x="{at_x(x):.1f}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{x:g}</text>')
-    for y in ticks(y0, y1):
+    for y in ticks(y0, y1, turns[1]):
         lines.append(_line(LEFT, at_y(y), WIDTH - RIGHT, at_y(y)))
         lines.append(f'<text x="{LEFT - 6}" y="{at_y(y) + 4:.1f}" text-anchor="end">{y:g}</text>')
     for i, curve in enumerate(curves):
@@ -78,11 +83,14 @@ def _line(x0: float, y0: float, x1: float, y1: float) -> str:
     return f'<line {ends} stroke="currentColor" stroke-opacity="0.15"/>'
 
 
-def ticks(low: float, high: float) -> list[float]:
-    """Round numbers between two ends, some six of them."""
+def ticks(low: float, high: float, turns: bool = False) -> list[float]:
+    """Round numbers between two ends, some six of them.  turns: of degrees, whose round numbers divide a turn or are turns."""
     rough = (high - low) / STEPS
-    power = 10.0 ** np.floor(np.log10(rough))
-    step = float(power * min((1, 2, 5, 10), key=lambda m: abs(m * power - rough)))
+    whole = 360.0 if turns and rough > 360.0 else 1.0
+    power = 10.0 ** np.floor(np.log10(rough / whole))
+    step = float(whole * power * min((1, 2, 5, 10), key=lambda m: abs(m * whole * power - rough)))
+    if turns and LEAST_OF_A_TURN < rough <= 360.0:
+        step = float(min(OF_A_TURN, key=lambda part: abs(part - rough)))
     first = int(np.ceil(low / step - 1e-9))
     last = int(np.floor(high / step + 1e-9))
     return [float(f"{k * step:.10g}") for k in range(first, last + 1)]

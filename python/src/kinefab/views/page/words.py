@@ -50,7 +50,7 @@ def _summary(description: Entry) -> str:
     joints = description["joints"]
     closing = sum(joint["closure"] for joint in joints)
     if not free:
-        return "Nothing in this scene can move."
+        return "No joint of this scene can move."
     words = f"The mechanism moves in {free} way{'s' if free > 1 else ''}"
     words += f", by {len(joints)} joint{'s' if len(joints) != 1 else ''}"
     return words + (
@@ -81,11 +81,15 @@ def _stroke(stroke: Stroke) -> str:
         if not curves or high <= low:
             continue
         across, up = f"{stroke.name}, {unit}", "degrees" if kind == "deg" else "m"
-        parts.append(_figure(plot(stroke.values, curves, across, up), "Where the others stand."))
+        turns = stroke.unit == "deg", kind == "deg"
+        parts.append(_figure(plot(stroke.values, curves, across, up, turns), "Where the others stand."))
         rates = [Curve(c.name, np.gradient(c.values, stroke.values)) for c in curves]
         caption = "Transmission: how far each goes for each unit of the driven one."
         parts.append(
-            _figure(plot(stroke.values, rates, across, f"{up} per {unit.removesuffix('s')}"), caption)
+            _figure(
+                plot(stroke.values, rates, across, f"{up} per {unit.removesuffix('s')}", (turns[0], False)),
+                caption,
+            )
         )
     return "".join(parts)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...diagnostics import printable
 from ...spatial import Array, Pose
+from ..bars import bars
 from ..camera import View, looking
 from ..freedoms import Placement
 from ..picture import COLOURS, DrawnJoint, drawn_joints, hinge_axes, mesh_triangles, strokes_of, tied
@@ -30,7 +31,7 @@ def pictures(
 ) -> list[np.ndarray]:
     """The pixels of each frame, shape (height, width, 3).  frames: the placement of every GameObject, in Unity's world."""
     objects: Sequence[Entry] = document["gameObjects"]
-    solids = _solids(document, buffers)
+    solids, sticks = _solids(document, buffers), bars(objects)
     joints = [drawn_joints(objects, placements) for placements in frames]
     view = _camera(solids, frames, joints)
     moving = {i for i in solids if any(_moved(frames[0][i], placements[i]) for placements in frames)}
@@ -45,6 +46,9 @@ def pictures(
             canvas.surfaces(_placed(solids[i], placements[i]))
         for shape in shapes:
             canvas.edges(shape)
+        for i, colour, ends in sticks:
+            turn, place, _ = placements[i]
+            canvas.stroke(ends @ turn.T + place, _rgb(colour), 7.0)
         for ends in tied(document, placements):
             canvas.stroke(ends, COUPLED)
         for joint in drawn:

@@ -59,7 +59,7 @@ class App {
     $("mobility").textContent = this.data.mobility;
     if (this.data.notices.length) $("notice").append(element("span", {}, this.data.notices.join("  ")));
     $("hint").textContent = this.mechanism.freedoms.length
-      ? "Drag a part to move it · drag beside it to orbit · wheel to zoom · Space plays" : "Nothing in this scene can move · drag to orbit";
+      ? "Drag a part to move it · drag beside it to orbit · wheel to zoom · Space plays" : "No joint of this scene can move · drag to orbit";
     $("matesTab").hidden = !this.data.mates;
     $("glyphs").setAttribute("aria-pressed", this.wanted.joints);
     $("play").disabled = $("trace").disabled = !this.mechanism.freedoms.length;
@@ -81,6 +81,16 @@ class App {
     this.dark = dark;
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     this.stage.theme(dark);
+  }
+
+  // On paper the mechanism is a picture of how it stands now, on white.
+  print() {
+    const dark = this.dark;
+    this.theme(false);
+    this.stage.scene.background.set(0xffffff);
+    this.stage.now();
+    $("printed").src = $("view").toDataURL("image/png");
+    addEventListener("afterprint", () => this.theme(dark), { once: true });
   }
 
   // Freedoms ----------------------------------------------------------------------------------------------------------
@@ -379,6 +389,7 @@ class App {
 
   // Pointer and keys --------------------------------------------------------------------------------------------------
   bind() {
+    addEventListener("beforeprint", () => this.print());
     const canvas = $("view"), stage = this.stage;
     let held = null, down = null;
     canvas.addEventListener("pointerdown", (event) => {

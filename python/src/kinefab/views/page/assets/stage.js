@@ -272,10 +272,13 @@ class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.before && this.before();
-      this.renderer.render(this.scene, this.camera);
-      this.after && this.after();
+      this.now();
     });
+  }
+  now() {
+    this.before && this.before();
+    this.renderer.render(this.scene, this.camera);
+    this.after && this.after();
   }
   // Bodies at their displacements.
   place(displaced) {

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 from pathlib import Path
 
 import kinefab
 import pytest
+import trimesh
 from command_line import LEVER, runner
 from command_line import run as run_apart
 from kinefab.cli import app
@@ -122,3 +124,13 @@ def test_what_opens_a_page_says_nothing_here_and_where_nothing_does_that_is_told
     assert done.returncode == 0 and done.stdout == "-lever.html\n"
     assert (tmp_path / "asked").read_text() == f"{tmp_path / '-lever.html'}\n"
     assert done.stderr == ("No browser could be started; open -lever.html in one.\n" if status else "")
+
+
+@pytest.mark.posix  # whose shell this is
+def test_what_comes_next_is_told_as_it_is_typed(tmp_path: Path):
+    folder = tmp_path / "my parts"
+    folder.mkdir()
+    trimesh.creation.box((1, 2, 3)).export(folder / "arm 1.stl")
+    told = run("bundle", "init", folder, "--units", "mm").stderr
+    command = told.partition("then: ")[2]
+    assert shlex.split(command) == ["kinefab", "bundle", "check", str(folder / "my parts.bundle.json")]

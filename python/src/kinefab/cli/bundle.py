@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report, Severity
-from .console import count, demand_axis, demand_ending, fail, tell, write
+from .console import count, demand_axis, demand_ending, fail, tell, typed, write
 from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def bundle_commands() -> typer.Typer:
         write(target, text.encode("utf-8"), as_json)
         typer.echo(
             f"{target}: {len(files)} parts in {units}, {axis} up, no joints yet. "
-            f"Ground a part, add joints, then: kinefab bundle check {target}",
+            f"Ground a part, add joints, then: kinefab bundle check {typed(target)}",
             err=True,
         )
         tell(report, target, as_json, True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report
-from .console import demand_axis, demand_ending, fail, tell, unwritable_as_finding
+from .console import demand_axis, demand_ending, fail, tell, typed, unwritable_as_finding
 from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ def _no_output(output: Path | None) -> None:
     if output is not None:
         raise typer.BadParameter(
             "Fusion is captured inside it: write the add-in with --install FOLDER, run it there, "
-            f"then: kinefab capture --replay RECORD -o {output}"
+            f"then: kinefab capture --replay RECORD -o {typed(output)}"
         )
 
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import shlex
+import subprocess
 import sys
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
@@ -34,6 +37,11 @@ def demand_axis(up: str) -> str:
 def count(number: int, word: str, words: str) -> str:
     """``1 joint``, ``2 joints``."""
     return f"{number} {word if number == 1 else words}"
+
+
+def typed(path: Path) -> str:
+    """A path as it is typed, in a command that is to be copied."""
+    return subprocess.list2cmdline([str(path)]) if os.name == "nt" else shlex.quote(str(path))
 
 
 def log(report: Report) -> None:

@@ -11,7 +11,7 @@ from ..diagnostics import KinefabError, Report
 from ..sources import source_options
 from . import console
 from .asking import asking
-from .console import demand_ending, fail, log, progress_bar, write
+from .console import demand_ending, fail, log, progress_bar, typed, write
 
 
 @asking(("reading", source_options(beside="mates")))
@@ -45,7 +45,7 @@ def mates(
     write(output, content.encode("utf-8"), as_json)
     if console.verbosity >= 0:
         typer.echo(
-            f"{output}: look it over, then: kinefab export {source} --mates {output} -o NAME.kinefab",
+            f"{output}: look it over, then: kinefab export {typed(source)} --mates {typed(output)} -o NAME.kinefab",
             err=True,
         )
     if as_json:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
+from fractions import Fraction
 from pathlib import Path
 
 import kinefab
@@ -19,6 +20,7 @@ from kinefab.batching import job as jobs
 from kinefab.batching import places
 from kinefab.batching.job import Outcome
 from kinefab.batching.plan import planned
+from kinefab.views.picture import HEIGHT, WIDTH
 
 ROOT = Path(__file__).resolve().parents[2]
 PAIRS = ROOT / "fixtures" / "pairs"
@@ -47,6 +49,9 @@ def test_a_folder_becomes_a_folder_with_its_tree_and_an_index(tmp_path):
     assert (tmp_path / "out" / "deep" / "b.kinefab").is_file()
     page = (tmp_path / "out" / "index.html").read_text("utf-8")
     assert "a &amp; &lt;b&gt;.kinefab" in page and "<b>." not in page and page.count("<img") == 2
+    assert (
+        f"aspect-ratio: {Fraction(WIDTH, HEIGHT).numerator} / {Fraction(WIDTH, HEIGHT).denominator};" in page
+    )
     lines = [json.loads(line) for line in (tmp_path / "out" / "batch.jsonl").read_text("utf-8").splitlines()]
     assert {line["outcome"] for line in lines} == {"written"}
     assert all(

@@ -15,9 +15,10 @@ STYLE = """
 :root { color-scheme: light dark; font: 14px system-ui, sans-serif } body { margin: 2rem }
 main { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)); gap: 1rem }
 article { border: 1px solid #8884; border-radius: 8px; padding: .7rem; overflow-wrap: anywhere }
-img { width: 100%; height: 9rem; object-fit: contain; background: #fff; border-radius: 4px }
+img { width: 100%; aspect-ratio: 19 / 14; object-fit: cover; object-position: left; background: #fff; border-radius: 4px }
 h2 { font-size: 1rem; margin: .4rem 0 } p { margin: .2rem 0; opacity: .8 } .bad { color: #c0392b; opacity: 1 }
 """
+"""The pictures are shown as far as their legend, which nobody could read at this size."""
 
 
 def index_page(records: Iterable[Record], out: str) -> str:

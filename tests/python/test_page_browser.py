@@ -10,7 +10,9 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from browser import CHROMIUM, Opened, browser, window
+from kinefab.views import overview
 from kinefab.views.overview import read_scene_file
 
 pytest.importorskip("playwright", reason="no playwright: the page is not tried in a browser")
@@ -380,3 +382,21 @@ def test_a_printed_page_has_the_mechanism_on_white(running, tmp_path):
     assert not opened.page.locator("#printed").is_visible()
     opened.demand_quiet()
     opened.page.close()
+
+
+def test_a_flat_side_of_a_drawing_has_no_seams(running, tmp_path):
+    """A side is many triangles; where a browser blends both at their common edge the white behind shone through."""
+    scene = kinefab.Scene()
+    scene.add_part("Block", trimesh.creation.box((0.4, 0.1, 0.3)), grounded=True)
+    written = kinefab.export(scene, tmp_path / "block.kinefab").path
+    page = running.new_page(viewport={"width": 330, "height": 160})
+    page.set_content(f"<body style='margin: 0'>{overview.picture(written)}</body>")
+    pixels = np.asarray(PIL.open(BytesIO(page.screenshot())).convert("RGB"), dtype=int)[:, :200]
+    colours, count = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
+    widest = colours[np.argsort(count)[-2]]  # after the white around
+    side = (pixels == widest).all(axis=2)
+    assert side.sum() > 3000
+    for row in side[side.sum(axis=1) > 20]:
+        first, *_, last = np.flatnonzero(row)
+        assert row[first:last].all()
+    page.close()

@@ -202,7 +202,11 @@ def _surfaces(triangles: Array, colours: Array, view: View) -> str:
     rgb = np.clip(colours * shade[:, None], 0, 1) ** (1 / 2.2) * 255
     flat = view.project(triangles.reshape(-1, 3)).reshape(-1, 3, 2)
     order = nearest_last(flat, triangles @ view.toward, WIDTH, HEIGHT, 0.25 / view.scale)
-    lines, colour, path = ['<g stroke-width="0.7" stroke-linejoin="round">'], "", ""
+    lines, colour, path = (
+        ['<g stroke-width="0.7" stroke-linejoin="round" shape-rendering="crispEdges">'],
+        "",
+        "",
+    )
     for i in order:
         (ax, ay), (bx, by), (cx, cy) = flat[i]
         shaded = "#%02x%02x%02x" % tuple(int(v) for v in rgb[i])

@@ -102,7 +102,7 @@ class _Library:
         self._mend_heightfields(spec)
         self._mend_skins(spec)
         model = self._without_hulls(spec)
-        self._tell_masses(spec)
+        self._tell_masses(spec, _body_names(model))
         self._check_numbers(model)
         return model
 
@@ -242,16 +242,16 @@ class _Library:
             if np.isnan(geom.mass) and weighs[body]:
                 geom.mass = 0.0
 
-    def _tell_masses(self, spec: Any) -> None:
-        """Of bodies whose missing meshes would have given their mass."""
+    def _tell_masses(self, spec: Any, names: list[str]) -> None:
+        """Of bodies whose missing meshes would have given their mass.  names: of all bodies, in the model's order."""
         from_geoms = int(spec.compiler.inertiafromgeom) == int(
             self.mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
         )
         for i, body in enumerate(spec.bodies):
             if i and (from_geoms or not body.explicitinertial):
                 if any(geom.name in self.lost for geom in body.geoms):
-                    name = str(body.name) or f"body{i}"
-                    where = self.files.where("body", name)
+                    name = names[int(body.id)] if body.id >= 0 else str(body.name)  # what is fused has no id
+                    where = self.files.where("body", str(body.name))
                     self.report.approximated(f"mass {name}", "MASS_WITHOUT_MESH", where)
 
     def _mend_heightfields(self, spec: Any) -> None:

@@ -430,6 +430,17 @@ def test_materials_by_name_may_stand_anywhere(tmp_path):
     assert [body.surfaces for body in scene.nodes[1].bodies] == [(0,), (0,)]
 
 
+def test_a_colour_of_three_numbers_is_opaque(tmp_path):
+    inner = (
+        "<link name='a'><visual><geometry><sphere radius='1'/></geometry>"
+        "<material name='red'><color rgba='1 .2 .1'/></material></visual></link>"
+    )
+    report = Report()
+    (surface,) = read(written(tmp_path, inner), report).surfaces
+    assert surface.color == (1.0, linear(0.2), linear(0.1), 1.0) and surface.alpha_mode.value == "opaque"
+    assert report.diagnostics == []
+
+
 PAINTED = {
     "r.urdf": "<robot name='r'><link name='a'><visual><geometry><box size='1 2 3'/></geometry>"
     "<material name='m'><color rgba='.2 .4 .6 1'/></material></visual></link></robot>",

@@ -117,6 +117,16 @@ TOLD = {
         2,
         robot(SHAPE.format("<visual><geometry><sphere radius='1'/></geometry><material name='m'/></visual>")),
     ),
+    "colour": (
+        "SHAPE_UNREADABLE",
+        2,
+        robot(
+            SHAPE.format(
+                "<visual><geometry><sphere radius='1'/></geometry>"
+                "<material name='m'><color rgba='1 zero 0 1'/></material></visual>"
+            )
+        ),
+    ),
     "mesh of no size": (
         "SHAPE_EMPTY",
         2,

@@ -52,7 +52,7 @@ class Materials:
 
     def _surface(self, name: str, element: Element) -> Surface:
         color, texture = element.child("color"), element.child("texture")
-        rgba = GREY if color is None else color.numbers("rgba", 4, GREY)
+        rgba = GREY if color is None else self._color(color, name)
         red, green, blue, alpha = (min(1.0, max(0.0, c)) for c in rgba)
         if color is not None:
             red, green, blue = linear(red), linear(green), linear(blue)
@@ -63,6 +63,16 @@ class Materials:
 
         mode = AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE
         return Surface(name, (red, green, blue, alpha), alpha_mode=mode, color_texture=image)
+
+    def _color(self, element: Element, name: str) -> tuple[float, ...]:
+        """RGBA; grey, told, where it is none: a robot moves without its colours, and programs that read it go on.  Three
+        numbers are opaque, as everybody understands them."""
+        count = 3 if len(element.attributes.get("rgba", "").replace(",", " ").split()) == 3 else 4
+        before = len(self.report.diagnostics)
+        found = element.numbers("rgba", count, GREY[:count])
+        if self.report.forgive(before, f"colour of material {name}", "SHAPE_UNREADABLE"):
+            return GREY
+        return (*found, 1.0)[:4]
 
     def _texture(self, element: Element) -> Texture | None:
         uri = element.attributes.get("filename", "").strip()

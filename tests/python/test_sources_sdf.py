@@ -617,6 +617,15 @@ def test_a_model_may_include_the_servers_model_of_its_own_name(tmp_path):
     assert [node.name for node in scene.nodes].count("beam") == 1
 
 
+def test_an_include_of_another_format_is_told_and_the_rest_converts(tmp_path):
+    """Gazebo takes a URDF there."""
+    written(tmp_path, "<robot name='r'><link name='b'/></robot>", "r.urdf")
+    report = Report()
+    scene = read(written(tmp_path, model(A + "<include><uri>r.urdf</uri></include>")), report)
+    assert [node.name for node in scene.nodes] == ["m", "a"]
+    assert [(d.code, d.where) for d in report.diagnostics] == [("INCLUDE_NOT_SDF", "m.sdf:4")]
+
+
 def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
     """Both are found: what stands before it, and what the included file has."""
     (tmp_path / "other.sdf").write_text(model(link("b", "<pose>0 0 nan 0 0 0</pose>")), encoding="utf-8")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...diagnostics import KinefabError, Report
 from ..reading.file import read_bytes
+from ..reading.record import shown
 from ..robots.packages import Packages, is_served
 from ..robots.xml_elements import Element, parse_xml
 from .scopes import Entry, Scope
@@ -98,6 +99,10 @@ def _include(scope: Scope, element: Element, files: tuple[Path, ...]) -> None:
     root = _root(path, scope.report)
     if root is None:
         return
+    if root.tag != "sdf":  # such as a URDF, which Gazebo converts by itself
+        values = {"uri": uri, "file": path.name, "found": shown(root.tag)}
+        scope.report.dropped(f"include {uri}", "INCLUDE_NOT_SDF", element.where, **values)
+        return
     version = version_of(root)
     models = list(root.all("model"))
     if not models:
@@ -131,15 +136,11 @@ class _Overlay:
 
 
 def _root(path: Path, report: Report) -> Element | None:
-    """The root of an included file.  What is wrong with it is in the report."""
+    """The root of an included file; None where it is no XML, and then the report says so."""
     try:
-        root = parse_xml(read_bytes(path, report), path.name, report)
+        return parse_xml(read_bytes(path, report), path.name, report)
     except KinefabError:
         return None
-    if root.tag != "sdf":
-        root.fault("XML_ROOT", found=root.tag, wanted="sdf", format="SDF")
-        return None
-    return root
 
 
 def _model_file(uri: str, packages: Packages) -> Path | None:

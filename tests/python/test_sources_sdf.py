@@ -626,6 +626,19 @@ def test_an_include_of_another_format_is_told_and_the_rest_converts(tmp_path):
     assert [(d.code, d.where) for d in report.diagnostics] == [("INCLUDE_NOT_SDF", "m.sdf:4")]
 
 
+@pytest.mark.parametrize("yes", ["true", "True", "TRUE", "1"])
+def test_words_are_read_in_letters_of_any_size(tmp_path, yes):
+    """As libsdformat reads them: a static model would fall, and a joint was refused."""
+    turned = f"<pose degrees='{yes}'>1 0 0 0 0 90</pose><gravity>False</gravity>"
+    text = model(A + link("b", turned) + joint("j", "Revolute", "a", "b", "<axis><xyz>0 0 1</xyz></axis>"))
+    scene = scene_of(tmp_path, text)
+    b = next(node for node in scene.nodes if node.name == "b")
+    assert [j.kind for j in scene.joints] == [JointKind.REVOLUTE] and not b.dynamics.gravity
+    assert TO_SCENE.T @ b.pose.rotation @ TO_SCENE == pytest.approx(rotation_rpy(0.0, 0.0, math.pi / 2.0))
+    still = scene_of(tmp_path, model(A + f"<static>{yes}</static>"))
+    assert [node.grounded for node in still.nodes if node.name == "a"] == [True]
+
+
 def test_a_fault_before_an_include_does_not_end_the_reading_of_it(tmp_path):
     """Both are found: what stands before it, and what the included file has."""
     (tmp_path / "other.sdf").write_text(model(link("b", "<pose>0 0 nan 0 0 0</pose>")), encoding="utf-8")

@@ -146,6 +146,11 @@ class Element:
         return None
 
 
+def truth(text: str, default: bool = False) -> bool:
+    """What true, 1, false and 0 say, in letters of any size; ``default`` for all else."""
+    return {"true": True, "1": True, "false": False, "0": False}.get(text.strip().lower(), default)
+
+
 def near_matches(name: str, known: Mapping[str, object] | set[str], report: Report) -> str:
     """For a message: names that look like ``name``, or "none".  They are sought among a thousand of about its length, and
     not for findings beyond those that are listed."""

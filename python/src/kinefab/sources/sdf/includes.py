@@ -9,7 +9,7 @@ from ...diagnostics import KinefabError, Report
 from ..reading.file import read_bytes
 from ..reading.record import shown
 from ..robots.packages import Packages, is_served
-from ..robots.xml_elements import Element, parse_xml
+from ..robots.xml_elements import Element, parse_xml, truth
 from .scopes import Entry, Scope
 
 DEEPEST = 32
@@ -76,7 +76,7 @@ def _add_model(
         if posed is element or not posed.content("static")
         else posed.content("static")
     )
-    inner.static = scope.static or says in ("true", "1")
+    inner.static = scope.static or truth(says)
     entry = Entry("model", f"__merged__{name}__" if merged else name, element, scope, inner)
     inner.entry = entry
     scope.add(entry)
@@ -113,7 +113,7 @@ def _include(scope: Scope, element: Element, files: tuple[Path, ...]) -> None:
         ) else (element.fault("XML_MISSING", element="sdf", field="model"))
         return
     name = element.content("name") or models[0].name()
-    merged = element.attributes.get("merge", "").strip() in ("true", "1")
+    merged = truth(element.attributes.get("merge", ""))
     posed = element if element.child("pose") is not None else models[0]
     packages = scope.packages.of(path.parent)
     holder = _Overlay(element, posed)

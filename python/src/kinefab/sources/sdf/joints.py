@@ -11,7 +11,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import FREE, Freedom, Motion, Passive
 from ...spatial import Array, Pose
-from ..robots.xml_elements import Element
+from ..robots.xml_elements import Element, truth
 from .scopes import Entry, Scope, entry_world_pose, frame_pose, link_of, world_pose
 
 TYPES = ("revolute", "continuous", "prismatic", "ball", "universal", "revolute2", "screw", "gearbox", "fixed")
@@ -71,7 +71,7 @@ def read_joint(entry: Entry, report: Report) -> SdfJoint | None:
     """The joint, or None after a fault."""
     element, scope = entry.element, entry.owner
     feature = f"joint {entry.name}"
-    kind = element.attributes.get("type", "").strip()
+    kind = element.attributes.get("type", "").strip().lower()  # as libsdformat reads it
     if kind not in TYPES:
         near = ", ".join(difflib.get_close_matches(kind, TYPES, 3)) or "none"
         if kind:
@@ -146,8 +146,8 @@ def _axis(element: Element, tag: str, joint: SdfJoint, scope: Scope, feature: st
         xyz, length = np.array([0.0, 0.0, 1.0]), 1.0
     frame = "" if given is None else given.attributes.get("expressed_in", "").strip()
     if scope.version < (1, 7):  # the older spellings: 1.4 always means the model's frame
-        flag = child.content("use_parent_model_frame").lower()
-        frame = "__model__" if scope.version < (1, 5) or flag in ("true", "1") else ""
+        flag = truth(child.content("use_parent_model_frame"))
+        frame = "__model__" if scope.version < (1, 5) or flag else ""
     outer = world_pose(scope) @ frame_pose(frame, scope, child, feature) if frame else joint.pose
     axis = Axis(outer.rotation @ (xyz / length))
     axis.freedom = _freedom(child, joint.kind, f"{tag} of {feature}", report)

@@ -11,7 +11,7 @@ from ...spatial import Pose, frame_from_axes
 from ..robots.inertial import Inertial, tensor
 from ..robots.rigid_links import Link, Part, Solid, unique
 from ..robots.shapes import PLANE_EXTENT, Shape, mesh_shape
-from ..robots.xml_elements import Element
+from ..robots.xml_elements import Element, truth
 from .materials import Materials, physics_material
 from .scopes import Entry, Scope, entry_world_pose, frame_pose, pose_of, relative_to
 
@@ -43,8 +43,8 @@ class Links:
         label = f"link {link.id}"
         link.drawn = self._parts(element, "visual", scope, label)
         link.touched = self._parts(element, "collision", scope, label)
-        link.gravity = element.content("gravity") not in ("false", "0")
-        link.kinematic = element.content("kinematic") in ("true", "1")
+        link.gravity = truth(element.content("gravity"), True)
+        link.kinematic = truth(element.content("kinematic"))
         return link
 
     def _parts(self, link: Element, tag: str, scope: Scope, label: str) -> list[Part]:
@@ -109,7 +109,7 @@ class Links:
         factors = (1.0, 1.0, 1.0) if scale is None else scale.values(3, (1.0, 1.0, 1.0))
         submesh = element.child("submesh")
         key = None if submesh is None else submesh.content("name") or None
-        if submesh is not None and submesh.content("center") in ("true", "1"):
+        if submesh is not None and truth(submesh.content("center")):
             self.report.dropped(f"centring of {feature}", "ELEMENT_DROPPED", submesh.where)
         return mesh_shape(uri, factors, scope.packages, feature, element.where, self.report, key)
 
@@ -147,7 +147,7 @@ def _plane(element: Element, tag: str) -> tuple[Shape, Pose] | None:
 def _is_solid(link: Element) -> bool:
     """Whether its collisions say how a link's mass is spread, and how large it is where the link states none."""
     element = link.child("inertial")
-    return element is not None and element.attributes.get("auto", "").strip() in ("true", "1")
+    return element is not None and truth(element.attributes.get("auto", ""))
 
 
 def _solid(link: Element, name: str) -> Solid:

@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 from ...color import linear
 from ...model import AlphaMode, PhysicsMaterial, Surface, Texture
 from ..robots.packages import Packages
-from ..robots.xml_elements import Element
+from ..robots.xml_elements import Element, truth
 
 GREY = (0.8, 0.8, 0.8, 1.0)
 BLACK = (0.0, 0.0, 0.0, 1.0)
@@ -56,7 +56,7 @@ def _surface(element: Element, visual: Element, packages: Packages) -> Surface:
         0.0 if metal is None else _share(metal, "metalness", 0.5 if metal.tag == "metal" else 0.0),
         1.0 - _share(metal, "roughness", 0.5) if metal is not None else 0.5,
         AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE,
-        double_sided=double is not None and double.text.strip() in ("true", "1"),
+        double_sided=double is not None and truth(double.text),
         emission=emissive[:3],
         color_texture=_texture(metal, "albedo_map", packages),
         normal_texture=_texture(metal, "normal_map", packages),

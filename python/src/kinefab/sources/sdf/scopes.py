@@ -12,7 +12,7 @@ from ...spatial import Pose, matrix_from_quaternion
 from ..robots.packages import Packages
 from ..robots.robot_frame import rotation_rpy
 from ..robots.unread import Unread
-from ..robots.xml_elements import Element, near_matches
+from ..robots.xml_elements import Element, near_matches, truth
 
 SCOPE_FRAMES = ("__model__", "__root__")
 
@@ -123,7 +123,7 @@ def pose_of(element: Element) -> Pose:
             return Pose(translation=np.array(v[:3]))
         return Pose(matrix_from_quaternion(q), np.array(v[:3]))
     v = child.values(6, (0.0,) * 6)
-    scale = np.pi / 180.0 if child.attributes.get("degrees", "").strip() in ("true", "1") else 1.0
+    scale = np.pi / 180.0 if truth(child.attributes.get("degrees", "")) else 1.0
     return Pose(rotation_rpy(*(scale * a for a in v[3:])), np.array(v[:3]))
 
 

@@ -387,3 +387,19 @@ def test_indices_have_16_bits_up_to_65535_vertices(tmp_path, count, short):
     assert found["short"] == short and len(found["channels"][0]) == count
     assert [len(part) for part in found["submeshes"]] == [count - 3, 1]
     assert sorted(found["submeshes"][1][0]) == [count - 3, count - 2, count - 1]
+
+
+def test_a_trigger_is_convex_wherever_it_stands(tmp_path):
+    """Unity: "Triggers on concave MeshColliders are not supported", on what stands still too; what stops things there keeps its
+    true mesh."""
+    scene = rich_scene(tmp_path)
+    mesh = scene.nodes[1].bodies[0].mesh
+    shapes = [
+        model.Collider(ColliderKind.MESH, mesh=mesh, trigger=trigger, name=f"{trigger}")
+        for trigger in (True, False)
+    ]
+    scene.nodes[1] = replace(scene.nodes[1], colliders=tuple(shapes))
+    exported(scene, tmp_path)
+    found = documents((tmp_path / "out" / "Rich.prefab").read_text("utf-8"))
+    own = {(d.fields["m_IsTrigger"], d.fields["m_Convex"]) for d in found if d.kind == "MeshCollider"}
+    assert ("1", "0") not in own and {("1", "1"), ("0", "0")} <= own

@@ -48,13 +48,10 @@ class ConvexOnly:
         return is_dynamic(scene, groups, node)
 
     def stated(self, collider: Collider, node: int, groups: RigidGroups) -> Collider:
-        """A collider that the source states of a node, as it can be: a true mesh of the ground keeps its hollows as convex pieces,
-        for something may run in them."""
-        cut = (
-            collider.kind is ColliderKind.MESH
-            and groups.is_ground(node)
-            and groups.group_of[node] in self.links
-        )
+        """A collider that the source states of a node, as it can be.  A true mesh of the ground keeps its hollows as convex pieces,
+        for something may run in them; so does a trigger, which Unity takes no other of anywhere."""
+        held = groups.is_ground(node) and groups.group_of[node] in self.links
+        cut = collider.kind is ColliderKind.MESH and (held or collider.trigger)
         return replace(collider, kind=ColliderKind.PIECES) if cut else collider
 
 

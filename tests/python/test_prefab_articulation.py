@@ -180,6 +180,21 @@ def test_a_loop_is_closed_by_a_helper(tmp_path, ground):
     assert body["inertiaTensorRotation"] == pytest.approx(vector(own["m_InertiaRotation"]))
 
 
+@pytest.mark.parametrize("shape", ["hull", "none"])
+def test_links_that_overlap_at_a_closed_loop_are_told(tmp_path, shape):
+    """The joint between the lever's bar and slider keeps them from colliding; on a helper it keeps the helper from that, and Unity
+    keeps links apart from those above them only."""
+    pytest.importorskip("coal")
+    lever, colliders = FIXTURES / "lever" / "lever.bundle.json", kinefab.ColliderShape(shape)
+    _, result = exported(lever, tmp_path, colliders=colliders)
+    told = [d.where + d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
+    assert len(told) == (shape == "hull") and all(
+        "BarC:1 and Lever/SliderD:1 overlap" in text for text in told
+    )
+    plain = kinefab.export(lever, tmp_path / "Plain.prefab", kinefab.ExportOptions(colliders=colliders))
+    assert "COLLIDERS_OVERLAP" not in {d.code for d in plain.report.diagnostics}
+
+
 @pytest.mark.parametrize("ground", ["body", "world"])
 @pytest.mark.parametrize("held", [False, True])
 def test_what_a_script_moves_is_no_ground_but_a_root(tmp_path, ground, held):

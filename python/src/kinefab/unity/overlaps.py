@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from ..diagnostics import Report
@@ -21,8 +23,13 @@ MOST_TRIANGLES = 100_000
 """Of a mesh that is not convex; finer ones take minutes to prepare."""
 
 
-def check_overlaps(scene: UnityScene, report: Report) -> None:
-    """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first."""
+def check_overlaps(
+    scene: UnityScene, report: Report, among: Collection[frozenset[int | None]] | None = None
+) -> None:
+    """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first.
+
+    among: pairs of bodies, by their objects, that alone are looked at; None for all that no joint keeps from colliding.
+    """
     bodies = _bodies(scene)
     dynamic = {
         i
@@ -33,6 +40,10 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
     if not dynamic:
         return
     joined = _joined(scene, bodies)
+
+    def may_collide(pair: frozenset[int | None]) -> bool:
+        return pair not in joined if among is None else pair in among
+
     standing = standing_colliders(scene)
     moved = [bodies[owner] for owner in standing.owners]
     free = [
@@ -40,7 +51,7 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
         for first, second, tolerated in _close(standing.low, standing.high)
         if moved[first] != moved[second]
         and dynamic & {moved[first], moved[second]}
-        and frozenset((moved[first], moved[second])) not in joined
+        and may_collide(frozenset((moved[first], moved[second])))
     ]
     if not free:
         return

@@ -16,6 +16,7 @@ from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
 from ...unity.mapping import GROUND_ID
+from ...unity.overlaps import check_overlaps
 from ...unity.scene import (
     AnimationClip,
     ArticulationBody,
@@ -64,6 +65,7 @@ class _Articulation:
     def scene_of_links(self) -> UnityScene:
         self._read()
         parents, closing = self._tree()
+        self._check_loops(parents, closing)
         self._tell_size({child: parent for child, (parent, _) in parents.items()})
         links = {child: self._link(child, parent, edge) for child, (parent, edge) in parents.items()}
         used = {edge for _, edge in parents.values() if edge is not None} | set(closing)
@@ -289,6 +291,20 @@ class _Articulation:
         self.report.kept(
             f"joint {name}", "", "ARTICULATION_LOOP_HELPER", joint=name, object=f"{name} closure"
         )
+
+    def _check_loops(
+        self, parents: Mapping[int, tuple[int | None, Edge | None]], closing: Collection[Edge]
+    ) -> None:
+        """Tell where links overlap that the joint between them keeps from colliding no more, as it is on a helper.  Unity keeps a link
+        from colliding with the one above it."""
+        apart = {frozenset((child, parent)) for child, (parent, _) in parents.items()}
+        loose = {
+            frozenset((edge[0], self._other(edge)))
+            for edge in closing
+            if not self._joint(edge).enableCollision
+        }
+        if loose - apart:
+            check_overlaps(self.scene, self.report, among=loose - apart)
 
     def _connected(self, joint: Joint) -> int | None:
         return self.ground if joint.connectedBody is None else joint.connectedBody

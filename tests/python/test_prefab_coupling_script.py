@@ -82,12 +82,13 @@ def program(request, tmp_path_factory) -> Path:
         "two turns",
         "swapped two turns",
         "other terms",
+        "wakes",
     ],
 )
 def test_a_gear_pair_keeps_its_ratio_over_a_thousand_steps(program, how):
     """Degrees that it is off, and millimetres that it leaves its axle: float32 is all there is.  Slides too, which count from the
     pose of the prefab and not from where their anchors meet; a component that is enabled late, and one whose script is compiled
-    anew while the editor plays; two on one joint, about two of its axes; and one whose terms change on the way."""
+    anew while the editor plays; two on one joint, about two of its axes; and one whose terms change on the way.  A body that sleeps is woken when it has to follow, and then alone."""
     done = subprocess.run(["mono", str(program), how], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2e-3

@@ -18,6 +18,10 @@ namespace UnityEngine
 
     public sealed partial class Rigidbody
     {
+        public int Woken { get; private set; }
+
+        public void WakeUp() => Woken++;
+
         public void MovePosition(Vector3 position) => transform.position = position;
 
         public void MoveRotation(Quaternion rotation) => transform.rotation = rotation;

@@ -78,6 +78,28 @@ public static partial class GearPair
             return worst;
         }
 
+        // Steps in which the driven body was not woken though it has to move, or was though it stands.
+        public static double Wakes()
+        {
+            var frame = Body("Frame", true);
+            var first = Body("First", false);
+            var second = Body("Second", false);
+            var source = Hinge(first, frame, new Vector3(0, 0, 1), new Vector3(0.1f, 0.2f, 0.3f));
+            KinefabCoupling coupling = Added(second, Configurable(second, frame), KinefabCoupling.Coordinate.AngularX, source, Ratio);
+            var body = second.GetComponent<Rigidbody>();
+            int wrong = 0;
+            for (int i = 1; i <= 300; i++)
+            {
+                bool turns = i <= 100 || i > 200;
+                Follow(first, frame, Turn(new double[] { 0, 0, 1 }, 0.9 * (turns ? i : 100)), source);
+                int before = body.Woken;
+                Call(coupling, "FixedUpdate");
+                wrong += body.Woken > before == turns ? 0 : 1;
+            }
+
+            return wrong;
+        }
+
         private static KinefabCoupling Added(GameObject own, Joint driven, KinefabCoupling.Coordinate coordinate, Joint source, double ratio)
         {
             var coupling = own.AddComponent<KinefabCoupling>();

@@ -50,6 +50,7 @@ namespace Kinefab
         private Reading[] _terms;
         private bool _isReady;
         private Vec _halves; // radians, of the turn about each of the joint's axes to which this coupling drives it
+        private double _target = double.NaN;
         private Action _release;
 
         private void Awake()
@@ -74,6 +75,7 @@ namespace Kinefab
         private void OnDisable()
         {
             _halves = default(Vec);
+            _target = double.NaN;
             if (_isReady && driven != null)
             {
                 _release();
@@ -124,8 +126,16 @@ namespace Kinefab
                 _driven.Place(target, beside, out Vector3 position, out Quaternion rotation);
                 body.MovePosition(position);
                 body.MoveRotation(rotation);
+                return;
             }
-            else if (driven is HingeJoint hinge)
+
+            if (target != _target)
+            {
+                body.WakeUp(); // one that sleeps follows no drive
+                _target = target;
+            }
+
+            if (driven is HingeJoint hinge)
             {
                 Drive(hinge, target);
             }

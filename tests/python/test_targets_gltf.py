@@ -472,6 +472,31 @@ def test_what_is_not_drawn_collides_all_the_same(tmp_path, shape):
     assert sum(o.code == "TARGET_FIELD_DROPPED" for o in result.report.outcomes) == 2
 
 
+def test_hulls_that_stand_for_meshes_and_what_is_off_are_told(tmp_path):
+    """What a source states and a moving body cannot have; a collider that is switched off would collide in glTF, so it is left out."""
+    kinds = (ColliderKind.MESH, ColliderKind.PIECES, ColliderKind.HULL)
+    stated = [Collider(kind, mesh=0, name=kind.value) for kind in kinds]
+    stated.append(Collider(ColliderKind.SPHERE, radius=1.0, name="off", enabled=False))
+    nodes = [Node(n, n, colliders=tuple(stated), grounded=n == "G", bodies=(Body("b", 0),)) for n in "PG"]
+    result = kinefab.export(Scene(nodes=nodes, meshes=[box((1, 2, 3))]), tmp_path / "a.glb")
+    codes = ("TARGET_FEATURE_APPROXIMATED", "TARGET_FIELD_DROPPED")
+    told = [{o.feature for o in result.report.outcomes if o.code == code} for code in codes]
+    names = {kind: kind.value for kind in kinds}
+    mesh, pieces = names[ColliderKind.MESH], names[ColliderKind.PIECES]
+    assert told[0] == {f"collider P/{mesh}", f"collider P/{pieces}", f"collider G/{pieces}"}
+    assert told[1] == {"collider P/off", "collider G/off"}
+    assert "KHR_implicit_shapes" not in json.dumps(parsed(tmp_path / "a.glb")[0])  # the ball
+
+
+@pytest.mark.parametrize(("shape", "count"), [("decompose", 1), ("mesh", 1), ("hull", 0), ("auto", 0)])
+def test_a_shape_that_was_asked_for_and_is_a_hull_is_told(tmp_path, shape, count):
+    nodes = [Node(n, n, grounded=n == "G", bodies=(Body("b", 0),)) for n in "PG"]
+    options = kinefab.ExportOptions(colliders=kinefab.ColliderShape(shape))
+    result = kinefab.export(Scene(nodes=nodes, meshes=[box((1, 2, 3))]), tmp_path / "a.glb", options)
+    told = [o.feature for o in result.report.outcomes if o.code == "TARGET_FEATURE_APPROXIMATED"]
+    assert told == ["collider P/b"] * count
+
+
 def test_a_jpeg_of_inks_is_told(tmp_path):
     image = pytest.importorskip("PIL.Image")
     for mode in ("CMYK", "L", "RGB"):

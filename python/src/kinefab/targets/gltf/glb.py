@@ -169,15 +169,21 @@ class _Document:
             geometry = {"node": index if "mesh" in self.nodes[index] else self._shape(body.name, body.mesh)}
             if self._moves(node) or shape is ColliderShape.HULL:
                 geometry["convexHull"] = True
+                if shape in (ColliderShape.DECOMPOSE, ColliderShape.MESH):
+                    self._tell_hull(f"collider {own.id}/{body.name}", own.where)
         entry = {"geometry": geometry}
         self.filters.add(node, "", entry)
         self._extend(holder, "collider", entry)
 
     def _add_collider(self, node: int, parent: int, collider: Collider) -> None:
+        own = self.scene.nodes[node]
+        feature = f"collider {own.id}/{collider.name or collider.kind.value}"
         if collider.is_empty:
-            own = self.scene.nodes[node]
-            feature = f"collider {own.id}/{collider.name or collider.kind.value}"
             self.report.dropped(feature, "COLLIDER_EMPTY", collider.where, object=own.id)
+            return
+        if not collider.enabled:
+            told = {"field": "its being switched off", "target": ".glb"}
+            self.report.dropped(feature, "TARGET_FIELD_DROPPED", collider.where, **told)
             return
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
         if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
@@ -186,6 +192,8 @@ class _Document:
             geometry: dict[str, Any] = {"node": shape}
             if collider.kind is not ColliderKind.MESH or self._moves(node):
                 geometry["convexHull"] = True
+                if collider.kind is not ColliderKind.HULL:
+                    self._tell_hull(feature, collider.where)
         else:
             geometry = self.physics.geometry(collider)
         entry: dict[str, Any] = {"geometry": geometry}
@@ -193,6 +201,10 @@ class _Document:
             entry["physicsMaterial"] = self.physics.material(collider.material)
         self.filters.add(node, collider.group, entry)
         self._extend(index, "trigger" if collider.trigger else "collider", entry)
+
+    def _tell_hull(self, feature: str, where: str) -> None:
+        detail = "one convex hull stands for its mesh"
+        self.report.approximated(feature, "TARGET_FEATURE_APPROXIMATED", where, target=".glb", detail=detail)
 
     def _shape(self, name: str, mesh: int) -> int:
         """Index of a node that is in no scene, so that its mesh collides and is not drawn."""

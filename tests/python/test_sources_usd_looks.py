@@ -456,7 +456,7 @@ def test_a_colour_by_its_index_and_several_where_a_shape_has_one(tmp_path):
     ("stated", "feature"),
     [
         ("float inputs:ior = 1.8", "approximated ior"),
-        ("float inputs:ior = 1.5", ""),
+        ("float inputs:ior = 1.45", ""),
         ("float inputs:occlusion = 0.3", "dropped occlusion"),
         ("normal3f inputs:normal = (0, 1, 0)", "dropped normal"),
         ("float inputs:metallic = 2", "approximated metallic"),

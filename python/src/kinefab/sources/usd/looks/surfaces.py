@@ -29,6 +29,8 @@ CONSTANTS = {
 """What the inputs of MDL's and MaterialX's surfaces are called here."""
 USUAL = 1.5
 """The index of refraction that Unity's standard surface reflects as."""
+UNSEEN = 0.01
+"""Share of light that a surface may reflect more or less than that one: programs write indices of 1.45 as a matter of course."""
 FLAT = (0.0, 0.0, 1.0)
 """A normal that leaves the mesh's own."""
 DISPLAYED = (0.5, 0.5, 0.5)
@@ -220,7 +222,8 @@ class Surfaces:
         for name, default in (("clearcoat", 0.0), ("displacement", 0.0)):
             if inputs.number(name, default) != default or inputs.sampler(name) is not None:
                 inputs.lost(name, "there is no such thing in Unity's standard surface")
-        if inputs.number("ior", USUAL) != USUAL or inputs.sampler("ior") is not None:
+        reflected = _reflected(inputs.number("ior", USUAL))
+        if abs(reflected - _reflected(USUAL)) > UNSEEN or inputs.sampler("ior") is not None:
             inputs.approximated("ior", f"Unity's standard surface reflects as one of {USUAL:g} does")
         if inputs.number("useSpecularWorkflow", 0.0):
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
@@ -319,6 +322,11 @@ class Surfaces:
 def _unit(value: float) -> float:
     value = float(value)
     return min(1.0, max(0.0, value)) if math.isfinite(value) else 0.0
+
+
+def _reflected(index: float) -> float:
+    """Share of the light that falls straight on a surface of this index of refraction."""
+    return ((index - 1.0) / (index + 1.0)) ** 2 if index >= 0.0 else 1.0
 
 
 def _emission(color: tuple[float, float, float]) -> tuple[float, float, float]:

@@ -492,3 +492,29 @@ def test_a_material_that_is_bound_without_the_schema_is_taken_and_is_no_loss(tmp
     scene, report = scene_of(tmp_path, stage(body("B", inside=bound) + MATERIAL))
     assert [scene.surfaces[i].name for i in scene.nodes[0].bodies[0].surfaces] == ["Plain", "Paint"]
     assert told(report) == set()
+
+
+@pytest.mark.parametrize(
+    ("scale", "bias", "expected"),
+    [
+        ("(2, 2, 2, 1)", "(-1, -1, -1, 0)", None),
+        ("(2, -2, 2, 1)", "(-1, 1, -1, 0)", (10, 55, 251)),
+        ("(-2, 2, 1, 1)", "(1, -1, 0, 0)", (245, 200, 253)),
+    ],
+)
+def test_normals_that_are_counted_otherwise_are_made_anew(tmp_path, scale, bias, expected):
+    """With y downwards, as DirectX has it; with x the other way and z from 0 to 1."""
+    Pillow = pytest.importorskip("PIL.Image", reason="Pillow is not installed")
+    Pillow.new("RGB", (4, 2), (10, 200, 251)).save(tmp_path / "paint.png")
+    looks = MATERIAL.replace(
+        "color3f inputs:diffuseColor.connect = </Looks/Paint/Image.outputs:rgb>",
+        "normal3f inputs:normal.connect = </Looks/Paint/Image.outputs:rgb>",
+    ).replace(
+        "   float3 outputs:rgb",
+        f"   float3 outputs:rgb\n   float4 inputs:scale = {scale}\n   float4 inputs:bias = {bias}",
+    )
+    scene, report = scene_of(tmp_path, stage(body("B", inside=BOUND) + looks))
+    image = painted(scene).normal_texture
+    assert told(report) == set() and (image.path is not None) == (expected is None)
+    if expected is not None:
+        assert Pillow.open(io.BytesIO(image.data)).getpixel((3, 1)) == expected

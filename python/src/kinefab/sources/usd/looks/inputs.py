@@ -94,6 +94,8 @@ class Inputs:
                 self._tell_space(name, source)
                 output = attribute.GetBaseName()
                 found = read_sampler(source, output, self.uv_names, self.values)
+                if found is not None and any(found.bias) and name != "normal":
+                    self._tell_bias(found.bias, source)
                 if found is None:
                     value = read_fallback(source, output, self.values)
             elif is_reader(source):
@@ -115,6 +117,13 @@ class Inputs:
         if varname not in DISPLAY:
             self.lost(name, f"it follows the primvar '{varname}', which is not read")
         return read_input(reader, "fallback", self.values)
+
+    def _tell_bias(self, bias: tuple[float, float, float], source: Any) -> None:
+        prim, opened = source.GetPrim(), self.values.opened
+        self.values.report.approximated(
+            f"texture {prim.GetPath()}", "USD_FEATURE_APPROXIMATED", opened.place(prim, "inputs:bias"),
+            detail=f"the bias {' '.join(f'{b:g}' for b in bias)} was left out",
+        )  # fmt: skip
 
     def _tell_space(self, name: str, source: Any) -> None:
         """That an image is said to be counted otherwise than Unity counts what it is used for."""

@@ -1,13 +1,13 @@
-"""Several images as one, where a surface has one for what USD gives each its own."""
+"""Images made anew: several as one, where a surface has one for what USD gives each its own, and normals as Unity counts them."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-from ....geometry.looks.pixels import merged
+from ....geometry.looks.pixels import merged, recoded
 from ....geometry.references import read_regular
 from ....model import Texture
 from .textures import MAX_BYTES, Sampler
@@ -20,15 +20,30 @@ def packed(channels: Sequence[tuple[Sampler, str] | None]) -> Texture | None:
     first = textures[0]
     if any(_laid(texture) != _laid(first) for texture in textures):
         return None
+    return _made(
+        first,
+        "packed",
+        lambda: merged([None if c is None else (_bytes_of(c[0].texture), c[1]) for c in channels]),
+    )
+
+
+def normals_of(sampler: Sampler) -> Texture | None:
+    """The image of normals from -1 to 1, as all their axes are counted in Unity; None where its pixels cannot be read."""
+    factors, offsets = [0.5 * s for s in sampler.tint], [0.5 * (b + 1.0) for b in sampler.bias]
+    return _made(sampler.texture, "normals", lambda: recoded(_bytes_of(sampler.texture), factors, offsets))
+
+
+def _made(like: Texture, what: str, make: Callable[[], bytes]) -> Texture | None:
+    """An image that lies on the mesh as another does."""
     try:
-        data = merged([None if c is None else (_bytes_of(c[0].texture), c[1]) for c in channels])
+        data = make()
     except MemoryError:
         raise
     # ImportError without Pillow, which itself raises OSError, SyntaxError, struct.error ... by the format.
     except Exception:
         return None
-    name = f"{PurePosixPath(first.name).stem} packed-{hashlib.sha256(data).hexdigest()[:8]}.png"
-    return replace(first, name=name, path=None, data=data, media_type="image/png")
+    name = f"{PurePosixPath(like.name).stem} {what}-{hashlib.sha256(data).hexdigest()[:8]}.png"
+    return replace(like, name=name, path=None, data=data, media_type="image/png")
 
 
 def _laid(texture: Texture) -> tuple[object, ...]:

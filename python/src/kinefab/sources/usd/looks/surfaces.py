@@ -16,7 +16,7 @@ from ..stage import OpenStage
 from ..values import Values
 from .inputs import DISPLAY, Inputs
 from .materials import PREVIEW, Materials, surface_of
-from .packing import packed
+from .packing import normals_of, packed
 from .textures import Sampler
 
 BIND = "materialBind"
@@ -33,6 +33,8 @@ UNSEEN = 0.01
 """Share of light that a surface may reflect more or less than that one: programs write indices of 1.45 as a matter of course."""
 FLAT = (0.0, 0.0, 1.0)
 """A normal that leaves the mesh's own."""
+NORMALS = (((2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)), ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)))
+"""Scale and bias of images of normals that are as Unity's; those that state neither are meant to be."""
 DISPLAYED = (0.5, 0.5, 0.5)
 """Colour of a prim that states none, as UsdGeom's fallback has it in viewers."""
 
@@ -229,9 +231,7 @@ class Surfaces:
             self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
         r, g, b = inputs.color_within("diffuseColor", base)
-        emissive, normal = inputs.sampler("emissiveColor"), inputs.sampler("normal")
-        if normal is None and inputs.color("normal", FLAT) != FLAT:
-            inputs.lost("normal", "Unity has it as an image alone")
+        emissive = inputs.sampler("emissiveColor")
         mode = (
             AlphaMode.MASK
             if threshold > 0.0
@@ -249,17 +249,31 @@ class Surfaces:
             False,
             _emission(emissive.tint if emissive else inputs.color("emissiveColor", (0.0, 0.0, 0.0))),
             shown,
-            _texture(normal),
+            self._normals(inputs),
             rough,
             self._shade(inputs),
             emissive.texture if emissive else None,
         )
 
+    def _normals(self, inputs: Inputs) -> Texture | None:
+        """The image of the normals, with x and y from -1 to 1 as Unity counts them."""
+        sampler = inputs.sampler("normal")
+        if sampler is None:
+            if inputs.color("normal", FLAT) != FLAT and "normal" not in inputs.read:
+                inputs.lost("normal", "Unity has it as an image alone")
+            return None
+        if (sampler.tint, sampler.bias) in NORMALS:
+            return sampler.texture
+        image = normals_of(sampler)
+        if image is None:
+            inputs.approximated("normal", "its image counts otherwise, and its pixels could not be read")
+        return image or sampler.texture
+
     def _shade(self, inputs: Inputs) -> Texture | None:
         """The image of the occlusion, with it in r."""
         sampler = inputs.sampler("occlusion")
         if sampler is None:
-            if inputs.number("occlusion", 1.0) != 1.0:
+            if inputs.number("occlusion", 1.0) != 1.0 and "occlusion" not in inputs.read:
                 inputs.lost("occlusion", "Unity has it as an image alone")
             return None
         if sampler.amount != 1.0:
@@ -331,7 +345,3 @@ def _reflected(index: float) -> float:
 
 def _emission(color: tuple[float, float, float]) -> tuple[float, float, float]:
     return (max(0.0, color[0]), max(0.0, color[1]), max(0.0, color[2]))
-
-
-def _texture(sampler: Sampler | None) -> Texture | None:
-    return None if sampler is None else sampler.texture

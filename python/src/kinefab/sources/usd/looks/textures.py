@@ -40,12 +40,14 @@ WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "bla
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampler:
-    """texture; output: 'rgb', 'r', 'g', 'b' or 'a'.  tint: linear RGB that the image is multiplied by, alpha: its opacity."""
+    """texture; output: 'rgb', 'r', 'g', 'b' or 'a'.  tint: linear RGB that the image is multiplied by, alpha: its opacity.  bias: of
+    RGB, added after that."""
 
     texture: Texture
     output: str
     tint: tuple[float, float, float]
     alpha: float = 1.0
+    bias: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property
     def amount(self) -> float:
@@ -80,16 +82,9 @@ def read_sampler(shader: Any, output: str, uv_names: tuple[str, ...], values: Va
             detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
         )
     *tint, alpha = _floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), values)
-    bias = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), values)[:3]
-    normal_map = tint == [2.0, 2.0, 2.0] and bias == (-1.0, -1.0, -1.0)
-    if any(bias) and not normal_map:
-        report.approximated(
-            feature, "USD_FEATURE_APPROXIMATED", where, detail=f"the bias {bias} was left out"
-        )
-    if normal_map:
-        tint = [1.0, 1.0, 1.0]
+    r, g, b, _ = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), values)
     texture = Texture(name, path, data, media, wrap, uv_set, scale, offset, rotation)
-    return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha)
+    return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha, (r, g, b))
 
 
 def read_fallback(shader: Any, output: str, values: Values) -> float | tuple[float, ...] | None:

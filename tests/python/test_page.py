@@ -93,7 +93,7 @@ def test_scenes_with_nothing_to_show_have_a_page(tmp_path):
     """Empty, or without joints: a page that says so."""
     scene = kinefab.Scene()
     scene.add_part("Lonely", grounded=True)
-    page = described(kinefab.view(scene, tmp_path / "page.html").read_text("utf-8").read_text("utf-8"))
+    page = described(kinefab.view(scene, tmp_path / "page.html").read_text("utf-8"))
     assert page["coordinates"] == {} and page["joints"] == []
     empty = tmp_path / "empty.kinefab"
     empty.write_text('{"format": "kinefab.scene", "version": "1.0", "gameObjects": []}', "utf-8")

@@ -77,10 +77,10 @@ class Canvas:
                     )
         return found
 
-    def stroke(self, points: Array, colour: Sequence[float]) -> None:
-        """A line through world points, over everything."""
+    def stroke(self, points: Array, colour: Sequence[float], width: float = 2.0) -> None:
+        """A line through world points, over everything.  width: in pixels."""
         lines = np.stack([points[:-1], points[1:]], axis=1)
-        self._lines(lines, np.array(colour), FINER, 1.0, hidden=False)
+        self._lines(lines, np.array(colour), max(1, round(width * FINER / 2)), 1.0, hidden=False)
 
     def _lines(self, lines: Array, colour: Array, reach: int, alpha: float, hidden: bool) -> None:
         if not len(lines):

@@ -214,7 +214,8 @@ def test_an_obj_of_any_polygons_is_the_same_at_once_and_line_by_line(tmp_path, m
         whole += [*statements.get(i, []), "f " + " ".join(polygon)]
         fan = [f"f {polygon[0]} {polygon[k]} {polygon[k + 1]}" for k in range(1, len(polygon) - 1)]
         cut += [*statements.get(i, []), *(line + " # one" for line in fan)]
-    monkeypatch.setattr(tables, "AT_ONCE", 40)
+    monkeypatch.setattr(tables, "AT_ONCE", 3)
+    monkeypatch.setattr(tables, "BLOCK", 50)
     once, by_line = (
         read_mesh_file(write(tmp_path / name, lines), Report(), "x")
         for name, lines in (("a.obj", whole), ("b.obj", cut))

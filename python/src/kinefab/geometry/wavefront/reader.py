@@ -52,12 +52,14 @@ class _Section:
 def read_obj(path: Path, report: Report) -> MeshFile:
     """Read bodies and surfaces of an OBJ file.  Raises ObjError or OSError."""
     lines = Lines(_plain_text(path.read_bytes()))
-    faces = faces_of(lines.joined(lines.which(b"f ")))
+    faces = faces_of(lines)
     if faces is None:
         lines = Lines(_with_plain_faces(lines.text))
-        faces = _uneven_faces(lines.joined(lines.which(b"f ")))
+        faces = faces_of(lines) or _uneven_faces(lines.of(b"f"))
     sections = [s for s in _sections(lines, faces) if s.faces]
+    looks = _surfaces(lines, path, report)
     whole = _parse(lines, faces) if sections else NOTHING
+    del lines, faces  # hundreds of megabytes
     unnamed = "" if whole.colors is None else WHITE.name
     pieces: list[Piece] = []
     named: dict[MeshKey, dict[str, list[tuple[int, ...]]]] = {key: {} for key in MeshKey}
@@ -77,8 +79,7 @@ def read_obj(path: Path, report: Report) -> MeshFile:
         named[key].setdefault(name, []).append(tuple(numbers))
     if start != len(whole.faces):
         raise ObjError(f"{len(whole.faces)} faces were read where {start} were counted")
-    surfaces = _surfaces(lines, path, report)
-    return MeshFile(path, pieces, named, surfaces if not unnamed else {WHITE.name: WHITE, **surfaces})
+    return MeshFile(path, pieces, named, looks if not unnamed else {WHITE.name: WHITE, **looks})
 
 
 def _plain_text(data: bytes) -> bytes:
@@ -204,8 +205,6 @@ def _vertex_colors(numbers: Array) -> Array | None:
 
 def _uneven_faces(lines: bytes) -> Faces:
     """As ``faces_of`` has triangles, where their corners do not all name the same; 0 for what one does not name.  Slow."""
-    if (found := faces_of(lines)) is not None:
-        return found
     triangles = lines.split(b"\n")[1:]
     numbers = np.zeros((len(triangles), 3, 3), dtype=np.int64)
     for triangle, line in enumerate(triangles):
@@ -218,11 +217,10 @@ def _uneven_faces(lines: bytes) -> Faces:
 def _numbers(lines: Lines, word: bytes, columns: int) -> Array:
     """The numbers of each line of a word, at least the first columns, shape (n, columns) or wider.  Raises ObjError where one is missing
     or none."""
-    text = lines.joined(lines.which(word + b" "))
-    found = numbers_of(text, word)
+    found = numbers_of(lines, word)
     if found is not None and found.shape[1] >= columns:
         return found
-    rows = [line[len(word) :] for line in text.split(b"\n")[1:]]
+    rows = [line[len(word) :] for line in lines.of(word).split(b"\n")[1:]]
     if not rows:
         return np.zeros((0, columns))
     if word == b"vt":  # it may state u alone

@@ -7,11 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...spatial import Array, BoolArray, IntArray
 
-AT_ONCE = 2**19
-"""Bytes of lines that are looked at together: what a processor keeps at hand."""
+AT_ONCE = 2**14
+"""Lines that are looked at together: what a processor keeps at hand."""
+BLOCK = 2**20
+"""Bytes in which line ends are looked for together."""
+MOST_NUMBER = np.iinfo(np.int32).max
 SPACE, LINE_END, SLASH = b" \n/"
 
 
@@ -24,19 +28,32 @@ class Lines:
     def __init__(self, text: bytes):
         self.text = text
         codes = np.frombuffer(text, np.uint8)
-        self.starts: IntArray = np.flatnonzero(codes == LINE_END)
+        self.starts: IntArray = np.concatenate(
+            [
+                np.flatnonzero(codes[start : start + BLOCK] == LINE_END) + start
+                for start in range(0, len(codes), BLOCK)
+            ]
+        )
         begin = self.starts[:-1] + 1
         self._begin = np.zeros(len(begin), dtype=np.int32)  # the first three letters
         for k in range(3):
             self._begin <<= 8
             self._begin |= codes.take(begin + k, mode="clip")
 
-    def which(self, word: bytes) -> IntArray:
-        """The numbers of the lines that begin with one to three letters."""
-        return np.flatnonzero(self._begin >> 8 * (3 - len(word)) == int.from_bytes(word, "big"))
+    def of(self, word: bytes) -> bytes:
+        """The lines that begin with a word of one or two letters and a space, each with the line end before it."""
+        return self._joined(self.which(word + b" "))
 
-    def joined(self, which: IntArray) -> bytes:
-        """Some lines, each with the line end before it."""
+    def parts_of(self, word: bytes) -> Iterator[bytes]:
+        """The same, as many as are looked at together."""
+        which = self.which(word + b" ")
+        return (self._joined(which[k : k + AT_ONCE]) for k in range(0, len(which), AT_ONCE))
+
+    def which(self, letters: bytes) -> IntArray:
+        """The numbers of the lines that begin with one to three letters."""
+        return np.flatnonzero(self._begin >> 8 * (3 - len(letters)) == int.from_bytes(letters, "big"))
+
+    def _joined(self, which: IntArray) -> bytes:
         if not len(which):
             return b""
         breaks = np.flatnonzero(np.diff(which) != 1)
@@ -63,10 +80,10 @@ class Faces:
         return self.corners[..., self.named.index(noun)] if noun in self.named else None
 
 
-def numbers_of(lines: bytes, word: bytes) -> Array | None:
-    """The numbers behind a word in each line, shape (lines, numbers); None where not all have as many, or one is none."""
+def numbers_of(lines: Lines, word: bytes) -> Array | None:
+    """The numbers behind a word in each of its lines, shape (lines, numbers); None where not all have as many, or one is none."""
     found: list[Array] = []
-    for part in _parts(lines):
+    for part in lines.parts_of(word):
         words, before = _words(part)
         heads = words[before == LINE_END]
         values, count = _values(part, heads, len(word), np.float64), len(heads)
@@ -80,16 +97,18 @@ def numbers_of(lines: bytes, word: bytes) -> Array | None:
     return np.concatenate(found) if found else None
 
 
-def faces_of(lines: bytes) -> Faces | None:
-    """The faces of ``f`` lines; None where the corners do not all name the same, one counts from the end, or one is none."""
-    corners: list[IntArray] = []
+def faces_of(lines: Lines) -> Faces | None:
+    """The faces; None where the corners do not all name the same, one counts from the end, or one is none."""
+    corners: list[NDArray[np.int32]] = []
     sides: list[IntArray] = []
     named: set[tuple[int, ...]] = set()
-    for part in _parts(lines):
+    for part in lines.parts_of(b"f"):
         words, before = _words(part)
         heads, first = np.flatnonzero(before == LINE_END), np.flatnonzero(before == SPACE)
         values = _values(part, words[heads], 1, np.int64)
-        if values is None or len(values) != len(before) - len(heads) or values.min(initial=1) < 1:
+        if values is None or len(values) != len(before) - len(heads):
+            return None
+        if values.min(initial=1) < 1 or values.max(initial=1) > MOST_NUMBER:
             return None
         each = len(values) // max(1, len(first))
         doubled = part.count(b"//")
@@ -98,24 +117,14 @@ def faces_of(lines: bytes) -> Faces | None:
         if (doubled and each != 2) or (np.delete(before, heads)[::each] != SPACE).any():
             return None
         named.add((0, 2) if doubled else tuple(range(each)))
-        corners.append(values.reshape(-1, each))
+        corners.append(values.reshape(-1, each).astype(np.int32))
         sides.append(np.diff(np.searchsorted(first, heads), append=len(first)))
     if len(named) > 1:
         return None
     if not named:
         return Faces(np.zeros((0, 3, 1), dtype=np.int64), np.zeros(0, dtype=np.int64), (0,))
-    fans, triangles = _fans(np.concatenate(corners), np.concatenate(sides))
+    fans, triangles = _fans(np.concatenate(corners, dtype=np.int64), np.concatenate(sides))
     return Faces(fans, triangles, named.pop())
-
-
-def _parts(lines: bytes) -> Iterator[bytes]:
-    """Whole lines, as many as are looked at together."""
-    start = 0
-    while start < len(lines):
-        stop = lines.find(b"\n", start + AT_ONCE)
-        stop = len(lines) if stop < 0 else stop
-        yield lines[start:stop]
-        start = stop
 
 
 def _words(part: bytes) -> tuple[IntArray, np.ndarray]:

@@ -14,9 +14,10 @@ import tempfile
 from pathlib import Path
 
 from export_bench import generate, run
+from usd_bench import PEAK
 
 TRIMESH = """
-import resource, sys, time
+import sys, time
 start = time.process_time()
 import trimesh
 scene = trimesh.load(sys.argv[1], force="scene", process=False)
@@ -27,15 +28,14 @@ print(loaded - start, time.process_time() - loaded, arrays)
 """
 
 EXPORT = """
-import resource, sys, time
+import sys, time
 start = time.process_time()
 import kinefab
 stages = {}
 def progress(stage, fraction):
     stages[stage] = time.process_time() - start
 kinefab.export(sys.argv[1], sys.argv[2], kinefab.ExportOptions(colliders=sys.argv[3]), progress)
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-print(time.process_time() - start, peak, " ".join(f"{k} until {v:.1f}" for k, v in stages.items()))
+print(time.process_time() - start, peak() * 1024, " ".join(f"{k} until {v:.1f}" for k, v in stages.items()))
 """
 
 
@@ -56,7 +56,7 @@ def main() -> None:
         load, write, arrays = map(float, run(TRIMESH, mesh, folder / "again.glb"))
         print(f"trimesh alone: load {load:.1f} s, write GLB {write:.1f} s, together {load + write:.1f} s")
         target = folder / "bench.unitypackage"
-        total, peak, stages = run(EXPORT, bundle, target, options.colliders)
+        total, peak, stages = run(PEAK + EXPORT, bundle, target, options.colliders)
         print(
             f"kinefab export: {float(total):.1f} s ({stages.strip()}), {target.stat().st_size / 1e6:.0f} MB"
         )

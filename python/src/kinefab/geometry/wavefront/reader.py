@@ -175,7 +175,8 @@ def _parse(lines: Lines, faces: Faces) -> Piece:
     texture, normal = faces.of(1), faces.of(2)
     uv, normals = _values(texture, lines, b"vt", 2), _values(normal, lines, b"vn", 3)
     if uv is None and normals is None:
-        return Piece(vertices, corner - 1, colors=colors)
+        corner -= 1  # hundreds of megabytes, which nobody asks for again
+        return Piece(vertices, np.ascontiguousarray(corner), colors=colors)
     columns = [corner, texture if uv is not None else None, normal if normals is not None else None]
     named: IntArray = np.stack([c.reshape(-1) for c in columns if c is not None], axis=1) - 1
     key = named[:, -1]
@@ -211,7 +212,7 @@ def _uneven_faces(lines: bytes) -> Faces:
         for corner, names in enumerate(line.split()[1:]):
             for k, name in enumerate(names.split(b"/")):
                 numbers[triangle, corner, k] = int(name or 0)
-    return Faces(numbers, np.ones(len(triangles), dtype=np.int64), (0, 1, 2))
+    return Faces(numbers, np.ones(len(triangles), dtype=np.int32), (0, 1, 2))
 
 
 def _numbers(lines: Lines, word: bytes, columns: int) -> Array:

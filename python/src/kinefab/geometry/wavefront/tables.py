@@ -72,7 +72,7 @@ class Faces:
     """
 
     corners: IntArray
-    triangles: IntArray
+    triangles: NDArray[np.int32]
     named: tuple[int, ...]
 
     def of(self, noun: int) -> IntArray | None:
@@ -100,7 +100,7 @@ def numbers_of(lines: Lines, word: bytes) -> Array | None:
 def faces_of(lines: Lines) -> Faces | None:
     """The faces; None where the corners do not all name the same, one counts from the end, or one is none."""
     corners: list[NDArray[np.int32]] = []
-    sides: list[IntArray] = []
+    sides: list[NDArray[np.int32]] = []
     named: set[tuple[int, ...]] = set()
     for part in lines.parts_of(b"f"):
         words, before = _words(part)
@@ -118,12 +118,14 @@ def faces_of(lines: Lines) -> Faces | None:
             return None
         named.add((0, 2) if doubled else tuple(range(each)))
         corners.append(values.reshape(-1, each).astype(np.int32))
-        sides.append(np.diff(np.searchsorted(first, heads), append=len(first)))
+        sides.append(np.diff(np.searchsorted(first, heads), append=len(first)).astype(np.int32))
     if len(named) > 1:
         return None
     if not named:
-        return Faces(np.zeros((0, 3, 1), dtype=np.int64), np.zeros(0, dtype=np.int64), (0,))
-    fans, triangles = _fans(np.concatenate(corners, dtype=np.int64), np.concatenate(sides))
+        return Faces(np.zeros((0, 3, 1), dtype=np.int64), np.zeros(0, dtype=np.int32), (0,))
+    whole = np.concatenate(corners, dtype=np.int64)
+    corners.clear()
+    fans, triangles = _fans(whole, np.concatenate(sides))
     return Faces(fans, triangles, named.pop())
 
 
@@ -149,7 +151,7 @@ def _values(part: bytes, heads: IntArray, letters: int, kind: type[np.generic]) 
         return None
 
 
-def _fans(corners: IntArray, sides: IntArray) -> tuple[IntArray, IntArray]:
+def _fans(corners: IntArray, sides: NDArray[np.int32]) -> tuple[IntArray, NDArray[np.int32]]:
     """Polygons cut into triangles from their first corners, shape (t, 3, k), and how many each gives.
 
     corners: of one after another, shape (n, k).  sides: of each.

@@ -197,8 +197,7 @@ def _snapped(pair: Pair, edge: Edge) -> Pair:
     if pair.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.SCREW) and main.is_axial:
         if _off(main, pair) < SNAP * max(edge.scale.length, 1e-12):
             middle = main.a.point + main.axis * (0.5 * (main.span[0] + main.span[1]))
-            sign = 1.0 if float(main.axis @ pair.axis) > 0.0 else -1.0
-            return replace(pair, point=middle, axis=main.axis, pitch=pair.pitch * sign * sign)
+            return replace(pair, point=middle, axis=main.axis)  # a thread's hand hangs on no direction
     if pair.kind is JointKind.SPHERICAL and main.kind is ContactKind.BALL:
         return replace(pair, point=main.a.point)
     if pair.kind in (JointKind.PRISMATIC, JointKind.PLANAR):

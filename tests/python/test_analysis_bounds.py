@@ -72,6 +72,24 @@ def test_a_bounded_distance_has_the_sign_of_the_exported_pose(normal, reading, l
     assert limits(parts(*slide(), bound), TX) == pytest.approx((-0.05, 0.25))
 
 
+def test_two_bounds_of_one_motion_leave_what_both_allow_and_one_that_leaves_nothing_is_told():
+    """Of the arm 0.15 along +Z; a range whose ends were exchanged made a scene that the C# reader refuses."""
+    sides = at(0, FeatureKind.PLANE, Z), at(1, FeatureKind.PLANE, Z, 0.15 * Z)
+
+    def bounds(*ranges):
+        named = [f"bound {i}" if i else "bound" for i in range(len(ranges))]
+        kind = ConstraintKind.DISTANCE
+        return parts(
+            *slide(), *(Constraint(n, kind, sides, lower=a, upper=b) for n, (a, b) in zip(named, ranges))
+        )
+
+    assert limits(bounds((0.1, 0.4), (-0.2, 0.3)), TX) == pytest.approx((-0.05, 0.15))
+    apart = bounds((0.1, 0.2), (0.3, 0.4))
+    assert limits(apart, TX) == pytest.approx((-0.05, 0.05))
+    (told,) = (o for o in analyse(apart).report.outcomes if o.feature == "constraint bound 1")
+    assert (told.code, told.outcome) == ("CONSTRAINT_RANGE_EXCLUDED", Outcome.DROPPED)
+
+
 @pytest.mark.parametrize(
     ("here", "lower", "upper", "axis", "reading", "expected"),
     [

@@ -162,6 +162,7 @@ CASES = {
     "DOF_DIRECTION_DIFFERS": lambda: listed([X, Z], [Z]),
     "CONSTRAINT_RANGE_KEPT": lambda: bounded(SLIDE),
     "CONSTRAINT_RANGE_DROPPED": lambda: bounded(BALL),
+    "CONSTRAINT_RANGE_EXCLUDED": lambda: bounded(SLIDE, mate("apart", C.DISTANCE, lower=0.3, upper=0.4)),
     "COUPLING_HELD": bolted_screw,
     "COUPLING_UNPLACED": lambda: parts(joining("gear", C.GEAR, *LINES, value=2.0)),
     "LIMITS_FOUND": lambda: scene("M03"),

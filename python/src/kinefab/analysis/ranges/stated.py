@@ -39,6 +39,12 @@ def with_ranges(assembly: Assembly, links: list[Link], scene: Scene, report: Rep
         old = joint.freedoms[freedom]
         freedoms = list(joint.freedoms)
         low, high = max(old.lower, low), min(old.upper, high)
+        if low > high:
+            told = {"id": constraint.id, "joint": joint.id}
+            report.dropped(
+                f"constraint {constraint.id}", "CONSTRAINT_RANGE_EXCLUDED", constraint.where, **told
+            )
+            continue
         freedoms[freedom] = replace(old, motion=Motion.LIMITED, lower=low, upper=high)
         links[index] = links[index].changed(freedoms=tuple(freedoms), because=(*joint.because, constraint.id))
         report.add("CONSTRAINT_RANGE_KEPT", constraint.where, id=constraint.id, joint=joint.id)

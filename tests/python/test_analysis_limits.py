@@ -89,6 +89,20 @@ def test_a_limit_of_one_joint_ends_the_range_of_the_others():
         assert abs(abs(math.atan2(turn[1, 0], turn[0, 0])) - math.radians(10.0)) < 1e-6
 
 
+def test_a_range_that_the_mechanism_cannot_come_into_stays_as_the_source_has_it():
+    """M03's crank stands at its zero and comes to 54 degrees at most; its source says 60 to 90."""
+    source = scene("M03")
+    stated = math.radians(60.0), math.radians(90.0)
+    limited = Freedom(Motion.LIMITED, *stated)
+    joints = [
+        replace(j, freedoms=(*j.freedoms[:3], limited, *j.freedoms[4:])) if j.id == "base - crank" else j
+        for j in analyse(source).joints
+    ]
+    found = analyse(replace(source, joints=joints, constraints=[]), SWEEP)
+    crank = next(j for j in found.joints if j.id == "base - crank").freedoms[3]
+    assert (crank.lower, crank.upper) == pytest.approx(stated)
+
+
 def crank_limit(crank: float, others: float, ground: float = 1.5) -> float:
     """Angle from the ground line at which the rest of a ring of bars is stretched out (law of cosines), radians."""
     return math.acos((crank**2 + ground**2 - others**2) / (2.0 * crank * ground))

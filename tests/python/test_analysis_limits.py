@@ -89,6 +89,14 @@ def test_a_limit_of_one_joint_ends_the_range_of_the_others():
         assert abs(abs(math.atan2(turn[1, 0], turn[0, 0])) - math.radians(10.0)) < 1e-6
 
 
+def test_limits_are_written_on_the_joints_to_the_ground_alone():
+    """Each range is told; one more limit on the joints between the moving bars would stop the same motion twice."""
+    found, by_joint = ranges("M03")
+    limited = {j.id for j in found.joints if any(f.motion is Motion.LIMITED for f in j.freedoms)}
+    inner = {name for name, r in by_joint.items() if "base" not in name and not r.endless}
+    assert limited == {"base - crank", "base - rocker"} and inner
+
+
 def test_a_range_that_the_mechanism_cannot_come_into_stays_as_the_source_has_it():
     """M03's crank stands at its zero and comes to 54 degrees at most; its source says 60 to 90."""
     source = scene("M03")

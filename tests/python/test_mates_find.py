@@ -10,7 +10,9 @@ from kinefab.analysis import analyse
 from kinefab.diagnostics import Report
 from kinefab.mates.apply import with_found
 from kinefab.mates.find import find_mates
+from kinefab.model import RX
 from kinefab.sources import read
+from kinefab.spatial import rotation_log
 
 pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
 
@@ -95,3 +97,26 @@ def test_a_contact_over_a_clearance_holds_where_it_was_drawn(tmp_path: Path):
     found = analyse(with_found(scene, mates, Report()))
     assert not [d for d in found.report.diagnostics if d.code in ("CONSTRAINT_GAP", "CONSTRAINTS_CONTRADICT")]
     assert found.mobility == 4
+
+
+def test_wheels_in_mesh_turn_as_their_teeth_do(tmp_path: Path):
+    """20 teeth in 30 turn the other way by two thirds; a sun of 18 in a ring of 54 that stands still turns the carrier by a
+    quarter (Willis), the same way."""
+    for name, driver, follower, ratio in (
+        ("gears", "GearA", "GearB", -20 / 30),
+        ("planetary", "Sun", "Carrier", 18 / (18 + 54)),
+    ):
+        machine = written(name, Variant(), tmp_path / f"{name}.step")
+        scene = read(tmp_path / f"{name}.step", Report())
+        found = analyse(with_found(scene, find_mates(scene, machine.ground), Report()))
+        names = [node.name.partition(":")[0] for node in found.source.nodes]
+        a, b = names.index(driver), names.index(follower)
+        hinge = next(
+            j for j in found.joints if {j.a, j.b} & {a} and j.kind.value in ("revolute", "cylindrical")
+        )
+        drive = found.drive((hinge.id, RX))
+        drive.to([0.3])
+        axis = (found.source.pose(hinge.a) @ hinge.frame_a).rotation[:, 0]
+        turns = (drive.poses()[i].rotation @ found.source.nodes[i].pose.rotation.T for i in (a, b))
+        angles = [float(rotation_log(turn) @ axis) for turn in turns]
+        assert abs(angles[0]) > 0.05 and angles[1] / angles[0] == pytest.approx(ratio)

@@ -8,9 +8,11 @@ import subprocess
 from dataclasses import replace
 
 import kinefab
+import numpy as np
 import pytest
 from kinefab.analysis import analyse
 from kinefab.model import RX, TX, Coupling, CouplingKind, JointKind, Motion, Term
+from kinefab.spatial import Pose
 
 TOOL = shutil.which("dotnet-kinefab")
 
@@ -76,3 +78,14 @@ def test_what_follows_is_chosen_anew_where_it_is_held():
     ids = {j.name: j.id for j in found.joints}
     assert (left.joint, left.freedom) == (ids["Wheel"], RX)
     assert left.terms == (Term(ids["Carriage"], TX, -4.0),)
+
+
+def test_what_is_left_of_a_coupling_holds_where_the_joints_stand():
+    """Carriage = 0.3 wheel + 0.7 dial + 0.05, and the carriage stands 0.05 m from where its frames meet."""
+    scene = coupled("Carriage", TX, Term("Wheel", RX, 0.3), Term("Dial", RX, 0.7))
+    index = next(i for i, node in enumerate(scene.nodes) if node.name == "Carriage")
+    moved = replace(scene.nodes[index], pose=Pose(translation=np.array([0.05, 0.0, 0.0])))
+    nodes = [*scene.nodes[:index], moved, *scene.nodes[index + 1 :]]
+    found = analyse(replace(scene, nodes=nodes, couplings=[replace(scene.couplings[0], offset=0.05)]))
+    (left,) = found.couplings
+    assert left.offset == pytest.approx(0.05) and len(left.terms) == 1

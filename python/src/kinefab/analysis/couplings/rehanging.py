@@ -59,9 +59,11 @@ def rehung(assembly: Assembly, links: list[Link], scene: Scene, report: Report) 
                 and carrier is not None
                 and _hang(assembly, links, scene, report, statement, feature.node, carrier, counted)
             )
-            if not hung and (over := _over_others(assembly, links, scene, feature, carrier)):
+            over = None if hung else _over_others(assembly, links, scene, feature, carrier)
+            if over is not None:
                 _stand_beside(links, scene, report, statement, over)
-            by_pair = by_pair_of(links)
+            if hung or over is not None:
+                by_pair = by_pair_of(links)
     return links
 
 

@@ -54,7 +54,7 @@ class Parts:
         """groups: collision group of each collider's path.  purposes: those that are drawn."""
         self._opened, self._values, self._found, self._report = opened, values, found, report
         self._groups, self._purposes = groups, purposes or DEFAULT_PURPOSES
-        self._shown = Materials(opened, values, report)
+        self._shown = Materials(values)
         self.looks = Surfaces(opened, values, report, self._shown)
         self.library = Library(opened, values, self.looks.covers, report)
         self._colliders = Colliders(opened, values, self.library, report)

@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ....diagnostics import Report
 from ..api import Usd, UsdShade
 from ..prims import source_path
-from ..stage import OpenStage
 from ..values import Values
 from .inputs import DISPLAY, is_reader
 from .textures import read_input
@@ -25,9 +23,7 @@ CONTEXTS = ("", "mtlx", "mdl")
 class Materials:
     """Those that prims are bound to, by the prims' paths."""
 
-    opened: OpenStage
     values: Values
-    report: Report
     _bound: dict[str, Any] = field(default_factory=dict[str, Any])
     _astray: set[Any] = field(default_factory=set[Any])
     _kinds: dict[str, str] = field(default_factory=dict[str, str])
@@ -59,13 +55,13 @@ class Materials:
             names = self.values.traits(prim).names.intersection(BINDINGS)
             for name in sorted(names):
                 for target in prim.GetRelationship(name).GetForwardedTargets():
-                    feature, where = f"material of {prim.GetPath()}", self.opened.place(prim, name)
-                    found = self.opened.stage.GetPrimAtPath(target)
+                    feature, where = f"material of {prim.GetPath()}", self.values.opened.place(prim, name)
+                    found = self.values.opened.stage.GetPrimAtPath(target)
                     if not found:
-                        self.report.dropped(feature, "USD_TARGET_MISSING", where, path=str(target))
+                        self.values.report.dropped(feature, "USD_TARGET_MISSING", where, path=str(target))
                     elif not UsdShade.Material(found):
                         detail = f"it leads to {target}, which is no Material"
-                        self.report.dropped(feature, "USD_FEATURE_DROPPED", where, detail=detail)
+                        self.values.report.dropped(feature, "USD_FEATURE_DROPPED", where, detail=detail)
             prim = prim.GetParent()
 
     def displays(self, material: Any) -> frozenset[str]:

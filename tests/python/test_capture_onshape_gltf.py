@@ -71,7 +71,7 @@ def expected() -> np.ndarray:
 
 @pytest.mark.parametrize("binary", [True, False], ids=["glb", "gltf"])
 def test_the_double_is_a_gltf_to_others(binary):
-    loaded = trimesh.load_scene(
+    loaded = trimesh.load(
         io.BytesIO(exported(POINTS, FACES, TWO, binary)), file_type="glb" if binary else "gltf"
     )
     assert loaded.bounds == pytest.approx(np.array([POINTS.min(axis=0), POINTS.max(axis=0)]))

@@ -14,7 +14,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
-from golden import FIXTURES
+from golden import FIXTURES, golden_pairs
 from kinefab import model
 from kinefab.diagnostics import Outcome
 from kinefab.model import Body, Collider, ColliderKind, Freedom, JointKind, Motion, Node, Scene
@@ -315,50 +315,105 @@ def test_losses_are_told_by_name(tmp_path):
     assert arm and not stage.GetPrimAtPath("/robot/Cart/Arm") and complaints(stage) == []
 
 
-def test_a_joint_follows_one_other_and_a_coupling_may_be_turned_round_for_it(tmp_path):
-    """Two wheels that follow a third, which is how a planet hangs on sun and ring; three on two are one too many."""
+def test_what_is_coupled_together_follows_one_joint(tmp_path):
+    """Two wheels that follow a third, then a third that follows one of them: a chain, of which Newton takes no mimic of a mimic.
+    What the others imply is written by them."""
     scene = scene_of(JointKind.REVOLUTE)
     base, frame = scene.nodes[0], scene.joints[0].frame_a
     free = model.freedoms_of(JointKind.REVOLUTE)
-    nodes = [base, *(replace(scene.nodes[1], id=f"W{i}", name=f"W{i}") for i in range(3))]
+    nodes = [base, *(replace(scene.nodes[1], id=f"W{i}", name=f"W{i}") for i in range(4))]
     joints = [
         model.Joint(f"J{i}", JointKind.REVOLUTE, 0, i + 1, frame, scene.joints[0].frame_b, free)
-        for i in range(3)
+        for i in range(4)
     ]
-    pairs = [("J0", "J1", 2.0), ("J0", "J2", -3.0), ("J2", "J1", -2.0 / 3.0)]
+    pairs = [("J0", "J1", 2.0, 0.1), ("J2", "J0", -3.0, 0.2), ("J3", "J2", 0.5, -0.4)]
     ties = [
-        model.Coupling(f"C{k}", model.CouplingKind.GEAR, own, model.RX, (model.Term(other, model.RX, ratio),))
-        for k, (own, other, ratio) in enumerate(pairs)
+        model.Coupling(
+            f"C{k}", model.CouplingKind.GEAR, own, model.RX, (model.Term(other, model.RX, ratio),), offset
+        )
+        for k, (own, other, ratio, offset) in enumerate(pairs)
     ]
-    stage, result = opened(Scene(nodes, joints=joints, couplings=ties[:2]), tmp_path / "gears.usda")
+    implied = replace(
+        ties[0], id="Again", joint="J3", terms=(model.Term("J1", model.RX, -3.0),), offset=-0.45
+    )
+    gears = Scene(nodes, joints=joints, couplings=[*ties, implied])
+    stage, result = opened(gears, tmp_path / "gears.usda")
     follows = {
         p.GetName(): (
             p.GetRelationship("newton:mimicJoint").GetTargets()[0].name,
             p.GetAttribute("newton:mimicCoef1").Get(),
+            math.radians(p.GetAttribute("newton:mimicCoef0").Get()),
         )
         for p in stage.Traverse()
         if p.HasRelationship("newton:mimicJoint")
     }
-    assert len(follows) == 2
-    for own, other, ratio in pairs[:2]:
-        assert follows.get(own) == (other, pytest.approx(ratio)) or follows.get(other) == (
-            own,
-            pytest.approx(1.0 / ratio),
-        )
-    physx = stage.GetPrimAtPath(f"/gears/Joints/{next(iter(follows))}")
-    assert physx.GetAttribute("physxMimicJoint:rotX:gearing").Get() == pytest.approx(
-        -follows[physx.GetName()][1]
+    assert follows == {
+        "J0": ("J1", pytest.approx(2.0), pytest.approx(0.1)),
+        "J2": ("J1", pytest.approx(-6.0), pytest.approx(-0.1)),
+        "J3": ("J1", pytest.approx(-3.0), pytest.approx(-0.45)),
+    }
+    for name, (_, ratio, offset) in follows.items():
+        prim = stage.GetPrimAtPath(f"/gears/Joints/{name}")
+        assert prim.GetAttribute("physxMimicJoint:rotX:gearing").Get() == pytest.approx(-ratio)
+        told = math.radians(prim.GetAttribute("physxMimicJoint:rotX:offset").Get())
+        assert told == pytest.approx(-offset)
+    told = {
+        o.feature: (o.outcome, o.code) for o in result.report.outcomes if o.feature.startswith("coupling")
+    }
+    assert len(told) == 4 and {outcome for outcome, _ in told.values()} == {Outcome.KEPT}
+
+
+def test_what_no_engine_couples_is_written_in_words_of_our_own(tmp_path):
+    """Slides of joints that turn too: one coupling on each of the two, the second turned round; a third has no place."""
+    scene = scene_of(JointKind.CYLINDRICAL)
+    base, part, joint = scene.nodes[0], scene.nodes[1], scene.joints[0]
+    nodes = [base, *(replace(part, id=f"R{i}", name=f"R{i}") for i in range(2))]
+    joints = [replace(joint, id=f"J{i}", a=0, b=i + 1) for i in range(2)]
+    tie = model.Coupling(
+        "C0", model.CouplingKind.LINEAR, "J0", model.TX, (model.Term("J1", model.TX, -2.0),), 0.01
     )
-    assert "COUPLING_FOLLOWS_TWO" not in codes(result)
-    _, result = opened(
-        Scene(
-            nodes[:3],
-            joints=joints[:2],
-            couplings=[ties[0], replace(ties[0], id="D"), replace(ties[0], id="E")],
-        ),
-        tmp_path / "more.usda",
-    )
-    assert "COUPLING_FOLLOWS_TWO" in codes(result, Outcome.DROPPED)
+    ties = [replace(tie, id=f"C{i}") for i in range(3)]
+    stage, result = opened(Scene(nodes, joints=joints, couplings=ties), tmp_path / "rods.usda")
+    names = ("freedom", "ratio", "offset")
+    found = []
+    for i in range(2):
+        prim = stage.GetPrimAtPath(f"/rods/Joints/J{i}")
+        assert prim.GetRelationship("kinefab:mimic:transX:joint").GetTargets()[0].name == f"J{1 - i}"
+        assert not any("Mimic" in schema for schema in prim.GetAppliedSchemas())
+        found.append([prim.GetAttribute(f"kinefab:mimic:transX:{name}").Get() for name in names])
+    assert found == [["transX", -2.0, 0.01], ["transX", -0.5, 0.005]]
+    told = [(o.outcome, o.code) for o in result.report.outcomes if o.feature.startswith("coupling")]
+    approximated = (Outcome.APPROXIMATED, "TARGET_FEATURE_APPROXIMATED")
+    assert told == [approximated, approximated, (Outcome.DROPPED, "COUPLING_FOLLOWS_TWO")]
+
+
+@pytest.mark.parametrize("bundle", [b for b, _ in golden_pairs()], ids=lambda b: b.name.split(".")[0])
+def test_articulations_are_as_engines_of_reduced_coordinates_take_them(tmp_path, bundle):
+    """Newton refuses a stage in which body 0 of a joint is not the parent, or a joint follows one that follows another."""
+    stage, _ = opened(bundle, tmp_path / "stage.usda", colliders="none")
+    parents, roots, leaders, followers = {}, set(), set(), set()
+    for prim in stage.Traverse():
+        if not prim.IsA(UsdPhysics.Joint):
+            continue
+        for name in ("newton:mimicJoint", *(f"physxMimicJoint:rot{axis}:referenceJoint" for axis in "XYZ")):
+            if prim.HasRelationship(name):
+                followers.add(prim.GetPath())
+                leaders |= set(prim.GetRelationship(name).GetTargets())
+        joint = UsdPhysics.Joint(prim)
+        if not joint.GetExcludeFromArticulationAttr().Get():
+            first, second = (r.GetTargets()[0] for r in (joint.GetBody0Rel(), joint.GetBody1Rel()))
+            assert second not in parents, f"{second} has two parents"
+            parents[second] = first
+    for body in parents:
+        above, seen = body, set()
+        while above in parents:
+            assert above not in seen
+            seen.add(above)
+            above = parents[above]
+        roots.add(above)
+    heads = {r for r in roots if r != stage.GetDefaultPrim().GetPath()}
+    assert all(stage.GetPrimAtPath(head).HasAPI(UsdPhysics.ArticulationRootAPI) for head in heads)
+    assert not leaders & followers
 
 
 def test_a_slide_along_another_axis_is_a_prismatic_joint_of_that_axis(tmp_path):

@@ -30,11 +30,20 @@ from kinefab.model import (
     freedoms_of,
 )
 from kinefab.spatial import Pose, rotation_about, rotation_exp
-from scene_kinematics import unity_point
+from scene_kinematics import (
+    WORLD,
+    SceneKinematics,
+    compose,
+    difference,
+    inverse,
+    matrix_of,
+    unity_point,
+)
 from test_dynamics_physx5 import PYTHON, TOOL, physx5
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
 from pxr import Usd, UsdGeom  # noqa: E402
+from usd_roundtrip import sources  # noqa: E402
 
 needs_physx = pytest.mark.skipif(
     PYTHON is None, reason="ovphysx is not installed, and KINEFAB_OVPHYSX names no Python that has it"
@@ -143,25 +152,96 @@ def test_joints_without_ends_are_coupled(tmp_path, terms):
     assert float(np.abs(angles[:, 2] - follows).max()) < 3e-5
 
 
+def in_newton(stage: Path):
+    """Newton and its model of a stage."""
+    newton = pytest.importorskip("newton", reason="newton is not installed")
+    pytest.importorskip("newton_usd_schemas", reason="newton's importers are not installed")
+    from newton.usd import SchemaResolverNewton, SchemaResolverPhysx
+
+    builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
+    builder.add_usd(str(stage), schema_resolvers=[SchemaResolverNewton(), SchemaResolverPhysx()])
+    return newton, builder.finalize()
+
+
+def newton_poses(newton, model, moved: dict[int, float]) -> list:
+    """Of each body, in the stage's frame.  moved: what is added to joint coordinates, by their number."""
+    import warp
+
+    q = model.joint_q.numpy().copy()
+    for number, more in moved.items():
+        q[number] += more
+    state = model.state()
+    newton.eval_fk(model, warp.array(q, dtype=float), model.joint_qd, state)
+    return [(matrix_of(p[3:]), p[:3].astype(float)) for p in state.body_q.numpy()]
+
+
 @pytest.mark.parametrize("source", ["lever/lever.bundle.json", "twins/arm.urdf", "twins/fourbar.bundle.json"])
 def test_newton_puts_the_bodies_where_they_stand(tmp_path, source):
     """By its own forward kinematics from the joints' states, loops among them; masses and axes of inertia by the way."""
-    newton = pytest.importorskip("newton", reason="newton is not installed")
-    from newton.usd import SchemaResolverNewton, SchemaResolverPhysx
-
     result = kinefab.export(FIXTURES / source, tmp_path / "stage.usda", BARE)
-    builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
-    builder.add_usd(str(result.path), schema_resolvers=[SchemaResolverNewton(), SchemaResolverPhysx()])
-    model = builder.finalize()
-    state = model.state()
-    newton.eval_fk(model, model.joint_q, model.joint_qd, state)
-    stage = Usd.Stage.Open(str(result.path))
+    newton, model = in_newton(result.path)
     cache = UsdGeom.XformCache()
+    stage = Usd.Stage.Open(str(result.path))
     assert model.body_count > 3
-    for label, pose in zip(model.body_label, state.body_q.numpy()):
+    for label, (rotation, place) in zip(model.body_label, newton_poses(newton, model, {})):
         world = cache.GetLocalToWorldTransform(stage.GetPrimAtPath(label))
-        assert np.allclose(pose[:3], world.ExtractTranslation(), atol=2e-6)
-        turn = world.ExtractRotationQuat()
-        assert math.isclose(
-            abs(float(np.dot(pose[3:], [*turn.GetImaginary(), turn.GetReal()]))), 1.0, abs_tol=1e-5
-        )
+        assert np.allclose(place, world.ExtractTranslation(), atol=2e-6)
+        assert np.allclose(rotation, np.array(world.ExtractRotationMatrix()).T, atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    "source",
+    ["twins/arm.urdf", "mechanisms/M14.bundle.json", "mechanisms/M27.bundle.json", "mechanisms/M42.bundle.json", "mechanisms/M43.bundle.json"],
+)  # fmt: skip
+def test_newton_moves_each_joint_as_unity_does(tmp_path, source):
+    """Each hinge and slide of its articulation by a fifth of a radian or a metre, the sense of its range by that; of the fixtures
+    some have joints that are written the other way round, or chains of couplings, and Newton refused them once."""
+    scene = SceneKinematics.load(kinefab.export(FIXTURES / source, tmp_path / "scene.kinefab", BARE).path)
+    result = kinefab.export(FIXTURES / source, tmp_path / "stage.usda", BARE)
+    newton, model = in_newton(result.path)
+    told, objects = sources(result.path), {entry["id"]: i for i, entry in enumerate(scene.objects)}
+    number = [objects.get(told.get(label[1:], "")) for label in model.body_label]
+    number = [
+        i if i is not None and scene.body_of[i] == i else None for i in number
+    ]  # what is fixed is the ground's
+    mirror = np.diag([-1.0, 1.0, 1.0])
+    for i, (rotation, place) in zip(number, newton_poses(newton, model, {})):
+        if i is not None:
+            assert max(difference((mirror @ rotation @ mirror, mirror @ place), scene.placed[i])) < 1e-5
+    grounds = {None, *(i for i, entry in enumerate(scene.objects) if entry["id"] == "kinefab:ground")}
+    checked = 0
+    kinds = {int(newton.JointType.REVOLUTE): True, int(newton.JointType.PRISMATIC): False}
+    for j, kind in enumerate(model.joint_type.numpy().tolist()):
+        parent, child = (int(side.numpy()[j]) for side in (model.joint_parent, model.joint_child))
+        ends = {number[child], None if parent < 0 else number[parent]}
+        found = [
+            s for s in scene.joints if {scene.body_of[s.game_object], s.connected} - grounds == ends - {None}
+        ]
+        if kind not in kinds or len(found) != 1 or len(found[0].coordinates) != 1 or found[0].closure:
+            continue
+        name = model.joint_label[j]
+        (coordinate,) = found[0].coordinates
+        turns, first = kinds[kind], int(model.joint_q_start.numpy()[j])
+        moved = newton_poses(newton, model, {first: 0.2})
+        above = moved[parent] if parent >= 0 else WORLD
+        rotation, place = compose(inverse(above), moved[child])
+        expected = (mirror @ rotation @ mirror, mirror @ place)
+        on = None if parent < 0 else number[parent]
+        senses = []
+        for sense in (1.0, -1.0):
+            poses = scene.poses({coordinate: sense * (math.degrees(0.2) if turns else 0.2)})
+            relative = compose(inverse(WORLD if on is None else poses[on]), poses[number[child]])
+            if max(difference(relative, expected)) < 1e-5:
+                senses.append(sense)
+        assert len(senses) == 1, name
+        unit = math.degrees(1.0) if turns else 1.0
+        q = float(model.joint_q.numpy()[first])
+        dof = int(model.joint_qd_start.numpy()[j])
+        ends = [
+            (float(limits.numpy()[dof]) - q) * unit
+            for limits in (model.joint_limit_lower, model.joint_limit_upper)
+        ]
+        ends = sorted(senses[0] * (end if abs(end) < 1e5 else math.copysign(math.inf, end)) for end in ends)
+        assert ends == pytest.approx(scene.range_of(coordinate), abs=1e-3), name
+        checked += 1
+    assert checked > 1

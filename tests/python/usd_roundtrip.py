@@ -96,15 +96,32 @@ class Told:
         return found
 
     def couplings(self) -> dict[tuple, tuple]:
+        """Of all coordinates that are tied together how each follows the first by name, whichever follow which in the file;
+        couplings of several terms by their ends."""
+
         def end(c):
             component = self.scene.gameObjects[c.gameObject].components[c.component]
             return self._name(component.id), c.coordinate
 
-        found = {}
+        found, ties = {}, {}
         for c in self.scene.couplings:
-            if c.id not in self.lost:
-                ends = tuple(end(e.coordinate) for e in (c, *c.terms))
-                found[ends] = (*(t.ratio for t in c.terms), c.offset)
+            if c.id in self.lost:
+                continue
+            own, *led = (end(e.coordinate) for e in (c, *c.terms))
+            if len(led) > 1:
+                found[(own, *led)] = (*(t.ratio for t in c.terms), c.offset)
+                continue
+            ratio = c.terms[0].ratio
+            ties.setdefault(led[0], []).append((own, ratio, c.offset))
+            ties.setdefault(own, []).append((led[0], 1.0 / ratio, -c.offset / ratio))
+        known = set()
+        for first in sorted(ties):
+            waiting = [] if first in known else [(first, 1.0, 0.0)]
+            for here, ratio, offset in waiting:
+                if here not in known:
+                    known.add(here)
+                    found[here, first] = (ratio, offset)
+                    waiting += [(there, k * ratio, k * offset + more) for there, k, more in ties[here]]
         return found
 
     def drawn(self) -> list[tuple[str, tuple, np.ndarray]]:
@@ -210,13 +227,7 @@ def compared(direct: UnityScene, stage, back: UnityScene) -> list[str]:
     dropped = {o.feature.partition(" ")[2] for o in stage.report.outcomes if o.outcome is Outcome.DROPPED}
     one, other = Told(direct, lost=frozenset(dropped)), Told(back, sources(stage.path))
     other.size = one.size
-    found, ties = [], (one.couplings(), other.couplings())
-    for ends in [
-        e for e in ties[1] if e not in ties[0] and e[::-1] in ties[0]
-    ]:  # either may follow the other
-        ratio, offset = ties[1].pop(ends)
-        ties[1][ends[::-1]] = (1.0 / ratio, -offset / ratio)
-    found += apart(*ties, "couplings", DEGREES)
+    found = apart(one.couplings(), other.couplings(), "couplings", DEGREES)
     for part in ("bodies", "joints", "shapes", "drawn"):
         share = LENGTH if part in ("shapes", "drawn") else SHARE
         found += apart(getattr(one, part)(), getattr(other, part)(), part, share)

@@ -35,6 +35,7 @@ from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_
 from .meshes import Mesh, MeshKey, MeshReference
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
 from .scene import EARTH, Physics, Scene, Source, SourceFile
+from .sides import Exchange, exchange_of, is_same_from_both_sides
 from .surfaces import PLAIN, AlphaMode, Surface, Texture, Wrap
 
 __all__ = [
@@ -52,6 +53,7 @@ __all__ = [
     "Drive",
     "Dynamics",
     "EARTH",
+    "Exchange",
     "FREE",
     "FREEDOM_NAMES",
     "Face",
@@ -96,8 +98,10 @@ __all__ = [
     "UNLOCKED",
     "Wrap",
     "alike_from_both_sides",
+    "exchange_of",
     "free_id",
     "freedoms_of",
+    "is_same_from_both_sides",
     "kind_of",
     "unlocked_of",
 ]

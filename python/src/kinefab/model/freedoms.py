@@ -182,6 +182,24 @@ class Freedom:
             at=None if self.at is None else self.at - zero,
         )
 
+    def turned_round(self) -> Freedom:
+        """The same freedom counted the other way.
+
+        >>> kinefab.Freedom(kinefab.Motion.LIMITED, lower=-0.5, upper=1.5).turned_round().lower
+        -1.5
+        """
+        drive, passive = self.drive, self.passive
+        if drive is not None:
+            drive = replace(drive, target=-drive.target, target_velocity=-drive.target_velocity)
+        return replace(
+            self,
+            lower=-self.upper,
+            upper=-self.lower,
+            drive=drive,
+            passive=None if passive is None else replace(passive, rest=-passive.rest),
+            at=None if self.at is None else -self.at,
+        )
+
     def nearest_turn(self, value: float) -> float:
         """The angle, radians, that ``value`` stands for where it is known up to whole turns.
 

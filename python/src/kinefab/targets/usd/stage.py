@@ -10,7 +10,6 @@ import numpy as np
 from ... import __version__
 from ...model import Joint, NodeKind
 from ...rigid import active_nodes
-from ...spatial import Pose
 from ..content import Content
 from .api import Sdf
 from .bodies import Bodies, find_bodies
@@ -178,21 +177,22 @@ class Stage:
         places = Places(scene, self.prims, root, scene.pose(top))
         for ground in bodies.grounded:
             on = None if ground == bodies.base else bodies.base
-            edges.append(self._fixed(scope, on, ground, places))
+            edges.append(self._fixed(scope, on, ground))
         for own, connected in bodies.moving.fixed:
-            edges.append(self._fixed(scope, connected, own, places))
+            edges.append(self._fixed(scope, connected, own))
+        fixed = tuple(edges)
         writer = Joints(scene, bodies, scope, places, report, self.target)
         for joint, name in zip(joints, named):
-            edges.append(writer.write(joint, name, content.findings.get(joint.id)))
+            edges.append(writer.begin(joint, name, content.findings.get(joint.id)))
         kinematic = {i for i in bodies.moving.carriers if not bodies.dynamic(i)}
         base = edges[0].prim if bodies.grounded else None
         trees = mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)
-        write_couplings(scene, writer.written, trees, report, self.target)
+        for edge in fixed:
+            places.write_fixed(edge, edge.prim.path in trees.inward)
+        writer.finish(trees.inward)
+        write_couplings(scene, writer.written, trees.first, report, self.target)
 
-    def _fixed(self, scope: Prim, a: int | None, b: int, places: Places) -> Edge:
-        """A joint that holds b to a (None: the world) as they stand."""
-        scene = self.content.scene
-        prim = scope.child(f"{scene.nodes[b].name} fixed", "PhysicsFixedJoint", scene.nodes[b].id)
-        at: Pose = scene.nodes[b].pose
-        places.write_sides(prim, ((a, at), (b, at)))
-        return Edge(a, b, prim)
+    def _fixed(self, scope: Prim, a: int | None, b: int) -> Edge:
+        """A joint that holds b to a (None: the world) as they stand, without its sides yet."""
+        node = self.content.scene.nodes[b]
+        return Edge(a, b, scope.child(f"{node.name} fixed", "PhysicsFixedJoint", node.id))

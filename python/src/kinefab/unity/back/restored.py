@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -160,7 +160,7 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
         sides.reverse()
     elif alike_from_both_sides(unlocked):
         if not frames.COUNTS_CONNECTED.items() <= extras.items():
-            freedoms = tuple(map(_turned_round, freedoms))
+            freedoms = tuple(map(Freedom.turned_round, freedoms))
             sides.reverse()
         (first, at_first), (_, at_second) = sides
         gap = np.where([i in unlocked for i in range(RX)], world.T @ (at_second - at_first), 0.0)
@@ -174,11 +174,6 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
     because = tuple(str(source) for source in component.get("because", ()))
     own = str(extras.get("name", ""))
     return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
-
-
-def _turned_round(own: Freedom) -> Freedom:
-    """Of a against b what is given of b against a."""
-    return replace(own, lower=-own.upper, upper=-own.lower) if own.motion is Motion.LIMITED else own
 
 
 def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:

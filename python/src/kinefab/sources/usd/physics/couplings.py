@@ -61,6 +61,7 @@ class Couplings:
                     self._values.pass_over(f"physxMimicJoint:{axis}:{name}" for name in PHYSX_MIMIC)
             else:
                 found += [self._physx(entry, axis) for axis in mimics]
+            found += [self._kinefab(entry, name) for name in _own_mimics(self._values, entry.prim)]
         return [coupling for coupling in found if coupling is not None]
 
     def _newton(self, entry: JointPrim) -> Coupling | None:
@@ -85,6 +86,14 @@ class Couplings:
         offset = self._values.number(prim, prefix + "offset", 0.0)
         leader = self._values.word(prim, prefix + "referenceJointAxis", "")
         return self._mimic(entry, prefix + "referenceJoint", instance, leader, -gearing, -offset)
+
+    def _kinefab(self, entry: JointPrim, instance: str) -> Coupling | None:
+        """q = ratio q_leader + offset, in the follower's and the leader's units: what no engine's mimic was, written by Kinefab."""
+        prefix = f"kinefab:mimic:{instance}"
+        ratio = self._values.number(entry.prim, f"{prefix}:ratio", 1.0)
+        offset = self._values.number(entry.prim, f"{prefix}:offset", 0.0)
+        leader = self._values.word(entry.prim, f"{prefix}:freedom", "")
+        return self._mimic(entry, f"{prefix}:joint", instance, leader, ratio, offset)
 
     def _mimic(
         self, entry: JointPrim, relation: str, own: str, other: str, ratio: float, offset: float
@@ -216,3 +225,11 @@ def tell_prims(prims: Sequence[Any], opened: OpenStage, report: Report) -> None:
             f"{prim.GetTypeName()} {identity(prim)}", "USD_FEATURE_DROPPED", opened.place(prim),
             detail="nothing in Unity's joints is like it",
         )  # fmt: skip
+
+
+def _own_mimics(values: Values, prim: Any) -> list[str]:
+    """Freedoms of a prim that follow another by Kinefab's own words."""
+    words = (
+        name.split(":") for name in sorted(values.traits(prim).names) if name.startswith("kinefab:mimic:")
+    )
+    return [parts[2] for parts in words if len(parts) == 4 and parts[3] == "ratio"]

@@ -142,15 +142,3 @@ class Freedoms:
         if not self._values.authored(prim, name):
             return freedom
         return replace(freedom, at=self._values.number(prim, name, 0.0) * self.units.coordinate(turns))
-
-
-def turned_round(freedom: Freedom) -> Freedom:
-    """The same freedom counted the other way."""
-    drive = freedom.drive
-    if drive is not None:
-        drive = replace(drive, target=-drive.target, target_velocity=-drive.target_velocity)
-    passive = freedom.passive
-    if passive is not None:
-        passive = replace(passive, rest=-passive.rest)
-    at = None if freedom.at is None else -freedom.at
-    return replace(freedom, lower=-freedom.upper, upper=-freedom.lower, drive=drive, passive=passive, at=at)

@@ -22,6 +22,7 @@ from ....model import (
     JointKind,
     Motion,
     SphericalDrive,
+    exchange_of,
     freedoms_of,
     kind_of,
     unlocked_of,
@@ -32,7 +33,7 @@ from ..found import Found, JointPrim, body_above, moves_beside, world_of
 from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
 from ..values import Values, schemas
-from .freedoms import DOFS, Freedoms, Units, turned_round
+from .freedoms import DOFS, Freedoms, Units
 from .vendor import passive_of
 
 MAIN = {"X": [0, 1, 2], "Y": [1, 2, 0], "Z": [2, 0, 1]}
@@ -124,7 +125,9 @@ class Joints:
         second = replace(second, axes=second.axes[:, order])
         freedoms, first = _held(freedoms, first, self._opened.frame.length)
         freedoms, slerp = self._slerp(prim, freedoms) if second.node != GROUND else (freedoms, None)
-        if second.node == GROUND:
+        # What this program turned round for the sake of engines goes back, unless it is to be turned round again.
+        turned = self._values.flag(prim, "kinefab:exchanged", False)
+        if first.node != GROUND if turned else second.node == GROUND:
             freedoms, first, second = self._swapped(entry, freedoms, first, second)
         kind = kind_of(unlocked_of(freedoms))
         if kind is JointKind.FIXED:
@@ -343,36 +346,18 @@ class Joints:
     def _swapped(
         self, entry: JointPrim, freedoms: tuple[Freedom, ...], first: Side, second: Side
     ) -> tuple[tuple[Freedom, ...], Side, Side]:
-        """The world as the first side.  Axes are turned so that coordinates keep their sense where they can.
-
-        The inverse of T = Trans(t) R has -t and the turns in the other order; with all axes turned round (and two turns
-        exchanged) both read as before.
-        """
+        """The second side as the first.  Axes are turned so that coordinates keep their sense where they can."""
         turns = [i for i in unlocked_of(freedoms) if i >= RX]
         slides = [i for i in unlocked_of(freedoms) if i < RX]
-        if not turns and len(slides) != 1:
-            axes, names, senses = np.eye(3), (0, 1, 2), (-1, -1, -1)
-        elif len(turns) == 2:
-            i, j = turns[0] - RX, turns[1] - RX
-            swap = [j if k == i else i if k == j else k for k in range(3)]
-            axes, names, senses = -np.eye(3)[:, swap], tuple(swap), (1, 1, 1)
-        else:
-            main = (turns or slides)[0] % 3
-            across = (main + 1) % 3
-            axes, names = -np.eye(3), (0, 1, 2)
-            axes[across, across] = 1.0
-            senses = tuple(-1 if k == across else 1 for k in range(3))
-        self.readings.turned[entry.id] = (names, senses)
+        exchange = exchange_of(freedoms)
+        self.readings.turned[entry.id] = (exchange.names, exchange.senses)
         other = [i for i in slides if [i + RX] != turns]
         if turns and any(freedoms[i].motion is Motion.LIMITED or freedoms[i].drive for i in other):
             self._approximated(
                 entry, "its second body is the world; its slides were taken along the other body's axes"
             )
-        found: list[Freedom] = []
-        for i in range(6):
-            freedom = freedoms[names[i % 3] + (i // 3) * 3]
-            found.append(turned_round(freedom) if senses[i % 3] < 0 else freedom)
-        return tuple(found), replace(second, axes=second.axes @ axes), replace(first, axes=first.axes @ axes)
+        first, second = (replace(side, axes=side.axes @ exchange.axes) for side in (second, first))
+        return exchange.freedoms(freedoms), first, second
 
     def _approximated(self, entry: JointPrim, detail: str) -> None:
         self._report.approximated(

@@ -4,137 +4,196 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from ....diagnostics import Report
-from ....model import RX, TX, Coupling, Joint, Scene, Term
+from ....model import RX, TX, Coupling, Joint, Scene
+from ....partition import Partition
 from ....unity.joints.coordinates import canonical, coordinates_in
 from ....unity.joints.couplings import lead_coupling, uncoupled_screws
 from .joints import WrittenJoint
 
-TURNS = ("rotX", "rotY", "rotZ")
-"""Axes that PhysX's own mimic knows."""
 BOUNDS = {"physics:lowerLimit": -1e30, "physics:upperLimit": 1e30}
 """Degrees or metres: PhysX couples hinges and slides of finite ranges only, and from 1e38 on a bound is none for it.  Kinefab's own
 reader takes these for none."""
+
+_Slot = tuple[str, int]
+"""A coordinate: id of its joint, and the freedom TX..RZ of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """What a coordinate is of the one that leads: ratio * q + offset, metres and radians."""
+
+    ratio: float = 1.0
+    offset: float = 0.0
+
+    def followed(self, coupling: Coupling, backwards: bool) -> _Motion:
+        """Of what follows this one by a coupling of one term; backwards: of what the coupling's own coordinate follows."""
+        ratio = coupling.terms[0].ratio
+        if backwards:
+            return _Motion(self.ratio / ratio, (self.offset - coupling.offset) / ratio)
+        return _Motion(ratio * self.ratio, ratio * self.offset + coupling.offset)
 
 
 def write_couplings(
     scene: Scene, joints: Mapping[str, WrittenJoint], trees: Mapping[Any, int], report: Report, ending: str
 ) -> None:
-    """q = ratio q_leader + offset on the prim of the joint that follows; the report tells what no mimic is.
+    """A mimic on the prim of each joint that follows; the report tells what no mimic is.
 
-    trees: of what is in an articulation, as ``mark_articulations`` has it."""
-    sound: list[Coupling] = []
-    for coupling in [*scene.couplings, *_screws(scene, joints)]:
-        feature = f"coupling {coupling.id}"
-        if len(coupling.terms) != 1:
-            report.dropped(
-                feature, "COUPLING_TERMS_DROPPED", coupling.where,
-                coupling=coupling.id, terms=len(coupling.terms), target=ending,
-            )  # fmt: skip
-            continue
-        ends = [(coupling.joint, coupling.freedom), (coupling.terms[0].joint, coupling.terms[0].freedom)]
-        lost = [
-            name for name, freedom in ends if name not in joints or freedom not in joints[name].instance_of
-        ]
-        if lost:
-            report.dropped(
-                feature, "COUPLING_WITHOUT_JOINT", coupling.where, coupling=coupling.id, joint=lost[0]
-            )
-            continue
-        sound.append(coupling)
-    for coupling, follows in zip(sound, _followers(sound, joints)):
-        if follows is None:
-            feature = f"coupling {coupling.id}"
-            report.dropped(
-                feature, "COUPLING_FOLLOWS_TWO", coupling.where, coupling=coupling.id, target=ending
-            )
-            continue
-        coupling = coupling if follows else _turned_round(coupling)
-        _write(coupling, coupling.terms[0], joints, trees, report, ending)
-
-
-def _followers(couplings: Sequence[Coupling], joints: Mapping[str, WrittenJoint]) -> list[bool | None]:
-    """For each coupling whether its own coordinate follows, or the other one does; None where both follow others already.
-
-    A coordinate follows one other, so each coupling is matched with one of its two coordinates.
+    Of what is coupled together all follow one, as Newton has no mimic of a mimic.
+    trees: of what is in an articulation, as ``mark_articulations`` has it.
     """
-
-    def slot(joint: str, freedom: int) -> tuple[str, int]:
-        return joint, -1 if joints[joint].typed else freedom
-
-    ends = [[slot(c.joint, c.freedom), slot(c.terms[0].joint, c.terms[0].freedom)] for c in couplings]
-    taken: dict[tuple[str, int], int] = {}
-    for number in range(len(couplings)):
-        came: dict[tuple[str, int], tuple[str, int] | None] = {}
-        waiting: list[tuple[tuple[str, int], tuple[str, int] | None]] = [
-            (e, None) for e in ends[number][::-1]
-        ]
-        while waiting:  # along those who could follow somebody else
-            here, before = waiting.pop()
-            if here in came:
-                continue
-            came[here] = before
-            if here in taken:
-                waiting += [(e, here) for e in ends[taken[here]] if e not in came]
-                continue
-            at: tuple[str, int] | None = here
-            while at is not None:
-                above = came[at]
-                taken[at] = number if above is None else taken[above]
-                at = above
-            break
-    slots = {number: at for at, number in taken.items()}
-    return [slots[n] == ends[n][0] if n in slots else None for n in range(len(couplings))]
+    sound = [
+        coupling
+        for coupling in [*scene.couplings, *_screws(scene, joints)]
+        if _is_writable(coupling, joints, report, ending)
+    ]
+    writer = _Writer(joints, trees, report, ending)
+    for members in _together([c for c in sound if writer.kinds(_own(c), _led(c))]):
+        writer.write_star(members)
+    for coupling in sound:
+        if not writer.kinds(_own(coupling), _led(coupling)):
+            writer.write_apart(coupling)
 
 
-def _turned_round(coupling: Coupling) -> Coupling:
-    """The same with the other coordinate following: q_leader = (q - offset) / ratio."""
-    (term,) = coupling.terms
-    terms = (Term(coupling.joint, coupling.freedom, 1.0 / term.ratio),)
-    return replace(
-        coupling, joint=term.joint, freedom=term.freedom, terms=terms, offset=-coupling.offset / term.ratio
-    )
+def _is_writable(coupling: Coupling, joints: Mapping[str, WrittenJoint], report: Report, ending: str) -> bool:
+    feature = f"coupling {coupling.id}"
+    if len(coupling.terms) != 1:
+        told = {"coupling": coupling.id, "terms": len(coupling.terms), "target": ending}
+        report.dropped(feature, "COUPLING_TERMS_DROPPED", coupling.where, **told)
+        return False
+    for name, freedom in (_own(coupling), _led(coupling)):
+        if name not in joints or freedom not in joints[name].instance_of:
+            told = {"coupling": coupling.id, "joint": name}
+            report.dropped(feature, "COUPLING_WITHOUT_JOINT", coupling.where, **told)
+            return False
+    return True
 
 
-def _write(
-    coupling: Coupling,
-    term: Term,
-    joints: Mapping[str, WrittenJoint],
-    trees: Mapping[Any, int],
-    report: Report,
-    ending: str,
-) -> None:
-    own, led = joints[coupling.joint], joints[term.joint]
-    unit, led_unit = (math.degrees(1.0) if f >= RX else 1.0 for f in (coupling.freedom, term.freedom))
-    ratio, offset = term.ratio * unit / led_unit, coupling.offset * unit
-    prim, leader = own.prim, led.prim.path
-    instance, other = own.instance_of[coupling.freedom], led.instance_of[term.freedom]
-    newton = own.typed and led.typed
-    if newton:
-        prim.apply("NewtonMimicAPI")
-        prim.relation("newton:mimicJoint", leader)
-        prim.numbers({"newton:mimicCoef0": offset, "newton:mimicCoef1": ratio})
-    physx = instance in TURNS and other in TURNS
-    if physx or not newton:
-        prefix = f"physxMimicJoint:{instance}:"
-        prim.apply(f"PhysxMimicJointAPI:{instance}")
-        prim.relation(f"{prefix}referenceJoint", leader)
-        prim.attribute(f"{prefix}referenceJointAxis", "Token", other, uniform=True)
-        prim.numbers({f"{prefix}gearing": -ratio, f"{prefix}offset": -offset})
-    detail = f"a mimic of {instance} by {other} stands there, which Kinefab reads and no engine yet"
-    if newton or (physx and leader != prim.path):
-        if prim.path in trees and trees[prim.path] == trees.get(leader):
-            for typed in (own, led) if newton else ():
-                typed.prim.finite(BOUNDS)
-            report.kept(f"coupling {coupling.id}", coupling.where)
+def _own(coupling: Coupling) -> _Slot:
+    return coupling.joint, coupling.freedom
+
+
+def _led(coupling: Coupling) -> _Slot:
+    return coupling.terms[0].joint, coupling.terms[0].freedom
+
+
+def _together(couplings: Sequence[Coupling]) -> list[list[Coupling]]:
+    """The couplings by what they tie together, in their order."""
+    slots = {
+        slot: i for i, slot in enumerate(dict.fromkeys(s for c in couplings for s in (_own(c), _led(c))))
+    }
+    sets = Partition(len(slots))
+    for coupling in couplings:
+        sets.join(slots[_own(coupling)], slots[_led(coupling)])
+    found: dict[int, list[Coupling]] = {}
+    for coupling in couplings:
+        found.setdefault(sets.find(slots[_own(coupling)]), []).append(coupling)
+    return list(found.values())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Writer:
+    joints: Mapping[str, WrittenJoint]
+    trees: Mapping[Any, int]
+    report: Report
+    ending: str
+    apart: set[_Slot] = field(default_factory=set[_Slot])
+
+    def kinds(self, own: _Slot, led: _Slot) -> tuple[str, ...]:
+        """Whose mimic one coordinate can be of another: Newton's of hinges and slides, PhysX's of turns, both within one
+        articulation."""
+        joint, leader = self.joints[own[0]], self.joints[led[0]]
+        tree = self.trees.get(joint.prim.path)
+        if tree is None or tree != self.trees.get(leader.prim.path) or joint is leader:
+            return ()
+        newton = ("newton",) if joint.typed and leader.typed else ()
+        return (*newton, "physx") if own[1] >= RX and led[1] >= RX else newton
+
+    def write_star(self, couplings: Sequence[Coupling]) -> None:
+        """All that the couplings tie together as followers of one coordinate.  Of several, one that follows nothing by
+        itself is taken."""
+        slots = list(dict.fromkeys(slot for c in couplings for slot in (_led(c), _own(c))))
+        follows = {_own(c) for c in couplings}
+        able = {a: sum(bool(self.kinds(b, a)) for b in slots) for a in slots}
+        root = min(slots, key=lambda slot: (-able[slot], slot in follows))
+        motions = _motions(root, couplings)
+        for (
+            coupling
+        ) in couplings:  # what closes a circle is implied: the analysis holds what contradicts others
+            if all(slot == root or self.kinds(slot, root) for slot in (_own(coupling), _led(coupling))):
+                self.report.kept(f"coupling {coupling.id}", coupling.where)
+            else:
+                self.write_apart(coupling)
+        for slot in slots:
+            if slot != root and self.kinds(slot, root):
+                self._write_mimic(slot, root, motions[slot])
+
+    def write_apart(self, coupling: Coupling) -> None:
+        """In words of our own, as no engine's fit; turned round where its coordinate follows another so already."""
+        own, led, motion = _own(coupling), _led(coupling), _Motion(coupling.terms[0].ratio, coupling.offset)
+        if own in self.apart:
+            own, led, motion = led, own, _Motion().followed(coupling, True)
+        if own in self.apart:
+            told = {"coupling": coupling.id, "target": self.ending}
+            self.report.dropped(f"coupling {coupling.id}", "COUPLING_FOLLOWS_TWO", coupling.where, **told)
             return
-        detail = "a mimic stands there; PhysX wants both its joints in one articulation, as which they are not written"
-    report.approximated(
-        f"coupling {coupling.id}", "TARGET_FEATURE_APPROXIMATED", coupling.where, target=ending, detail=detail
-    )
+        self.apart.add(own)
+        prim, prefix = self.joints[own[0]].prim, f"kinefab:mimic:{self._instance(own)}"
+        ratio, offset = _in_units(own, led, motion)
+        prim.relation(f"{prefix}:joint", self.joints[led[0]].prim.path)
+        prim.attribute(f"{prefix}:freedom", "Token", self._instance(led), uniform=True, custom=True)
+        prim.attribute(f"{prefix}:ratio", "Double", ratio, custom=True)
+        prim.attribute(f"{prefix}:offset", "Double", offset, custom=True)
+        what = f"a mimic of {self._instance(own)} by {self._instance(led)}"
+        self.report.approximated(
+            f"coupling {coupling.id}", "TARGET_FEATURE_APPROXIMATED", coupling.where, target=self.ending,
+            detail=f"{what} stands there that Kinefab alone reads; engines have mimics of hinges and slides, within one articulation",
+        )  # fmt: skip
+
+    def _write_mimic(self, own: _Slot, led: _Slot, motion: _Motion) -> None:
+        joint, leader = self.joints[own[0]], self.joints[led[0]]
+        prim, kinds = joint.prim, self.kinds(own, led)
+        ratio, offset = _in_units(own, led, motion)
+        if "newton" in kinds:
+            prim.apply("NewtonMimicAPI")
+            prim.relation("newton:mimicJoint", leader.prim.path)
+            prim.numbers({"newton:mimicCoef0": offset, "newton:mimicCoef1": ratio})
+            for typed in (joint, leader):
+                typed.prim.finite(BOUNDS)
+        if "physx" in kinds:
+            prefix = f"physxMimicJoint:{self._instance(own)}:"
+            prim.apply(f"PhysxMimicJointAPI:{self._instance(own)}")
+            prim.relation(f"{prefix}referenceJoint", leader.prim.path)
+            prim.attribute(f"{prefix}referenceJointAxis", "Token", self._instance(led), uniform=True)
+            prim.numbers({f"{prefix}gearing": -ratio, f"{prefix}offset": -offset})
+
+    def _instance(self, slot: _Slot) -> str:
+        """What USD calls a coordinate's freedom."""
+        return self.joints[slot[0]].instance_of[slot[1]]
+
+
+def _motions(root: _Slot, couplings: Sequence[Coupling]) -> dict[_Slot, _Motion]:
+    """How each coordinate follows the root."""
+    ties: dict[_Slot, list[tuple[_Slot, Coupling, bool]]] = {}
+    for coupling in couplings:
+        ties.setdefault(_led(coupling), []).append((_own(coupling), coupling, False))
+        ties.setdefault(_own(coupling), []).append((_led(coupling), coupling, True))
+    motions, waiting = {root: _Motion()}, [root]
+    for here in waiting:
+        for there, coupling, backwards in ties[here]:
+            if there not in motions:
+                motions[there] = motions[here].followed(coupling, backwards)
+                waiting.append(there)
+    return motions
+
+
+def _in_units(own: _Slot, led: _Slot, motion: _Motion) -> tuple[float, float]:
+    """Ratio and offset in degrees and metres."""
+    unit, led_unit = (math.degrees(1.0) if freedom >= RX else 1.0 for _, freedom in (own, led))
+    return motion.ratio * unit / led_unit, motion.offset * unit
 
 
 def _screws(scene: Scene, joints: Mapping[str, WrittenJoint]) -> list[Coupling]:

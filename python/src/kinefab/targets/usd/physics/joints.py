@@ -1,17 +1,33 @@
 """Joints of the model as UsdPhysics joints.
 
 Both count b's frame as seen from a's, along and about a's axes, so body 0 is a's and body 1 is b's and no sign changes.
+Where b is nearer to the root of an articulation the joint is exchanged: engines of reduced coordinates take body 0 for the parent,
+and Newton refuses a stage where it is not.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ....diagnostics import Report
 from ....findings import JointFinding
-from ....model import RX, RZ, TX, Drive, Freedom, Joint, Motion, Passive, Scene, unlocked_of
+from ....model import (
+    RX,
+    RZ,
+    TX,
+    Drive,
+    Freedom,
+    Joint,
+    Motion,
+    Passive,
+    Scene,
+    exchange_of,
+    is_same_from_both_sides,
+    unlocked_of,
+)
 from ....spatial import Pose, quaternion_from_matrix, rotation_log
 from ....unity.joints.coordinates import CanonicalJoint, canonical, coordinates_in
 from ....unity.joints.limits import report_gap
@@ -53,8 +69,13 @@ class Places:
     root: Prim
     root_pose: Pose
 
-    def write_sides(self, prim: Prim, sides: tuple[tuple[int | None, Pose], ...]) -> None:
-        """Bodies and frames.  sides: node of the body (None: the world) and the joint frame in the world."""
+    def write_sides(
+        self, prim: Prim, sides: tuple[tuple[int | None, Pose], tuple[int | None, Pose]], exchanged: bool
+    ) -> None:
+        """Bodies and frames.  sides: node of the body (None: the world) and the joint frame in the world.
+        exchanged: they are the other way round in the scene."""
+        if exchanged:
+            prim.attribute("kinefab:exchanged", "Bool", True, custom=True)
         for i, (node, frame) in enumerate(sides):
             pose = self.root_pose if node is None else self.scene.pose(node)
             local = pose.inverse() @ frame
@@ -68,6 +89,26 @@ class Places:
             if rounded(turn):
                 prim.attribute(f"kinefab:localRot{i}", "Quatd", quaternion64(turn), custom=True)
 
+    def write_fixed(self, edge: Edge, exchanged: bool) -> None:
+        """The sides of a joint that holds b as it stands."""
+        at = self.scene.pose(edge.b)
+        first, second = (edge.b, edge.a) if exchanged else (edge.a, edge.b)
+        self.write_sides(edge.prim, ((first, at), (second, at)), exchanged)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Begun:
+    """A joint whose prim is there.  values: the six coordinates at the exported pose, of ``shape``.
+    told: whether the report has something to tell of it."""
+
+    joint: Joint
+    edge: Edge
+    shape: CanonicalJoint
+    passives: Mapping[int, Passive]
+    values: Sequence[float]
+    kind: str
+    told: bool
+
 
 @dataclass(slots=True, eq=False)
 class Joints:
@@ -80,48 +121,76 @@ class Joints:
     report: Report
     ending: str
     written: dict[str, WrittenJoint] = field(default_factory=dict[str, WrittenJoint])
+    _begun: list[_Begun] = field(default_factory=list[_Begun])
 
-    def write(self, joint: Joint, name: str, finding: JointFinding | None) -> Edge:
-        """name: of its prim."""
-        feature, before = f"joint {joint.id}", len(self.report.outcomes)
+    def begin(self, joint: Joint, name: str, finding: JointFinding | None) -> Edge:
+        """Make the joint's prim, whose sides are known when all joints are.  name: of the prim."""
+        before = len(self.report.outcomes)
         bare, passives = _passive_apart(joint)
         shape = canonical(with_passive_drives(bare, self.report))
         values = self._standing(joint, shape)
-        kind, main = _kind(shape, joint)
+        kind = _kind(shape, joint)
         prim = self.scope.child(joint.name or joint.id, kind, name=name)
         prim.tell_source(joint.id)
-        ends = (self.bodies.carrier(joint.a), self.bodies.carrier(joint.b))
-        sides = (
-            (ends[0], self.scene.pose(joint.a) @ shape.frame_a),
-            (ends[1], self.scene.pose(joint.b) @ shape.frame_b),
+        free = unlocked_of(shape.freedoms)
+        breaks = math.isfinite(joint.break_force) or math.isfinite(joint.break_torque)
+        edge = Edge(
+            self.bodies.carrier(joint.a),
+            self.bodies.carrier(joint.b),
+            prim,
+            fits=(len(free) <= 1 or all(i >= RX for i in free)) and not breaks,
+            closing=finding is not None and finding.closure,
+            exchanges=joint.slerp is None and is_same_from_both_sides(shape.freedoms),
         )
-        self.places.write_sides(prim, sides)
+        told = len(self.report.outcomes) > before
+        self._begun.append(_Begun(joint, edge, shape, passives, values, kind, told))
+        return edge
+
+    def finish(self, inward: Collection[Any]) -> None:
+        """Write what was begun.  inward: paths of joints whose second body is nearer to the root."""
+        for begun in self._begun:
+            self._finish(begun, begun.edge.exchanges and begun.edge.prim.path in inward)
+
+    def _finish(self, begun: _Begun, exchanged: bool) -> None:
+        joint, prim, shape, values = begun.joint, begun.edge.prim, begun.shape, begun.values
+        before = len(self.report.outcomes)
+        sides = (
+            (begun.edge.a, self.scene.pose(joint.a) @ shape.frame_a),
+            (begun.edge.b, self.scene.pose(joint.b) @ shape.frame_b),
+        )
+        if exchanged:
+            exchange = exchange_of(shape.freedoms)
+            turn = Pose(exchange.axes)
+            (own, at_own), (other, at_other) = sides
+            sides = (other, at_other @ turn), (own, at_own @ turn)
+            values = exchange.coordinates(values)
+            names = exchange.picked(shape.name_of)
+            shape = replace(shape, freedoms=exchange.freedoms(shape.freedoms), name_of=names)
+        self.places.write_sides(prim, sides, exchanged)
         for freedom, i in ((f, i) for i, f in enumerate(joint.freedoms) if f.drive is not None):
             if freedom.motion is Motion.LOCKED:
                 self.report.add(
                     "JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i)
                 )
-        if kind == "PhysicsJoint":
-            self._write_generic(prim, joint, shape, passives, values)
-        elif kind == "PhysicsSphericalJoint":
+        free = unlocked_of(shape.freedoms)
+        if begun.kind == "PhysicsJoint":
+            self._write_generic(prim, joint, shape, begun.passives, values)
+        elif begun.kind == "PhysicsSphericalJoint":
             _write_cone(prim, shape)
-        elif main is not None:
-            _write_typed(prim, shape.freedoms[main], passives.get(shape.name_of[main]), main, values[main])
+        elif free:
+            (main,) = free
+            passive = begun.passives.get(shape.name_of[main])
+            _write_typed(prim, shape.freedoms[main], passive, main, values[main])
         if math.isfinite(joint.break_force):
             prim.numbers({"physics:breakForce": joint.break_force})
         if math.isfinite(joint.break_torque):
             prim.numbers({"physics:breakTorque": joint.break_torque})
         if joint.collide:
             prim.attribute("physics:collisionEnabled", "Bool", True)
-        if len(self.report.outcomes) == before:
-            self.report.kept(feature, joint.where)
-        free = unlocked_of(shape.freedoms)
+        if not begun.told and len(self.report.outcomes) == before:
+            self.report.kept(f"joint {joint.id}", joint.where)
         names = {shape.name_of[i]: DOFS[i] for i in free}
         self.written[joint.id] = WrittenJoint(prim, names, len(free) == 1)
-        turning = all(i >= RX for i in free)
-        breaks = math.isfinite(joint.break_force) or math.isfinite(joint.break_torque)
-        closing = finding is not None and finding.closure
-        return Edge(ends[0], ends[1], prim, (len(free) <= 1 or turning) and not breaks, closing)
 
     def _write_generic(
         self,
@@ -188,20 +257,20 @@ class Joints:
         ]
 
 
-def _kind(shape: CanonicalJoint, joint: Joint) -> tuple[str, int | None]:
-    """The prim's type, and the one freedom that it leaves where there is just one."""
+def _kind(shape: CanonicalJoint, joint: Joint) -> str:
+    """The prim's type; of a hinge or a slide, of the one freedom that the joint leaves."""
     free = unlocked_of(shape.freedoms)
     if not free:
-        return "PhysicsFixedJoint", None
+        return "PhysicsFixedJoint"
     if len(free) == 1 and joint.slerp is None:
-        return ("PhysicsRevoluteJoint" if free[0] >= RX else "PhysicsPrismaticJoint"), free[0]
+        return "PhysicsRevoluteJoint" if free[0] >= RX else "PhysicsPrismaticJoint"
     if free == (RX, RX + 1, RZ) and joint.slerp is None:
         twist, *swings = shape.freedoms[RX:]
         driven = any(f.drive is not None for f in (twist, *swings))
         open_swings = all(f.motion is Motion.FREE for f in swings)
         if twist.motion is Motion.FREE and not driven and (open_swings or even(swings)):
-            return "PhysicsSphericalJoint", None
-    return "PhysicsJoint", None
+            return "PhysicsSphericalJoint"
+    return "PhysicsJoint"
 
 
 def _write_typed(prim: Prim, freedom: Freedom, passive: Passive | None, main: int, value: float) -> None:

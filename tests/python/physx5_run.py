@@ -2,7 +2,7 @@
 
     python tests/python/physx5_run.py STAGE SECONDS STEP PRIM...
 
-Run by an interpreter whose environment has ovphysx and physx-usd-schemas: it brings a USD of its own, which usd-core cannot
+Run by an interpreter whose environment has ovphysx, physx-usd-schemas and newton-usd-schemas: it brings a USD of its own, which usd-core cannot
 stand beside.  Prints one JSON line: for each step a list of the bodies' positions, metres, in the stage's frame.
 """
 

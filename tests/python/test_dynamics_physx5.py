@@ -6,7 +6,7 @@ steps of 1/60, 1/240 and 1/1000 s.  With its own default, TGS, a pendulum at 1/6
 energy there, and PGS does.  Unity's bodies turn no faster than 7 rad/s unless the stage says more, as here; without that
 the chain is 0.12 m away.
 
-``KINEFAB_OVPHYSX`` names the interpreter of an environment with ovphysx and physx-usd-schemas, else this one is asked.
+``KINEFAB_OVPHYSX`` names the interpreter of an environment with ovphysx, physx-usd-schemas and newton-usd-schemas, else this one is asked.
 """
 
 from __future__ import annotations

@@ -1,5 +1,23 @@
-"""``python -m kinefab``."""
+"""The program: ``kinefab``, and ``python -m kinefab``."""
 
-from .cli import main
+from __future__ import annotations
 
-main()
+import signal
+
+
+def main() -> None:
+    """Entry point.  Until all is imported there is nothing to be put in order, and Ctrl+C ends the process at once."""
+    taken = (
+        signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )  # a job in the background has it ignored
+    if taken:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from .cli import main as run
+
+    if taken:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    run()
+
+
+if __name__ == "__main__":
+    main()

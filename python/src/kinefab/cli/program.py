@@ -79,7 +79,7 @@ def _end_in_order() -> None:
 
 
 def main() -> None:
-    """Entry point of the ``kinefab`` script."""
+    """The program, once all is imported."""
     _start_light()
     _end_in_order()
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):

@@ -8,6 +8,7 @@ import math
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from kinefab.spatial import rotation_about
 
 
@@ -113,6 +114,12 @@ class Shape:
         ({"rotation": ("XYW", (0, 0, 0))}, "pass three of XYZ"),
         ({"mesh": "no_such_file.obj"}, "where there is no file"),
         ({"mesh": Shape(), "unit": "parsec"}, "pass one of: m, cm"),
+        ({"unit": "inch"}, "pass one of: m, cm"),
+        ({"rotation": kinefab.Pose(np.eye(2))}, "is no pose"),
+        ({"rotation": kinefab.Pose(-np.eye(3))}, "is a reflection"),
+        ({"mass": -3.0}, "the mass of Lid is -3.0; it must be a number above zero"),
+        ({"mass": NAN}, "the mass of Lid is nan"),
+        ({"mass": INF}, "the mass of Lid is inf"),
         ({"mesh": Shape(), "collider": "egg"}, "pass one of: auto, none, box"),
         ({"mesh": Shape(), "collider": []}, "pass 'none' for a part that nothing touches"),
         ({"name": ""}, "the name is empty"),
@@ -295,9 +302,60 @@ def test_a_target_of_another_ending_is_refused(tmp_path, name):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_mass_that_is_a_mere_number_is_a_wrong_call():
-    """It would leave the inertia open; nothing is added."""
+def test_a_mass_in_kilograms_has_the_inertia_of_the_mesh(tmp_path):
+    """Of a box off its origin with two bodies: what a density of the same mass gives; and no density is assumed."""
+    box = trimesh.creation.box((0.8, 2.0, 0.04)).apply_translation((0.4, 0.0, 0.0))
+    path = tmp_path / "box.stl"
+    box.export(path)
+    for mesh in (box, path, trimesh.Scene([box, box.copy().apply_translation((1, 0, 0))])):
+        scene = kinefab.Scene()
+        volume = box.volume * (2 if isinstance(mesh, trimesh.Scene) else 1)
+        for name, weight in (("Dense", {"density": 12.0 / volume}), ("Heavy", {"mass": 12.0})):
+            scene.add_hinge(None, scene.add_part(name, mesh, **weight), point=(0, 0, 0), axis=(0, 1, 0))
+        result = kinefab.export(scene, tmp_path / "door.kinefab")
+        dense, heavy = (
+            next(c for c in entry.components if type(c).__name__ == "Rigidbody")
+            for entry in result.unity.gameObjects
+            if entry.name in ("Dense", "Heavy")
+        )
+        assert heavy.mass == 12.0
+        assert heavy.centerOfMass == pytest.approx(dense.centerOfMass)
+        assert heavy.inertiaTensor == pytest.approx(dense.inertiaTensor)
+        assert "DENSITY_ASSUMED" not in {d.code for d in result.report.diagnostics}
+
+
+@pytest.mark.parametrize("mesh", [None, Shape(faces=((0, 1, 2),))])
+def test_a_mass_in_kilograms_without_a_volume_is_told(tmp_path, mesh):
+    """The mass is kept; whose inertia stands in is told."""
     scene = kinefab.Scene()
-    with pytest.raises(TypeError, match="the mass of Door is 12.0; pass MassProperties"):
-        scene.add_part("Door", mass=12.0)
-    assert scene.nodes == []
+    scene.add_hinge(None, scene.add_part("Door", mesh, mass=12.0), point=(0, 0, 0), axis=(0, 1, 0))
+    result = kinefab.export(scene, tmp_path / "door.kinefab")
+    body = next(c for c in result.unity.gameObjects[-1].components if type(c).__name__ == "Rigidbody")
+    assert body.mass == 12.0
+    codes = {d.code for d in result.report.diagnostics}
+    assert "INERTIA_ASSUMED" in codes and "MASS_UNKNOWN" not in codes
+
+
+def test_a_mass_beside_a_density_is_a_wrong_call():
+    """One of them would be left aside, and nobody told."""
+    stated = kinefab.MassProperties(2.0, np.zeros(3), 0.008 * np.eye(3))
+    for mass in (12.0, stated):
+        with pytest.raises(ValueError, match="pass one of them"):
+            kinefab.Scene().add_part("Door", Shape(), mass=mass, density=700)
+
+
+def test_a_pose_and_lists_are_taken_where_arrays_and_pairs_are():
+    """A rotation as ["XYZ", [30, 0, 90]], a whole Pose, a coordinate as [joint, "rx"]: as from JSON."""
+    scene = kinefab.Scene()
+    angles = [30, 0, 90]
+    one, two = (
+        scene.add_part("One", rotation=("XYZ", angles)),
+        scene.add_part("Two", rotation=["XYZ", angles]),
+    )
+    assert np.array_equal(scene.pose(one).rotation, scene.pose(two).rotation)
+    three = scene.add_part("Three", rotation=kinefab.Pose(TURN, np.array([1.0, 2.0, 3.0])))
+    assert scene.pose(three).translation.tolist() == [1, 2, 3]
+    assert scene.pose(three).rotation == pytest.approx(TURN)
+    hinge = scene.add_hinge(None, one, **HINGE)
+    rod = scene.add_joint("cylindrical", None, two, **HINGE)
+    assert scene.add_coupling(hinge, [rod, "rx"], ratio=2.0).terms[0].joint == hinge.id

@@ -368,3 +368,30 @@ def test_lists_do_for_arrays_and_three_colours_for_four():
     mass = scene.nodes[0].mass
     assert mass is not None and mass.center.tolist() == [0, 0.1, 0] and np.array_equal(mass.inertia, INERTIA)
     assert scene.surfaces[0].color == (0.9, 0.1, 0.2, 1.0)
+
+
+def test_a_joint_breaks_at_what_the_script_says(tmp_path):
+    """Every kind of joint; two parts that a breakable joint fixes stay two bodies, and no end is infinity."""
+    scene = kinefab.Scene()
+    frame = scene.add_part("Frame", BOX, grounded=True)
+    breaks = {"break_force": 300.0, "break_torque": math.inf}
+    at = {"point": (0, 0, 0), "axis": (0, 1, 0)}
+    scene.add_hinge(frame, scene.add_part("Hinged", BOX), **at, **breaks)
+    scene.add_slider(frame, scene.add_part("Slid", BOX), **at, **breaks)
+    scene.add_ball(frame, scene.add_part("Balled", BOX), **at, **breaks)
+    scene.add_fixed(frame, scene.add_part("Fixed", BOX), **breaks)
+    scene.add_joint("cylindrical", frame, scene.add_part("Rod", BOX), **at, **breaks)
+    unity = kinefab.export(scene, tmp_path / "breaking.kinefab").unity
+    joints = [c for entry in unity.gameObjects for c in entry.components if hasattr(c, "breakForce")]
+    assert [(joint.breakForce, joint.breakTorque) for joint in joints] == [(300.0, math.inf)] * 5
+
+
+@pytest.mark.parametrize(
+    "value, error", [(0.0, ValueError), (-1, ValueError), (math.nan, ValueError), ("3", TypeError)]
+)
+def test_a_joint_breaks_at_something(value, error):
+    """A joint that breaks at nothing is none."""
+    scene = kinefab.Scene()
+    with pytest.raises(error, match="the break_torque is"):
+        scene.add_fixed(None, scene.add_part("Lid"), break_torque=value)
+    assert scene.joints == []

@@ -7,9 +7,8 @@ import signal
 
 def main() -> None:
     """Entry point.  Until all is imported there is nothing to be put in order, and Ctrl+C ends the process at once."""
-    taken = (
-        signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    )  # a job in the background has it ignored
+    # A job in the background has it ignored.
+    taken = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if taken:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     from .cli import main as run

@@ -9,8 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..model import MassProperties
-from ..spatial import Array, matrix_from_quaternion, rotation_about
+from ..spatial import Array, Pose, matrix_from_quaternion, rotation_about
 
 Vector = Sequence[float]
 ROUNDED = 1e-4
@@ -87,22 +86,6 @@ def checked_flag(what: str, value: object) -> None:
         raise TypeError(f"{what} is {shown(value)}; pass True or False")
 
 
-def checked_mass(name: str, mass: object) -> MassProperties | None:
-    """With arrays for what may be lists.  Raises TypeError for what is neither None nor MassProperties (a number alone would
-    leave the inertia open), ValueError for one whose center or inertia has another shape, or whose inertia is not symmetric."""
-    if mass is None:
-        return None
-    if not isinstance(mass, MassProperties):
-        raise TypeError(f"the mass of {name} is {shown(mass)}; pass MassProperties, or a density instead")
-    number = checked_number(f"the mass of {name}", mass.mass)
-    inertia = numbers_in(mass.inertia)
-    if inertia is None or inertia.shape != (3, 3) or not np.isfinite(inertia).all():
-        raise ValueError(f"the inertia of {name} is {shown(mass.inertia)}; pass a matrix of numbers, 3 x 3")
-    if np.abs(inertia - inertia.T).max() > ROUNDED * np.abs(inertia).max():
-        raise ValueError(f"the inertia of {name} is not symmetric; pass each product in both its places")
-    return MassProperties(number, checked_vector(f"the center of {name}'s mass", mass.center), inertia)
-
-
 def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite: bool = False) -> float:
     """A number, not NaN and, unless ``infinite``, finite."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -119,6 +102,14 @@ def checked_number(what: str, value: Any, *, least: float = -math.inf, infinite:
     return number
 
 
+def checked_positive(what: str, value: Any, *, infinite: bool = False) -> float:
+    """A number above zero, infinity too where ``infinite``."""
+    number = checked_number(what, value, infinite=True)
+    if not 0.0 < number or (math.isinf(number) and not infinite):
+        raise ValueError(f"{what} is {shown(value)}; it must be a number above zero")
+    return number
+
+
 def checked_rotation(name: str, rotation: Any) -> Array:
     """A rotation matrix, shape (3, 3).
 
@@ -128,8 +119,8 @@ def checked_rotation(name: str, rotation: Any) -> Array:
     """
     if hasattr(rotation, "as_matrix"):
         rotation = rotation.as_matrix()
-    if isinstance(rotation, tuple):
-        pair = cast("tuple[Any, ...]", rotation)
+    if isinstance(rotation, (tuple, list)):
+        pair = cast("Sequence[Any]", rotation)
         if len(pair) == 2 and isinstance(pair[0], str):
             return _from_euler(name, pair[0], pair[1])
     advice = (
@@ -155,7 +146,8 @@ def checked_rotation(name: str, rotation: Any) -> Array:
 
 
 def checked_pose(name: str, translation: Any, rotation: Any) -> tuple[Array, Array]:
-    """Rotation matrix and translation; ``rotation`` may be a whole pose, shape (4, 4), with no translation beside it."""
+    """Rotation matrix and translation; ``rotation`` may be a whole pose, a ``Pose`` or of shape (4, 4), with no translation
+    beside it."""
     matrix = _whole_pose(rotation)
     if matrix is None:
         turn = np.eye(3) if rotation is None else checked_rotation(name, rotation)
@@ -170,6 +162,13 @@ def checked_pose(name: str, translation: Any, rotation: Any) -> tuple[Array, Arr
 
 
 def _whole_pose(rotation: Any) -> Array | None:
+    if isinstance(rotation, Pose):
+        turn, place = numbers_in(rotation.rotation), numbers_in(rotation.translation)
+        if turn is None or place is None or turn.shape != (3, 3) or place.shape != (3,):
+            raise ValueError(
+                f"{shown(rotation)} is no pose; pass its rotation as 3 x 3, its translation as three numbers"
+            )
+        return np.block([[turn, place[:, None]], [np.zeros(3), np.ones(1)]])
     matrix = numbers_in(rotation)  # what is none, ``checked_rotation`` tells
     return matrix if matrix is not None and matrix.shape == (4, 4) else None
 

@@ -9,7 +9,7 @@ from typing import Union
 from ..model import FREEDOM_NAMES, RX, Coupling, CouplingKind, Joint, Term
 from .arguments import LARGEST, checked_number, shown
 
-JointLike = Union[Joint, str, tuple[Union[Joint, str], str]]
+JointLike = Union[Joint, str, tuple[Union[Joint, str], str], list[Union[Joint, str]]]
 """A joint or its id; with the name of one of its freedoms where it has several."""
 LARGEST_RATIO = 1e6
 """Metres and radians; beyond, the analysis cannot tell the slower of the two from one that stands still."""
@@ -47,7 +47,7 @@ def coupling_between(
 
 
 def _coordinate(joints: Sequence[Joint], argument: str, asked: JointLike) -> tuple[Joint, int]:
-    which, name = asked if isinstance(asked, tuple) else (asked, "")
+    which, name = asked if isinstance(asked, (tuple, list)) and len(asked) == 2 else (asked, "")
     wanted = which.id if isinstance(which, Joint) else which
     joint = next((joint for joint in joints if joint.id == wanted), None)
     if joint is None:

@@ -1,58 +1,20 @@
-"""The scene that a script fills."""
+"""The scene that a script fills: joints and couplings between its parts."""
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Iterable
-from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from .. import model
-from ..model import (
-    Body,
-    Collider,
-    Coupling,
-    Joint,
-    JointKind,
-    MassProperties,
-    Node,
-    NodeKind,
-    PhysicsMaterial,
-    Surface,
-)
-from ..options import ColliderShape
+from ..model import Coupling, Joint, JointKind
 from ..spatial import Pose, frame_from_axes
-from .arguments import (
-    Vector,
-    checked_axes,
-    checked_color,
-    checked_flag,
-    checked_mass,
-    checked_name,
-    checked_number,
-    checked_pose,
-    checked_vector,
-    shown,
-)
+from .arguments import Vector, checked_axes, checked_flag, checked_name, checked_positive, checked_vector
 from .couplings import JointLike, coupling_between
 from .ids import Ids
-from .materials import colliders_of, materials_of
 from .motions import FreedomLike, Range, checked_lead, freedoms_asked, kind_of_word
-from .shapes import Shape, shapes_of
-
-_numbers = itertools.count()
+from .parts import Parts
 
 
-class PartIndex(int):
-    """What ``add_part`` and ``add_assembly`` return: an index that knows which scene's it is (``scene``: a number)."""
-
-    scene: int
-
-
-class Scene(model.Scene):
+class Scene(Parts):
     """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
 
     A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without length,
@@ -68,148 +30,11 @@ class Scene(model.Scene):
     2
     """
 
-    __slots__ = ("_given", "_joint_ids", "_node_ids", "_number")
+    __slots__ = ("_joint_ids",)
 
     def __init__(self, *args: Any, **fields: Any) -> None:
         super().__init__(*args, **fields)
-        self._node_ids, self._joint_ids = Ids(), Ids()
-        self._given = len(self.nodes)
-        self._number = next(_numbers)
-
-    def add_part(
-        self,
-        name: str,
-        mesh: Any = None,
-        *,
-        translation: Vector | None = None,
-        rotation: Any = None,
-        parent: int | None = None,
-        grounded: bool = False,
-        density: float | None = None,
-        mass: MassProperties | None = None,
-        color: Vector | None = None,
-        material: Surface | PhysicsMaterial | Iterable[Surface | PhysicsMaterial] | None = None,
-        collider: ColliderShape | str | Collider | Iterable[Collider] | None = None,
-        unit: str = "m",
-    ) -> int:
-        """Add a part at a world pose and return its index.
-
-        mesh: a trimesh.Trimesh, anything with ``vertices`` and ``faces``, a trimesh.Scene, or the path of a mesh file; in
-        the part's own frame.  unit: of the mesh's numbers: m, cm, mm, in, ft.
-        translation: metres.  rotation: a rotation matrix (3, 3), a quaternion (x, y, z, w), Euler angles in degrees with
-        their order (``("XYZ", (30, 0, 90))``), or a whole pose (4, 4) instead of both; None for none.
-        parent: index of an assembly, or None.  grounded: fixed to the world.
-        density: kg/m^3, None for the export's default.  mass: given instead of computed.
-        color: linear red green blue (alpha), 0..1.
-        material: how it looks (``Surface``), what it touches with (``PhysicsMaterial``), or both.
-        collider: ``auto``, ``none``, ``box``, ``hull``, ``decompose`` or ``mesh`` for this part, or colliders of its own, in its frame.
-        Raises TypeError for a mesh that is none, ValueError for a rotation that is none (a reflection, a scale), a number
-        that is not finite, a mesh without triangles, a density not above zero or a colour outside 0..1.
-
-        >>> scene = kinefab.Scene()
-        >>> scene.add_part("Bar", trimesh.creation.box((0.4, 0.02, 0.03)), rotation=("XYZ", (30, 0, 90)), density=2700)
-        0
-        """
-        weighs = f"the density of {name}"
-        if density is not None and not 0.0 < checked_number(weighs, density, infinite=True) < math.inf:
-            raise ValueError(f"{weighs} is {density}; it must be a number above zero")
-        checked_name("the name", name, empty=False)
-        checked_flag(f"grounded of {name}", grounded)
-        weight = checked_mass(name, mass)
-        shapes = [] if mesh is None else shapes_of(name, mesh, unit)
-        looks, touch = materials_of(name, material)
-        if color is not None:
-            looks = replace(looks or Surface(name), color=checked_color(name, color))
-        known = len(self.meshes) + sum(each.mesh is not None for each in shapes)
-        shape, own = colliders_of(name, collider, touch, known)
-        index = self._add_node(
-            name,
-            NodeKind.PART,
-            parent,
-            translation,
-            rotation,
-            mass=weight,
-            grounded=bool(grounded),
-            colliders=own,
-            collision=shape,
-        )
-        if shapes:  # the node is there first, as a wrong parent or pose adds nothing
-            self.nodes[-1] = replace(self.nodes[-1], bodies=tuple(self._bodies(shapes, looks, density)))
-        return index
-
-    def _bodies(self, shapes: list[Shape], looks: Surface | None, density: float | None) -> list[Body]:
-        """Bodies of a part, once their meshes and surfaces are added.  looks: of all of them, in the place of their own."""
-        surfaces = () if looks is None else (len(self.surfaces),)
-        self.surfaces += () if looks is None else (looks,)
-        bodies: list[Body] = []
-        for each in shapes:
-            number = None
-            if each.mesh is not None:
-                self.meshes.append(each.mesh)
-                number = len(self.meshes) - 1
-            own = surfaces * max(1, len(each.surfaces)) or tuple(map(self._surface, each.surfaces))
-            bodies.append(Body(each.name, number, own, density, each.reference))
-        return bodies
-
-    def _surface(self, surface: Surface) -> int:
-        """The index of a surface of a mesh, added where no other looks the same."""
-        if surface not in self.surfaces:
-            self.surfaces.append(surface)
-        return self.surfaces.index(surface)
-
-    def add_assembly(
-        self,
-        name: str,
-        *,
-        translation: Vector | None = None,
-        rotation: Any = None,
-        parent: int | None = None,
-        flexible: bool = True,
-    ) -> int:
-        """Add an assembly to put parts under, and return its index.  flexible: whether its parts may move
-        against each other; otherwise they are one rigid body.  The pose as ``add_part`` has it.
-
-        >>> scene = kinefab.Scene()
-        >>> gripper = scene.add_assembly("Gripper", translation=(0, 1.2, 0))
-        >>> scene.nodes[scene.add_part("Finger", parent=gripper)].id
-        'Gripper/Finger'
-        """
-        checked_name("the name", name, empty=False)
-        checked_flag(f"flexible of {name}", flexible)
-        return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
-
-    def _add_node(
-        self,
-        name: str,
-        kind: NodeKind,
-        parent: int | None,
-        translation: Vector | None,
-        rotation: Any,
-        **fields: Any,
-    ) -> int:
-        if parent is not None:
-            self._check_index(parent, "parent")
-            parent = int(parent)
-        pose = Pose(*checked_pose(name, translation, rotation))
-        node_id = self._node_ids.free(
-            name if parent is None else f"{self.nodes[parent].id}/{name}", self.nodes
-        )
-        self.nodes.append(Node(node_id, name, kind, parent, pose, **fields))
-        index = PartIndex(len(self.nodes) - 1)
-        index.scene = self._number
-        return index
-
-    def _check_index(self, node: object, argument: str) -> None:
-        """Raise unless ``node`` is what an ``add_part`` or ``add_assembly`` returned."""
-        if isinstance(node, bool) or not isinstance(node, (int, np.integer)):
-            raise TypeError(
-                f"{argument} is {shown(node)}; pass the index that add_part or add_assembly returned"
-                + ("" if argument == "b" else ", or None")
-            )
-        if not 0 <= node < len(self.nodes):
-            raise ValueError(f"{argument} is {node}; the scene has nodes 0 to {len(self.nodes) - 1}")
-        if isinstance(node, PartIndex) and node.scene != self._number and node >= self._given:
-            raise ValueError(f"{argument} is {node} of another scene; pass an index that this one returned")
+        self._joint_ids = Ids()
 
     def add_joint(
         self,
@@ -227,6 +52,8 @@ class Scene(model.Scene):
         spring: Any = None,
         damping: Any = None,
         collide: bool = False,
+        break_force: float = math.inf,
+        break_torque: float = math.inf,
         **freedoms: FreedomLike,
     ) -> Joint:
         """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
@@ -240,6 +67,7 @@ class Scene(model.Scene):
         spring, damping: of the joint itself: stiffness or (stiffness, rest in degrees or metres); newtons, metres, radians.
         Each of these four is for the one freedom that the kind leaves, or a dict by the names of several.
         collide: whether the two parts touch each other.
+        break_force, break_torque: newtons, newton metres at which the joint breaks and is gone.
         freedoms: ``tx`` .. ``rz``, replacing those that the kind leaves: a range in degrees or metres, True (free), False
         (locked), or a model ``Freedom``, whose angles are radians.
         Raises TypeError for a side that is no index, ValueError for one that no node of this scene has, for an axis without
@@ -262,6 +90,8 @@ class Scene(model.Scene):
         pitch = checked_lead(kind, lead)
         checked_name("the name", name)
         checked_flag("collide", collide)
+        force = checked_positive("the break_force", break_force, infinite=True)
+        torque = checked_positive("the break_torque", break_torque, infinite=True)
         asked = freedoms_asked(kind, freedoms, limits, drive, spring, damping)
         world = Pose(frame_from_axes(main, near), checked_vector("the point", point))
         frame_a, frame_b = (self.pose(side).inverse() @ world for side in (a, b))
@@ -275,6 +105,8 @@ class Scene(model.Scene):
             asked,
             name=name,
             lead=pitch,
+            break_force=force,
+            break_torque=torque,
             collide=bool(collide),
         )
         self.joints.append(joint)
@@ -292,11 +124,13 @@ class Scene(model.Scene):
         spring: Any = None,
         damping: float | None = None,
         collide: bool = False,
+        break_force: float = math.inf,
+        break_torque: float = math.inf,
         name: str = "",
     ) -> Joint:
         """Add a hinge: ``b`` turns against ``a`` about ``axis`` through ``point``, right-hand rule.
 
-        limits: (lower, upper) in degrees from the present pose, or None.  drive, spring, damping, collide: see ``add_joint``.
+        limits: (lower, upper) in degrees from the present pose, or None.  The rest: see ``add_joint``.
         Raises ValueError for limits in the wrong order, and what ``add_joint`` raises.
 
         >>> scene = kinefab.Scene()
@@ -304,10 +138,13 @@ class Scene(model.Scene):
         >>> scene.add_hinge(None, lid, point=(0, 0.2, -0.15), axis=(-1, 0, 0), limits=(-10, 80), name="Hinge").id
         'Hinge'
         """
-        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        return self.add_joint(
-            JointKind.REVOLUTE, a, b, point=point, axis=axis, name=name, collide=collide, **options
-        )
+        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        options: dict[str, Any] = moving | {
+            "collide": collide,
+            "break_force": break_force,
+            "break_torque": break_torque,
+        }
+        return self.add_joint(JointKind.REVOLUTE, a, b, point=point, axis=axis, name=name, **options)
 
     def add_slider(
         self,
@@ -321,6 +158,8 @@ class Scene(model.Scene):
         spring: Any = None,
         damping: float | None = None,
         collide: bool = False,
+        break_force: float = math.inf,
+        break_torque: float = math.inf,
         name: str = "",
     ) -> Joint:
         """Add a slider: ``b`` moves against ``a`` along ``axis``.  limits: (lower, upper) in metres from the
@@ -332,10 +171,13 @@ class Scene(model.Scene):
         >>> scene.add_slider(None, table, point=(0, 0, 0), axis=(1, 0, 0), limits=(0, 0.4), drive=drive).unlocked  # TX
         (0,)
         """
-        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        return self.add_joint(
-            JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, collide=collide, **options
-        )
+        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        options: dict[str, Any] = moving | {
+            "collide": collide,
+            "break_force": break_force,
+            "break_torque": break_torque,
+        }
+        return self.add_joint(JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, **options)
 
     def add_ball(
         self,
@@ -349,6 +191,8 @@ class Scene(model.Scene):
         spring: Any = None,
         damping: Any = None,
         collide: bool = False,
+        break_force: float = math.inf,
+        break_torque: float = math.inf,
         name: str = "",
     ) -> Joint:
         """Add a ball joint: ``b`` turns against ``a`` about ``point``.
@@ -360,13 +204,25 @@ class Scene(model.Scene):
         >>> scene.add_ball(None, arm, point=(0, 1.4, 0), limits={"rx": (-10, 80)}).unlocked  # RX, RY, RZ
         (3, 4, 5)
         """
-        options: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        return self.add_joint(
-            JointKind.SPHERICAL, a, b, point=point, axis=axis, name=name, collide=collide, **options
-        )
+        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
+        options: dict[str, Any] = moving | {
+            "collide": collide,
+            "break_force": break_force,
+            "break_torque": break_torque,
+        }
+        return self.add_joint(JointKind.SPHERICAL, a, b, point=point, axis=axis, name=name, **options)
 
-    def add_fixed(self, a: int | None, b: int, *, collide: bool = False, name: str = "") -> Joint:
-        """Fix ``b`` to ``a`` where they stand now.  Raises what ``add_joint`` raises.
+    def add_fixed(
+        self,
+        a: int | None,
+        b: int,
+        *,
+        collide: bool = False,
+        break_force: float = math.inf,
+        break_torque: float = math.inf,
+        name: str = "",
+    ) -> Joint:
+        """Fix ``b`` to ``a`` where they stand now; they are one body, unless it may break.  Raises what ``add_joint`` raises.
 
         >>> scene = kinefab.Scene()
         >>> scene.add_fixed(scene.add_part("Plate"), scene.add_part("Bracket")).unlocked
@@ -374,7 +230,12 @@ class Scene(model.Scene):
         """
         self._check_index(b, "b")
         point = tuple(self.nodes[b].pose.translation.tolist())
-        return self.add_joint(JointKind.FIXED, a, b, point=point, name=name, collide=collide)
+        options: dict[str, Any] = {
+            "collide": collide,
+            "break_force": break_force,
+            "break_torque": break_torque,
+        }
+        return self.add_joint(JointKind.FIXED, a, b, point=point, name=name, **options)
 
     def add_coupling(
         self, a: JointLike, b: JointLike, ratio: float, *, offset: float = 0.0, name: str = ""

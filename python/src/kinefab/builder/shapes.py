@@ -30,13 +30,15 @@ class Shape:
 
 
 def shapes_of(name: str, given: Any, unit: str) -> list[Shape]:
-    """The bodies of what a script passes as a part's mesh.
+    """The bodies of what a script passes as a part's mesh; none of None.
 
     given: a trimesh.Trimesh or anything with ``vertices`` and ``faces``; a trimesh.Scene (a body for each of its
     geometries); the path of a mesh file.  unit: of its numbers.
     """
     if unit not in METRES:
         raise ValueError(f"the unit of {name}'s mesh is {shown(unit)}; pass one of: {', '.join(METRES)}")
+    if given is None:
+        return []
     size = METRES[unit]
     if isinstance(given, (str, os.PathLike)):
         path = Path(cast("str | os.PathLike[str]", given))

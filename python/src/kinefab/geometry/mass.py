@@ -12,6 +12,8 @@ import numpy as np
 from ..model import MassProperties
 from ..spatial import Array, BoolArray, IntArray, Pose, bounds
 
+STAND_IN_DENSITY = 1000.0
+"""kg/m^3 of the ball that stands in for an inertia that is not stated at all."""
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
 
@@ -78,6 +80,12 @@ def _tetrahedra(vertices: Array, faces: IntArray) -> tuple[Array, Array]:
     corners = np.take(np.ascontiguousarray(vertices.T), faces.T, axis=1)
     (a, b, c), (d, e, f), (g, h, i) = corners[:, 0], corners[:, 1], corners[:, 2]
     return corners, a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+
+
+def ball_inertia(mass: float) -> Array:
+    """Of a ball of water, kg m^2, shape (3, 3): what stands in for an inertia that nobody knows."""
+    radius = math.cbrt(3.0 * mass / (4.0 * math.pi * STAND_IN_DENSITY))
+    return 0.4 * mass * radius * radius * np.eye(3)
 
 
 def moved(properties: MassProperties, pose: Pose) -> MassProperties:

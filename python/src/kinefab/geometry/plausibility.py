@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Freedom, Motion, Scene
+from ..model import Freedom, Motion, Node, Scene
 from ..spatial import Array, Pose, bounds
 
 LARGE = 100.0
@@ -47,7 +47,7 @@ def check_plausible(scene: Scene, read: Scene, density: float, report: Report) -
     read: the scene before it was weighed, with the masses that the source states.  density: kg/m^3 of bodies that state none.
     """
     boxes = _boxes(scene)
-    stated = {i: node.mass.mass for i, node in enumerate(read.nodes) if node.mass is not None}
+    stated = {i: weight for i, node in enumerate(read.nodes) if (weight := _stated(node)) is not None}
     _check_sizes(scene, boxes, stated, report)
     _check_masses(scene, boxes, report)
     _check_densities(scene, density, report)
@@ -56,6 +56,10 @@ def check_plausible(scene: Scene, read: Scene, density: float, report: Report) -
     mirrored = sum(d.code == "POSE_MIRRORED" for d in report.diagnostics)
     if mirrored > 1 and mirrored >= len(scene.nodes):
         report.add("SOURCE_LIKELY_LEFT_HANDED", scene.source.uri, count=mirrored)
+
+
+def _stated(node: Node) -> float | None:
+    return node.kilograms if node.mass is None else node.mass.mass
 
 
 def _boxes(scene: Scene) -> dict[int, Box]:

@@ -12,7 +12,16 @@ from ..model import Body, MassProperties, Mesh, Node, Scene
 from ..spatial import Array, bounds
 from .closure import is_skin
 from .hulls import hull_of_points
-from .mass import are_possible, combined, is_possible, moved, principal_moments, solid_properties, stretched
+from .mass import (
+    are_possible,
+    ball_inertia,
+    combined,
+    is_possible,
+    moved,
+    principal_moments,
+    solid_properties,
+    stretched,
+)
 
 LEAST = 1.1754944e-38
 """Least normal number of a 32-bit float: a mass or moment below it would be written and read as nothing."""
@@ -50,12 +59,17 @@ def weigh(scene: Scene, density: float, report: Report) -> Scene:
                 unit[body.mesh], meshes[body.mesh] = _turned_out(mesh, label, node.where, report)
             if unit[body.mesh] is not None:
                 solids.append(body)
+        if not solids and node.kilograms is not None:
+            nodes[i] = replace(node, mass=_ball(node, node.kilograms, report))
         if solids:
-            if not node.grounded and any(body.density is None for body in solids):
+            if node.kilograms is None and not node.grounded and any(body.density is None for body in solids):
                 assumed.append(node)
-            kind = tuple(map(_told_apart, solids))
+            kind = (node.kilograms, *map(_told_apart, solids))
             if kind not in alike:
                 mass = combined([_placed(body, unit, density) for body in solids])
+                if node.kilograms is not None:
+                    share = node.kilograms / mass.mass
+                    mass = MassProperties(node.kilograms, mass.center, mass.inertia * share)
                 alike[kind] = mass, _unsayable(mass)
             mass, unsayable = alike[kind]
             nodes[i] = replace(node, mass=mass)
@@ -77,6 +91,17 @@ def _turned_out(mesh: Mesh, label: str, where: str, report: Report) -> tuple[Mas
         mesh = _inside_out(mesh)
         found = MassProperties(-found.mass, found.center, -found.inertia)
     return found, replace(mesh, volume=found.mass) if closed else mesh
+
+
+def _ball(node: Node, kilograms: float, report: Report) -> MassProperties:
+    """Of a part whose weight is known and that has no volume: at its origin."""
+    mass = MassProperties(kilograms, np.zeros(3), ball_inertia(kilograms))
+    if not node.grounded:
+        detail = {"node": node.id, "mass": f"{kilograms:g}"}
+        report.approximated(f"inertia {node.id}", "INERTIA_ASSUMED", node.where, **detail)
+    if _unsayable(mass):
+        _tell_size(node, mass, report)
+    return mass
 
 
 def _told_apart(body: Body) -> _Kind:

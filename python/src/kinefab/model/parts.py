@@ -98,6 +98,7 @@ class Node:
     grounded: fixed to the world.  flexible: for an assembly, whether its parts may move against each
     other (an inflexible assembly is one rigid group).  suppressed: present in the source but inactive.
     mass: as given by the source; None means "from geometry".
+    kilograms: of a part without ``mass``, what its geometry weighs together, whatever densities say; None: by its densities.
     colliders: the shapes that the source states, () for none at all; None where it does not say, and the export chooses.
     collision: the shape that is made for its bodies where it states no colliders, None for the export's choice.
     dynamics: see ``Dynamics``.  sites: named frames.  layer, tag: the source's words for them, "" for none.
@@ -112,6 +113,7 @@ class Node:
     definition: str | None = None
     bodies: tuple[Body, ...] = ()
     mass: MassProperties | None = None
+    kilograms: float | None = None
     grounded: bool = False
     flexible: bool = False
     suppressed: bool = False

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.mass import combined, is_possible, moved
+from ...geometry.mass import ball_inertia, combined, is_possible, moved
 from ...model import MassProperties
 from ...spatial import Array, Pose
 from .robot_frame import TURN
@@ -20,8 +19,6 @@ ROUNDING = 1e-9
 """Share of the largest moment that is lost in sums and turns."""
 POINT = 1e-6
 """Metres of the radius of gyration up to which a link states no inertia at all."""
-STAND_IN_DENSITY = 1000.0
-"""kg/m^3 of the ball that stands in for an inertia that is not stated at all."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,12 +62,6 @@ def weighed_together(
         inertia = _mended(inertia, whole.mass)
         report.approximated(f"inertia {name}", "INERTIA_MENDED", where, link=name)
     return MassProperties(whole.mass, TURN @ whole.center, TURN @ inertia @ TURN.T)
-
-
-def ball_inertia(mass: float) -> Array:
-    """Of a ball of water: what stands in for an inertia that nobody knows."""
-    radius = math.cbrt(3.0 * mass / (4.0 * math.pi * STAND_IN_DENSITY))
-    return 0.4 * mass * radius * radius * np.eye(3)
 
 
 def _mended(inertia: Array, mass: float) -> Array:

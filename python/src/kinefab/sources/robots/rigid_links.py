@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.mass import combined
+from ...geometry.mass import STAND_IN_DENSITY, ball_inertia, combined
 from ...model import Body, Collider, MassProperties, Node, NodeKind, PhysicsMaterial, Scene, Site
 from ...partition import Partition
 from ...spatial import Pose
-from .inertial import STAND_IN_DENSITY, Inertial, ball_inertia, weighed_together
+from .inertial import Inertial, weighed_together
 from .robot_frame import placed
 from .shapes import Shape, Shapes
 

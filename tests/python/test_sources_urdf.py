@@ -345,15 +345,16 @@ def test_a_package_that_colcon_installed_is_not_the_folder_around_it(tmp_path, g
 
 
 def test_a_whole_path_into_a_package_is_one_into_the_package(tmp_path, monkeypatch):
-    """What xacro makes of ``file://$(find NAME)``, found by the environment, or by a folder that was given from where one stands."""
+    """What xacro makes of ``file://$(find NAME)``, or of that with a stroke too much, found by the environment, or by a folder that was given from where one stands."""
     pytest.importorskip("xacro", reason="xacro is not installed")
     packages_in(tmp_path, "ws/src/arm_pkg", "ws/src/far/tool_pkg", "ws/hidden/secret_pkg")
     secret = tmp_path / "ws/hidden/secret_pkg/meshes/t.obj"
-    uris = ("file://$(find tool_pkg)/meshes/t.obj", "$(find tool_pkg)/meshes/t.obj", secret)
+    found = "$(find tool_pkg)/meshes/t.obj"
+    uris = (f"file://{found}", f"file:///{found}", found, secret)
     path = written(
         tmp_path / "ws/src/arm_pkg",
         "".join(f"<link name='l{i}'>{MESH.format(uri, '')}</link>" for i, uri in enumerate(uris))
-        + "".join(f"<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>" for i in (1, 2)),
+        + "".join(f"<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>" for i in (1, 2, 3)),
         "r.urdf.xacro",
     )  # fmt: skip
     monkeypatch.chdir(tmp_path / "ws")

@@ -75,7 +75,8 @@ class Packages:
         rest = rest.replace("\\", "/")
         if scheme not in ("", "file"):
             return Found(None)
-        plain = unquote(rest) if scheme else rest
+        # file:///$(find NAME) has four strokes after xacro, or three before a drive's letter.
+        plain = re.sub(r"\A/+(?=/|[A-Za-z]:)", "", unquote(rest)) if scheme else rest
         if "\0" in plain:
             return Found(None)
         if PurePosixPath(plain).is_absolute() or re.match(r"[A-Za-z]:", plain):

@@ -13,6 +13,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.analysis import analyse
+from kinefab.color import linear
 from kinefab.diagnostics import Report
 from kinefab.model import ColliderKind, Combine, JointKind, Motion
 from kinefab.sources import read
@@ -441,6 +442,15 @@ def test_textures_are_files_or_bytes(tmp_path):
     assert textured.color_texture.data.startswith(b"\x89PNG") and textured.color_texture.scale == (2.0, 3.0)
     assert (textured.metallic, textured.smoothness) == pytest.approx((0.4, 0.8))
     assert "MJCF_TEXTURE" in codes(report)
+
+
+def test_a_colour_of_bytes_is_cut_and_told(tmp_path):
+    head = "<asset><material name='m' rgba='255 128 0 255'/></asset>"
+    inner = "<geom size='1' material='m'/><body><geom name='g' size='1' rgba='0 .5 2 1'/><geom size='2' material='m'/></body>"
+    scene, report = loaded(tmp_path, inner, head)
+    assert sorted(s.color for s in scene.surfaces) == [pytest.approx((0, linear(0.5), 1, 1)), (1, 1, 0, 1)]
+    lost = [o.feature for o in report.outcomes if o.code == "COLOR_CLAMPED"]
+    assert sorted(lost) == ["colour of geom g", "colour of material m"]
 
 
 @pytest.mark.parametrize(

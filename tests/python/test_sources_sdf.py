@@ -548,7 +548,6 @@ REFUSED = {
     ),
     "nan": ("XML_VALUE", 3, model(link("a", "<pose>0 0 nan 0 0 0</pose>"))),
     "five numbers": ("XML_VALUE", 3, model(link("a", "<pose>0 0 0 0 0</pose>"))),
-    "negative mass": ("MASS_IMPOSSIBLE", 3, model(A.replace("<mass>2", "<mass>-2"))),
     "mimic": (
         "MIMIC_UNKNOWN", 5,
         model(PAIR + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 1</xyz><mimic joint='k'/></axis>")),
@@ -556,6 +555,12 @@ REFUSED = {
     "lead": ("SCREW_LEAD_ZERO", 5, model(PAIR + joint("j", "screw", "a", "b", TURN + "<thread_pitch>0</thread_pitch>"))),
 }  # fmt: skip
 TOLD = {
+    "negative mass": ("VALUE_UNREADABLE", 3, model(A.replace("<mass>2", "<mass>-2"))),
+    "moment of words": ("VALUE_UNREADABLE", 3, model(A.replace("<ixx>.1", "<ixx>none"))),
+    "a colour of bytes": (
+        "COLOR_CLAMPED", 3,
+        model(link("a", inner="<visual name='v'><geometry><sphere/></geometry><material><diffuse>255 128 0</diffuse></material></visual>")),
+    ),
     "version": ("SDF_VERSION", 1, model(A, "1.3")),
     "include": ("INCLUDE_NOT_FOUND", 4, model(A + "<include><uri>model://gone</uri></include>")),
     "plugin": ("ELEMENT_DROPPED", 4, model(A + "<plugin name='p' filename='x.so'/>")),

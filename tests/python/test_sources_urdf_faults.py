@@ -56,10 +56,7 @@ REFUSED = {
     "nan": ("XML_VALUE", 4, robot(PAIR + joint("<origin xyz='0 nan 0'/>"))),
     "infinite": ("XML_VALUE", 4, robot(PAIR + joint("<origin xyz='0 inf 0'/>"))),
     "two numbers": ("XML_VALUE", 4, robot(PAIR + joint("<axis xyz='0 1'/>"))),
-    "a word": ("XML_VALUE", 2, robot(A.replace("'2'", "'heavy'"))),
-    "no axis": ("AXIS_ZERO", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
-    "negative mass": ("MASS_IMPOSSIBLE", 2, robot(A.replace("'2'", "'-2'"))),
-    "negative damping": ("XML_VALUE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
+    "a word": ("XML_VALUE", 4, robot(PAIR + joint("<axis xyz='0 0 up'/>"))),
     "follows itself": ("MIMIC_UNKNOWN", 4, robot(PAIR + joint("<mimic joint='j'/>"))),
     "follow each other": (
         "MIMIC_UNKNOWN",
@@ -74,7 +71,21 @@ REFUSED = {
 }  # fmt: skip
 
 SHAPE = "<link name='a'>{}</link>"
+BALL = "<visual><geometry><sphere radius='1'/></geometry>{}</visual>"
 TOLD = {
+    "mass of words": ("VALUE_UNREADABLE", 2, robot(A.replace("'2'", "'heavy'"))),
+    "negative mass": ("VALUE_UNREADABLE", 2, robot(A.replace("'2'", "'-2'"))),
+    "moment of words": ("VALUE_UNREADABLE", 2, robot(A.replace("'0.25'", "'1.#QNAN'"))),
+    "centre of mass of words": ("VALUE_UNREADABLE", 2, robot(A.replace("<mass", "<origin xyz='0 nan 0'/><mass"))),
+    "negative damping": ("VALUE_UNREADABLE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
+    "friction of words": ("VALUE_UNREADABLE", 4, robot(PAIR + joint("<dynamics friction='none'/>"))),
+    "no axis": ("AXIS_ZERO_FIXED", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
+    "a second robot": ("XML_AFTER_ROOT", 4, robot(A) + "\n<robot name='q'><link name='b'/></robot>"),
+    "a colour of bytes": (
+        "COLOR_CLAMPED",
+        2,
+        robot(SHAPE.format(BALL.format("<material name='m'><color rgba='255 128 0 255'/></material>"))),
+    ),
     "limits missing": ("LIMITS_MISSING", 4, robot(PAIR + joint(kind="revolute"))),
     "world unstated": ("LINK_WORLD_UNSTATED", 3, robot(A + "\n" + joint(parent="world", child="a"))),
     "limits reversed": ("LIMITS_REVERSED_DROPPED", 4, robot(PAIR + joint("<limit lower='80' upper='-10'/>", "prismatic"))),
@@ -259,7 +270,32 @@ def test_bytes_that_are_not_of_the_stated_encoding_are_a_finding(tmp_path):
     assert [d.code for d in refused.value.diagnostics] == ["XML_SYNTAX"]
 
 
-LOOSE = ["<?xml?>", "<?xml verison='1.0'?>", "\n<?xml version='1.0'?>", "<!-- a -- b\n<!-- c -->"]
+def test_what_cannot_be_read_of_a_link_or_joint_leaves_the_others_theirs(tmp_path):
+    """A mass and a damping that are none do not keep a robot from standing and moving; a joint about nothing is fixed."""
+    heavy = A.replace("'2'", "'nan'") + B + C + LINK.format("d")
+    turning = "<dynamics damping='-1' friction='0.5'/><limit lower='-10' upper='80' effort='1' velocity='1'/>"
+    path = written(tmp_path, robot(heavy + joint(turning, "revolute", parent="b", child="a")
+        + joint("<axis xyz='0 0 0'/>", name="k", parent="b", child="c")
+        + joint("<axis xyz='0 0 1'/><mimic joint='k'/>", name="l", parent="c", child="d")))  # fmt: skip
+    scene = read(path, report := Report())
+    assert {node.name: node.mass is None for node in scene.nodes[1:]} == {"b": False, "a": False}
+    assert {d.code for d in report.diagnostics} == {"VALUE_UNREADABLE", "AXIS_ZERO_FIXED", "MASS_STAND_IN"}
+    (only,) = scene.joints
+    freedom = only.freedoms[RX]
+    assert (freedom.lower, freedom.upper, freedom.passive.damping, freedom.passive.friction) == (
+        -10,
+        80,
+        0,
+        0.5,
+    )
+
+
+LOOSE = [
+    "<?xml?>",
+    "<?xml verison='1.0'?>",
+    "\n<?xml version='1.0'?>",
+    "<!-- a -- b\n<!-- c -->",
+]
 
 
 @pytest.mark.parametrize("before", LOOSE)
@@ -276,13 +312,19 @@ def test_ends_of_elements_after_the_root_are_passed_over(tmp_path, after):
     assert [node.name for node in scene.nodes] == ["r", "a"]
 
 
-@pytest.mark.parametrize(
-    "after", ["</robot><robot/>", "<robot/>", "</robot> words", "</robot", "</", "words"]
-)
+@pytest.mark.parametrize("after", ["</robot><robot/>", "</robot> words", "</robot", "</", "words"])
 def test_what_else_stands_after_the_root_is_refused(tmp_path, after):
     with pytest.raises(KinefabError) as refused:
         read(written(tmp_path, robot(A) + after), Report())
     assert [d.code for d in refused.value.diagnostics] == ["XML_SYNTAX"]
+
+
+def test_an_ampersand_that_begins_no_entity_is_one(tmp_path):
+    """As TinyXML and MuJoCo read it; entities stay what they are."""
+    inner = A.replace("'a'", "'a&b &lt; &#99;'") + "\n<gazebo><text>this & that</text></gazebo>"
+    scene = read(written(tmp_path, robot(inner)), report := Report())
+    assert [node.name for node in scene.nodes] == ["r", "a&b < c"]
+    assert [(d.code, d.where) for d in report.diagnostics] == [("ELEMENT_DROPPED", "r.urdf:3")]
 
 
 def test_xacro_without_its_package_is_an_error_that_names_it(tmp_path, monkeypatch):

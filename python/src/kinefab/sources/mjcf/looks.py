@@ -12,6 +12,7 @@ from ...color import linear
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture
 from ...spatial import IntArray
+from ..robots.colors import clamped
 from .engine import Compiled
 
 UNCOLOURED = (0.5, 0.5, 0.5, 1.0)
@@ -52,8 +53,15 @@ class Looks:
         key = (material, rgba, texture)
         if key not in self._known:
             self._known[key] = len(self.surfaces)
-            self.surfaces.append(self._surface(material, rgba, texture))
+            color = self._color(geom, material, rgba)
+            self.surfaces.append(self._surface(material, color, texture))
         return (self._known[key],)
+
+    def _color(self, geom: int, material: int, rgba: tuple[float, ...]) -> tuple[float, ...]:
+        kind, index = ("geom", geom) if material < 0 else ("mat", material)
+        word = {"mat": "material"}.get(kind, kind)
+        name = self.compiled.name(kind, index) or str(index)
+        return clamped(rgba, f"colour of {word} {name}", self.compiled.where(word, name), self.report)
 
     def _texture_of(self, material: int) -> int:
         """The one that colours; -1 without one."""
@@ -73,7 +81,7 @@ class Looks:
 
     def _surface(self, material: int, rgba: tuple[float, ...], texture: int) -> Surface:
         m = self.compiled.model
-        red, green, blue, alpha = (min(1.0, max(0.0, v)) for v in rgba)
+        red, green, blue, alpha = rgba
         mode = AlphaMode.BLEND if alpha < 1.0 else AlphaMode.OPAQUE
         name = "Color " + "".join(f"{round(255 * v):02X}" for v in (red, green, blue, alpha))
         red, green, blue = linear(red), linear(green), linear(blue)

@@ -25,6 +25,8 @@ _ENCODING = re.compile(rb"\A(?:\xef\xbb\xbf)?<\?xml[^>]*?\bencoding\s*=\s*[\"'](
 DECODED = frozenset("utf-8 shift_jis cp932 euc_jp gb2312 gbk gb18030 big5 euc_kr cp949".split())
 """Encodings that Python reads and expat does not, or not by all their names (``utf8``)."""
 _ENDS = re.compile(rb"(?:</[^<>]*>\s*)+\Z")
+_ANOTHER = re.compile(rb"<[A-Za-z_]")
+_BARE = re.compile(rb"&(?!#?\w+;)")
 _NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
 ABOUT = 5
@@ -220,12 +222,13 @@ class _Builder:
 def parse_xml(data: bytes, name: str, report: Report) -> Element:
     """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
     # Against the rules, and read by robot programs: blanks before the declaration, one without a version, -- in a comment,
-    # ends of elements after that of the root.
+    # an & that begins no entity, ends of elements after that of the root, and further elements there, which they pass over.
     data = _NO_VERSION.sub(b"", data.lstrip())
     tried = Report()
     root = _built(data, name, report, tried)
     if root is None and any(d.code == "XML_SYNTAX" for d in tried.diagnostics):
-        root = _built(_COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data), name, report, Report())
+        bare = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
+        root = _built(_BARE.sub(b"&amp;", bare), name, report, Report())
     if root is None:
         report.extend(tried)
         raise KinefabError(report.of(Severity.ERROR))
@@ -245,7 +248,11 @@ def _built(data: bytes, name: str, report: Report, faults: Report) -> Element | 
         pass
     except expat.ExpatError as error:
         if builder is not None and builder.root is not None and not builder.open:
-            if _ENDS.match(data, builder.parser.ErrorByteIndex - 1):  # the index is that of the slash
+            rest = builder.parser.ErrorByteIndex
+            if _ANOTHER.match(data, rest):
+                report.add("XML_AFTER_ROOT", f"{name}:{error.lineno}", element=shown(builder.root.tag))
+                return builder.root
+            if _ENDS.match(data, rest - 1):  # the index is that of the slash
                 return builder.root
         detail = expat.errors.messages[error.code]
         faults.add("XML_SYNTAX", f"{name}:{error.lineno}", detail=detail)

@@ -38,9 +38,12 @@ class Links:
         element, scope = entry.element, entry.owner
         link = Link(f"{scope.path}/{entry.name}", entry.name, entry_world_pose(entry), element.where)
         link.parent, link.grounded = parent, scope.static
+        label, before = f"link {link.id}", len(self.report.diagnostics)
         link.inertial = None if scope.static else _inertial(element, entry.name)
         link.solid = _solid(element, entry.name) if _is_solid(element) and not scope.static else None
-        label = f"link {link.id}"
+        # A model stands and moves without it.
+        if self.report.forgive(before, f"inertial of {label}", "VALUE_UNREADABLE"):
+            link.inertial = None
         link.drawn = self._parts(element, "visual", scope, label)
         link.touched = self._parts(element, "collision", scope, label)
         link.gravity = truth(element.content("gravity"), True)

@@ -7,6 +7,7 @@ from pathlib import PurePosixPath
 
 from ...color import linear
 from ...model import AlphaMode, PhysicsMaterial, Surface, Texture
+from ..robots.colors import clamped
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element, truth
 
@@ -31,7 +32,7 @@ class Materials:
             name = script.content("name")
             element.report.dropped(f"material script {name} of {feature}", "ELEMENT_DROPPED", script.where)
             return ()
-        surface = _surface(element, visual, packages)
+        surface = _surface(element, visual, packages, feature)
         key = (*(getattr(surface, n) for n in ("color", "metallic", "smoothness", "emission", "double_sided")),
                surface.color_texture, surface.normal_texture, surface.emission_texture)  # fmt: skip
         if key not in self._known:
@@ -40,11 +41,11 @@ class Materials:
         return (self._known[key],)
 
 
-def _surface(element: Element, visual: Element, packages: Packages) -> Surface:
-    red, green, blue, alpha = color(element, "diffuse", GREY)
+def _surface(element: Element, visual: Element, packages: Packages, feature: str) -> Surface:
+    red, green, blue, alpha = _color(element, "diffuse", GREY, feature)
     faint = visual.child("transparency")
     alpha *= 1.0 - min(1.0, max(0.0, 0.0 if faint is None else faint.value(0.0)))
-    emissive = color(element, "emissive", BLACK)
+    emissive = _color(element, "emissive", BLACK, feature)
     pbr = element.child("pbr")
     metal = None if pbr is None else pbr.child("metal") or pbr.child("specular")
     if metal is not None and element.child("diffuse") is None:
@@ -64,8 +65,8 @@ def _surface(element: Element, visual: Element, packages: Packages) -> Surface:
     )
 
 
-def color(
-    element: Element, tag: str, default: tuple[float, float, float, float]
+def _color(
+    element: Element, tag: str, default: tuple[float, float, float, float], feature: str
 ) -> tuple[float, float, float, float]:
     """RGBA, linear; three numbers have an alpha of 1."""
     child = element.child(tag)
@@ -73,7 +74,7 @@ def color(
         return default
     count = 3 if len(child.text.split()) == 3 else 4
     found = (*child.values(count, default[:count]), 1.0)
-    red, green, blue, alpha = (min(1.0, max(0.0, v)) for v in found[:4])
+    red, green, blue, alpha = clamped(found[:4], f"{tag} colour of {feature}", child.where, child.report)
     return linear(red), linear(green), linear(blue), alpha
 
 

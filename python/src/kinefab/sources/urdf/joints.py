@@ -17,6 +17,7 @@ from .robot import Mimic, Robot, UrdfJoint
 
 TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 AXIAL = frozenset({"revolute", "continuous", "prismatic", "planar"})
+X = np.array([1.0, 0.0, 0.0])
 WORLD = "world"
 MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
 
@@ -45,16 +46,23 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
         near = ", ".join(difflib.get_close_matches(kind, TYPES, 3)) or "none"
         element.fault("JOINT_TYPE_UNKNOWN", feature=feature, word=kind, near=near, known=", ".join(TYPES))
     ends = [_link(element, side, feature, robot) for side in ("parent", "child")]
-    axis = _axis(element) if kind in AXIAL else np.array([1.0, 0.0, 0.0])
+    axis = _axis(element) if kind in AXIAL else X
     if kind not in TYPES or not all(ends):
         return None
     if ends[0] == ends[1]:
         element.fault("SAME_COMPONENT", feature=feature, component=ends[0])
         return None
-    joint = UrdfJoint(name, kind, ends[0], ends[1], origin(element), axis, element.where)
+    joint = UrdfJoint(
+        name, kind, ends[0], ends[1], origin(element), X if axis is None else axis, element.where
+    )
+    if axis is None:  # what draws robots turns about it by nothing, and Pinocchio and ROS load it
+        report.approximated(feature, "AXIS_ZERO_FIXED", element.where)
+        kind = joint.kind = "fixed"
     _limits(element, joint, feature, report)
     if (dynamics := element.child("dynamics")) is not None:
-        joint.damping, joint.friction = (_not_negative(dynamics, key) for key in ("damping", "friction"))
+        joint.damping, joint.friction = (
+            _not_negative(dynamics, key, feature) for key in ("damping", "friction")
+        )
     if kind in ("planar", "floating"):  # which of their coordinates is meant nobody says
         for child in element.all("limit", "dynamics"):
             if any(_is_number(child, key) and float(child.attributes[key]) for key in child.attributes):
@@ -81,12 +89,13 @@ def _is_number(element: Element, key: str) -> bool:
         return False
 
 
-def _not_negative(element: Element, key: str) -> float:
+def _not_negative(element: Element, key: str, feature: str) -> float:
+    """Zero where it is none, told: MuJoCo and ROS load that too."""
+    before = len(element.report.diagnostics)
     value = element.number(key)
     if value < 0.0:
         element.wrong(key, "zero or more", element.attributes[key])
-        return 0.0
-    return value
+    return 0.0 if element.report.forgive(before, f"{key} of {feature}", "VALUE_UNREADABLE") else value
 
 
 def _link(element: Element, side: str, feature: str, robot: Robot) -> str:
@@ -106,17 +115,14 @@ def _link(element: Element, side: str, feature: str, robot: Robot) -> str:
     return name
 
 
-def _axis(element: Element) -> Array:
+def _axis(element: Element) -> Array | None:
+    """None where it has no length."""
     child = element.child("axis")
-    x = np.array([1.0, 0.0, 0.0])
     if child is None:
-        return x
+        return X
     axis = np.array(child.numbers("xyz", 3, (1.0, 0.0, 0.0)))
     length = float(np.linalg.norm(axis))
-    if not length > 1e-9:
-        child.fault("AXIS_ZERO", field="axis")
-        return x
-    return axis / length
+    return axis / length if length > 1e-9 else None
 
 
 def _limits(element: Element, joint: UrdfJoint, feature: str, report: Report) -> None:

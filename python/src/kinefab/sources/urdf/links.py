@@ -35,7 +35,7 @@ def read_links(robot: Robot, packages: Packages, materials: Materials, report: R
             element.fault("SOURCE_ID_DUPLICATE", id=name, first=robot.links[name].where)
             continue
         link = Link(f"{robot.name}/{name}", name, Pose(), element.where)
-        link.inertial = _inertial(element, name)
+        link.inertial = _inertial(element, name, report)
         link.drawn = _parts(element, "visual", name, packages, materials, report)
         link.touched = _parts(element, "collision", name, packages, None, report)
         robot.links[name] = link
@@ -57,18 +57,21 @@ def origin(element: Element) -> Pose:
     return Pose(rotation_rpy(*child.numbers("rpy", 3, (0.0, 0.0, 0.0))), np.array(xyz))
 
 
-def _inertial(link: Element, name: str) -> Inertial | None:
+def _inertial(link: Element, name: str, report: Report) -> Inertial | None:
+    """None where it is not stated, or, told, no number or no mass: a robot stands and moves without it, and ROS and
+    Pinocchio leave it out too."""
     element = link.child("inertial")
     if element is None:
         return None
+    before = len(report.diagnostics)
     mass_element, inertia = element.child("mass"), element.child("inertia")
     mass = 0.0 if mass_element is None else mass_element.number("value")
     if mass < 0.0:
         element.fault("MASS_IMPOSSIBLE", node=name, detail=f"the mass is {mass:g} kg")
-        return None
     keys = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     numbers = [0.0 if inertia is None else inertia.number(key) for key in keys]
-    return Inertial(mass, origin(element), tensor(*numbers))
+    found = Inertial(mass, origin(element), tensor(*numbers))
+    return None if report.forgive(before, f"inertial of link {name}", "VALUE_UNREADABLE") else found
 
 
 def _parts(

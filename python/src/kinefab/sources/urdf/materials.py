@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 from ...color import linear
 from ...diagnostics import Report
 from ...model import Surface, Texture
+from ..robots.colors import clamped
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element
 
@@ -52,8 +53,7 @@ class Materials:
 
     def _surface(self, name: str, element: Element) -> Surface:
         color, texture = element.child("color"), element.child("texture")
-        rgba = GREY if color is None else self._color(color, name)
-        red, green, blue, alpha = (min(1.0, max(0.0, c)) for c in rgba)
+        red, green, blue, alpha = GREY if color is None else self._color(color, name)
         if color is not None:
             red, green, blue = linear(red), linear(green), linear(blue)
         image = None if texture is None else self._texture(texture)
@@ -68,11 +68,11 @@ class Materials:
         """RGBA; grey, told, where it is none: a robot moves without its colours, and programs that read it go on.  Three
         numbers are opaque, as everybody understands them."""
         count = 3 if len(element.attributes.get("rgba", "").replace(",", " ").split()) == 3 else 4
-        before = len(self.report.diagnostics)
+        before, feature = len(self.report.diagnostics), f"colour of material {name}"
         found = element.numbers("rgba", count, GREY[:count])
-        if self.report.forgive(before, f"colour of material {name}", "SHAPE_UNREADABLE"):
+        if self.report.forgive(before, feature, "SHAPE_UNREADABLE"):
             return GREY
-        return (*found, 1.0)[:4]
+        return clamped((*found, 1.0)[:4], feature, element.where, self.report)
 
     def _texture(self, element: Element) -> Texture | None:
         uri = element.attributes.get("filename", "").strip()

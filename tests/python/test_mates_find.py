@@ -50,9 +50,11 @@ FEW = (
     "spindle",
     "screw_cap",
     "modelled_threads",
+    "set_collars",
+    "dog_screws",
 )
 """What the suite tries as drawn: a machine for each rule."""
-TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage")
+TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage", "motor_pulley")
 """And with another size, place, clearance, unit, and names without meaning."""
 
 

@@ -16,14 +16,14 @@ from ...spatial import Array, cross
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
 from .copies import Copies
-from .decided import Decided
-from .edge import Edge
+from .edge import Decided, Edge
 from .fasten import PRESSED, Bolted, Parts, bolts_apart, fasten, fasteners, fix_pins, press
 from .freedom import RANK, Scale, freedom_of, null_space
 from .inherited import inherit
 from .motions import held_rows, motions_of
 from .pieces import parted
 from .rolling import join_races, join_rollers
+from .set_screws import fix_set_screws
 from .shafts import shafts_of
 from .twins import fix_loose
 
@@ -47,7 +47,9 @@ def _decided(
 ) -> Decided:
     join_races(bodies)
     join_rollers(bodies, near)
-    single = _bolt_groups(bodies, parts, fasten(bodies, parts))
+    bolted = fasten(bodies, parts)
+    fix_set_screws(bodies, parts)
+    single = _bolt_groups(bodies, parts, bolted)
     _clamp(bodies)
     press(bodies, parts)
     fix_loose(bodies, parts.kinds, fasteners(parts))

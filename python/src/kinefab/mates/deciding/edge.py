@@ -1,4 +1,4 @@
-"""A joint between two bodies as far as it is decided."""
+"""A joint between two bodies as far as it is decided, and all that is decided of an assembly."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from ...spatial import Array
 from ..touching.contact import Contact
+from .bodies import Bodies
 from .freedom import Scale
 
 
@@ -40,3 +41,11 @@ class Edge:
     parts: tuple[int, int] = (-1, -1)
     twin: Twin | None = None
     swapped: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Decided:
+    """bodies: with all fixings.  edges: the joints between them, without the seats that turned out to be stops."""
+
+    bodies: Bodies
+    edges: list[Edge]

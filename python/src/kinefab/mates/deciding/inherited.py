@@ -31,7 +31,7 @@ SURE = 0.8
 LESS = 0.04
 ONE_WAY = 0.05
 """What a contact that stands off on one side takes from how sure a joint is: the other side may have been left out."""
-FIXINGS = frozenset({"bolted", "held", "clamped", "pressed", "bushing"})
+FIXINGS = frozenset({"bolted", "held", "clamped", "pressed", "bushing", "set screw"})
 """What fastens parts by themselves, not by what they are (a nut, a washer, a pin)."""
 TAKEN = 0.7
 """Confidence of what is taken."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 
 from ..touching.contact import Contact, ContactKind
-from .decided import Decided
+from .edge import Decided
 from .motions import motions_of
 from .pieces import parted
 

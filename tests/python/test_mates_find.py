@@ -52,6 +52,7 @@ FEW = (
     "modelled_threads",
     "set_collars",
     "dog_screws",
+    "keyed_hub",
 )
 """What the suite tries as drawn: a machine for each rule."""
 TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage", "motor_pulley")

@@ -18,7 +18,7 @@ from .bodies import Bodies
 from .copies import Copies
 from .edge import Decided, Edge
 from .fasten import PRESSED, Bolted, Parts, bolts_apart, fasten, fasteners, fix_pins, press
-from .freedom import RANK, Scale, freedom_of, null_space
+from .freedom import RANK, Scale, freedom_of, held_both_ways, null_space
 from .inherited import inherit
 from .motions import held_rows, motions_of
 from .pieces import parted
@@ -218,11 +218,11 @@ def _settled(bodies: Bodies, edges: list[Edge]) -> Decided:
             inside.append(edge)
     final: list[Edge] = []
     for own, others in parted(len(bodies.shapes), chosen, inside):
-        final += _settle_piece(own, others)
+        final += _settle_piece(bodies, own, others)
     return Decided(bodies, sorted(final, key=lambda e: e.pair))
 
 
-def _settle_piece(edges: list[Edge], resting: list[Edge]) -> list[Edge]:
+def _settle_piece(bodies: Bodies, edges: list[Edge], resting: list[Edge]) -> list[Edge]:
     """The joints of one machine: those that are doubtful as they let it move, and of what rests all but what would stop it."""
     members = sorted({b for e in [*edges, *resting] for b in e.pair})
     doubtful = [e for e in edges if e.otherwise is not None]
@@ -232,7 +232,7 @@ def _settle_piece(edges: list[Edge], resting: list[Edge]) -> list[Edge]:
     if doubtful and not motions.shape[1]:
         for edge in doubtful:
             _swap(edge)
-        moving = motions_of(members, edges)
+        moving = _untrapped(bodies, members, [*edges, *resting], motions_of(members, edges))
         for edge in doubtful:
             if not _moves(members, edge, moving):
                 _swap(edge)
@@ -245,6 +245,21 @@ def _settle_piece(edges: list[Edge], resting: list[Edge]) -> list[Edge]:
         edges.append(edge)
         motions = left
     return edges
+
+
+def _untrapped(bodies: Bodies, members: list[int], edges: Sequence[Edge], motions: Array) -> Array:
+    """Of a machine's motions those that nothing bars from both sides: a key can leave the bottom of its groove as far as the
+    other one is above it, and is held between both."""
+    index = {body: 6 * i for i, body in enumerate(members)}
+    rows = [np.zeros((0, motions.shape[1]))]
+    for edge in edges:
+        a, b = (motions[index[body] : index[body] + 6] for body in edge.pair)
+        for contact in edge.contacts:
+            if not contact.two_sided and len(contact.points):
+                way = 1.0 if bodies.of(contact.first) == edge.pair[0] else -1.0
+                rows.append(edges[0].scale.rows(contact.points, way * contact.normals) @ (b - a))
+    barred = np.concatenate(rows)
+    return motions @ null_space(barred[held_both_ways(barred)])
 
 
 def _swap(edge: Edge) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...spatial import Array
+from ...spatial import Array, BoolArray
 from ..touching.contact import Contact
 
 RANK = 1e-5
@@ -72,10 +72,7 @@ def freedom_of(contacts: Sequence[Contact], flips: Sequence[bool], scale: Scale)
     owner = np.concatenate([np.full(len(block), k) for k, block in enumerate(blocks)])
     rows = np.concatenate(blocks)
     active = np.linalg.norm(rows, axis=1) > RANK
-    left = np.zeros(len(rows))
-    if active.any():
-        left[active] = _left(rows[active])
-    holds = active & (left <= CLOSED)
+    holds = held_both_ways(rows)
     held = base @ null_space(rows[holds]) if holds.any() else base
     touching = np.array([single[int(k)][1].touching for k in owner])
     pressed = holds | (touching & active)
@@ -84,6 +81,15 @@ def freedom_of(contacts: Sequence[Contact], flips: Sequence[bool], scale: Scale)
         mine = owner == k
         closed[i] = bool(np.all(holds[mine] | ~active[mine]) and mine.any())
     return Freedom(kept, held, tuple(closed))
+
+
+def held_both_ways(rows: Array) -> BoolArray:
+    """Which rows (n, k), each of what can be left on one side alone, hold both ways since others push back, shape (n,)."""
+    active = np.linalg.norm(rows, axis=1) > RANK
+    left = np.ones(len(rows))
+    if active.any():
+        left[active] = _left(rows[active])
+    return left <= CLOSED
 
 
 def _left(rows: Array) -> Array:

@@ -53,6 +53,7 @@ FEW = (
     "set_collars",
     "dog_screws",
     "keyed_hub",
+    "inserts",
 )
 """What the suite tries as drawn: a machine for each rule."""
 TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage", "motor_pulley")

@@ -52,6 +52,7 @@ def _decided(
     single = _bolt_groups(bodies, parts, bolted)
     _clamp(bodies)
     press(bodies, parts)
+    single = _bolt_groups(bodies, parts, single)  # in what has been pressed: inserts
     fix_loose(bodies, parts.kinds, fasteners(parts))
     fix_pins(bodies, parts, shafts)
     _fix_held(bodies)

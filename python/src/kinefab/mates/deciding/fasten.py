@@ -244,7 +244,8 @@ def _pressed(bodies: Bodies, fits: dict[int, list[Contact]]) -> None:
 
 
 def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> None:
-    """A bushing sits in the bore that it lines: there its shaft is.  In a telescope's tube the next one is elsewhere."""
+    """A bushing sits in the bore that it lines: there its shaft is.  In a telescope's tube the next one is elsewhere.  So does
+    an insert without play, in whose thread a screw is."""
     for part, form in enumerate(parts.turned):
         if form is None or not form.bore or form.has_grip:
             continue
@@ -258,7 +259,12 @@ def _liners(bodies: Bodies, parts: Parts, fits: dict[int, list[Contact]]) -> Non
             continue
         if sum(shared(c, shaft) for c in inside for shaft in around) < LINED * sum(c.reach for c in inside):
             continue
-        if min(c.gap for c in inside) <= min(c.gap for c in around) + 1e-12 and form.radius < 2.0 * form.bore:
+        if any(c.gap < -PRESSED * c.a.radius for c in around):
+            if any(c.touching for c in inside):
+                bodies.fix(part, inside[0].other(part), "insert", 0.8, tuple(inside))
+        elif (
+            min(c.gap for c in inside) <= min(c.gap for c in around) + 1e-12 and form.radius < 2.0 * form.bore
+        ):
             bodies.fix(part, inside[0].other(part), "bushing", 0.8, tuple(inside))
 
 

@@ -410,6 +410,28 @@ def test_curves_beside_solids_are_no_bodies(tmp_path: Path):
     assert [(d.code, d.where) for d in report.diagnostics] == [("STEP_CURVES_ALONE", "drawn.step#Top/Arm")]
 
 
+@pytest.mark.parametrize(
+    "instead, codes", [("", []), (",#90020", ["STEP_SHAPE_FAILED"])], ids=["nothing", "what is not read"]
+)
+def test_a_component_without_a_shape_is_no_body(instead: str, codes: list[str], tmp_path: Path):
+    """Fusion writes components of sketches alone with a placement and nothing else; they are empty, and did not fail."""
+    machine = Machine("Top")
+    machine.add("Base", box((0.0, 0.0, 0.0), (50.0, 50.0, 10.0)))
+    machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)), (100.0, 0.0, 0.0))
+    path = tmp_path / "empty.step"
+    write_step(machine, path)
+    text = path.read_text(encoding="utf-8")
+    shapes = re.findall(r"ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\(#\d+(,#\d+)\)", text)
+    assert len(shapes) == 2
+    text = text.replace(f"{shapes[1]})", f"{instead})", 1)
+    unread = "#90020 = HALF_SPACE_SOLID('',#90021,.T.);\n#90021 = PLANE('',$);\nENDSEC;\nEND-ISO"
+    path.write_text(re.sub(r"ENDSEC;\s*END-ISO", unread, text), encoding="utf-8")
+    scene, report = read_whole(path)
+    assert sizes(scene) == {"Top": [], "Top/Base": [25.0], "Top/Arm": []}
+    assert [d.code for d in report.diagnostics] == codes
+    assert (scene.nodes[2].kind is NodeKind.PART) is bool(codes)
+
+
 def test_an_operator_that_places_nothing_is_not_told(tmp_path: Path):
     machine = Machine("Top")
     machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)))

@@ -21,12 +21,13 @@ from ..reading.source_frame import DIRECTIONS, FORWARD, SourceFrame, turn_to_sce
 from .external import check_external
 from .iges.unit import metres_of
 from .iges.untranslated import tell_untranslated
-from .materials import add_densities
 from .mechanism import add_pairs
-from .operators import tell_mirrors
 from .part21 import Part21
 from .records import Begun, Shape, Tree
 from .scene import Shapes, scene_nodes
+from .stated.materials import add_densities
+from .stated.operators import tell_mirrors
+from .stated.products import shapeless
 
 MAX_BYTES = 512 * 2**20
 """Largest file that is read."""
@@ -60,7 +61,13 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     up = request.text("up", "Z")
     frame = SourceFrame(turn_to_scene(DIRECTIONS[up], DIRECTIONS[FORWARD[up]]), MILLIMETRE)
     scene = Scene(source=Source(path.name, up, length, hashlib.sha256(data).hexdigest()))
-    drawn = _fill(scene, path, iges, tolerance, size, frame, report, request)
+    drawn, bare = _fill(scene, path, iges, tolerance, size, frame, report, request)
+    empty = shapeless(text) if bare else frozenset[str]()
+    for name, nodes in bare:
+        if name in empty:
+            drawn += nodes
+        else:
+            _tell_failed(name, "it holds no faces", scene.nodes[nodes[0]].where, report)
     tell_mirrors(text, path.name, report)
     add_densities(scene, text, report)
     if count := text.plain.count(CONTEXT_COLOR):
@@ -75,12 +82,13 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
 def _fill(
     scene: Scene, path: Path, iges: bool, tolerance: Tolerance, size: int,
     frame: SourceFrame, report: Report, request: Request,
-) -> list[int]:  # fmt: skip
+) -> tuple[list[int], list[tuple[str, list[int]]]]:  # fmt: skip
     """Read the file into the scene; where a shape takes the process along, once more without it.
 
-    Returns the nodes that are curves and points alone.
+    Returns the nodes that are curves and points alone; and of each shape in which nothing is its name and its nodes.
     """
     drawn: list[int] = []
+    bare: list[tuple[str, list[int]]] = []
     tree: Tree | None = None
     shapes: Shapes | None = None
     done: set[int] = set()
@@ -103,20 +111,23 @@ def _fill(
                     begun = None
                     shapes.add(found)
                     _report_losses(found, shapes, tree, scene, report)
-                    drawn += shapes.users(found.number) if found.lines else ()
+                    if found.lines:
+                        drawn += shapes.users(found.number)
+                    elif not found.pieces and not found.failure:
+                        bare.append((tree.shapes[found.number], shapes.users(found.number)))
                     request.progress(len(done) / len(tree.shapes))
             if not any(node.bodies for node in scene.nodes):
                 report.add("STEP_EMPTY", path.name, path=path.name)
-            return drawn
+            return drawn, bare
         except GuardedError as error:
             report.add("STEP_UNREADABLE", path.name, path=path.name, detail=error)
-            return drawn
+            return drawn, bare
         except GuardedCrash as crash:
             if begun is None or shapes is None or tree is None:
                 report.add(
                     "STEP_UNREADABLE", path.name, path=path.name, detail=f"OpenCASCADE gave up: {crash}"
                 )
-                return drawn
+                return drawn, bare
             done.add(begun)
             failed = Shape(begun, [], f"OpenCASCADE gave up: {crash}")
             begun = None
@@ -127,11 +138,12 @@ def _fill(
         path=path.name,
         detail=f"more than {MOST_CRASHES} of its shapes end OpenCASCADE",
     )
-    return drawn
+    return drawn, bare
 
 
 def _set_aside(scene: Scene, drawn: list[int]) -> None:
-    """What is curves and points alone, the skeleton of an assembly, is no body that could fall, unless a pair moves it."""
+    """What is curves and points alone, the skeleton of an assembly, or nothing, is no body that could fall, unless a pair moves
+    it."""
     named = {node for joint in scene.joints for node in (joint.a, joint.b)}
     named |= {feature.node for constraint in scene.constraints for feature in constraint.features}
     for i in drawn:
@@ -146,12 +158,16 @@ def _report_losses(shape: Shape, shapes: Shapes, tree: Tree, scene: Scene, repor
         if shape.lines:
             report.dropped(f"curves of {name}", "STEP_CURVES_ALONE", where, name=name)
         if shape.failure:
-            report.dropped(f"shape {name}", "STEP_SHAPE_FAILED", where, name=name, detail=shape.failure)
+            _tell_failed(name, shape.failure, where, report)
         for piece in shape.pieces:
             if piece.mesh.missing:
                 report.approximated(
                     f"shape {name}", "STEP_FACES_FAILED", where, name=name, count=piece.mesh.missing
                 )
+
+
+def _tell_failed(name: str, detail: str, where: str, report: Report) -> None:
+    report.dropped(f"shape {name}", "STEP_SHAPE_FAILED", where, name=name, detail=detail)
 
 
 def _check_step(text: Part21, path: Path, report: Report) -> float:

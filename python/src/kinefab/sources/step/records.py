@@ -60,7 +60,7 @@ class Piece:
 
 @dataclass(slots=True, eq=False)
 class Shape:
-    """A meshed shape.  pieces: its solids.  failure: why there are none, empty where there are.
+    """A meshed shape.  pieces: its solids.  failure: why there are none, empty where there are or nothing is in it.
     lines: whether there are none since it is curves and points alone."""
 
     number: int

@@ -77,7 +77,7 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
             colors = Colors(walk.colors, _label_color(label), _subshape_names(label))
             pieces = meshed_shape(shape, walk.tree.shapes[number], colors, tolerance)
             lines = not pieces and TopExp_Explorer(shape, TopAbs_VERTEX).More()
-            yield Shape(number, pieces, "" if pieces or lines else "it holds no faces", lines)
+            yield Shape(number, pieces, lines=lines)
         except Exception as error:  # Standard_Failure in all its forms: this shape alone is lost
             yield Shape(number, [], f"{type(error).__name__}: {error}".splitlines()[0][:200])
 

@@ -9,11 +9,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ...diagnostics import Report
-from ...model import Node, Scene
-from ..reading.record import is_encodable, shown
-from .entities import EntityError, Ref, Value, entity, number, ref, text_of
-from .part21 import METRES_OF_PREFIX, Part21
+from ....diagnostics import Report
+from ....model import Node, Scene
+from ...reading.record import is_encodable, shown
+from ..entities import EntityError, Ref, Value, entity, number, ref, text_of
+from ..part21 import METRES_OF_PREFIX, Part21
+from .products import name_of
 
 MATERIAL = b"material property"
 POUND, OUNCE = 0.45359237, 0.028349523125
@@ -42,7 +43,7 @@ def add_densities(scene: Scene, text: Part21, report: Report) -> None:
     for property_, representation in _properties(text):
         product = ""
         try:
-            product = _product(text, property_)
+            product = name_of(text, ref(property_, 2))
             if product in users:
                 found.setdefault(product, set()).update(_densities(text, representation))
         except EntityError as error:
@@ -83,16 +84,6 @@ def _properties(text: Part21) -> Iterator[tuple[list[Value], int]]:
     for row in represented:
         if len(row) > 1 and isinstance(row[0], Ref) and isinstance(row[1], Ref) and row[0].number in stated:
             yield stated[row[0].number], row[1].number
-
-
-def _product(text: Part21, property_: list[Value]) -> str:
-    """The name of the product that a property is of."""
-    definition = entity(text, ref(property_, 2)).get("PRODUCT_DEFINITION")
-    if definition is None:
-        raise EntityError("it is stated of no product, but of a piece of one")
-    formation = next(iter(entity(text, ref(definition, 2)).values()))
-    product = entity(text, ref(formation, 2)).get("PRODUCT", [])
-    return text_of(product, 1) or text_of(product, 0)
 
 
 def _densities(text: Part21, representation: int) -> Iterator[float]:

@@ -9,10 +9,10 @@ import re
 
 import numpy as np
 
-from ...diagnostics import Report
-from ...spatial import Array
-from .entities import EntityError, Ref, Value, entity
-from .part21 import Part21
+from ....diagnostics import Report
+from ....spatial import Array
+from ..entities import EntityError, Ref, Value, entity
+from ..part21 import Part21
 
 NAME = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
 _PLACING = re.compile(rb"\b(?:MAPPED_ITEM|REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION)\s*\([^;]*")

@@ -1,0 +1,1 @@
+"""What the text of a STEP file states of products and placements, and OpenCASCADE passes over."""

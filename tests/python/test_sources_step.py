@@ -432,6 +432,71 @@ def test_a_component_without_a_shape_is_no_body(instead: str, codes: list[str], 
     assert (scene.nodes[2].kind is NodeKind.PART) is bool(codes)
 
 
+COUNTERSINK = """#3=MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',(#10),#11);
+#10=SHELL_BASED_SURFACE_MODEL('',(#15));
+#15=OPEN_SHELL('',(#16));
+#16=ADVANCED_FACE('',(#17),#18,.F.);
+#17=FACE_OUTER_BOUND('',#19,.T.);
+#19=EDGE_LOOP('',(#20,#21,#22,#23));
+#20=ORIENTED_EDGE('',*,*,#24,.F.);
+#21=ORIENTED_EDGE('',*,*,#25,.T.);
+#22=ORIENTED_EDGE('',*,*,#26,.T.);
+#23=ORIENTED_EDGE('',*,*,#25,.F.);
+#24=EDGE_CURVE('',#27,#27,#28,.T.);
+#25=EDGE_CURVE('',#27,#29,#30,.T.);
+#26=EDGE_CURVE('',#29,#29,#31,.T.);
+#27=VERTEX_POINT('',#32);
+#29=VERTEX_POINT('',#33);
+#32=CARTESIAN_POINT('',(-17.,2.,5.));
+#33=CARTESIAN_POINT('',(-20.,5.,5.));
+#28=CIRCLE('',#34,2.);
+#31=CIRCLE('',#35,5.);
+#30=LINE('',#33,#36);
+#36=VECTOR('',#37,1.);
+#37=DIRECTION('',(-0.707106781186547,0.707106781186548,-7.49314599887035E-15));
+#34=AXIS2_PLACEMENT_3D('',#38,#40,#41);
+#35=AXIS2_PLACEMENT_3D('',#39,#40,#41);
+#38=CARTESIAN_POINT('',(-17.,0.,5.));
+#39=CARTESIAN_POINT('',(-20.,0.,5.));
+#40=DIRECTION('',(-1.,0.,0.));
+#41=DIRECTION('',(0.,-1.,0.));
+#18=CONICAL_SURFACE('',#35,5.,0.785398163397449);"""
+
+
+def test_a_seam_that_leans_by_a_rounding_costs_no_face(tmp_path: Path):
+    """A cone as Inventor and Fusion write one: it begins opposite to its seam, whose direction has an error of 1e-14."""
+    head = """#1=SHAPE_DEFINITION_REPRESENTATION(#2,#3);
+#2=PRODUCT_DEFINITION_SHAPE('','',#4);
+#4=PRODUCT_DEFINITION('','',#5,#6);
+#5=PRODUCT_DEFINITION_FORMATION('','',#7);
+#6=PRODUCT_DEFINITION_CONTEXT('part definition',#8,'design');
+#7=PRODUCT('Cone','Cone','',(#9));
+#8=APPLICATION_CONTEXT('automotive design');
+#9=PRODUCT_CONTEXT('',#8,'mechanical');
+#11=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#12,#13))REPRESENTATION_CONTEXT('',''));
+#12=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#13=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));"""
+    text = f"""ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
+ENDSEC;
+DATA;
+{head}
+{COUNTERSINK}
+ENDSEC;
+END-ISO-10303-21;
+"""
+    (tmp_path / "cone.step").write_text(text, encoding="utf-8")
+    scene, report = read_whole(tmp_path / "cone.step")
+    assert not report.diagnostics
+    (mesh,) = scene.meshes
+    sides = mesh.vertices[mesh.faces]
+    areas = 0.5 * np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
+    assert areas.sum() == pytest.approx(np.pi * (5.0**2 - 2.0**2) * np.sqrt(2.0) * 1e-6, rel=0.03)
+
+
 def test_an_operator_that_places_nothing_is_not_told(tmp_path: Path):
     machine = Machine("Top")
     machine.add("Arm", box((0.0, 0.0, 0.0), (20.0, 5.0, 5.0)))

@@ -26,6 +26,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
 from ...spatial import Array, IntArray
+from .seams import straighten_seams
 from .triangles import RELATIVE_CHORD, Tessellation, Tolerance
 
 as_face = getattr(TopoDS, "Face", None) or TopoDS.Face_s
@@ -66,11 +67,12 @@ def tessellate(shape: TopoDS_Shape, tolerance: Tolerance, metres: float) -> Tess
     left on the shape is not used.
     """
     chord = diagonal(shape) * RELATIVE_CHORD if tolerance.chord is None else tolerance.chord / metres
-    BRepTools.Clean_s(shape)  # keeps triangles that are all the file has
-    if chord > 0.0:
-        BRepMesh_IncrementalMesh(shape, chord, False, tolerance.angle, False)
+    faces = faces_of(shape)
+    _mesh(shape, chord, tolerance.angle)
+    if chord > 0.0 and any([straighten_seams(face) for face in faces if not _count(face)]):
+        _mesh(shape, chord, tolerance.angle)
     vertices, normals, triangles, counts, start = [], [], [], [], 0
-    for face in faces_of(shape):
+    for face in faces:
         points, directions, corners = _face(face)
         vertices.append(points)
         normals.append(directions)
@@ -83,6 +85,18 @@ def tessellate(shape: TopoDS_Shape, tolerance: Tolerance, metres: float) -> Tess
         np.concatenate([np.zeros((0, 3), dtype=np.int64), *triangles]),
         tuple(counts),
     )
+
+
+def _mesh(shape: TopoDS_Shape, chord: float, angle: float) -> None:
+    BRepTools.Clean_s(shape)  # keeps triangles that are all the file has
+    if chord > 0.0:
+        BRepMesh_IncrementalMesh(shape, chord, False, angle, False)
+
+
+def _count(face: Any) -> int:
+    """Triangles of a face."""
+    mesh = BRep_Tool.Triangulation_s(face, TopLoc_Location())
+    return 0 if mesh is None else mesh.NbTriangles()
 
 
 def _face(face: Any) -> tuple[Array, Array, IntArray]:

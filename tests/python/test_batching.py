@@ -19,6 +19,7 @@ from dask_processes import cluster  # noqa: F401 (a fixture)
 from kinefab.batching import job as jobs
 from kinefab.batching import places
 from kinefab.batching.job import Outcome
+from kinefab.batching.ledger import AWAITED
 from kinefab.batching.plan import planned
 from kinefab.views.picture import HEIGHT, WIDTH
 
@@ -84,6 +85,50 @@ def test_a_mesh_that_changed_counts_as_read(tmp_path):
     with (tmp_path / "in" / "lever.obj").open("a") as file:
         file.write("\n# seen again\n")
     assert run() == {"lever": "written"}
+
+
+def test_a_mesh_that_was_not_there_is_read_once_it_is(tmp_path):
+    """What a source had to do without was not opened, so nothing that was read tells of it."""
+    (tmp_path / "in").mkdir()
+    geometry = '<visual><geometry><mesh filename="lever.obj"/></geometry></visual>'
+    (tmp_path / "in" / "a.urdf").write_text(f'<robot name="a"><link name="base">{geometry}</link></robot>')
+    run = lambda: kinefab.batch([tmp_path / "in" / "a.urdf"], tmp_path / "out", jobs=1).records[0]  # noqa: E731
+    assert run().codes["MESH_NOT_FOUND"] == 1
+    for name in ("lever.obj", "lever.mtl"):
+        shutil.copy(ROOT / "fixtures" / "lever" / name, tmp_path / "in" / name)
+    assert "MESH_NOT_FOUND" not in (found := run()).codes and found.outcome is Outcome.WRITTEN
+    assert run().outcome is Outcome.UP_TO_DATE
+
+
+def test_every_finding_of_a_file_that_is_not_there_is_one_that_is_waited_for():
+    """Of errors there is no target; those of prims and columns are of what was read."""
+    codes = json.loads((ROOT / "schemas" / "diagnostics.json").read_text("utf-8"))["codes"]
+    told = {
+        code
+        for code, entry in codes.items()
+        if entry["stage"] in ("source", "geometry") and entry["severity"] != "error"
+        if code.endswith(("_NOT_FOUND", "_FILE_MISSING", "_TEXTURE_MISSING"))
+        or "which is not there" in entry["message"]
+    }
+    assert told <= AWAITED <= codes.keys()
+
+
+def test_a_target_of_another_source_is_not_up_to_date(tmp_path):
+    """Two releases of one tree go to one folder, one after the other, and the older one is still there."""
+    for release in ("1.0", "1.1"):
+        bundles(tmp_path / release, "a")
+    run = lambda release: kinefab.batch([tmp_path / release], tmp_path / "out", jobs=1)  # noqa: E731
+    assert [outcomes(run(r))["a"] for r in ("1.0", "1.0", "1.1", "1.1")] == ["written", "up_to_date"] * 2
+
+
+def test_a_copy_of_a_target_folder_is_made_anew(tmp_path):
+    bundles(tmp_path / "in", "a")
+    kinefab.batch([tmp_path / "in"], tmp_path / "out", jobs=1)
+    shutil.copytree(tmp_path / "out", tmp_path / "copy")
+    (tmp_path / "copy" / "a.kinefab").unlink()
+    (record,) = kinefab.batch([tmp_path / "in"], tmp_path / "copy", jobs=1).records
+    assert (record.target, record.outcome) == (str(tmp_path / "copy" / "a.kinefab"), Outcome.WRITTEN)
+    assert (tmp_path / "copy" / "a.kinefab").is_file()
 
 
 def test_what_is_read_counts_wherever_the_batch_is_started(tmp_path):

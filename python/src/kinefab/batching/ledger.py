@@ -21,6 +21,14 @@ LEDGER = ".kinefab-batch"
 """Folder of the records, in the target folder."""
 
 
+AWAITED = frozenset(
+    "FREECAD_LINK_BROKEN INCLUDE_NOT_FOUND MATERIALS_MISSING MESH_NOT_FOUND MESH_OUTSIDE MESH_UNREADABLE PACKAGE_PATH_NOT_FOUND"
+    " STEP_FILE_MISSING TEXTURE_NOT_FOUND TEXTURE_UNREADABLE USD_COMPOSITION USD_TEXTURE_MISSING".split()
+)
+"""Findings of files that were not where a source looks for them.  Nothing of those was read, so nothing tells that they
+have come since: the source is read again."""
+
+
 def record_place(job: Job) -> str:
     """Of a job's record: by the target's name within the target folder, which does not change when the folder moves."""
     folder = places.join(job.ledger, "")[: -len(places.join(LEDGER, ""))]
@@ -31,16 +39,19 @@ def record_place(job: Job) -> str:
 
 
 def done(job: Job, version: str) -> Record | None:
-    """The record of a job that is up to date: same options and version, everything that was read unchanged, every file
-    that was written still there."""
+    """The record of a job that is up to date: same source, target, options and version, everything that was read
+    unchanged, nothing that it had to do without, every file that was written still there."""
     known = _known(job)
     if known is None or known.get("version") != version or known["options"] != job.options:
+        return None
+    record = Record.of_json(known["record"])
+    if (record.source, record.target) != (job.source, job.target) or AWAITED.intersection(record.codes):
         return None
     if any(_size(file) != size for file, size in known["files"].items()):
         return None
     if any(_digest(path) != digest for path, digest in known["read"].items()):
         return None
-    return Record.of_json(known["record"])
+    return record
 
 
 def is_ours(job: Job) -> bool:

@@ -105,11 +105,11 @@ MOST_NAMES = 12
 """Names that a message lists."""
 
 
-def named(names: Iterable[str]) -> str:
-    """The names in a row for a message: the first ``MOST_NAMES``, and how many more there are."""
+def named(names: Iterable[str], most: int = MOST_NAMES) -> str:
+    """The names in a row for a message: the first ``most``, and how many more there are."""
     given = list(names)
-    more = len(given) - MOST_NAMES
-    return ", ".join(given[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
+    more = len(given) - most
+    return ", ".join(given[:most]) + (f" and {more} more" if more > 0 else "")
 
 
 def chained(names: Sequence[str], link: str) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..diagnostics import diagnostic
+from ..diagnostics import diagnostic, named
 from ..sources import FORMATS, format_of
 from . import places
 from .job import Job, Outcome, Record, unmade
@@ -72,9 +72,7 @@ def planned(inputs: Iterable[str], out: str, ending: str) -> Plan:
         sharing.setdefault(target.casefold(), []).append(file)
     for files in sharing.values():
         for file in files if len(files) > 1 else ():
-            named = [other for other in files[: NAMED + 1] if other != file][:NAMED]
-            more = len(files) - 1 - len(named)
-            others = ", ".join(named) + (f" and {more} more" if more else "")
+            others = named((other for other in files if other != file), NAMED)
             shared = diagnostic("BATCH_TARGET_SHARED", path=targets[file], others=others)
             refused.append(unmade(file, targets.pop(file), Outcome.FAILED, shared))
     return Plan(list(targets.items()), refused)

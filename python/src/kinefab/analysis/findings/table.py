@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from ...diagnostics import printable
+from ...diagnostics import named, printable
 from ...findings import JointFinding
 from ...model import RX, Coupling, Joint
 from .freedoms import NodeFreedom
@@ -129,12 +129,7 @@ def _words(freedom: NodeFreedom) -> str:
 def _shortened(names: Iterable[str]) -> str:
     """As many names as fit, and how many more there are."""
     names = list(names)
-    shown: Sequence[str] = names
-    while len(shown) > 1 and len(_listing(shown, names)) > LONGEST:
-        shown = shown[:-1]
-    return _listing(shown, names)
-
-
-def _listing(shown: Sequence[str], names: Sequence[str]) -> str:
-    more = len(names) - len(shown)
-    return ", ".join(shown) + (f" and {more} more" if more else "")
+    most = min(len(names), LONGEST)
+    while most > 1 and len(named(names, most)) > LONGEST:
+        most -= 1
+    return named(names, most)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report, printable, readable
+from ...diagnostics import Report, named, printable, readable
 from ...spatial import Array, matrix_from_quaternion
 from .api import Usd, UsdGeom, UsdPhysics
 from .stage import OpenStage
@@ -224,10 +224,9 @@ class Values:
                         path = prim.GetPrimStack()[0].path if shared else prim.GetPath()
                         found.setdefault(name, []).append(str(path))
         for name in sorted(found):
-            first, *others = sorted(found[name])
-            more = f" and {len(others)} more" if others else ""
+            paths = sorted(found[name])
             self.report.dropped(
-                f"{name} of {first[1:]}{more}", "USD_FEATURE_DROPPED", self.opened.place(first, name),
+                f"{name} of {named(paths, 1)[1:]}", "USD_FEATURE_DROPPED", self.opened.place(paths[0], name),
                 detail="nothing of the scene is like it",
             )  # fmt: skip
 

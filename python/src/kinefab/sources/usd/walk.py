@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named
 from ...spatial import Array
 from .api import UsdPhysics
 from .found import Copy, CopyAt, Found, Group, JointPrim, Part, Piece
@@ -176,10 +176,9 @@ class _Look:
     def tell_strange(self) -> None:
         """What types nothing is read of, each once."""
         for (kind, detail), paths in sorted(self._strange.items()):
-            first, *others = sorted(paths)
-            more = f" and {len(others)} more" if others else ""
-            place = self._opened.place(first)
-            self._report.dropped(f"{kind} {first}{more}", "USD_FEATURE_DROPPED", place, detail=detail)
+            paths = sorted(paths)
+            place = self._opened.place(paths[0])
+            self._report.dropped(f"{kind} {named(paths, 1)}", "USD_FEATURE_DROPPED", place, detail=detail)
 
     def _tell_soft(self, seen: Seen, path: str) -> None:
         for schema in seen.traits.schemas:

@@ -15,6 +15,8 @@ from kinefab.views import overview, picture
 from kinefab.views.bars import COLOURS, bars
 from kinefab.views.camera import looking
 from kinefab.views.freedoms import world_placements
+from kinefab.views.raster.film import pictures
+from kinefab.views.seen import shown
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4")
 
@@ -46,6 +48,34 @@ def test_only_the_side_that_faces_the_viewer_is_drawn():
     """The viewer stands on the -Z side; Unity's clockwise winding faces it, the other does not."""
     assert surfaces(picture.draw(*document([0, 3, 2, 0, 2, 1]))) > 0
     assert surfaces(picture.draw(*document([0, 2, 3, 0, 1, 2]))) == 0
+
+
+def test_a_mesh_is_drawn_at_the_scale_of_its_object():
+    """The square twice as high and three times as wide, and mirrored with its outside still outside; in both kinds of picture."""
+    (scene, [data]), (wide, _) = document([0, 3, 2, 0, 2, 1]), document([0, 3, 2, 0, 2, 1])
+    far = (SQUARE * np.array([3, 2, 1], "<f4")).astype("<f4").tobytes() + data[48:]
+    wide["gameObjects"][0]["transform"] = {"localScale": [3, 2, 1]}
+    assert picture.draw(wide, [data]) == picture.draw(scene, [far]) != picture.draw(scene, [data])
+    images = [
+        pictures(d, [b], [world_placements(d["gameObjects"])])[0]
+        for d, b in ((wide, data), (scene, far), (scene, data))
+    ]
+    assert (images[0] == images[1]).all() and (images[0] != images[2]).any()
+    wide["gameObjects"][0]["transform"] = {"localScale": [-3, 2, 1]}
+    assert surfaces(picture.draw(wide, [data])) == surfaces(picture.draw(scene, [far])) > 0
+
+
+def test_what_is_not_shown_in_unity_is_not_drawn():
+    """A renderer that is off, and a mesh below an object that is not active, as a suppressed part with several bodies has it."""
+    scene, buffers = document([0, 3, 2, 0, 2, 1])
+    [square] = scene["gameObjects"]
+    off = {**square, "components": [square["components"][0], {"type": "MeshRenderer", "enabled": False}]}
+    below = [{"id": "P", "name": "P", "active": False}, {**square, "parent": 0}]
+    for objects in ([off], below):
+        hidden = {**scene, "gameObjects": objects}
+        [image] = pictures(hidden, buffers, [world_placements(objects)])
+        assert surfaces(picture.draw(hidden, buffers)) == 0 and (image == 255).all()
+        assert shown(objects) == [False] * len(objects)
 
 
 def test_right_stays_right_in_the_left_handed_frame():

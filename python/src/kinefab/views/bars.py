@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..spatial import Array
-from .freedoms import Placement, world_placements
+from .freedoms import world_placements, world_points
 
 COLOURS = ("#8d99a8", "#7fa7c9", "#c9a67f", "#8fbf9a", "#b79ac4")
 """Of the bars of one body and the next."""
@@ -30,12 +30,14 @@ def bars(objects: Sequence[Mapping[str, Any]]) -> list[Bar]:
         for component in item.get("components", ()):
             if component["type"] not in JOINTS:
                 continue
-            at = _world(component.get("anchor", (0, 0, 0)), placements[index])
+            at = world_points(component.get("anchor", (0, 0, 0)), placements[index])
             points.setdefault(index, []).append(at)
             other: int | None = component.get("connectedBody")
             if other is not None:
                 given = component.get("connectedAnchor")
-                points.setdefault(other, []).append(at if given is None else _world(given, placements[other]))
+                points.setdefault(other, []).append(
+                    at if given is None else world_points(given, placements[other])
+                )
     found: list[Bar] = []
     for number, index in enumerate(i for i in sorted(points) if i in free and i not in drawn):
         ends = np.array(points[index])
@@ -44,11 +46,6 @@ def bars(objects: Sequence[Mapping[str, Any]]) -> list[Bar]:
         for end in ends if len(ends) > 2 else ends[1:]:
             found.append((index, COLOURS[number % len(COLOURS)], (np.array([middle, end]) - place) @ turn))
     return found
-
-
-def _world(point: Sequence[float], placement: Placement) -> Array:
-    turn, place, scale = placement
-    return turn @ (scale * np.array(point, float)) + place
 
 
 def _bodies(objects: Sequence[Mapping[str, Any]]) -> tuple[set[int], set[int]]:

@@ -32,6 +32,12 @@ def world_placements(objects: Sequence[Mapping[str, Any]]) -> list[Placement]:
     return found
 
 
+def world_points(points: Sequence[float] | Array, placement: Placement) -> Array:
+    """Points of an object's own frame, shape (..., 3), metres, in the file's world."""
+    rotation, position, scale = placement
+    return (np.asarray(points, dtype=float) * scale) @ rotation.T + position
+
+
 def counted(objects: Sequence[object], joints: Sequence[object]) -> tuple[str, str]:
     """``2 objects``, ``1 joint``."""
     return (
@@ -97,17 +103,14 @@ def _gap_along_axes(component: Mapping[str, Any], own: Placement, connected: Pla
     """From the connected anchor to the own one, along the joint's X, Y and Z, metres, shape (3,)."""
     if component.get("autoConfigureConnectedAnchor", True):
         return np.zeros(3)
-
-    def anchor(name: str, placement: Placement) -> Array:
-        rotation, position, scale = placement
-        return rotation @ (scale * np.array(component.get(name, (0, 0, 0)), dtype=float)) + position
-
+    ends = (("anchor", own), ("connectedAnchor", connected))
+    here, there = (world_points(component.get(name, (0, 0, 0)), at) for name, at in ends)
     frame = np.eye(3) if component.get("configuredInWorldSpace", False) else own[0]
     axes = frame_from_axes(
         np.array(component.get("axis", (1, 0, 0)), dtype=float),
         np.array(component.get("secondaryAxis", (0, 1, 0)), dtype=float),
     )
-    return (frame @ axes).T @ (anchor("anchor", own) - anchor("connectedAnchor", connected))
+    return (frame @ axes).T @ (here - there)
 
 
 def _words(words: str, ends: tuple[float, float] | None, unit: str) -> str:

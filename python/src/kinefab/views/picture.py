@@ -17,10 +17,20 @@ from ..diagnostics import printable
 from ..spatial import Array, IntArray, Pose, frame_from_axes, rotation_about
 from .bars import Bar, bars
 from .camera import View, looking
-from .freedoms import Placement, angle_range, counted, freedoms_of_component, joint_name, world_placements
+from .freedoms import (
+    WORLD,
+    Placement,
+    angle_range,
+    counted,
+    freedoms_of_component,
+    joint_name,
+    world_placements,
+    world_points,
+)
 from .raster.fragments import nearest_last
 from .raster.image import Canvas
 from .raster.solid import solid
+from .seen import seen_meshes
 
 WIDTH, HEIGHT, LEGEND = 760, 560, 400
 MAX_TRIANGLES = 40_000
@@ -37,8 +47,7 @@ def draw(document: Mapping[str, Any], buffers: Sequence[bytes], title: str = "sc
     document: a parsed ``.kinefab``.  buffers: the bytes of its buffers, in order.  title: of one that names no source.
     """
     placements = world_placements(document["gameObjects"])
-    poses = [Pose(turn, place) for turn, place, _ in placements]
-    triangles, colours = _triangles(document, buffers, poses)
+    triangles, colours = _triangles(document, buffers, placements)
     joints = drawn_joints(document["gameObjects"], placements)
     points = [triangles.reshape(-1, 3)] + [joint.pose.translation[None] for joint in joints]
     cloud = np.concatenate(points) if points else np.zeros((1, 3))
@@ -79,22 +88,22 @@ class DrawnJoint:
 def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Placement]) -> list[DrawnJoint]:
     """Joints of a written scene where they stand, Unity's axes, metres.  placements: of each object."""
     found: list[DrawnJoint] = []
-    poses = [Pose(turn, place) for turn, place, _ in placements]
     for index, item in enumerate(objects):
+        rotation, _, _ = placements[index]
         for component in item.get("components", []):
             if component["type"] not in COLOURS:
                 continue
             axis = np.array(component.get("axis", [1, 0, 0]), float)
             second = np.array(component.get("secondaryAxis", [0, 1, 0]), float)
-            local = Pose(frame_from_axes(axis, second), np.array(component.get("anchor", [0, 0, 0]), float))
+            anchor = world_points(component.get("anchor", (0, 0, 0)), placements[index])
             other: int | None = component.get("connectedBody")
             connected: str = "world" if other is None else objects[other]["name"]
             given: list[float] | None = component.get("connectedAnchor")
-            anchor = None
+            connected_anchor = None
             if given is not None:
-                anchor = (Pose() if other is None else poses[other]).point(np.array(given, float))
+                connected_anchor = world_points(given, WORLD if other is None else placements[other])
             words = ", ".join(freedoms_of_component(component, index, placements)) or "fixed"
-            pose = poses[index] @ local
+            pose = Pose(rotation @ frame_from_axes(axis, second), anchor)
             found.append(
                 DrawnJoint(
                     joint_name(component) or item["name"],
@@ -102,7 +111,7 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
                     pose,
                     component,
                     connected,
-                    anchor,
+                    connected_anchor,
                     words,
                 )
             )
@@ -110,31 +119,25 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
 
 
 def _triangles(
-    document: Mapping[str, Any], buffers: Sequence[bytes], poses: Sequence[Pose]
+    document: Mapping[str, Any], buffers: Sequence[bytes], placements: Sequence[Placement]
 ) -> tuple[Array, Array]:
     """World triangles, shape (n, 3, 3), and their RGB, shape (n, 3)."""
     meshes, materials = document.get("meshes", []), document.get("materials", [])
     shapes: list[Array] = []
     tints: list[Array] = []
+    seen = seen_meshes(document["gameObjects"])
     total = sum(
-        sum(s["indexCount"] for s in meshes[c["mesh"]]["submeshes"]) // 3
-        for item in document["gameObjects"]
-        for c in item.get("components", [])
-        if c["type"] == "MeshFilter"
+        sum(submesh["indexCount"] for submesh in meshes[mesh]["submeshes"]) // 3 for _, mesh, _ in seen
     )
-    for item, pose in zip(document["gameObjects"], poses):
-        components = {c["type"]: c for c in item.get("components", [])}
-        if "MeshFilter" not in components or not item.get("active", True):
-            continue
-        mesh = meshes[components["MeshFilter"]["mesh"]]
-        slots = components.get("MeshRenderer", {}).get("materials", [])
+    for index, number_of_mesh, slots in seen:
+        mesh, placement = meshes[number_of_mesh], placements[index]
         if total > MAX_TRIANGLES:
             corners, faces = _box(mesh["bounds"])
             spans = [(0, len(faces))]
         else:
             corners, faces = mesh_triangles(mesh, buffers)
             spans = [(s["indexStart"] // 3, s["indexCount"] // 3) for s in mesh["submeshes"]]
-        world = pose.point(corners)
+        world, faces = world_points(corners, placement), outward(faces, placement)
         for number, (start, count) in enumerate(spans):
             tint = (
                 materials[slots[number]].get("color", [1, 1, 1, 1])
@@ -159,6 +162,11 @@ def mesh_triangles(mesh: Mapping[str, Any], buffers: Sequence[bytes]) -> tuple[A
     held = buffers[int(place["buffer"])]
     faces = np.frombuffer(held, kind, count, place["offset"]).astype(np.int64)
     return corners.reshape(-1, 3).astype(np.float64), faces.reshape(-1, 3)
+
+
+def outward(faces: IntArray, placement: Placement) -> IntArray:
+    """Triangles, shape (m, 3), whose outside is still that where the object's scale mirrors them."""
+    return faces[:, ::-1] if placement[2].prod() < 0.0 else faces
 
 
 def _box(bounds: Mapping[str, Any]) -> tuple[Array, IntArray]:
@@ -244,8 +252,7 @@ def tied(document: Mapping[str, Any], placements: Sequence[Placement]) -> list[A
         ends: list[Array] = []
         for end in (coupling["a"], coupling["b"]):
             anchor = objects[end["gameObject"]]["components"][end["component"]].get("anchor", (0, 0, 0))
-            turn, place, scale = placements[int(end["gameObject"])]
-            ends.append(turn @ (scale * np.array(anchor, float)) + place)
+            ends.append(world_points(anchor, placements[int(end["gameObject"])]))
         found.append(np.array(ends))
     return found
 

@@ -13,6 +13,7 @@ from ...model import FREEDOM_NAMES, Joint
 from ...spatial import Array, Pose
 from ..extent import ends_in_sight, span_of
 from ..freedoms import counted, world_placements
+from ..seen import shown
 from .blob import Blob
 from .joints import coordinate_label, joint_entry
 from .meshes import packed_meshes
@@ -48,8 +49,8 @@ def description(
     """What ``app.js`` reads.  document: a parsed ``.kinefab``; buffers: the bytes of its buffers."""
     objects: Sequence[Entry] = document["gameObjects"]
     meshes: Sequence[Entry] = document.get("meshes", ())
-    placed = zip(objects, motion.body_of, motion.poses, motion.scales)
-    parts = [part_entry(o, body, rows(pose, scale), meshes) for o, body, pose, scale in placed]
+    placed = zip(objects, motion.body_of, motion.poses, motion.scales, shown(objects))
+    parts = [part_entry(o, body, rows(pose, scale), seen, meshes) for o, body, pose, scale, seen in placed]
     used = [p["mesh"] for p in parts if p["mesh"] is not None]
     used += [shape["mesh"] for p in parts for shape in p["colliders"] if shape["kind"] == "mesh"]
     packed, (total, kept) = packed_meshes(document, buffers, used, blob)

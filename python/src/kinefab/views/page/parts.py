@@ -21,8 +21,10 @@ def rows(pose: Pose, scale: Array | None = None) -> list[float]:
     return np.column_stack([turn, pose.translation]).ravel().tolist()
 
 
-def part_entry(entry: Entry, body: int, place: list[float], meshes: Sequence[Entry]) -> dict[str, Any]:
-    """place: the object's world pose as ``rows`` has it.  body: the number of what it moves with."""
+def part_entry(
+    entry: Entry, body: int, place: list[float], seen: bool, meshes: Sequence[Entry]
+) -> dict[str, Any]:
+    """place: the object's world pose as ``rows`` has it.  body: the number of what it moves with.  seen: whether Unity shows it."""
     components: Sequence[Entry] = entry.get("components", ())
     by_type = {c["type"]: c for c in components}
     renderer = by_type.get("MeshRenderer", {})
@@ -35,7 +37,7 @@ def part_entry(entry: Entry, body: int, place: list[float], meshes: Sequence[Ent
         "pose": place,
         "mesh": mesh,
         "materials": list(renderer.get("materials", ())),
-        "shown": bool(entry.get("active", True)) and bool(renderer.get("enabled", True)),
+        "shown": seen,
         "colliders": [shape for c in components if (shape := collider(c)) is not None],
         "facts": _facts(components, meshes),
     }

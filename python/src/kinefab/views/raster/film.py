@@ -14,7 +14,8 @@ from ...spatial import Array, Pose
 from ..bars import bars
 from ..camera import View, looking
 from ..freedoms import Placement
-from ..picture import COLOURS, DrawnJoint, drawn_joints, hinge_axes, mesh_triangles, strokes_of, tied
+from ..picture import COLOURS, DrawnJoint, drawn_joints, hinge_axes, mesh_triangles, outward, strokes_of, tied
+from ..seen import seen_meshes
 from .image import Canvas, png
 from .solid import Solid, solid
 
@@ -31,13 +32,14 @@ def pictures(
 ) -> list[np.ndarray]:
     """The pixels of each frame, shape (height, width, 3).  frames: the placement of every GameObject, in Unity's world."""
     objects: Sequence[Entry] = document["gameObjects"]
-    solids, sticks = _solids(document, buffers), bars(objects)
+    solids, sticks = _solids(document, buffers, frames[0]), bars(objects)
     joints = [drawn_joints(objects, placements) for placements in frames]
     view = _camera(solids, frames, joints)
     moving = {i for i in solids if any(_moved(frames[0][i], placements[i]) for placements in frames)}
     ground = Canvas(view, WIDTH, HEIGHT)
-    for i in solids.keys() - moving:
-        ground.surfaces(_placed(solids[i], frames[0][i]))
+    for i, shape in solids.items():
+        if i not in moving:
+            ground.surfaces(_placed(shape, frames[0][i]))
     found: list[np.ndarray] = []
     for placements, drawn in zip(frames, joints):
         canvas = ground.copy()
@@ -58,16 +60,12 @@ def pictures(
     return found
 
 
-def _solids(document: Entry, buffers: Sequence[bytes]) -> dict[int, Solid]:
-    """Of each visible GameObject with a mesh, in its own frame."""
+def _solids(document: Entry, buffers: Sequence[bytes], placements: Sequence[Placement]) -> dict[int, Solid]:
+    """Of each GameObject whose mesh is seen, in its own frame at its scale, which no motion changes."""
     meshes, materials = document.get("meshes", []), document.get("materials", [])
     found: dict[int, Solid] = {}
-    for i, item in enumerate(document["gameObjects"]):
-        components: dict[str, Entry] = {c["type"]: c for c in item.get("components", [])}
-        if "MeshFilter" not in components or not item.get("active", True):
-            continue
-        mesh: Entry = meshes[components["MeshFilter"]["mesh"]]
-        slots: Sequence[int] = components.get("MeshRenderer", {}).get("materials", [])
+    for i, number_of_mesh, slots in seen_meshes(document["gameObjects"]):
+        mesh: Entry = meshes[number_of_mesh]
         corners, faces = mesh_triangles(mesh, buffers)
         colours = np.full((len(faces), 3), 0.7)
         for number, part in enumerate(mesh["submeshes"]):
@@ -75,7 +73,7 @@ def _solids(document: Entry, buffers: Sequence[bytes]) -> dict[int, Solid]:
                 first = part["indexStart"] // 3
                 colour = materials[slots[number]].get("color", [1, 1, 1, 1])[:3]
                 colours[first : first + part["indexCount"] // 3] = colour
-        found[i] = solid(corners, faces, colours)
+        found[i] = solid(corners * placements[i][2], outward(faces, placements[i]), colours)
     return found
 
 

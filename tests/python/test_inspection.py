@@ -6,7 +6,8 @@ import json
 
 import kinefab
 import pytest
-from kinefab.views.overview import overview, picture, read_scene_file
+from kinefab.unity.back.scene_file import read_scene_file
+from kinefab.views.overview import overview, picture
 
 
 @pytest.mark.parametrize("number", ["NaN", "-Infinity", "1e999"])

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 from browser import CHROMIUM, Opened, browser, window
+from kinefab.unity.back.scene_file import read_scene_file
 from kinefab.views import overview
-from kinefab.views.overview import read_scene_file
 
 pytest.importorskip("playwright", reason="no playwright: the page is not tried in a browser")
 PIL = pytest.importorskip("PIL.Image", reason="no Pillow: the page's picture is not looked at")

@@ -16,8 +16,8 @@ from .showing import read_document, title_of
 from .spatial import Array, Pose, matrix_from_quaternion
 from .unity import frames
 from .unity.back.restored import Restored, restored
+from .unity.back.scene_file import unsound_as_finding
 from .views.freedoms import Placement
-from .views.overview import unsound_as_finding
 from .views.picture import draw
 from .views.raster.film import Writer, animated_svg, by_pillow, pictures
 

@@ -17,7 +17,7 @@ from .diagnostics import Report
 from .model import Scene
 from .rigid import rigid_groups
 from .unity.back.restored import restored
-from .views.overview import read_scene_file
+from .unity.back.scene_file import read_scene_file
 
 __all__ = ["Branching", "Coordinate", "Mechanism", "Stop", "Trajectory", "mechanism_of", "motion"]
 

@@ -23,9 +23,9 @@ from .pipeline import export, mates_of
 from .replacing import why_unwritable, write_whole
 from .spatial import Array, Pose
 from .unity.back.restored import Restored, restored
+from .unity.back.scene_file import read_buffers, read_scene_file, unsound_as_finding
 from .unity.mapping import GROUND_ID
 from .views.extent import ends_in_sight, span_of
-from .views.overview import read_buffers, read_scene_file, unsound_as_finding
 from .views.page.blob import Blob
 from .views.page.describe import Motion, description
 from .views.page.page import page

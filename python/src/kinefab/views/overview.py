@@ -1,108 +1,14 @@
-"""Reads a written scene back and tells what is in it; checking it is ``dotnet kinefab validate``'s task."""
+"""What is in a written scene, for people: its hierarchy, joints, freedoms and losses in words, and as a picture."""
 
 from __future__ import annotations
 
-import errno
-import hashlib
 import json
-import math
-from collections.abc import Generator, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-from ..diagnostics import KinefabError, Report, diagnostic, printable
-
-
-def read_scene_file(path: Path) -> Mapping[str, Any]:
-    """The JSON of a scene.  Raises KinefabError when it is missing, broken, of another major version, or when an index
-    in it leads nowhere: Python would count a negative one from the list's end."""
-    try:
-        content: Any = json.loads(_content(Path(path)), parse_float=_number, parse_constant=_number)
-    except FileNotFoundError:
-        raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
-    except OSError as error:
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error.strerror)]) from error
-    except RecursionError:
-        raise KinefabError(
-            [diagnostic("SCENE_UNREADABLE", str(path), detail="it is nested too deeply")]
-        ) from None
-    except ValueError as error:
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
-    if not isinstance(content, dict) or cast("dict[str, Any]", content).get("format") != "kinefab.scene":
-        raise KinefabError(
-            [diagnostic("SCENE_UNREADABLE", str(path), detail="it does not say it is a kinefab.scene")]
-        )
-    scene = cast("dict[str, Any]", content)
-    version = str(scene.get("version", ""))
-    if version.partition(".")[0] != "1":
-        raise KinefabError(
-            [diagnostic("SCENE_UNREADABLE", str(path), detail=f"its version is {version}, not 1.x")]
-        )
-    with unsound_as_finding(path):
-        _demand_references(scene, path)
-    return scene
-
-
-def _content(path: Path) -> bytes:
-    """Of a regular file: a pipe may never end.  Raises OSError."""
-    if path.exists() and not path.is_file():
-        raise OSError(errno.EINVAL, "it is no regular file")
-    return path.read_bytes()
-
-
-def _number(text: str) -> float:
-    """A number as JSON has it, where 0.0 is an index too, and NaN, Infinity and 1e999 are nothing."""
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(f"{text} is not a finite number")
-    return int(value) if value.is_integer() and abs(value) < 2**31 else value
-
-
-def _demand_references(scene: Mapping[str, Any], path: Path) -> None:
-    """Raises KinefabError with every index that leads nowhere."""
-    found = Report()
-    objects = scene.get("gameObjects", [])
-
-    def demand(index: object, name: str, pointer: str) -> None:
-        count = len(scene.get(name, []))
-        if index is not None and (type(index) is not int or not 0 <= index < count):
-            found.add("REFERENCE_UNRESOLVED", f"{path}#{pointer}", list=name, index=index, count=count)
-
-    for i, entry in enumerate(objects):
-        parent = entry.get("parent")
-        if parent is not None and (type(parent) is not int or not 0 <= parent < i):
-            found.add("PARENT_NOT_EARLIER", f"{path}#/gameObjects/{i}/parent", parent=parent, index=i)
-        for j, component in enumerate(entry.get("components", [])):
-            place = f"/gameObjects/{i}/components/{j}"
-            demand(component.get("connectedBody"), "gameObjects", f"{place}/connectedBody")
-            demand(component.get("mesh"), "meshes", f"{place}/mesh")
-            for k, material in enumerate(component.get("materials", [])):
-                demand(material, "materials", f"{place}/materials/{k}")
-    for i, mesh in enumerate(scene.get("meshes", [])):
-        for name in ("positions", "normals", "uv", "indices"):
-            demand(mesh.get(name, {}).get("buffer"), "buffers", f"/meshes/{i}/{name}/buffer")
-    found.raise_for_errors()
-
-
-def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
-    """The bytes of a scene's buffers, in order; they stand beside it.
-
-    Raises KinefabError when one is missing or not the one that the scene was written with.
-    """
-    buffers: list[bytes] = []
-    for entry in scene.get("buffers", []):
-        uri = str(entry["uri"])
-        try:
-            content = _content(Path(path).parent / Path(uri).name)
-        except OSError as error:
-            raise KinefabError(
-                [diagnostic("BUFFER_MISSING", str(path), uri=uri, detail=error.strerror)]
-            ) from error
-        if hashlib.sha256(content).hexdigest() != entry["sha256"]:
-            raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=f"{uri} is another buffer")])
-        buffers.append(content)
-    return buffers
+from ..diagnostics import printable
+from ..unity.back.scene_file import read_buffers, read_scene_file, unsound_as_finding
 
 
 def picture(path: Path) -> str:
@@ -122,16 +28,6 @@ def overview(path: Path, as_json: bool) -> str:
         text = json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description)
         text.encode("utf-8")  # half of a surrogate pair is no text
         return text
-
-
-@contextmanager
-def unsound_as_finding(path: Path) -> Generator[None, None, None]:
-    """A scene that is JSON and yet no scene is refused; where it is wrong is the validator's to say."""
-    try:
-        yield
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        detail = "it is not a sound scene; dotnet kinefab validate says where"
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=detail)]) from error
 
 
 def describe(scene: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import kinefab
 import pytest
 from command_line import run
 from kinefab.analysis import analyse
@@ -117,6 +118,28 @@ def test_mates_that_are_neither_auto_nor_a_file_are_refused_and_both_are_named(l
     (told,) = refused.value.diagnostics
     assert told.code == "MATES_NOT_FOUND" and "atuo" in told.message
     assert "auto" in told.remedy and ".mates.json" in told.remedy
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        (None, "MATES_NOT_FOUND"),
+        ("{", "JSON_SYNTAX"),
+        ("[]", "BUNDLE_NOT_OBJECT"),
+        ('{"format": "kinefab.scene", "version": "1.0", "constraints": []}', "BUNDLE_FORMAT"),
+        ('{"format": "kinefab.mates", "version": "1.0"}', "BUNDLE_FIELD_MISSING"),
+        ('{"format": "kinefab.mates", "version": "1.0", "constraints": [{}]}', "BUNDLE_FIELD_TYPE"),
+    ],
+)
+def test_a_page_of_a_mates_file_that_is_none_is_refused_as_an_export_is(text, code, tmp_path):
+    path = tmp_path / "robot.mates.json"
+    if text is not None:
+        path.write_text(text, encoding="utf-8")
+    options = kinefab.ExportOptions(reading={"mates": str(path)})
+    with pytest.raises(KinefabError) as refused:
+        kinefab.view(LEVER.with_name("lever.kinefab"), tmp_path / "page.html", options)
+    assert code in [diagnostic.code for diagnostic in refused.value.diagnostics]
+    assert not (tmp_path / "page.html").exists()
 
 
 def test_a_mate_below_the_threshold_is_left_out(lever: Scene):

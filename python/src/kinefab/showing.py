@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -16,6 +15,7 @@ from .analysis.driving.baking import baked
 from .diagnostics import KinefabError, Report, diagnostic
 from .mates.apply import with_found
 from .mates.mates_file import document as mates_document
+from .mates.mates_file import listed
 from .mechanism import Mechanism, mechanism_of
 from .model import Joint, Scene
 from .options import ExportOptions
@@ -63,20 +63,6 @@ def view(
     return _written(source, Path(target), options, found, told=False)
 
 
-def _mates(path: Path) -> Entry:
-    try:
-        found = json.loads(path.read_text("utf-8"))
-        if found["format"] != "kinefab.mates" or not all(
-            isinstance(m["number"], int) for m in found["constraints"]
-        ):
-            raise ValueError("it does not say it is a kinefab.mates")
-        return found
-    except OSError as error:
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error.strerror)]) from error
-    except (ValueError, LookupError, TypeError, RecursionError) as error:
-        raise KinefabError([diagnostic("SCENE_UNREADABLE", str(path), detail=error)]) from error
-
-
 def _written(
     source: str | Path | Scene, target: Path, options: ExportOptions, found: Report | None, told: bool
 ) -> Path:
@@ -101,7 +87,7 @@ def _with_mates(
     if not asked:
         return None, source
     if asked != AUTO:
-        return _mates(Path(asked)), source
+        return listed(Path(asked), report), source
     if isinstance(source, Scene) or is_written(source):
         raise ValueError("mates are found in an assembly file; pass a NAME.mates.json to list")
     scene, found = mates_of(source, options.reading, report)

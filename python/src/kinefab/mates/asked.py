@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..diagnostics import KinefabError, Report
+from ..diagnostics import Report
 from ..model import Scene
 
 
@@ -28,9 +28,7 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     if choice:
         from .mates_file import with_file
 
-        if not (path := Path(choice)).exists():
-            raise KinefabError([report.add("MATES_NOT_FOUND", scene.source.uri, asked=choice)])
-        return with_file(scene, path, report)
+        return with_file(scene, Path(choice), report)
     silent = not (scene.joints or scene.constraints or scene.dof_records)
     exact = sum(any(body.boundary for body in node.bodies) for node in scene.nodes)
     if silent and exact > 1:

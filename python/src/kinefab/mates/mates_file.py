@@ -13,7 +13,7 @@ from typing import cast
 
 import numpy as np
 
-from ..diagnostics import Report
+from ..diagnostics import KinefabError, Report, Severity
 from ..model import Scene
 from ..sources.bundle.components import Components
 from ..sources.bundle.constraints import read_constraints
@@ -98,30 +98,47 @@ def _numbers(vector: Array) -> list[float]:
     return [round(float(v), 12) + 0.0 for v in vector]
 
 
-def with_file(scene: Scene, path: Path, report: Report) -> Scene:
-    """The scene with the enabled mates of a file.  Raises KinefabError with every error found in it."""
+def opened(path: Path, report: Report) -> Record:
+    """The values of a mates file, its head looked over.  Raises KinefabError where there is none, or another file."""
+    if not path.exists():
+        raise KinefabError([report.add("MATES_NOT_FOUND", asked=path)])
     values = parse_json(read_bytes(path, report), path.name, report)
     log = Log(report, path.name)
     if not is_object(values):
         log.add("BUNDLE_NOT_OBJECT", "")
-        report.raise_for_errors()
-        return scene
+        raise KinefabError(report.of(Severity.ERROR))
     record = Record(values, "", log, TOP)
     if (name := record.text("format")) != FORMAT and name:
         record.fault("BUNDLE_FORMAT", "format", found=name, wanted=FORMAT)
     version = record.text("version")
     if version and re.fullmatch(r"1\.\d{1,6}", version) is None:
         record.fault("BUNDLE_VERSION", "version", found=version[:20], known="1.x")
-    digest = record.text("sha256", "")
+    if not record.has("constraints"):
+        record.fault("BUNDLE_FIELD_MISSING", field="constraints")
     report.raise_for_errors()
+    return record
+
+
+def listed(path: Path, report: Report) -> dict[str, object]:
+    """The values of a mates file, each mate with a number to be listed by.  Raises KinefabError where that is not so."""
+    record = opened(path, report)
+    mates = record.values["constraints"]
+    if not (is_array(mates) and all(is_object(mate) and type(mate.get("number")) is int for mate in mates)):
+        record.wrong("constraints", "an array of mates with their numbers", mates)
+    report.raise_for_errors()
+    return record.values
+
+
+def with_file(scene: Scene, path: Path, report: Report) -> Scene:
+    """The scene with the enabled mates of a file.  Raises KinefabError with every error found in it."""
+    record = opened(path, report)
+    log, digest = record.log, record.text("sha256", "")
     if digest and scene.source.sha256 and digest != scene.source.sha256:
         log.add("MATES_OF_OTHER_SOURCE", "/sha256", source=record.text("source", ""))
     components = _components(scene)
     ground = components.find(record, "ground", "the ground") if record.has("ground") else -1
-    if not record.has("constraints"):
-        record.fault("BUNDLE_FIELD_MISSING", field="constraints")
     threshold = record.number("threshold", AUTO)
-    constraints = _plain(record.values.get("constraints", []), threshold, log)
+    constraints = _plain(record.values["constraints"], threshold, log)
     bundle = Record({"constraints": constraints}, "", log, frozenset({"constraints"}))
     constraints = read_constraints(bundle, components, SourceFrame(), log)
     report.raise_for_errors()

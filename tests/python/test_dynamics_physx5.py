@@ -68,7 +68,7 @@ def physx5(path: Path, seconds: float, step: float, prims: list[str]) -> np.ndar
     bare = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, env=bare)
     lines = [line for line in done.stdout.splitlines() if line.startswith("poses ")]
-    assert lines, done.stderr[-1000:]
+    assert lines and "PhysX error" not in done.stdout + done.stderr, done.stderr[-1000:]
     return np.array(
         [[unity_point(p) for p in frame] for frame in json.loads(lines[0].removeprefix("poses "))]
     )

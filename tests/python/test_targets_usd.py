@@ -363,6 +363,23 @@ def test_what_is_coupled_together_follows_one_joint(tmp_path):
     assert len(told) == 4 and {outcome for outcome, _ in told.values()} == {Outcome.KEPT}
 
 
+@pytest.mark.parametrize(
+    ("kind", "moved", "names"),
+    [
+        (JointKind.REVOLUTE, {"rx": Freedom(Motion.LIMITED, math.radians(-10.0), math.inf)}, ("physics:lowerLimit", "physics:upperLimit")),
+        (JointKind.CYLINDRICAL, {"tx": Freedom(Motion.LIMITED, -math.inf, 0.08)}, ("limit:transX:physics:low", "limit:transX:physics:high")),
+    ],
+)  # fmt: skip
+def test_an_end_that_a_range_lacks_is_a_large_number(tmp_path, kind, moved, names):
+    """Infinity is the schema's word for it, at which PhysX refuses the other end too."""
+    stage, _ = opened(scene_of(kind, **moved), tmp_path / "side.usda")
+    prim = stage.GetPrimAtPath("/side/Joints/J")
+    ends = [prim.GetAttribute(name).Get() for name in names]
+    assert ends == (
+        [-10.0, pytest.approx(1e30)] if "rx" in moved else [pytest.approx(-1e30), pytest.approx(0.08)]
+    )
+
+
 def test_what_no_engine_couples_is_written_in_words_of_our_own(tmp_path):
     """Slides of joints that turn too: one coupling on each of the two, the second turned round; a third has no place."""
     scene = scene_of(JointKind.CYLINDRICAL)

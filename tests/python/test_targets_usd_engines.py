@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
@@ -21,9 +22,11 @@ from kinefab.model import (
     RX,
     Coupling,
     CouplingKind,
+    Freedom,
     Joint,
     JointKind,
     MassProperties,
+    Motion,
     Node,
     Scene,
     Term,
@@ -150,6 +153,24 @@ def test_joints_without_ends_are_coupled(tmp_path, terms):
     assert float(np.ptp(angles[:, 0])) > 0.3
     follows = sum(ratio * angles[:, int(name[1])] for name, ratio in terms.items())
     assert float(np.abs(angles[:, 2] - follows).max()) < 3e-5
+
+
+@needs_physx
+@pytest.mark.parametrize("turns", [False, True])
+def test_physx_holds_a_range_that_has_one_end(tmp_path, turns):
+    """A slide and a slide that turns fall to where their range ends; with infinity at the other end PhysX refused both."""
+    limits = (-0.1, math.inf)
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", grounded=True, mass=MassProperties(1.0, np.zeros(3), np.eye(3)))
+    rod = scene.add_part("Rod", translation=(0.2, 1.0, 0.3), mass=MassProperties(1.0, np.zeros(3), np.eye(3)))
+    kind = JointKind.CYLINDRICAL if turns else JointKind.PRISMATIC
+    scene.add_joint(kind.value, base, rod, point=(0.2, 1.0, 0.3), axis=(0, 1, 0))
+    slide = Freedom(Motion.LIMITED, *limits)
+    joint = scene.joints[0]
+    scene.joints[0] = replace(joint, freedoms=(slide, *joint.freedoms[1:]))
+    stage = kinefab.export(scene, tmp_path / "fall.usda", BARE)
+    height = -physx5(stage.path, 0.6, 0.001, ["/fall/Rod"])[:, 0, 0]  # of a stage whose Y is up
+    assert height[-1] == pytest.approx(0.9, abs=2e-3) and height[5] > 0.99
 
 
 def in_newton(stage: Path):

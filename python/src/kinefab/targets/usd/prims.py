@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -87,14 +86,9 @@ class Prim:
         for name, value in values.items():
             self.attribute(name, "Float", float(value))
 
-    def finite(self, values: Mapping[str, float]) -> None:
-        """The same, of those that are not stated or stated to be infinite."""
-        for name, value in values.items():
-            spec = self._spec.attributes.get(name)
-            if spec is None:
-                self.numbers({name: value})
-            elif math.isinf(spec.default):
-                spec.default = value
+    def missing_numbers(self, values: Mapping[str, float]) -> None:
+        """The same, of those that are not there yet."""
+        self.numbers({name: value for name, value in values.items() if name not in self._spec.attributes})
 
     def connect(self, name: str, kind: str, source: Any) -> None:
         """An attribute that takes another's value.  source: path of that."""

@@ -12,11 +12,11 @@ from ....model import RX, TX, Coupling, Joint, Scene
 from ....partition import Partition
 from ....unity.joints.coordinates import canonical, coordinates_in
 from ....unity.joints.couplings import lead_coupling, uncoupled_screws
+from .freedoms import UNBOUNDED
 from .joints import WrittenJoint
 
-BOUNDS = {"physics:lowerLimit": -1e30, "physics:upperLimit": 1e30}
-"""Degrees or metres: PhysX couples hinges and slides of finite ranges only, and from 1e38 on a bound is none for it.  Kinefab's own
-reader takes these for none."""
+BOUNDS = {"physics:lowerLimit": -UNBOUNDED, "physics:upperLimit": UNBOUNDED}
+"""Degrees or metres: PhysX couples hinges and slides of finite ranges only."""
 
 _Slot = tuple[str, int]
 """A coordinate: id of its joint, and the freedom TX..RZ of it."""
@@ -162,7 +162,7 @@ class _Writer:
             prim.relation("newton:mimicJoint", leader.prim.path)
             prim.numbers({"newton:mimicCoef0": offset, "newton:mimicCoef1": ratio})
             for typed in (joint, leader):
-                typed.prim.finite(BOUNDS)
+                typed.prim.missing_numbers(BOUNDS)
         if "physx" in kinds:
             prefix = f"physxMimicJoint:{self._instance(own)}:"
             prim.apply(f"PhysxMimicJointAPI:{self._instance(own)}")

@@ -13,11 +13,19 @@ from ..prims import Prim
 
 DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
 """USD's names of the freedoms TX..RZ."""
+UNBOUNDED = 1e30
+"""Degrees or metres, for the end that a range does not have: where the schema's infinity stands PhysX refuses the other end too, and
+from 1e38 on a bound is none for it.  Kinefab's own reader takes it for none."""
 
 
 def coordinate(value: float, turns: bool) -> float:
     """Metres, or degrees of radians."""
     return math.degrees(value) if turns else value
+
+
+def bound(value: float, turns: bool) -> float:
+    """An end of a range, metres or degrees of radians; a large number where there is none on that side."""
+    return math.copysign(UNBOUNDED, value) if math.isinf(value) else coordinate(value, turns)
 
 
 def gain(value: float, turns: bool) -> float:
@@ -32,7 +40,7 @@ def write_limit_api(prim: Prim, index: int, freedom: Freedom) -> None:
     instance, turns = DOFS[index], index >= RX
     low, high = 1.0, -1.0
     if freedom.motion is Motion.LIMITED:
-        low, high = coordinate(freedom.lower, turns), coordinate(freedom.upper, turns)
+        low, high = bound(freedom.lower, turns), bound(freedom.upper, turns)
     prim.apply(f"PhysicsLimitAPI:{instance}")
     prim.numbers({f"limit:{instance}:physics:low": low, f"limit:{instance}:physics:high": high})
 

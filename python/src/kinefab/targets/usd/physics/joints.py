@@ -37,7 +37,7 @@ from ..prims import Prim, quaternion32, quaternion64, rounded, vector3d, vector3
 from .articulations import Edge
 from .freedoms import (
     DOFS,
-    coordinate,
+    bound,
     even,
     write_drive,
     write_limit_api,
@@ -279,7 +279,7 @@ def _write_typed(prim: Prim, freedom: Freedom, passive: Passive | None, main: in
     prim.attribute("physics:axis", "Token", AXES[main - RX if turns else main - TX], uniform=True)
     if freedom.motion is Motion.LIMITED:
         ends = {"physics:lowerLimit": freedom.lower, "physics:upperLimit": freedom.upper}
-        prim.numbers({name: coordinate(value, turns) for name, value in ends.items()})
+        prim.numbers({name: bound(value, turns) for name, value in ends.items()})
     write_soft_limit(prim, instance, freedom, turns)
     write_state(prim, instance, value, turns)
     if freedom.drive is not None:

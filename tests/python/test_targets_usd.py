@@ -380,6 +380,20 @@ def test_an_end_that_a_range_lacks_is_a_large_number(tmp_path, kind, moved, name
     )
 
 
+def test_a_joint_that_leaves_everything_free_is_not_written(tmp_path):
+    """As Unity has no component for it; Newton makes a floating body of its own and warns of a second joint to the world.  One
+    that a coupling counts by, or that a spring pulls, stands there."""
+    free = scene_of(JointKind.FREE)
+    stage, result = opened(free, tmp_path / "free.usda")
+    assert not stage.GetPrimAtPath("/free/Joints/J")
+    assert codes(result, Outcome.DROPPED) == {"JOINT_REMOVES_NOTHING"}
+    sprung = scene_of(JointKind.FREE, tz=Freedom(Motion.FREE, drive=model.Drive(stiffness=3.0)))
+    assert opened(sprung, tmp_path / "sprung.usda")[0].GetPrimAtPath("/sprung/Joints/J")
+    tie = model.Coupling("C", model.CouplingKind.LINEAR, "J", model.RX, (model.Term("J", model.TX, 2.0),))
+    counted = replace(free, couplings=[tie])
+    assert opened(counted, tmp_path / "counted.usda")[0].GetPrimAtPath("/counted/Joints/J")
+
+
 def test_what_no_engine_couples_is_written_in_words_of_our_own(tmp_path):
     """Slides of joints that turn too: one coupling on each of the two, the second turned round; a third has no place."""
     scene = scene_of(JointKind.CYLINDRICAL)

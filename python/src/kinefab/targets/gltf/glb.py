@@ -17,6 +17,7 @@ from ...replacing import replacing
 from ...rigid import active_nodes, is_dynamic
 from ...spatial import Array, Pose, quaternion_from_matrix
 from ...unity.bodies.rigidbodies import body_dynamics, body_mass, place_rigidbodies
+from ...unity.joints.coordinates import removes_nothing
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
 from ..tangents import tangents_along
@@ -293,6 +294,9 @@ class _Document:
             if (lost := groups.without_body(joint)) is not None:
                 names = {"joint": joint.id, "node": self.scene.nodes[lost].id}
                 self.report.dropped(f"joint {joint.id}", "JOINT_WITHOUT_BODY", joint.where, **names)
+                continue
+            if removes_nothing(joint):
+                self.report.dropped(f"joint {joint.id}", "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
                 continue
             driven = with_passive_drives(joint, self.report)
             a, b = (None if n is None else self.node_of[n] for n in (joint.a, joint.b))

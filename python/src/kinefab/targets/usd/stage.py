@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from ... import __version__
 from ...model import Joint, NodeKind
 from ...rigid import active_nodes
+from ...unity.joints.coordinates import removes_nothing
 from ..content import Content
 from .api import Sdf
 from .bodies import Bodies, find_bodies
@@ -48,7 +50,8 @@ class Stage:
 
     def write(self) -> None:
         """Fill the layer; the report gets what became of joints, colliders, couplings and clips."""
-        joints = [joint for joint in self.content.scene.joints if self._is_written(joint)]
+        counted = {name for coupling in self.content.scene.couplings for name in coupling.joints}
+        joints = [joint for joint in self.content.scene.joints if self._is_written(joint, counted)]
         self.content, joints = with_one_term_each(self.content, joints)
         content = self.content
         scene, report = content.scene, content.report
@@ -70,18 +73,21 @@ class Stage:
             for scope in scopes.values():
                 scope.remove_if_empty()
 
-    def _is_written(self, joint: Joint) -> bool:
-        """Whether a joint moves something; the report tells of the others."""
+    def _is_written(self, joint: Joint, counted: Collection[str]) -> bool:
+        """Whether a joint moves something; the report tells of the others.  counted: joints that couplings count by."""
         groups, report, feature = self.content.groups, self.content.report, f"joint {joint.id}"
         if (lost := groups.without_body(joint)) is not None:
             names = {"joint": joint.id, "node": self.content.scene.nodes[lost].id}
             report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, **names)
-        elif not groups.together(joint.a, joint.b):
-            return True
-        elif joint.unlocked:
-            report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+        elif groups.together(joint.a, joint.b):
+            if joint.unlocked:
+                report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
+            else:
+                report.kept(feature, joint.where)
+        elif removes_nothing(joint) and joint.id not in counted:
+            report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
         else:
-            report.kept(feature, joint.where)
+            return True
         return False
 
     def _metadata(self, root: Prim) -> None:

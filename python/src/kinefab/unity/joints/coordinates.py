@@ -57,6 +57,13 @@ class Coordinates:
     gap_angle: float
 
 
+def removes_nothing(joint: Joint, shape: CanonicalJoint | None = None) -> bool:
+    """Whether a joint leaves all six freedoms, and nothing limits or drives one.  shape: the same joint, see ``canonical``."""
+    shape = shape or canonical(joint)
+    free = len(shape.rotations) == len(shape.translations) == 3
+    return free and joint.slerp is None and shape.plain(range(6))
+
+
 def canonical(joint: Joint) -> CanonicalJoint:
     """The joint with its single free rotation named X, or the locked one of three not named X."""
     unlocked = unlocked_of(tuple(_plain(f) for f in joint.freedoms[RX:]))

@@ -26,7 +26,7 @@ from .. import frames
 from ..scene import ConfigurableJoint, FixedJoint, HingeJoint
 from ..scene.vectors import vector3
 from .configurable import MOTION_TITLES, configurable_fields
-from .coordinates import CanonicalJoint, Coordinates, canonical, coordinates_in
+from .coordinates import CanonicalJoint, Coordinates, canonical, coordinates_in, removes_nothing
 from .hinge import fits_hinge, hinge_fields
 from .limits import report_gap, turns_as_travel
 from .placement import Placement, place
@@ -136,10 +136,9 @@ def _why_none(
         return "JOINT_REDUNDANT" if shape.rotations or shape.translations else ""
     if counted:
         return None
-    free = len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
     # between two bodies it still keeps Unity from letting them collide
     apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
-    if free and not apart:
+    if removes_nothing(joint, shape) and not apart:
         return "CLOSURE_NOT_NEEDED" if found.freed else "JOINT_REMOVES_NOTHING"
     return "JOINT_BETWEEN_LED" if idle else None
 

@@ -151,6 +151,33 @@ def test_a_drive_that_unity_cannot_hold_is_left_out_and_told(tmp_path, change, w
     assert springs[0] == 0.0 and springs[1] == pytest.approx(springs[2] * 3.5 / 5.0) != 0.0
 
 
+@pytest.mark.parametrize("ending", ["kinefab", "usda", "glb"])
+@pytest.mark.parametrize(
+    "drive, aims, kept",
+    [
+        ({"target": 20}, ["target"], False),
+        ({"target_velocity": -20, "target": 20}, ["target", "target velocity"], False),
+        ({"target": 20, "damping": 4.0}, ["target"], True),
+        ({"target_velocity": -20, "stiffness": 4.0}, ["target velocity"], True),
+        ({"target_velocity": -20, "target": 5, "motor": True, "max_force": 4.0}, ["target"], True),
+        ({"target": 20, "stiffness": 4.0}, [], True),
+        ({"target_velocity": -20, "damping": 4.0}, [], True),
+        ({"stiffness": 0.0}, [], True),
+    ],
+)
+def test_a_drive_with_an_aim_and_nothing_that_takes_it_there_is_told(tmp_path, drive, aims, kept, ending):
+    """A target without a stiffness, a speed without a damping: in Unity, and everywhere, it does nothing."""
+    scene = kinefab.Scene()
+    lid = scene.add_part("Lid", BOX)
+    scene.add_hinge(None, lid, point=(0, 0, 0), axis=(0, 1, 0), limits=(-10, 80), drive=drive)
+    result = kinefab.export(scene, tmp_path / f"lid.{ending}")
+    told = [d for d in result.report.diagnostics if d.code == "JOINT_DRIVE_IDLE"]
+    assert len(told) == len(aims) and all(f" a {aim} for rx" in d.message for d, aim in zip(told, aims))
+    if ending == "kinefab":
+        joint = next(c for e in result.unity.gameObjects for c in e.components if hasattr(c, "breakForce"))
+        assert (getattr(joint, "useSpring", True) or joint.useMotor) is kept
+
+
 def test_pose_that_does_not_meet_its_joint_is_reported_in_metres_and_degrees(tmp_path):
     """A lid lifted by 2 mm off its hinge is a warning that says so."""
     scene = lid_scene()

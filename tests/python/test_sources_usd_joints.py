@@ -537,3 +537,16 @@ def test_a_slide_that_follows_its_own_turn_is_a_screw_of_so_much_a_turn(tmp_path
     found, scene, _ = joint_of(tmp_path, text, metres=0.01)
     assert found.kind is JointKind.SCREW and scene.couplings == []
     assert found.lead == pytest.approx(-0.03 * 0.01 * 360.0)
+
+
+@pytest.mark.parametrize("target", [0, 20])
+def test_a_target_without_gains_is_told_at_the_export(tmp_path, target):
+    """A stage that states where to and no stiffness; one that states nothing drives nothing, and nobody need hear of it."""
+    drive = (
+        f'float drive:angular:physics:targetPosition = {target}\nuniform token physics:axis = "Y"\n{LIMITS}'
+    )
+    text = body("B") + joint("PhysicsRevoluteJoint", inside=drive, schemas='"PhysicsDriveAPI:angular"')
+    path = tmp_path / "drive.usda"
+    path.write_text(stage(text))
+    report = kinefab.export(path, tmp_path / "drive.kinefab").report
+    assert ("JOINT_DRIVE_IDLE" in {d.code for d in report.diagnostics}) is bool(target)

@@ -14,7 +14,8 @@ MOST = 1e36
 
 def with_passive_drives(joint: Joint, report: Report) -> Joint:
     """The joint with its passive springs and dampers made part of the drives; the report tells what Unity's joints have
-    no place for (dry friction, armature), what could not be added up, and drives with numbers that none can have."""
+    no place for (dry friction, armature), what could not be added up, and drives with numbers that none can have, or that do
+    nothing."""
     if all(freedom.passive is None and freedom.drive is None for freedom in joint.freedoms):
         return joint
     freedoms = tuple(
@@ -22,6 +23,7 @@ def with_passive_drives(joint: Joint, report: Report) -> Joint:
         for i, freedom in enumerate(joint.freedoms)
     )
     freedoms = tuple(_without_impossible(joint, i, freedom, report) for i, freedom in enumerate(freedoms))
+    freedoms = tuple(_without_idle(joint, i, freedom, report) for i, freedom in enumerate(freedoms))
     return replace(joint, freedoms=freedoms)
 
 
@@ -41,6 +43,24 @@ def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Repo
     names = {"joint": joint.id, "freedom": joint.freedom_name(index), "what": what, "value": f"{value:g}"}
     report.dropped(f"joint {joint.id}", "JOINT_DRIVE_IMPOSSIBLE", freedom.where or joint.where, **names)
     return replace(freedom, drive=None)
+
+
+def _without_idle(joint: Joint, index: int, freedom: Freedom, report: Report) -> Freedom:
+    """The freedom without a drive that has aims and nothing that takes it there; a single such aim is told."""
+    drive = freedom.drive
+    if drive is None or freedom.motion is Motion.LOCKED:
+        return freedom
+    idle: dict[str, str] = {}
+    if drive.target != 0.0 and (drive.motor or not drive.stiffness):
+        idle["target"] = "stiffness"
+    if drive.target_velocity != 0.0 and not (drive.motor or drive.damping):
+        idle["target velocity"] = "damping"
+    for aim, gain in idle.items():
+        why = "its motor holds a speed alone" if drive.motor else f"its drive has no {gain}"
+        names = {"joint": joint.id, "freedom": joint.freedom_name(index), "aim": aim, "why": why}
+        report.add("JOINT_DRIVE_IDLE", freedom.where or joint.where, **names, gain=gain)
+    works = drive.motor or drive.stiffness or drive.damping
+    return freedom if works or not idle else replace(freedom, drive=None)
 
 
 def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:

@@ -120,7 +120,9 @@ class Freedoms:
         for name, value in (("stiffness", stiffness), ("damping", damping), ("maxForce", most)):
             if value < 0.0 or (math.isinf(value) and name != "maxForce"):
                 self._values.wrong(prim, prefix + name, value)
-        if not (stiffness or damping):
+        target = get(prim, prefix + "targetPosition", 0.0) * unit
+        velocity = get(prim, prefix + "targetVelocity", 0.0) * unit
+        if not (stiffness or damping or target or velocity):
             return freedom
         if freedom.motion is Motion.LOCKED:
             feature = f"drive {instance} of {identity(prim)}"
@@ -128,10 +130,8 @@ class Freedoms:
             self._report.dropped(feature, "USD_FEATURE_DROPPED", where, detail="its freedom is locked")
             return freedom
         force = most * self.units.force(turns)
-        velocity = get(prim, prefix + "targetVelocity", 0.0) * unit
         if not stiffness and damping * gain >= MOTOR_DAMPING and not acceleration:
             return replace(freedom, drive=Drive(target_velocity=velocity, max_force=force, motor=True))
-        target = get(prim, prefix + "targetPosition", 0.0) * unit
         return replace(
             freedom, drive=Drive(target, velocity, stiffness * gain, damping * gain, force, acceleration)
         )

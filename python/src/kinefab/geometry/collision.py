@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Collider, ColliderKind, Mesh, Scene
+from ..model import Collider, ColliderKind, Mesh, Node, Scene
 from ..options import ColliderShape, Ground
 from ..rigid import RigidGroups, is_dynamic
 from .contact.decomposition import convex_pieces
@@ -77,37 +77,78 @@ def collision_meshes(
 
     shape: for bodies of nodes that state neither colliders nor their shape.  ground: what stands for it.
     """
-    hulled: list[tuple[int, str]] = []
-    split: list[tuple[int, str]] = []
-    cylinders: dict[Cylinder, Mesh] = {}
-    not_convex: list[str] = []
-    for i, node in enumerate(scene.nodes):
-        moves = convex.on(i, scene, groups)
-        asked = node.collision or shape
-        if node.colliders is None:
-            own = [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
-            if asked in (ColliderShape.HULL, ColliderShape.DECOMPOSE) or (
-                moves and asked in (ColliderShape.MESH, ColliderShape.AUTO)
-            ):
-                hulled += own
-            if asked is ColliderShape.DECOMPOSE or (asked is ColliderShape.AUTO and moves):
-                split += own
-            not_convex += [name for _, name in own] if asked is ColliderShape.MESH and moves else []
-        for stated in node.colliders or ():
-            collider = convex.stated(stated, i, groups)
-            name = f"{node.id}/{collider.name or collider.kind.value}"
-            if collider.kind is ColliderKind.CYLINDER:
-                size = (collider.radius, collider.length)
-                if min(size) > 0.0:
-                    cylinders.setdefault(size, prism(*size))
-            elif collider.mesh is not None and (collider.kind is not ColliderKind.MESH or moves):
-                hulled.append((collider.mesh, name))
-                split += [(collider.mesh, name)] if collider.kind is ColliderKind.PIECES else []
-    for body in not_convex:
+    asked = _Asked.of(scene, groups, shape, convex)
+    for body in asked.not_convex:
         report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
-    hulls = collision_hulls(scene, hulled, report)
-    near = meshes_near_others(scene, groups, ground, hulls) if split else frozenset[int]()
-    return CollisionMeshes(hulls, convex_pieces(scene, split, hulls, near, report), cylinders)
+    hulls = collision_hulls(scene, asked.hulled, report)
+    return CollisionMeshes(hulls, _pieces(scene, groups, ground, asked, hulls, report), asked.cylinders)
+
+
+def hollow_pieces(
+    scene: Scene, groups: RigidGroups, shape: ColliderShape, report: Report
+) -> Mapping[int, tuple[Mesh, ...]]:
+    """The convex pieces alone, for a format whose readers make the hulls.  The ground is a body there."""
+    asked = _Asked.of(scene, groups, shape, ConvexOnly())
+    hulls = collision_hulls(scene, asked.split, Report())
+    return _pieces(scene, groups, Ground.BODY, asked, hulls, report)
+
+
+def _pieces(
+    scene: Scene,
+    groups: RigidGroups,
+    ground: Ground,
+    asked: _Asked,
+    hulls: Mapping[int, Mesh],
+    report: Report,
+) -> Mapping[int, tuple[Mesh, ...]]:
+    near = meshes_near_others(scene, groups, ground, hulls) if asked.split else frozenset[int]()
+    return convex_pieces(scene, asked.split, hulls, near, report)
+
+
+def is_split(shape: ColliderShape, moves: bool) -> bool:
+    """Whether a body of which no colliders are stated has convex pieces where it is hollow.  moves: whether forces move it."""
+    return shape is ColliderShape.DECOMPOSE or (shape is ColliderShape.AUTO and moves)
+
+
+@dataclass(slots=True, eq=False)
+class _Asked:
+    """hulled, split: meshes, each with its body's name.  not_convex: bodies that are asked to be their true mesh and cannot."""
+
+    hulled: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
+    split: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
+    cylinders: dict[Cylinder, Mesh] = field(default_factory=dict[Cylinder, Mesh])
+    not_convex: list[str] = field(default_factory=list[str])
+
+    @classmethod
+    def of(cls, scene: Scene, groups: RigidGroups, shape: ColliderShape, convex: ConvexOnly) -> _Asked:
+        asked = cls()
+        for i, node in enumerate(scene.nodes):
+            moves = convex.on(i, scene, groups)
+            if node.colliders is None:
+                asked.add_bodies(node, node.collision or shape, moves)
+            for stated in node.colliders or ():
+                asked.add_collider(node, convex.stated(stated, i, groups), moves)
+        return asked
+
+    def add_bodies(self, node: Node, shape: ColliderShape, moves: bool) -> None:
+        own = [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
+        if shape in (ColliderShape.HULL, ColliderShape.DECOMPOSE) or (
+            moves and shape in (ColliderShape.MESH, ColliderShape.AUTO)
+        ):
+            self.hulled += own
+        if is_split(shape, moves):
+            self.split += own
+        self.not_convex += [name for _, name in own] if shape is ColliderShape.MESH and moves else []
+
+    def add_collider(self, node: Node, collider: Collider, moves: bool) -> None:
+        name = f"{node.id}/{collider.name or collider.kind.value}"
+        if collider.kind is ColliderKind.CYLINDER:
+            size = (collider.radius, collider.length)
+            if min(size) > 0.0:
+                self.cylinders.setdefault(size, prism(*size))
+        elif collider.mesh is not None and (collider.kind is not ColliderKind.MESH or moves):
+            self.hulled.append((collider.mesh, name))
+            self.split += [(collider.mesh, name)] if collider.kind is ColliderKind.PIECES else []
 
 
 def prism(radius: float, length: float) -> Mesh:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ... import __version__
+from ...geometry.collision import hollow_pieces, is_split
 from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics, Repeat
 from ...options import ColliderShape
 from ...replacing import replacing
@@ -50,7 +52,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
 
 
 class _Document:
-    """Fills the lists of the document.  node_of: for each node of the model its glTF node."""
+    """Fills the lists of the document.  node_of: for each node of the model its glTF node.  model_meshes: the scene's, behind them
+    the convex pieces of hollow ones; pieces_of: for each of those the numbers of its pieces."""
 
     def __init__(self, content: Content):
         self.content, self.scene, self.report = content, content.scene, content.report
@@ -63,9 +66,12 @@ class _Document:
         self.meshes: list[dict[str, Any]] = []
         self.mesh_of: dict[tuple[int, tuple[int, ...]], int] = {}
         self.node_of: list[int] = []
+        self.model_meshes = list(content.scene.meshes)
+        self.pieces_of: dict[int, range] = {}
         self.active = active_nodes(content.scene)
 
     def built(self) -> dict[str, Any]:
+        self._add_pieces()
         self._add_nodes()
         self._add_bodies()
         self._add_joints()
@@ -95,6 +101,14 @@ class _Document:
         if self.roots:
             values["scene"] = 0
         return values
+
+    def _add_pieces(self) -> None:
+        content = self.content
+        made = hollow_pieces(self.scene, content.groups, content.colliders, self.report)
+        for mesh, pieces in made.items():
+            first = len(self.model_meshes)
+            self.model_meshes += pieces
+            self.pieces_of[mesh] = range(first, len(self.model_meshes))
 
     def _node(
         self, name: str, parent: int | None, local: Pose, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
@@ -162,6 +176,9 @@ class _Document:
         shape = own.collision or self.content.colliders
         if own.colliders is not None or shape is ColliderShape.NONE:
             return
+        if body.mesh in self.pieces_of and is_split(shape, self._moves(node)):
+            self._collide_by_pieces(node, index, body, {})
+            return
         holder = index
         if shape is ColliderShape.BOX:
             around = bounding_box(self.scene.meshes[body.mesh])
@@ -170,11 +187,9 @@ class _Document:
             geometry = {"node": index if "mesh" in self.nodes[index] else self._shape(body.name, body.mesh)}
             if self._moves(node) or shape is ColliderShape.HULL:
                 geometry["convexHull"] = True
-                if shape in (ColliderShape.DECOMPOSE, ColliderShape.MESH):
+                if shape is ColliderShape.MESH:
                     self._tell_hull(f"collider {own.id}/{body.name}", own.where)
-        entry = {"geometry": geometry}
-        self.filters.add(node, "", entry)
-        self._extend(holder, "collider", entry)
+        self._collide(node, holder, {"geometry": geometry})
 
     def _add_collider(self, node: int, parent: int, collider: Collider) -> None:
         own = self.scene.nodes[node]
@@ -187,21 +202,42 @@ class _Document:
             self.report.dropped(feature, "TARGET_FIELD_DROPPED", collider.where, **told)
             return
         index = self._node(collider.name or collider.kind.value, parent, shape_pose(collider), collider.scale)
+        entry: dict[str, Any] = {}
+        if collider.material is not None and not collider.trigger:
+            entry["physicsMaterial"] = self.physics.material(collider.material)
+        if collider.kind is ColliderKind.PIECES and collider.mesh in self.pieces_of:
+            self._collide_by_pieces(node, index, collider, entry)
+            return
         if collider.kind in (ColliderKind.HULL, ColliderKind.PIECES, ColliderKind.MESH):
             assert collider.mesh is not None
             shape = self._shape(collider.name or collider.kind.value, collider.mesh)
             geometry: dict[str, Any] = {"node": shape}
             if collider.kind is not ColliderKind.MESH or self._moves(node):
                 geometry["convexHull"] = True
-                if collider.kind is not ColliderKind.HULL:
+                if collider.kind is ColliderKind.MESH:
                     self._tell_hull(feature, collider.where)
         else:
             geometry = self.physics.geometry(collider)
-        entry: dict[str, Any] = {"geometry": geometry}
-        if collider.material is not None and not collider.trigger:
-            entry["physicsMaterial"] = self.physics.material(collider.material)
-        self.filters.add(node, collider.group, entry)
-        self._extend(index, "trigger" if collider.trigger else "collider", entry)
+        self._collide(node, index, {"geometry": geometry, **entry}, collider.group, collider.trigger)
+
+    def _collide(
+        self, node: int, holder: int, entry: dict[str, Any], group: str = "", trigger: bool = False
+    ) -> None:
+        """holder: index of the glTF node that gets the collider.  node: of the model, whose it is."""
+        self.filters.add(node, group, entry)
+        self._extend(holder, "trigger" if trigger else "collider", entry)
+
+    def _collide_by_pieces(
+        self, node: int, above: int, collider: Body | Collider, entry: Mapping[str, Any]
+    ) -> None:
+        """Several colliders below a body's or collider's own node: a reader makes one body of all that are below its motion."""
+        assert collider.mesh is not None
+        stated = collider if isinstance(collider, Collider) else Collider(ColliderKind.PIECES)
+        for number in self.pieces_of[collider.mesh]:
+            name = self.model_meshes[number].name
+            geometry = {"node": self._shape(name, number), "convexHull": True}
+            holder = self._node(name, above, Pose())
+            self._collide(node, holder, {"geometry": geometry, **entry}, stated.group, stated.trigger)
 
     def _tell_hull(self, feature: str, where: str) -> None:
         detail = "one convex hull stands for its mesh"
@@ -215,7 +251,7 @@ class _Document:
     def _mesh(self, number: int, surfaces: tuple[int, ...]) -> int:
         """Index of a mesh with these surfaces; its arrays are shared with the same mesh in others."""
         if (number, surfaces) not in self.mesh_of:
-            mesh = self.scene.meshes[number]
+            mesh = self.model_meshes[number]
             self.meshes.append({"name": mesh.name, "primitives": self._primitives(mesh, surfaces)})
             self.mesh_of[number, surfaces] = len(self.meshes) - 1
         return self.mesh_of[number, surfaces]

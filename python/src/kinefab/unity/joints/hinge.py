@@ -8,11 +8,10 @@ from typing import Any
 from ...diagnostics import Report
 from ...model import RX, Joint, Motion
 from ..scene import JointLimits, JointMotor, JointSpring
+from ..scene.joints.joint import UNLIMITED_FORCE
 from .coordinates import CanonicalJoint, Coordinates
 from .limits import one_sided, report_outside
 
-MAX_FLOAT = 3.4028233e38
-"""What Unity writes for "unlimited" in a force field."""
 TURN_ROUNDED = 1e-3
 """Degrees by which a whole turn, written as 6.2832 or so, may be past what Unity takes."""
 
@@ -46,7 +45,9 @@ def hinge_fields(
     drive = freedom.drive
     if drive is not None and drive.motor:
         fields["useMotor"] = True
-        fields["motor"] = JointMotor(math.degrees(drive.target_velocity), min(drive.max_force, MAX_FLOAT))
+        fields["motor"] = JointMotor(
+            math.degrees(drive.target_velocity), min(drive.max_force, UNLIMITED_FORCE)
+        )
     elif drive is not None:
         fields["useSpring"] = True
         fields["spring"] = JointSpring(drive.stiffness, drive.damping, math.degrees(drive.target - zero))

@@ -13,7 +13,7 @@ from ....unity.scene import (
     SoftJointLimit,
     SoftJointLimitSpring,
 )
-from ....unity.scene.joints.joint import AnchoredJoint
+from ....unity.scene.joints.joint import UNLIMITED_FORCE, AnchoredJoint
 from ...numbers import DECIMALS
 from ..text.dialects import Dialect
 from ..text.documents import component_head, version
@@ -22,8 +22,6 @@ from ..text.yaml import NULL, Fields, Plain, placed
 MOTIONS = {"Locked": 0, "Limited": 1, "Free": 2}
 DRIVE_MODES = {"XYAndZ": 0, "Slerp": 1}
 PROJECTIONS = {"None": 0, "PositionAndRotation": 1}
-MAX_FORCE = 3.4028233e38
-"""What Unity writes for a drive without a largest force."""
 
 
 def joint_class(joint: Joint) -> tuple[int, str]:
@@ -146,7 +144,7 @@ def _spring(spring: SoftJointLimitSpring) -> Fields:
 
 
 def _drive(drive: JointDrive, dialect: Dialect) -> Fields:
-    force = MAX_FORCE if math.isinf(drive.maximumForce) else drive.maximumForce
+    force = UNLIMITED_FORCE if math.isinf(drive.maximumForce) else drive.maximumForce
     newer: Fields = {"useAcceleration": drive.useAcceleration} if dialect.drive > 3 else {}
     return {
         "serializedVersion": dialect.drive,

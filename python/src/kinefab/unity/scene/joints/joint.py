@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 
 from ..vectors import ZERO, Vector3
 
+UNLIMITED_FORCE = 3.4028233e38
+"""What the editor writes for a force of a joint without a largest one; a link's is the largest float itself."""
+
 
 @dataclass(frozen=True, slots=True)
 class Joint:

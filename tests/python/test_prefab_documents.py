@@ -301,3 +301,14 @@ def test_between_two_keys_a_turn_runs_along_the_great_arc(tmp_path):
             wanted = np.append(np.sin(at) * axis * (1.0, -1.0, -1.0), np.cos(at))
             cosine = abs(played @ wanted) / np.linalg.norm(played)
             assert 2 * np.degrees(np.arccos(min(1.0, cosine))) < 0.3, (i, u)
+
+
+def test_a_step_between_two_keys_of_a_clip_stays_one(tmp_path):
+    """Two keys that 32 bits hold at one time would be one to the editor."""
+    slide = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0]])
+    clip = model.AnimationClip("Step", np.array([0.0, 100.0, 100.0 + 1e-9, 200.0]), (model.Track(0, slide),))
+    kinefab.export(model.Scene([model.Node("A", "A")], animations=[clip]), tmp_path / "A.prefab")
+    (found,) = documents(next(tmp_path.rglob("*.anim")).read_text("utf-8"))
+    keys = found.fields["m_PositionCurves"][0]["curve"]["m_Curve"]
+    times = [np.float32(key["time"]) for key in keys]
+    assert times == sorted(set(times)) and np.allclose(times, clip.times, rtol=1e-6)

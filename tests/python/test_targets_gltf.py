@@ -349,6 +349,17 @@ def test_clips_and_losses(exported):
     assert {"COUPLING_DROPPED", "TARGET_FIELD_DROPPED"} <= dropped
 
 
+@pytest.mark.parametrize("gap", [0.0, 1e-9])
+def test_a_step_between_two_keys_stays_one_in_32_bits(tmp_path, gap):
+    """glTF's times rise; two keys that 32 bits hold at one time made a file that validators refuse."""
+    slide = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0]])
+    clip = AnimationClip("step", np.array([0.0, 100.0, 100.0 + gap, 200.0]), (Track(0, slide),))
+    kinefab.export(Scene([Node("A", "A")], animations=[clip]), tmp_path / "a.glb")
+    document, binary = parsed(tmp_path / "a.glb")
+    times = accessor(document, binary, document["animations"][0]["samplers"][0]["input"]).ravel()
+    assert (np.diff(times) > 0.0).all() and np.allclose(times, clip.times, rtol=1e-6)
+
+
 def test_same_scene_same_bytes_and_a_reader_of_others_takes_it(tmp_path):
     first, second = (kinefab.export(robot(), tmp_path / name).path for name in ("a.glb", "b.glb"))
     assert first.read_bytes() == second.read_bytes()
@@ -546,6 +557,28 @@ def test_a_hollow_moving_body_is_convex_pieces_below_its_motion(tmp_path, stated
     assert not any(p.contains(inside).any() for p in found["P"])
     kinefab.export(Scene(nodes=nodes, meshes=[mesh]), tmp_path / "b.glb")
     assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
+
+
+def test_what_is_grounded_below_what_moves_stands_beside_it(tmp_path):
+    """In the source's tree only: readers gave its colliders to the body above, and it moved with that."""
+    scene = Scene(meshes=[box((1, 2, 3))])
+    at = [
+        Pose(rotation_about(np.array([0.0, 1, 0]), 0.3 * k), np.array([5.0 * k, 1.0, 0.0])) for k in range(4)
+    ]
+    below = ((None, False), (0, True), (1, True), (0, False))
+    for name, pose, (parent, grounded) in zip(("Arm", "Post", "Foot", "Hand"), at, below):
+        body = (Body("b", 0),)
+        scene.nodes.append(Node(name, name, parent=parent, pose=pose, grounded=grounded, bodies=body))
+    kinefab.export(scene, tmp_path / "a.glb")
+    document, _ = parsed(tmp_path / "a.glb")
+    nodes = document["nodes"]
+    names = {n["name"]: i for i, n in enumerate(nodes) if n["name"] in ("Arm", "Post", "Foot", "Hand")}
+    parents = {child: i for i, node in enumerate(nodes) for child in node.get("children", ())}
+    assert names["Post"] not in parents and parents[names["Foot"]] == names["Post"]
+    assert parents[names["Hand"]] == names["Arm"]
+    for name, pose in zip(names, at):
+        assert np.allclose(world(document, names[name])[:3, 3], pose.translation, atol=1e-9)
+        assert np.allclose(world(document, names[name])[:3, :3], pose.rotation, atol=1e-9)
 
 
 def test_a_jpeg_of_inks_is_told(tmp_path):

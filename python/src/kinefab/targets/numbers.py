@@ -6,11 +6,24 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
+import numpy as np
+
+from ..spatial import Array
+
 DECIMALS = 12
 """Decimals kept of lengths, directions and angles: a picometre, and what is left of sin(pi) is 0."""
 
 WHOLE = 1e15
 """Below it a whole number is written without a decimal point."""
+
+
+def rising(times: Array) -> Array:
+    """A clip's seconds as 32-bit floats of which no two are alike: where two keys are a step, the later comes a float after."""
+    found = times.astype(np.float32)
+    if (found[1:] <= found[:-1]).any():
+        for k in range(1, len(found)):
+            found[k] = max(found[k], np.nextafter(found[k - 1], np.float32(np.inf)))
+    return found.astype(np.float64)
 
 
 def plain_value(value: Any) -> Any:

@@ -18,7 +18,7 @@ from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
-from .bodies.rigidbodies import Rigidbodies, map_rigidbody, place_rigidbodies
+from .bodies.rigidbodies import Rigidbodies, held_below, map_rigidbody, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -213,18 +213,8 @@ class _Builder:
             because = tuple(self.holding.get(own, ()))
             joint = FixedJoint(connectedBody=self.object_of[connected], because=because)
             self.components[self.object_of[own]].append(joint)
-        self._hold_grounded_below_others()
-
-    def _hold_grounded_below_others(self) -> None:
-        """A grounded node in the tree below a moving body would move with it: it is kinematic by itself."""
-        assert self.rigidbodies is not None
-        moved: list[bool] = []
-        for i, node in enumerate(self.scene.nodes):
-            below = node.parent is not None and moved[node.parent]
-            held = below and self.groups.is_ground(i)
-            if held:
-                self.components[self.object_of[i]].append(Rigidbody(useGravity=False, isKinematic=True))
-            moved.append(i in self.rigidbodies.carriers or (below and not held))
+        for held in held_below(self.scene, self.groups, self.rigidbodies):
+            self.components[self.object_of[held]].append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_joints(self) -> None:
         for joint in self.scene.joints:

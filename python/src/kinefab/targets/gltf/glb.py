@@ -13,17 +13,18 @@ import numpy as np
 
 from ... import __version__
 from ...geometry.collision import hollow_pieces, is_split
-from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics, Repeat
+from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics
 from ...options import ColliderShape
 from ...replacing import replacing
 from ...rigid import active_nodes, is_dynamic
 from ...spatial import Array, Pose, quaternion_from_matrix
-from ...unity.bodies.rigidbodies import body_dynamics, body_mass, place_rigidbodies
+from ...unity.bodies.rigidbodies import body_dynamics, body_mass, held_below, place_rigidbodies
 from ...unity.joints.coordinates import removes_nothing
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
 from ..tangents import tangents_along
 from .binary import Binary
+from .clips import animations
 from .filters import Filters
 from .looks import Looks
 from .physics import BODIES, PhysicsEntries, bounding_box, motion, shape_pose
@@ -69,6 +70,7 @@ class _Document:
         self.model_meshes = list(content.scene.meshes)
         self.pieces_of: dict[int, range] = {}
         self.active = active_nodes(content.scene)
+        self.placed = place_rigidbodies(content.scene, content.groups)
 
     def built(self) -> dict[str, Any]:
         self._add_pieces()
@@ -92,7 +94,7 @@ class _Document:
             "textures": self.looks.textures,
             "samplers": self.looks.samplers,
             "images": self.looks.images,
-            "animations": self._animations(),
+            "animations": animations(self.scene, self.node_of, self.binary, self.report),
             "accessors": self.binary.accessors,
             "bufferViews": self.binary.views,
             "buffers": [{"byteLength": self.binary.length}] if self.binary.length else [],
@@ -135,10 +137,13 @@ class _Document:
         return {name for node in self.nodes for name in node.get("extensions", ())}
 
     def _add_nodes(self) -> None:
+        """A grounded node below a moving body stands beside it: readers give the colliders to the next motion above them."""
+        animated = {track.node for clip in self.scene.animations for track in clip.tracks}
+        held = set(held_below(self.scene, self.content.groups, self.placed)) - animated
         for i, node in enumerate(self.scene.nodes):
-            local = self.scene.pose(node.parent).inverse() @ node.pose
-            parent = None if node.parent is None else self.node_of[node.parent]
-            index = self._node(node.name, parent, local)
+            above = self._beside(node.parent) if i in held else node.parent
+            local = self.scene.pose(above).inverse() @ node.pose
+            index = self._node(node.name, None if above is None else self.node_of[above], local)
             self.node_of.append(index)
             told = {"id": node.id, "layer": node.layer, "tag": node.tag}
             self.nodes[index]["extras"] = {key: value for key, value in told.items() if value or key == "id"}
@@ -154,6 +159,15 @@ class _Document:
                     self._add_body(i, index, body)
             for collider in node.colliders or ():
                 self._add_collider(i, index, collider)
+
+    def _beside(self, node: int | None) -> int | None:
+        """The first above all bodies that a node is in, None for the top."""
+        above = node
+        while node is not None:
+            if node in self.placed.carriers:
+                above = self.scene.nodes[node].parent
+            node = self.scene.nodes[node].parent
+        return above
 
     def _moves(self, node: int) -> bool:
         """Whether forces move a node's body."""
@@ -287,7 +301,6 @@ class _Document:
         return found
 
     def _add_bodies(self) -> None:
-        self.placed = place_rigidbodies(self.scene, self.content.groups)
         for carrier, members in self.placed.carriers.items():
             mass = body_mass(self.scene, carrier, members, self.report)
             dynamics = body_dynamics(self.scene, carrier, members)
@@ -366,28 +379,6 @@ class _Document:
                 coupling=coupling.id,
                 target=".glb",
             )
-
-    def _animations(self) -> list[dict[str, Any]]:
-        found: list[dict[str, Any]] = []
-        for clip in self.scene.animations:
-            samplers: list[dict[str, Any]] = []
-            channels: list[dict[str, Any]] = []
-            times = self.binary.floats(clip.times, vertex=False, bounded=True)
-            for track in clip.tracks:
-                for path, values in (("translation", track.translations), ("rotation", track.rotations)):
-                    if values is None:
-                        continue
-                    output = self.binary.floats(values, vertex=False)
-                    samplers.append({"input": times, "output": output, "interpolation": "LINEAR"})
-                    goal = {"node": self.node_of[track.node], "path": path}
-                    channels.append({"sampler": len(samplers) - 1, "target": goal})
-            if channels:
-                found.append({"name": clip.name, "samplers": samplers, "channels": channels})
-            if clip.repeat is not Repeat.ONCE:
-                self.report.dropped(
-                    f"clip {clip.name}", "TARGET_FIELD_DROPPED", clip.where, field="repeat", target=".glb"
-                )
-        return found
 
 
 def _unit(normals: Array | None) -> Array | None:

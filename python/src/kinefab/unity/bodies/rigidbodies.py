@@ -66,6 +66,19 @@ def place_rigidbodies(scene: Scene, groups: RigidGroups) -> Rigidbodies:
     return Rigidbodies(tuple(carrier_of), dict(sorted(carriers.items())), tuple(fixed))
 
 
+def held_below(scene: Scene, groups: RigidGroups, placed: Rigidbodies) -> list[int]:
+    """Grounded nodes in the tree below a moving body, which would move with it, without those that stand below one of them."""
+    found: list[int] = []
+    moved: list[bool] = []
+    for i, node in enumerate(scene.nodes):
+        below = node.parent is not None and moved[node.parent]
+        held = below and groups.is_ground(i)
+        if held:
+            found.append(i)
+        moved.append(i in placed.carriers or (below and not held))
+    return found
+
+
 def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> MassProperties:
     """Of everything a carrier moves, in the carrier's frame."""
     own = scene.nodes[carrier]

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from ....unity.scene import AnimationClip
+from ...numbers import rising
 from ..text.dialects import Dialect
 from ..text.documents import HEAD, version
 from ..text.yaml import HEADER, NULL, Fields, Plain, document, placed, vector
@@ -28,7 +31,8 @@ def clip_asset(clip: AnimationClip, name: str, paths: Mapping[int, str], dialect
     """paths: of each GameObject that a track moves, from the object with the Animation, names with slashes between."""
     turning = [(t.gameObject, t.localRotation) for t in clip.tracks if t.localRotation]
     moving = [(t.gameObject, t.localPosition) for t in clip.tracks if t.localPosition]
-    stop = float(clip.times[-1]) if clip.times else 0.0
+    times: list[float] = rising(np.array(clip.times, dtype=np.float64)).tolist()
+    stop = times[-1] if times else 0.0
     fields: Fields = {
         **HEAD,
         "m_Name": name,
@@ -36,10 +40,10 @@ def clip_asset(clip: AnimationClip, name: str, paths: Mapping[int, str], dialect
         "m_Legacy": 1,
         "m_Compressed": 0,
         "m_UseHighQualityCurve": 1,
-        "m_RotationCurves": [_curve(clip.times, _continuous(v), paths[o], _along_arc) for o, v in turning],
+        "m_RotationCurves": [_curve(times, _continuous(v), paths[o], _along_arc) for o, v in turning],
         "m_CompressedRotationCurves": [],
         "m_EulerCurves": [],
-        "m_PositionCurves": [_curve(clip.times, v, paths[o], _straight) for o, v in moving],
+        "m_PositionCurves": [_curve(times, v, paths[o], _straight) for o, v in moving],
         "m_ScaleCurves": [],
         "m_FloatCurves": [],
         "m_PPtrCurves": [],
@@ -97,10 +101,9 @@ def _continuous(rotations: Values) -> Values:
 def _curve(times: Sequence[float], values: Values, path: str, way: Way) -> Fields:
     weight = _components([THIRD] * len(values[0]))
     still = [0.0] * len(values[0])
-    slopes = [
-        way(a, b, end - start) if end > start else (still, still)
-        for a, b, start, end in zip(values, values[1:], times, times[1:])
-    ] or [(still, still)]
+    slopes = [way(a, b, end - start) for a, b, start, end in zip(values, values[1:], times, times[1:])] or [
+        (still, still)
+    ]
     keys: list[Fields] = []
     for i, (time, value) in enumerate(zip(times, values)):
         before = slopes[i - 1][1] if i else slopes[0][0]

@@ -344,6 +344,27 @@ def test_a_package_that_colcon_installed_is_not_the_folder_around_it(tmp_path, g
     assert found.path == tmp_path / "ws/install/tool_pkg/share/tool_pkg/meshes/t.obj"
 
 
+@pytest.mark.parametrize(
+    "uri",
+    ["package://tool_pkg//meshes/t.obj", "package:///tool_pkg/meshes/t.obj", "model://tool//t.obj", "model:///tool/t.obj",
+     "file://Media/t.obj", "file:///{}/ws/house_pkg/Media/t.obj"],
+)  # fmt: skip
+def test_names_are_found_where_ros_and_gazebo_find_them(tmp_path, uri):
+    """Strokes too much are none; a package of Gazebo's has its models beside its worlds, and media at its top, and is found
+    from inside one of its models too."""
+    packages_in(tmp_path, "ws/tool_pkg", "ws/house_pkg")
+    (tmp_path / "ws/secret.obj").write_text(TETRA, encoding="utf-8")
+    for place in ("models/tool", "models/table", "Media", "worlds"):
+        (tmp_path / "ws/house_pkg" / place).mkdir(parents=True)
+        (tmp_path / "ws/house_pkg" / place / "t.obj").write_text(TETRA, encoding="utf-8")
+    (tmp_path / "ws/house_pkg/models/table/model.config").write_text("<model/>", encoding="utf-8")
+    for inside in ("worlds", "models/table"):
+        packages = Packages(tmp_path / "ws/house_pkg" / inside, (), {})
+        found = packages.find(uri.format(tmp_path))
+        assert found.path is not None and found.path.name == "t.obj" and found.path.parent.name != inside
+        assert packages.find("package://tool_pkg//../secret.obj").outside
+
+
 def test_a_whole_path_into_a_package_is_one_into_the_package(tmp_path, monkeypatch):
     """What xacro makes of ``file://$(find NAME)``, or of that with a stroke too much, found by the environment, or by a folder that was given from where one stands."""
     pytest.importorskip("xacro", reason="xacro is not installed")

@@ -33,9 +33,14 @@ BESIDE = 2
 """Folders above the source that a relative name may climb where no package is found around it."""
 MOST_FOLDERS = 10_000
 """Folders that are looked through for manifests, below one that was given."""
+MODELS = "models"
+"""Where Gazebo's packages keep their models, beside ``worlds``."""
 IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 """A folder that holds one of these holds no packages."""
-_NAMED = re.compile(r"(?:package|model):(?://)?([^/]*)/?(.*)", re.DOTALL | re.IGNORECASE)
+ENVIRONMENT = ("ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH")
+"""Variables that list folders of packages or models."""
+_NAMED = re.compile(r"(?:package|model):/*([^/]*)/*(.*)", re.DOTALL | re.IGNORECASE)
+"""As ROS and Gazebo read it: strokes too much are none."""
 _SERVED = re.compile(
     r"https?://.*?/models/([^/]+)(?:/(?:tip|\d+))?(?:/files)?/?(.*)", re.DOTALL | re.IGNORECASE
 )
@@ -84,10 +89,11 @@ class Packages:
             inside = inside or self._is_in_package(Path(plain))
             return Found(Path(plain) if inside and Path(plain).is_file() else None, not inside)
         found = _inside(self.folder, plain, self._home())
-        # A name that climbs into a folder that was given, or one from there or the package's own.
+        # A name that climbs into a folder that was given, or one from there or a package around the source.
         if found.path is None:
             others = [_inside(self.folder, plain, root) for root in self.given]
-            for other in (*others, *(_inside(root, plain) for root in (self._home(), *self.given))):
+            around = [self._home(), *filter(_is_top, _upwards(self.folder)), *self.given]
+            for other in (*others, *(_inside(root, plain) for root in around)):
                 if other.path is not None:
                     return other
         return found
@@ -120,7 +126,7 @@ class Packages:
 
     def _search(self, name: str) -> Path | None:
         roots = list(self.given)
-        for variable in ("ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"):
+        for variable in ENVIRONMENT:
             roots += map(Path, filter(None, self.environment.get(variable, "").split(os.pathsep)))
         for root in roots:
             if (found := self._package_in(root, name)) is not None:
@@ -131,8 +137,9 @@ class Packages:
         for above in _upwards(self.folder):
             if _is_package(above, name) or above.name == name:
                 return above
-            if (above / name).is_dir():
-                return _installed(above / name, name)
+            for candidate in (above / name, above / MODELS / name):
+                if candidate.is_dir():
+                    return _installed(candidate, name)
         return None
 
     def _package_in(self, root: Path, name: str) -> Path | None:
@@ -153,10 +160,7 @@ class Packages:
     def _home(self) -> Path:
         """The package that the source lies in; without one the folder a little above it."""
         line = _upwards(self.folder)
-        for above in line:
-            if any((above / manifest).is_file() for manifest in MANIFESTS):
-                return above
-        return line[min(BESIDE, len(line) - 1)]
+        return next(filter(_is_top, line), line[min(BESIDE, len(line) - 1)])
 
 
 def packages_of(source: Path, request: Request, report: Report) -> Packages:
@@ -180,6 +184,11 @@ def _is_name(name: str) -> bool:
 def _upwards(folder: Path) -> list[Path]:
     whole = Path(os.path.abspath(folder))
     return [whole, *whole.parents][: UPWARDS + 1]
+
+
+def _is_top(folder: Path) -> bool:
+    """Of a package or model."""
+    return any((folder / manifest).is_file() for manifest in MANIFESTS)
 
 
 def _packages_below(root: Path) -> dict[str, Path]:

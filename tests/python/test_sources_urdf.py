@@ -335,6 +335,19 @@ def test_a_workspace_holds_its_packages_at_any_depth(tmp_path, given):
     assert Packages(tmp_path, (), {"ROS_PACKAGE_PATH": str(tmp_path / given)}).package("tool_pkg") is not None
 
 
+@pytest.mark.parametrize("kind", ["src", "repository", "side by side", "none"])
+def test_a_package_elsewhere_in_the_workspace_of_the_source_is_found(tmp_path, kind):
+    """Without being told where: a workspace's src, a repository, or a folder of packages; not any folder above."""
+    root = tmp_path / ("src" if kind == "src" else "downloads")
+    packages_in(root, "arms/arm_pkg", "tools/deep/tool_pkg")
+    if kind == "repository":
+        (root / ".git").mkdir()
+    if kind == "side by side":
+        packages_in(root, "one_pkg", "two_pkg")
+    found = Packages(root / "arms/arm_pkg/urdf", (), {}).find("package://tool_pkg/meshes/t.obj")
+    assert found.path == (None if kind == "none" else root / "tools/deep/tool_pkg/meshes/t.obj")
+
+
 @pytest.mark.parametrize("given", [(), ("ws/install",), ("ws/install/tool_pkg",)])
 def test_a_package_that_colcon_installed_is_not_the_folder_around_it(tmp_path, given):
     """install/NAME/share/NAME; the source lies in such a package too."""
@@ -368,18 +381,18 @@ def test_names_are_found_where_ros_and_gazebo_find_them(tmp_path, uri):
 def test_a_whole_path_into_a_package_is_one_into_the_package(tmp_path, monkeypatch):
     """What xacro makes of ``file://$(find NAME)``, or of that with a stroke too much, found by the environment, or by a folder that was given from where one stands."""
     pytest.importorskip("xacro", reason="xacro is not installed")
-    packages_in(tmp_path, "ws/src/arm_pkg", "ws/src/far/tool_pkg", "ws/hidden/secret_pkg")
+    packages_in(tmp_path, "ws/code/arm_pkg", "ws/code/far/tool_pkg", "ws/hidden/secret_pkg")
     secret = tmp_path / "ws/hidden/secret_pkg/meshes/t.obj"
     found = "$(find tool_pkg)/meshes/t.obj"
     uris = (f"file://{found}", f"file:///{found}", found, secret)
     path = written(
-        tmp_path / "ws/src/arm_pkg",
+        tmp_path / "ws/code/arm_pkg",
         "".join(f"<link name='l{i}'>{MESH.format(uri, '')}</link>" for i, uri in enumerate(uris))
         + "".join(f"<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>" for i in (1, 2, 3)),
         "r.urdf.xacro",
     )  # fmt: skip
     monkeypatch.chdir(tmp_path / "ws")
-    for folders, variable in (([Path("src")], ""), ([], str(tmp_path / "ws" / "src"))):
+    for folders, variable in (([Path("code")], ""), ([], str(tmp_path / "ws" / "code"))):
         monkeypatch.setenv("ROS_PACKAGE_PATH", variable)
         codes, meshes = loaded(path, tmp_path, package_path=folders)
         assert codes == ["MESH_OUTSIDE"] and len(meshes) == 1

@@ -11,6 +11,7 @@ import re
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
@@ -140,6 +141,9 @@ class Packages:
             for candidate in (above / name, above / MODELS / name):
                 if candidate.is_dir():
                     return _installed(candidate, name)
+        for above in filter(_is_workspace, _upwards(self.folder)):
+            if (found := self._packages_below(above).get(name)) is not None:
+                return found
         return None
 
     def _package_in(self, root: Path, name: str) -> Path | None:
@@ -153,9 +157,12 @@ class Packages:
         ):
             if candidate.is_dir():
                 return _installed(candidate, name)
+        return self._packages_below(root).get(name)
+
+    def _packages_below(self, root: Path) -> dict[str, Path]:
         if root not in self._below:
             self._below[root] = _packages_below(root)
-        return self._below[root].get(name)
+        return self._below[root]
 
     def _home(self) -> Path:
         """The package that the source lies in; without one the folder a little above it."""
@@ -189,6 +196,17 @@ def _upwards(folder: Path) -> list[Path]:
 def _is_top(folder: Path) -> bool:
     """Of a package or model."""
     return any((folder / manifest).is_file() for manifest in MANIFESTS)
+
+
+def _is_workspace(folder: Path) -> bool:
+    """Whether packages may lie anywhere below it: a workspace's ``src``, a repository, or where several lie side by side."""
+    if folder.name == "src" or (folder / ".git").exists():
+        return True
+    try:
+        beside = (path for path in folder.iterdir() if (path / "package.xml").is_file())
+        return len(list(islice(beside, 2))) == 2
+    except OSError:
+        return False
 
 
 def _packages_below(root: Path) -> dict[str, Path]:

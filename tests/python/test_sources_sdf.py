@@ -506,6 +506,28 @@ def test_shapes_materials_and_friction(tmp_path):
     assert paint.emission == (linear(0.4), linear(0.5), linear(0.6))
 
 
+def test_gazebos_own_colours_are_known_by_the_names_of_their_scripts(tmp_path):
+    """Other scripts are told; a colour of the material's own goes before."""
+    script = (
+        "<script><uri>file://media/materials/scripts/gazebo.material</uri><name>Gazebo/{}</name></script>"
+    )
+    words = ("Orange", "RedTransparent", "Wood", "Blue")
+    visuals = "".join(
+        f"<visual name='{word}'><geometry><sphere/></geometry><material>{script.format(word)}"
+        f"{'<diffuse>.2 .4 .6 1</diffuse>' if word == 'Blue' else ''}</material></visual>"
+        for word in words
+    )
+    scene = read(written(tmp_path, model(link("a", inner=visuals))), report := Report())
+    assert {s.name: s.color for s in scene.surfaces} == {
+        "Orange": (1.0, linear(0.5088), linear(0.0468), 1.0),
+        "RedTransparent": (1.0, 0.0, 0.0, 0.5),
+        "Blue": (linear(0.2), linear(0.4), linear(0.6), 1.0),
+    }
+    assert [s.alpha_mode.value for s in scene.surfaces] == ["opaque", "blend", "opaque"]
+    (lost,) = [o.feature for o in report.outcomes if o.code == "ELEMENT_DROPPED" and "script" in o.feature]
+    assert lost.startswith("material script Gazebo/Wood of visual Wood")
+
+
 def test_a_plane_lies_across_its_normal(tmp_path):
     inner = "<collision name='c'><geometry><plane><normal>0 1 1</normal></plane></geometry></collision>"
     node = scene_of(tmp_path, model(link("a", inner=inner) + "<static>true</static>")).nodes[-1]

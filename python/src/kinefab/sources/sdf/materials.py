@@ -10,6 +10,7 @@ from ...model import AlphaMode, PhysicsMaterial, Surface, Texture
 from ..robots.colors import clamped
 from ..robots.packages import Packages
 from ..robots.xml_elements import Element, truth
+from .gazebo_colors import GAZEBO_COLORS
 
 GREY = (0.8, 0.8, 0.8, 1.0)
 BLACK = (0.0, 0.0, 0.0, 1.0)
@@ -28,11 +29,17 @@ class Materials:
         if element is None:
             return ()
         script = element.child("script")
+        own = GREY
         if script is not None and element.child("diffuse") is None and element.child("pbr") is None:
             name = script.content("name")
-            element.report.dropped(f"material script {name} of {feature}", "ELEMENT_DROPPED", script.where)
-            return ()
-        surface = _surface(element, visual, packages, feature)
+            if name not in GAZEBO_COLORS:
+                element.report.dropped(
+                    f"material script {name} of {feature}", "ELEMENT_DROPPED", script.where
+                )
+                return ()
+            red, green, blue, alpha = GAZEBO_COLORS[name]
+            own = (linear(red), linear(green), linear(blue), alpha)
+        surface = _surface(element, visual, packages, own, feature)
         key = (*(getattr(surface, n) for n in ("color", "metallic", "smoothness", "emission", "double_sided")),
                surface.color_texture, surface.normal_texture, surface.emission_texture)  # fmt: skip
         if key not in self._known:
@@ -41,8 +48,15 @@ class Materials:
         return (self._known[key],)
 
 
-def _surface(element: Element, visual: Element, packages: Packages, feature: str) -> Surface:
-    red, green, blue, alpha = _color(element, "diffuse", GREY, feature)
+def _surface(
+    element: Element,
+    visual: Element,
+    packages: Packages,
+    own: tuple[float, float, float, float],
+    feature: str,
+) -> Surface:
+    """own: RGBA, linear, of one that states no diffuse colour."""
+    red, green, blue, alpha = _color(element, "diffuse", own, feature)
     faint = visual.child("transparency")
     alpha *= 1.0 - min(1.0, max(0.0, 0.0 if faint is None else faint.value(0.0)))
     emissive = _color(element, "emissive", BLACK, feature)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import kinefab
 import pytest
-from kinefab.diagnostics import KinefabError, Report
+from kinefab.diagnostics import KinefabError, Report, Severity
 from kinefab.sources import read
 
 INSTALLED = importlib.util.find_spec("mujoco") is not None
@@ -263,3 +263,28 @@ def test_a_model_of_nothing_is_told(tmp_path):
     report = Report()
     read(path, report)
     assert [(d.code, d.where) for d in report.diagnostics] == [("SCENE_WITHOUT_PARTS", "m.xml:1")]
+
+
+@needs_mujoco
+def test_a_sensor_that_asks_for_contacts_has_them(tmp_path):
+    """Meshes are compiled without their hulls, as nothing touched them; MuJoCo refused sensors of touch then."""
+    head = "<asset><mesh name='box' builtin='plate' params='3 4' scale='.3 .5 .2'/></asset>"
+    body = (
+        "<body name='f' pos='0 0 1'><freejoint/><geom name='g' type='box' size='.3 .5 .2' contype='3' conaffinity='5'/>"
+        "<geom name='skin' type='mesh' mesh='box' mass='0' contype='0' conaffinity='0'/></body>"
+    )
+    path = tmp_path / "m.xml"
+    text = world(body, "<sensor><tactile geom='skin' mesh='box'/></sensor>")
+    path.write_text(text.replace("<worldbody>", head + "<worldbody>"), encoding="utf-8")
+    scene = read(path, report := Report())
+    (node,) = [node for node in scene.nodes if node.name == "f"]
+    assert [collider.name for collider in node.colliders] == ["g"]
+    assert not report.of(Severity.ERROR)
+
+
+@needs_mujoco
+def test_a_second_model_in_a_file_is_told(tmp_path):
+    path = tmp_path / "m.xml"
+    path.write_text(world(BODY) + "\n<mujoco model='other'/>", encoding="utf-8")
+    read(path, report := Report())
+    assert "XML_AFTER_ROOT" in {d.code for d in report.diagnostics}

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import KinefabError, Report
 from ...spatial import Array, Pose
 from ..reading.record import MAX_NUMBER
 from ..robots.packages import Found, Packages
@@ -113,10 +113,20 @@ class _Library:
         stated = [(int(geom.contype), int(geom.conaffinity)) for geom in touched]
         for geom in touched:
             geom.contype = geom.conaffinity = 0
-        model = self._tried(spec.compile)
+        before = len(self.report.diagnostics)
+        try:
+            model = self._tried(spec.compile)
+        except KinefabError:
+            model = None
         for geom, bits in zip(touched, stated):
             geom.contype, geom.conaffinity = bits
-            model.geom_contype[geom.id], model.geom_conaffinity[geom.id] = bits
+            if model is not None:
+                model.geom_contype[geom.id], model.geom_conaffinity[geom.id] = bits
+        if (
+            model is None
+        ):  # there are elements that ask for something that may be touched, as sensors of touch do
+            del self.report.diagnostics[before:]
+            model = self._tried(spec.compile)
         return model
 
     def _opened(self) -> Any:

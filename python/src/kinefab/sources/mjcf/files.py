@@ -152,6 +152,8 @@ def _parsed(data: bytes, name: str, report: Report) -> Element:
         except KinefabError:
             report.extend(tried)
             raise error from None
+    else:
+        report.extend(tried)
     text = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
     try:
         text.decode("utf-8")

@@ -449,6 +449,20 @@ def test_collada_has_its_unit_and_lies_as_ros_lays_it(tmp_path, up):
     assert codes == (["COLLADA_UP_AXIS"] if up == "Y_UP" else [])
 
 
+@pytest.mark.parametrize("tag, told", [("visual", ["MESH_LOOK"]), ("collision", [])])
+def test_the_looks_of_what_only_collides_are_no_loss(tmp_path, tag, told):
+    pytest.importorskip("collada", reason="pycollada is not installed")
+    path = robot_with_mesh(tmp_path, "package://pkg/meshes/t.dae")
+    path.write_text(path.read_text("utf-8").replace("visual", tag), encoding="utf-8")
+    faint = "<library_effects><effect id='e'><profile_COMMON><technique sid='c'><lambert><transparency><float>.5</float>"
+    faint += "</transparency></lambert></technique></profile_COMMON></effect></library_effects><library_geometries>"
+    text = COLLADA.format("Z_UP").replace("<library_geometries>", faint)
+    (tmp_path / "pkg" / "meshes" / "t.dae").write_text(text, encoding="utf-8")
+    result = kinefab.export(path, tmp_path / "m.kinefab")
+    assert [d.code for d in result.report.diagnostics if d.code == "MESH_LOOK"] == told
+    assert json.loads(result.path.read_text("utf-8"))["meshes"]
+
+
 def test_materials_by_name_may_stand_anywhere(tmp_path):
     inner = (
         "<link name='a'><visual><geometry><sphere radius='1'/></geometry><material name='red'/></visual></link>"

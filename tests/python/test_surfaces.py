@@ -319,6 +319,9 @@ def test_pictures_may_lie_anywhere_in_the_model_that_the_mesh_is_part_of(mark, t
     assert (surface.color_texture is not None) == bool(mark) and surface.emission_texture is None
     lost = {o.feature for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"}
     assert "texture ../../secret.png" in lost and len(lost) == (1 if mark else 2)
+    (tmp_path / "package.xml").write_text("<package/>", "utf-8")  # models of one package share its images
+    read_mesh_file(path, report := Report(), "here")
+    assert not [o for o in report.outcomes if o.code == "TEXTURE_UNREADABLE"]
 
 
 def test_an_obj_s_library_is_parted_by_tabs_and_words_of_any_case(tmp_path):

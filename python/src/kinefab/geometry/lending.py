@@ -46,6 +46,15 @@ def without_lent_bodies(given: Scene, loaded: Scene) -> Scene:
     return replace(loaded, nodes=nodes)
 
 
+LOOKS = frozenset({"MESH_LOOK", "TEXTURE_UNREADABLE"})
+
+
+def without_looks(found: Report) -> None:
+    """Take back what was found about the looks of a mesh file: nothing draws it."""
+    found.diagnostics = [d for d in found.diagnostics if d.code not in LOOKS]
+    found.outcomes = [o for o in found.outcomes if o.code not in LOOKS]
+
+
 def tell_losses(found: Report, names: list[str], file: str, where: str, report: Report) -> None:
     """What was found in a mesh file that the source can do without: its errors are losses of all bodies in ``names``."""
     errors = found.of(Severity.ERROR)

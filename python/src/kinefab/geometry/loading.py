@@ -15,7 +15,7 @@ from ..diagnostics import Report
 from ..model import Body, Mesh, MeshReference, Scene, Surface
 from ..spatial import Array, bounds
 from .files import Reader, read_mesh_file, transformed
-from .lending import tell_losses, with_lent_bodies, without_lent_bodies
+from .lending import tell_losses, with_lent_bodies, without_lent_bodies, without_looks
 from .matching import Wanted, match_bodies
 from .pieces import MeshFile, Piece, joined
 
@@ -79,14 +79,20 @@ def load_geometry(
                 places.setdefault(body.reference.path, []).append(((i, k), wanted))
     if not places:
         return given
-    loading = _Loading(scene, report, [len(node.bodies) for node in given.nodes])
+    seen = [len(node.bodies) for node in given.nodes]  # those after them are colliders'
+    loading = _Loading(scene, report, seen)
     for done, (path, bodies) in enumerate(places.items()):
         progress("geometry", done / len(places))
         wanted = [body for _, body in bodies]
         needed = any(body.reference.needed for body in wanted)
-        found = report if needed else Report()
+        drawn = any(k < seen[i] for (i, k), _ in bodies)
+        found = report if needed and drawn else Report()
         file = files.get(path, wanted[0].reference.where, found)
         matches = [] if file is None else match_bodies(file, wanted, found)
+        if not drawn:
+            without_looks(found)
+        if needed and not drawn:
+            report.extend(found)
         if not needed:
             tell_losses(found, [w.label for w in wanted], path.name, wanted[0].reference.where, report)
         if file is None:

@@ -46,9 +46,12 @@ def read_reference(folder: Path, name: str, limit: int = MOST_BYTES) -> bytes:
 
 
 def package_of(folder: Path) -> Path:
-    """The nearest folder above, or this, that is a package or model; this where none is."""
+    """The outermost folder above, or this, that is a package or model; this where none is.  A package of Gazebo's holds models,
+    which share its images."""
     above = [folder, *folder.parents][:UPWARDS]
-    return next((each for each in above if any((each / name).is_file() for name in MANIFESTS)), folder)
+    return next(
+        (each for each in reversed(above) if any((each / name).is_file() for name in MANIFESTS)), folder
+    )
 
 
 def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:

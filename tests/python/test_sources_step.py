@@ -40,7 +40,14 @@ from step.linkages import two_plates  # noqa: E402
 from step.machine import Machine  # noqa: E402
 from step.solids import box  # noqa: E402
 from step.tessellated import triangles_alone, write_tessellated  # noqa: E402
-from step.writer import document_of, write_document, write_external, write_iges, write_step  # noqa: E402
+from step.writer import (  # noqa: E402
+    document_of,
+    write_document,
+    write_external,
+    write_iges,
+    write_iges_document,
+    write_step,
+)
 
 LEVER = FIXTURES / "lever" / "lever.step"
 PLATES = FIXTURES / "step" / "two_plates_inch_ap242.step"
@@ -169,6 +176,26 @@ def test_trimmed_surfaces_of_iges_enclose_the_solids_that_they_are_of(tmp_path: 
     plate = (50.8 * 25.4 - np.pi * 25.0) * 10.0 * 1e-9
     assert sorted(found[0]) == pytest.approx([plate, plate, (27000 - 60) * 1e-9], rel=1e-4)
     assert sorted(found[1]) == pytest.approx(sorted(found[0]), rel=1e-4)
+
+
+def test_surfaces_of_iges_in_no_group_are_one_part(tmp_path: Path):
+    """Most programs write each face of a part on its own, with a colour of its own."""
+    document = document_of(Machine("Loose"))
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colors = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    for i, face in enumerate(faces_of(box((0.0, 0.0, 0.0), (10.0, 20.0, 30.0)))):
+        color = Quantity_Color(0.0, 0.0, 1.0 if i else 0.0, Quantity_TOC_sRGB)
+        colors.SetColor(shapes.AddShape(face, False), color, XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+    write_iges_document(document, tmp_path / "loose.igs", solids=False)
+    scene, report = read_whole(tmp_path / "loose.igs")
+    assert not report.diagnostics
+    (node,) = scene.nodes
+    (body,) = node.bodies
+    mesh = scene.meshes[body.mesh]
+    assert is_closed(welded(mesh.vertices, mesh.faces))
+    assert solid_properties(mesh.vertices, mesh.faces, 1.0).mass == pytest.approx(6e-6)
+    assert mesh.face_counts == (2, 10)
+    assert [scene.surfaces[i].name for i in body.surfaces] == ["#000000", "#0000FF"]
 
 
 def test_surfaces_that_enclose_nothing_stay_as_they_are(tmp_path: Path):

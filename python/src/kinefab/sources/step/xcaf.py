@@ -10,7 +10,7 @@ Runs in the guarded process (``sources.guard``); nothing else imports it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -23,7 +23,14 @@ from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_ChildIterator, TDF_Label, TDF_Tool
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_SOLID, TopAbs_VERTEX
+from OCP.TopAbs import (
+    TopAbs_COMPOUND,
+    TopAbs_COMPSOLID,
+    TopAbs_FACE,
+    TopAbs_SHELL,
+    TopAbs_SOLID,
+    TopAbs_VERTEX,
+)
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound, TopoDS_Iterator
@@ -74,7 +81,8 @@ def load(path: str, iges: bool, tolerance: Tolerance, skip: frozenset[int]) -> I
             continue
         yield Begun(number)
         try:
-            colors = Colors(walk.colors, _label_color(label), _subshape_names(label))
+            whole, names = (None, []) if label is None else (_label_color(label), _subshape_names(label))
+            colors = Colors(walk.colors, whole, names)
             pieces = meshed_shape(shape, walk.tree.shapes[number], colors, tolerance)
             lines = not pieces and TopExp_Explorer(shape, TopAbs_VERTEX).More()
             yield Shape(number, pieces, lines=lines)
@@ -100,11 +108,32 @@ class _Walk:
         self._numbers: dict[str, int] = {}
         self.tree = Tree([], [])
         shapes = XCAFDoc_DocumentTool.ShapeTool_s(main)
+        faces: list[Any] = []
         for label in _children(shapes.BaseLabel()):
             if XCAFDoc_ShapeTool.IsShape_s(label) and XCAFDoc_ShapeTool.IsFree_s(label):
                 referred = TDF_Label()  # an instance of an IGES subfigure is in no assembly
                 is_instance = XCAFDoc_ShapeTool.GetReferredShape_s(label, referred)
-                self._add(label, referred if is_instance else label, None, 0, {})
+                if (
+                    iges
+                    and not is_instance
+                    and XCAFDoc_ShapeTool.GetShape_s(label).ShapeType() == TopAbs_FACE
+                ):
+                    faces.append(label)
+                else:
+                    self._add(label, referred if is_instance else label, None, 0, {})
+        if faces:
+            self._add_faces(faces)
+
+    def _add_faces(self, labels: list[Any]) -> None:
+        """The surfaces that an IGES file states one by one, in no group, as the one part that they bound."""
+        name = names.pop() if len(names := {_name(label) for label in labels}) == 1 else ""
+        key = _entry(labels[0])
+        part = Occurrence(
+            name, None, np.eye(3, 4), name, key, len(self.shapes), layers=self._layers_of_each(labels)
+        )
+        self.tree.occurrences.append(part)
+        self.shapes.append((None, _compound(map(XCAFDoc_ShapeTool.GetShape_s, labels))))
+        self.tree.shapes.append(name)
 
     def _add(
         self, occurrence: Any, product: Any, parent: int | None, level: int, usages: Mapping[str, Any]
@@ -131,7 +160,9 @@ class _Walk:
             shape=None if is_assembly or loose else self._shape(product),
             color=next(filter(None, map(_label_color, own)), None)
             or self._color(occurrence, product, is_assembly),
-            layers=self._layers_of(occurrence) or self._layers_of(product) or self._layers_of_all(pieces),
+            layers=self._layers_of(occurrence)
+            or self._layers_of(product)
+            or self._layers_of_each(map(_referred, pieces)),
             visible=all(map(self.colors.IsVisible_s, (occurrence, *own)))
             if hasattr(self.colors, "IsVisible_s")
             else True,
@@ -158,7 +189,7 @@ class _Walk:
             part = Occurrence(
                 name, place, np.eye(3, 4), name, f"{record.key}:own", self._own(product, pieces)
             )
-            part.layers = self._layers_of_all(pieces)
+            part.layers = self._layers_of_each(map(_referred, pieces))
             self.tree.occurrences.append(part)
 
     def _usages(self, occurrence: Any, usages: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
@@ -189,11 +220,7 @@ class _Walk:
         entry = f"{_entry(product)}:own"
         if entry not in self._numbers:
             self._numbers[entry] = len(self.shapes)
-            whole, builder = TopoDS_Compound(), BRep_Builder()
-            builder.MakeCompound(whole)
-            for piece in pieces:
-                builder.Add(whole, XCAFDoc_ShapeTool.GetShape_s(piece))
-            self.shapes.append((product, whole))
+            self.shapes.append((product, _compound(map(XCAFDoc_ShapeTool.GetShape_s, pieces))))
             self.tree.shapes.append(_name(product))
         return self._numbers[entry]
 
@@ -208,9 +235,17 @@ class _Walk:
             return ()
         return tuple(names.Value(i).ToExtString() for i in range(1, names.Length() + 1))
 
-    def _layers_of_all(self, pieces: list[Any]) -> tuple[str, ...]:
-        """Layers of the pieces of one part, each once."""
-        return tuple(dict.fromkeys(layer for piece in pieces for layer in self._layers_of(_referred(piece))))
+    def _layers_of_each(self, labels: Iterable[Any]) -> tuple[str, ...]:
+        """Layers of what is one part, each once."""
+        return tuple(dict.fromkeys(layer for label in labels for layer in self._layers_of(label)))
+
+
+def _compound(shapes: Iterable[Any]) -> Any:
+    whole, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(whole)
+    for shape in shapes:
+        builder.Add(whole, shape)
+    return whole
 
 
 def _components(product: Any, step: bool) -> tuple[list[tuple[Any, Any]], list[Any]]:

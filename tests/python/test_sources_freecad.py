@@ -202,7 +202,13 @@ def test_other_workbenches_are_told(tmp_path):
             "AttachedTo": text("Parent Assembly#LCS_0"),
         },
     )
-    objects = {"Assembly": ("App::Part", {"Group": links("Arm")}), "Arm": arm, "Body": part()}
+    solid = ("Part::Feature", {"Shape": shape(""), "Placement": placement()})
+    objects = {
+        "Assembly": ("App::Part", {"Group": links("Arm")}),
+        "Arm": arm,
+        "Body": part(Group=links("Solid")),
+        "Solid": solid,
+    }
     scene, codes = written(tmp_path, objects)
     assert codes == ["FREECAD_ATTACHED"]
     older = {("AssemblyType" if name == "SolverId" else name): value for name, value in arm[1].items()}
@@ -229,6 +235,32 @@ def test_what_only_made_another_shape_or_is_shown_by_links_is_no_part(tmp_path):
     folder = objects | {"Parts": ("App::DocumentObjectGroup", {"Group": links("Bolt", "Spare")})}
     scene, codes = written(tmp_path, folder)
     assert {node.id for node in scene.nodes} == {"Plate", "Bolt001", "Spare", "Nut", "Nut001"}
+
+
+def test_a_container_without_a_shape_is_no_body(tmp_path):
+    """Empty, or of a sketch alone; one that a joint names stays a part."""
+    sketch = ("Sketcher::SketchObject", {"Shape": shape(""), "Placement": placement()})
+    objects = {
+        "Box": ("Part::Box", {"Shape": shape(""), "Placement": placement()}),
+        "Empty": ("App::Part", {"Placement": placement()}),
+        "Drawn": ("App::Part", {"Placement": placement(), "Group": links("Sketch")}),
+        "Sketch": sketch,
+    }
+    scene, codes = written(tmp_path, objects)
+    assert not codes
+    assert {node.id: node.kind is NodeKind.PART for node in scene.nodes} == {
+        "Box": True,
+        "Empty": False,
+        "Drawn": False,
+    }
+    frame = ("App::Part", {"Placement": placement(z=40.0)})
+    scene, _ = written(
+        tmp_path, assembly({"Base": part(), "Frame": frame}, {"M": joint("Revolute", "Base.", "Frame.")})
+    )
+    assert [node.id for node in scene.nodes if node.kind is NodeKind.PART] == [
+        "Assembly/Base",
+        "Assembly/Frame",
+    ]
 
 
 def test_a_linked_file_may_be_spelled_with_other_capitals(tmp_path):

@@ -39,12 +39,13 @@ class ShownShape:
 @dataclass(slots=True, eq=False)
 class Parts:
     """nodes: of the scene.  shapes: to be loaded.  of: the node that an occurrence moves with, by its identity.
-    identities: of nodes by their ids, see ``model.Scene``."""
+    identities: of nodes by their ids, see ``model.Scene``.  empty: containers in which nothing has a shape."""
 
     nodes: list[Node] = field(default_factory=list[Node])
     shapes: list[ShownShape] = field(default_factory=list[ShownShape])
     of: dict[int, int] = field(default_factory=dict[int, int])
     identities: dict[str, str] = field(default_factory=dict[str, str])
+    empty: list[int] = field(default_factory=list[int])
     _labels: dict[tuple[int | None, str], int] = field(default_factory=dict[tuple[int | None, str], int])
     _hidden: dict[int, set[str]] = field(default_factory=dict[int, set[str]])
 
@@ -96,6 +97,8 @@ class Parts:
         )
         if plain and not here.array:
             node = self._node(here, parent, NodeKind.PART, grounded=ground)
+            if all(child.target is not None and child.target.type.startswith(NO_PART) for child in inside):
+                self.empty.append(node)
             for child in inside:
                 self.of[id(child)] = node
                 if child.target is not None and has_shape(child.target):

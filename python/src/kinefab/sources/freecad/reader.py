@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostics import Report
-from ...model import Scene, Source, SourceFile
+from ...model import NodeKind, Scene, Source, SourceFile
 from ..asmt.assembled import add_statements
 from ..asmt.joints import Statement
 from ..occ.asked import tolerance_of
@@ -68,6 +68,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     for node in reader.grounded:
         scene.nodes[node] = replace(scene.nodes[node], grounded=True)
     add_statements(scene, reader.statements, lambda statement, reason: left(report, statement, reason))
+    _set_aside(scene, parts.empty)
     for kept in (*scene.joints, *scene.constraints, *scene.couplings):
         report.kept(f"joint {shown(kept.id)}", kept.where)
     shapes.load(scene, parts.shapes, Looks(scene, report, documents.follow), request.progress)
@@ -77,6 +78,16 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     ))  # fmt: skip
     report.raise_for_errors()
     return scene
+
+
+def _set_aside(scene: Scene, empty: list[int]) -> None:
+    """Containers with nothing in them, or with sketches and datums alone, are no bodies that could fall, unless a joint moves
+    one."""
+    named = {node for joint in scene.joints for node in (joint.a, joint.b)}
+    named |= {feature.node for constraint in scene.constraints for feature in constraint.features}
+    for node in set(empty) - named:
+        if not scene.nodes[node].grounded:
+            scene.nodes[node] = replace(scene.nodes[node], kind=NodeKind.ASSEMBLY, flexible=True)
 
 
 def left(report: Report, statement: Statement, reason: str) -> None:

@@ -21,7 +21,7 @@ sys.path[:0] = [str(ROOT / "fixtures"), str(ROOT / "python" / "bench")]
 
 from mates_bench import Variant, score, variants, written  # noqa: E402
 from step.machine import Machine  # noqa: E402
-from step.solids import box, cut, rod  # noqa: E402
+from step.solids import X, box, cut, fuse, rod  # noqa: E402
 from step.writer import write_step  # noqa: E402
 
 FEW = (
@@ -84,6 +84,35 @@ def test_size_place_and_names_change_nothing(number: int, name: str, tmp_path: P
 def test_rings_turn_on_the_rollers_between_them(name: str, clearance: float, tmp_path: Path):
     found = judged(name, Variant(clearance), tmp_path)
     assert (found.hits, found.missed, found.wrong, found.mobility, found.locks) == (10, 0, 0, 1, [])
+
+
+def test_screws_with_a_cross_and_rectangular_nuts_are_known_by_their_names(tmp_path: Path):
+    """Their faces do not all go round an axis; a block that is called after its nut is still none."""
+    machine = Machine("Bracket", ground="Base", mobility=1)
+    places = (-20.0, 20.0)
+    holes = [rod(2.0, 30.0, (x, 0.0, -20.0)) for x in places]
+    machine.add("Base", cut(box((-40.0, -20.0, -10.0), (40.0, 20.0, 0.0)), *holes))
+    cheeks = fuse(*(box((x, -15.0, 0.0), (x + 6.0, 15.0, 40.0)) for x in (-40.0, 34.0)))
+    bracket = fuse(box((-40.0, -15.0, 0.0), (40.0, 15.0, 4.0)), cheeks)
+    machine.add("Bracket", cut(bracket, *holes, rod(4.0, 100.0, (-50.0, 0.0, 28.0), X)))
+    cross = [box((-2.5, -0.6, 1.0), (2.5, 0.6, 5.0)), box((-0.6, -2.5, 1.0), (0.6, 2.5, 5.0))]
+    screw = cut(fuse(rod(4.0, 3.0), rod(2.0, 20.0, (0.0, 0.0, -20.0))), *cross)
+    nut = cut(box((-4.5, -3.5, -3.0), (4.5, 3.5, 0.0)), rod(2.0, 10.0, (0.0, 0.0, -5.0)))
+    for number, x in enumerate(places, 1):
+        machine.add(f"Screw{number}", screw, (x, 0.0, 4.0), product="Pan head screw M4x20")
+        machine.add(f"Nut{number}", nut, (x, 0.0, -10.0), product="Nut M4")
+    machine.add("Bar", rod(4.0, 120.0, (-60.0, 0.0, 28.0), X))
+    block = cut(box((-10.0, -15.0, 15.0), (10.0, 15.0, 45.0)), rod(4.0, 40.0, (-20.0, 0.0, 28.0), X))
+    machine.add("Slider", block, product="Nut block")
+    machine.fix("Base", "Bracket", "Screw1", "Screw2", "Nut1", "Nut2")
+    path = tmp_path / "bracket.step"
+    write_step(machine, path)
+    scene = read(path, Report())
+    found = analyse(with_found(scene, find_mates(scene, "Base"), Report()))
+    index = {node.name: i for i, node in enumerate(scene.nodes)}
+    bodies = {name: found.groups.group_of[index[name]] for name in (part.name for part in machine.parts)}
+    assert len({bodies[name] for name in machine.fixed[0]}) == 1
+    assert bodies["Slider"] not in (bodies["Bar"], bodies["Base"])
 
 
 def test_a_contact_over_a_clearance_holds_where_it_was_drawn(tmp_path: Path):

@@ -14,7 +14,7 @@ from .from_decided import axles_of, mate_of_fixing, mate_of_mesh, mates_of_edge
 from .mate import Mates
 from .shapes.features import Shape, placed, shape_of
 from .shapes.gears import Wheel, meshes, wheel_of
-from .shapes.turned import Turned, is_named_fastener, turned
+from .shapes.turned import Turned, fastener, is_named_fastener, turned
 from .touching.search import contacts_of, near_parts
 
 
@@ -73,17 +73,19 @@ def _parts(
             if len(node.bodies) == 1
             else hash(tuple(id(b.boundary) for b in node.bodies))
         )
+        is_named = is_named_fastener(node.name) or is_named_fastener(node.definition or "")
         if key not in known:
             shape = shape_of(node)
             assert shape is not None
-            known[key] = shape, turned(shape), wheel_of(shape), len(known)
+            form = turned(shape) or (fastener(shape) if is_named else None)
+            known[key] = shape, form, wheel_of(shape), len(known)
         own, form, wheel, kind = known[key]
         nodes.append(i)
         shapes.append(placed(own, node.pose))
         forms.append(form)
         kinds.append(kind)
         wheels.append(None if wheel is None else wheel.placed(node.pose))
-        named.append(is_named_fastener(node.name) or is_named_fastener(node.definition or ""))
+        named.append(is_named)
     return nodes, shapes, forms, named, wheels, kinds
 
 

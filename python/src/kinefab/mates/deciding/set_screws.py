@@ -7,7 +7,7 @@ from collections import defaultdict
 import numpy as np
 
 from ...spatial import Array, cross
-from ..shapes.features import Shape
+from ..shapes.features import Shape, corners_of
 from ..touching.contact import Contact, ContactKind
 from .bodies import Bodies
 from .fasten import Parts
@@ -60,21 +60,15 @@ def _stands_on(screw: Shape, line: tuple[Array, Array], shaft: Shape, fit: Conta
     crossing = float(offset @ fit.axis)
     if not any(low <= crossing <= high for low, high in fit.spans):
         return False  # as in a groove, in which it keeps the shaft from sliding
-    heights = (_corners(screw).reshape(-1, 3) - point) @ axis
+    heights = (corners_of(screw).reshape(-1, 3) - point) @ axis
     middle = -float(offset @ axis)
     low, high = float(heights.min()) - middle, float(heights.max()) - middle
     if low < 0.0 < high:
         return False  # it goes through
     tip = low if low >= 0.0 else -high
-    surface = _pierced(point + axis * middle, axis if low >= 0.0 else -axis, _corners(shaft))
+    surface = _pierced(point + axis * middle, axis if low >= 0.0 else -axis, corners_of(shaft))
     radius = min((r.radius for r in screw.rounds if not r.hollow and r.radius > 0.0), default=0.0)
     return -BELOW * radius <= tip - surface <= ABOVE * radius
-
-
-def _corners(shape: Shape) -> Array:
-    """All triangles of a shape, (n, 3, 3)."""
-    faces = [r.corners for r in shape.rounds] + [f.corners.reshape(-1, 3) for f in shape.flats]
-    return np.concatenate([*faces, shape.others]).reshape(-1, 3, 3)
 
 
 def _pierced(origin: Array, axis: Array, triangles: Array) -> float:

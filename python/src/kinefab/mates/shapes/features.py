@@ -255,6 +255,12 @@ def _joined(a: Round, b: Round) -> Round:
     )
 
 
+def corners_of(shape: Shape) -> Array:
+    """All triangles of a shape, (n, 3, 3)."""
+    faces = [r.corners for r in shape.rounds] + [f.corners.reshape(-1, 3) for f in shape.flats]
+    return np.concatenate([*faces, shape.others]).reshape(-1, 3, 3)
+
+
 def sorted_pair(a: float, b: float) -> tuple[float, float]:
     return (a, b) if a <= b else (b, a)
 

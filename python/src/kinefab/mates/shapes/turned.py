@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...model import FaceKind
 from ...spatial import Array, cross, perpendicular
-from .features import Round, Shape
+from .features import Round, Shape, corners_of
 from .outlines import inside
 
 NEAR = 1e-5
 """Share of the part's size, and sine, by which a face may be off the axis."""
+STOUT = 3.0
+"""How far a bolt's or nut's faces are from its axis, in radii of its shank or bore, at most; ISO 7045's pan heads reach 2.1."""
 THREAD_END = 0.1
 """Area of a flat that ends a thread's groove, of the square of the part's radius, at most."""
 DRIVE = re.compile(r"\b(lead|ball|feed|power|jack)[ -]?screws?\b", re.IGNORECASE)
@@ -56,6 +58,23 @@ class Turned:
 def is_named_fastener(name: str) -> bool:
     words = name.replace("_", " ")
     return FASTENER.search(words) is not None and DRIVE.search(words) is None
+
+
+def fastener(shape: Shape) -> Turned | None:
+    """A part whose name says bolt, nut or washer as a turned one, without what is cut or cast on it beside its axis: the
+    cross in a screw's head, the corners of a rectangular nut.  None where it is larger than those are, or not turned at all."""
+    axial = [r for r in shape.rounds if r.kind is FaceKind.CYLINDER]
+    if not axial:
+        return None
+    main = max(axial, key=lambda r: (r.span[1] - r.span[0]) * r.radius)
+    round_it = [r for r in shape.rounds if _on_axis(r, main.point, main.direction, shape.size)]
+    across = [f for f in shape.flats if abs(float(f.normal @ main.direction)) > 1.0 - NEAR]
+    offset = corners_of(shape).reshape(-1, 3) - main.point
+    off_axis = offset - np.outer(offset @ main.direction, main.direction)
+    thinnest = min(r.radius for r in round_it if r.kind is FaceKind.CYLINDER)
+    if float(np.linalg.norm(off_axis, axis=1).max()) > STOUT * thinnest:
+        return None
+    return turned(replace(shape, rounds=tuple(round_it), flats=tuple(across), others=np.zeros((0, 3))))
 
 
 def turned(shape: Shape) -> Turned | None:

@@ -56,7 +56,7 @@ FEW = (
     "inserts",
 )
 """What the suite tries as drawn: a machine for each rule."""
-TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage", "motor_pulley")
+TURNED = ("split_hinge", "pillow_block", "bearing", "pipe_clamp", "bolted_linkage", "motor_pulley", "runner")
 """And with another size, place, clearance, unit, and names without meaning."""
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...spatial import Array
 from ..shapes.features import Shape
 from ..shapes.nearby import near_pairs
 from .contact import Contact, ContactKind, shared
@@ -17,6 +18,9 @@ NEAR = 0.02
 """Share of the smaller part's size up to which flats that face each other may be a clearance apart."""
 TOUCH = 2e-5
 """Share of the smaller part's size up to which there is no clearance."""
+
+SAME_WAY = 1.0 - 1e-9
+"""Cosine between normals that are one."""
 
 
 def near_parts(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
@@ -38,7 +42,7 @@ def contacts_of(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]]) -> li
         low, high = np.maximum(a.low, b.low) - near, np.minimum(a.high, b.high) + near
         found += round_contacts(i, j, a, b, low, high, near, touch)
         found += flat_contacts(i, j, a, b, low, high, near, touch)
-    return _without_lined(found)
+    return _without_parted(_without_lined(found))
 
 
 def _without_lined(contacts: list[Contact]) -> list[Contact]:
@@ -58,3 +62,30 @@ def _without_lined(contacts: list[Contact]) -> list[Contact]:
                 if any(other.gap < c.gap - 1e-9 and shared(c, other) > 0.5 * c.reach for other in group):
                     dropped.add(id(c))
     return [c for c in contacts if id(c) not in dropped]
+
+
+def _without_parted(contacts: list[Contact]) -> list[Contact]:
+    """Flats that face each other over a gap are none where a third part's flats lie between, closer to both: the middle
+    member of a drawer's slide guides the inner one, not the outer."""
+    beside: defaultdict[tuple[int, int], list[Contact]] = defaultdict(list)
+    near: defaultdict[int, set[int]] = defaultdict(set)
+    for c in contacts:
+        if c.kind is ContactKind.FLAT and len(c.points):
+            beside[c.first, c.second].append(c)
+            near[c.first].add(c.second)
+            near[c.second].add(c.first)
+
+    def closer(a: int, b: int, normal: Array, gap: float) -> bool:
+        """Whether b is over a along the normal, by less than a gap."""
+        way, pair = (1.0, (a, b)) if a < b else (-1.0, (b, a))
+        return any(c.gap < gap and way * float(c.normals[0] @ normal) > SAME_WAY for c in beside[pair])
+
+    def is_parted(c: Contact) -> bool:
+        if c.kind is not ContactKind.FLAT or c.touching:
+            return False
+        return any(
+            closer(c.first, middle, c.normals[0], c.gap) and closer(middle, c.second, c.normals[0], c.gap)
+            for middle in sorted(near[c.first] & near[c.second])
+        )
+
+    return [c for c in contacts if not is_parted(c)]

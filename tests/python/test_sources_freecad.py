@@ -440,6 +440,35 @@ def test_joints_of_a_rigid_sub_assembly_are_remarked_on_and_no_loss(tmp_path, ki
     assert {entry.outcome.value for entry in report.outcomes} == {"kept"}
 
 
+def test_of_a_flexible_sub_assembly_in_a_rigid_one_the_rigid_one_is_named(tmp_path):
+    """That is the one to be made flexible."""
+    inner = assembly({"Frame": part(), "Arm": part()}, {"M": joint("Revolute", "Frame.", "Arm.")})
+    (tmp_path / "unit.FCStd").write_bytes(document(inner))
+    at = {"Placement": placement()}
+    parts = {
+        name: ("App::Link", {"LinkedObject": link(name, "unit.FCStd"), **at}) for name in ("Frame", "Arm")
+    }
+    unit = {
+        "LinkedObject": link("Assembly", "unit.FCStd"),
+        "Group": links(*parts),
+        "Rigid": flag(False),
+        **at,
+    }
+    outer = {
+        "LinkedObject": link("Assembly", "unit.FCStd"),
+        "Group": links("Unit"),
+        "Rigid": flag(True),
+        **at,
+    }
+    below = {"Unit": ("Assembly::AssemblyLink", unit), **parts}
+    objects = assembly({"Base": part(), "Outer": ("Assembly::AssemblyLink", outer)}, {}, **below)
+    (tmp_path / "whole.FCStd").write_bytes(document(objects))
+    _, report = read(tmp_path / "whole.FCStd")
+    told = {d.where: d.message for d in report.diagnostics if d.code == "FREECAD_RIGID"}
+    assert "joints of assembly Unit in rigid assembly Outer (1)" in told["whole.FCStd#Unit"]
+    assert "joints of rigid assembly Outer (1)" in told["whole.FCStd#Outer"]
+
+
 def grid(**more):
     """An assembly of a base and an array of two carriages, each of a plate and a post; the carriage stands 40 mm up."""
     at = {"Plate": placement(x=1.0), "Post": placement(y=2.0)}

@@ -102,8 +102,22 @@ def tell_rigid(assembly: Occurrence, documents: Documents) -> None:
         made = documents.follow(made, source)
     count = sum(thing.has("JointType") for thing in joints_of(made))
     if count:
+        rigid = _rigid(assembly)
         feature = f"joints of rigid assembly {shown(assembly.label)}"
+        if rigid is not assembly:
+            feature = f"joints of assembly {shown(assembly.label)} in rigid assembly {shown(rigid.label)}"
         documents.report.kept(feature, assembly.thing.where, "FREECAD_RIGID", count=count)
+
+
+def _rigid(assembly: Occurrence) -> Occurrence:
+    """The assembly that keeps the parts of one together: itself, or where it is flexible the next one above that is not."""
+    above: Occurrence | None = assembly
+    while above is not None:
+        flexible = above.thing.type == SUB_ASSEMBLY and not above.thing.flag("Rigid", True)
+        if above.type in (ASSEMBLY, SUB_ASSEMBLY) and not flexible and above.parent is not None:
+            return above
+        above = above.parent
+    return assembly
 
 
 def top(documents: Documents) -> list[Thing]:

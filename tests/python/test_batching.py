@@ -87,6 +87,22 @@ def test_a_mesh_that_changed_counts_as_read(tmp_path):
     assert run() == {"lever": "written"}
 
 
+def test_a_file_that_a_library_opens_by_itself_counts_as_read(tmp_path):
+    """MuJoCo opens the meshes of its models, and Python hears nothing of it."""
+    pytest.importorskip("mujoco", reason="mujoco (pip install mujoco) is not installed")
+    (tmp_path / "in").mkdir()
+    shutil.copy(ROOT / "fixtures" / "lever" / "lever.obj", tmp_path / "in" / "lever.obj")
+    (tmp_path / "in" / "a.xml").write_text(
+        "<mujoco><asset><mesh name='m' file='lever.obj'/></asset><worldbody><body><joint axis='0 0 1'/>"
+        "<geom size='.1'/><geom type='mesh' mesh='m' mass='1'/></body></worldbody></mujoco>"
+    )
+    run = lambda: outcomes(kinefab.batch([tmp_path / "in" / "a.xml"], tmp_path / "out", jobs=1))  # noqa: E731
+    assert (run(), run()) == ({"a": "written"}, {"a": "up_to_date"})
+    with (tmp_path / "in" / "lever.obj").open("a") as file:
+        file.write("\n# seen again\n")
+    assert run() == {"a": "written"}
+
+
 def test_a_mesh_that_was_not_there_is_read_once_it_is(tmp_path):
     """What a source had to do without was not opened, so nothing that was read tells of it."""
     (tmp_path / "in").mkdir()

@@ -17,6 +17,7 @@ import numpy as np
 
 from ...diagnostics import KinefabError, Report
 from ...spatial import Array, Pose
+from ..reading.file import tell_opened
 from ..reading.record import MAX_NUMBER
 from ..robots.packages import Found, Packages
 from ..robots.rigid_links import unique
@@ -184,6 +185,7 @@ class _Library:
         for candidate in (os.path.join(home, place, name) for home in homes for place in places):
             found = self.packages.find(candidate)
             if found.path is not None:
+                tell_opened(found.path)
                 return found
             first = first or found
         return first or Found(None)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 
 from ...diagnostics import Report
@@ -37,3 +39,9 @@ def read_bytes(path: Path, report: Report, limit: int = MAX_BYTES) -> bytes:
         report.add("SOURCE_UNREADABLE", path.name, path=str(path).replace("\0", "\\0"), detail=error)
     report.raise_for_errors(before)
     return content
+
+
+def tell_opened(path: Path) -> None:
+    """Tell of a file that a library opens by itself as Python tells of those that it opens: a batch knows by that what a
+    result depends on."""
+    sys.audit("open", os.fspath(path), "r", os.O_RDONLY)

@@ -11,7 +11,9 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from command_line import run
+from kinefab import filming
 from kinefab.filming import film
 from kinefab.views.camera import View
 from kinefab.views.raster.fragments import fragments, nearest_last
@@ -130,6 +132,25 @@ def test_the_moving_svg_shows_one_frame_at_a_time():
         values = animate.get("values").split(";")
         assert len(times) == len(values) and times[0] == 0.0 and values.count("inline") == 1
         assert times[values.index("inline")] == pytest.approx(i / 40, abs=1e-5)
+
+
+@pytest.mark.parametrize("length", [0.004, 40.0])
+def test_a_slide_without_ends_goes_as_far_as_what_is_seen_is_long(monkeypatch, length):
+    """Parts that CAD drew in place all have their origin in one point: their meshes tell how long the machine is."""
+    scene = kinefab.Scene()
+    bed = scene.add_part("Bed", trimesh.creation.box(length * np.array([1.0, 0.1, 0.2])), grounded=True)
+    ram = scene.add_part("Ram", trimesh.creation.box(length * np.array([0.2, 0.3, 0.2])), density=1000)
+    scene.add_slider(bed, ram, point=(0, 0, 0), axis=(1, 0, 0), name="Slide")
+    places: list[list[float]] = []
+
+    def heard(document, buffers, frames):
+        places.extend([position for _, position, _ in frame] for frame in frames)
+        return []
+
+    monkeypatch.setattr(filming, "pictures", heard)
+    monkeypatch.setattr(filming, "animated_svg", lambda images, title: b"")
+    film(scene, ".svg")
+    assert np.ptp(np.array(places), axis=0).max() == pytest.approx(length, rel=1e-3)
 
 
 def test_a_source_is_drawn_as_its_scene_is_and_moves_only_when_asked(tmp_path):

@@ -17,6 +17,7 @@ from .spatial import Array, Pose, matrix_from_quaternion
 from .unity import frames
 from .unity.back.restored import Restored, restored
 from .unity.back.scene_file import unsound_as_finding
+from .views.extent import span_of
 from .views.freedoms import Placement
 from .views.picture import draw
 from .views.raster.film import Writer, animated_svg, by_pillow, pictures
@@ -43,7 +44,9 @@ def film(
         back = restored(document)
         mechanism = mechanism_of(analyse(back.scene))
     still = ending == ".png" or not mechanism.freedoms
-    motion = None if still else there_and_back(mechanism, joint or mechanism.freedoms[0].name)
+    motion = None
+    if not still:
+        motion = there_and_back(mechanism, joint or mechanism.freedoms[0].name, span_of(document))
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
         images = pictures(document, buffers, _placements(back, motion))
     return writer(images, title_of(document, source))
@@ -69,11 +72,14 @@ def _writer(ending: str) -> Writer:
         raise KinefabError([diagnostic("TARGET_LIBRARY_MISSING", **values)]) from error
 
 
-def there_and_back(mechanism: Mechanism, name: str) -> Trajectory:
-    """A motion that ends where it began: round, where the mechanism comes round, else to both ends of what it reaches."""
+def there_and_back(mechanism: Mechanism, name: str, span: float) -> Trajectory:
+    """A motion that ends where it began: round, where the mechanism comes round, else to both ends of what it reaches.
+
+    span: of what is seen, metres; a slide goes half of it to each side at most.
+    """
     coordinate = mechanism.coordinate(name)
     turns = coordinate.unit == "deg"
-    far = 360.0 if turns else 0.5 * _size(mechanism)
+    far = 360.0 if turns else 0.5 * span
     low, high = max(coordinate.lower, coordinate.value - far), min(coordinate.upper, coordinate.value + far)
     if turns and high - low >= 720.0 - 1e-9:
         whole = mechanism.sweep(name, coordinate.value, coordinate.value + 360.0, frames=FRAMES + 1)
@@ -85,11 +91,6 @@ def there_and_back(mechanism: Mechanism, name: str) -> Trajectory:
         ends.append(end if reached.stop is None else float(reached[name][-1]))
     phase = np.linspace(0.0, 2.0 * np.pi, FRAMES + 1)
     return mechanism.follow({name: ends[0] + (ends[1] - ends[0]) * 0.5 * (1.0 - np.cos(phase))})
-
-
-def _size(mechanism: Mechanism) -> float:
-    places = [node.pose.translation for node in mechanism.scene.nodes]
-    return float(np.ptp(np.array(places), axis=0).max(initial=0.0)) or 0.2
 
 
 def _placements(back: Restored, motion: Trajectory | None) -> list[list[Placement]]:

@@ -133,7 +133,6 @@ def read_coordinates(joint: CanonicalJoint, relative: Pose) -> Coordinates:
     else:  # R = swing * twist about X
         q = quaternion_from_matrix(r)
         twist = 2.0 * math.atan2(q[0], q[3])
-        twist -= 2.0 * math.pi * round(twist / (2.0 * math.pi))
         swing = r @ rotation_about(AXES[0], -twist)
         turn = rotation_log(swing)
         if rotations == ():

@@ -10,11 +10,12 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
-from kinefab.filming import film
+from kinefab import filming
 from kinefab.views import overview, picture
 from kinefab.views.bars import COLOURS, bars
 from kinefab.views.camera import looking
 from kinefab.views.freedoms import world_placements
+from kinefab.views.raster import film
 from kinefab.views.raster.film import pictures
 from kinefab.views.seen import shown
 
@@ -120,6 +121,12 @@ def test_a_scene_of_too_many_triangles_is_drawn_as_boxes(monkeypatch: pytest.Mon
     """Above the limit each body becomes its box, so that the picture stays small."""
     monkeypatch.setattr(picture, "MAX_TRIANGLES", 1)
     assert surfaces(picture.draw(*document([0, 3, 2, 0, 2, 1]))) == 6
+    scene, buffers = document([0, 3, 2])
+    placements = [world_placements(scene["gameObjects"])]
+    [triangle] = pictures(scene, buffers, placements)
+    monkeypatch.setattr(film, "MOST_TRIANGLES", 0)
+    [box] = pictures(scene, buffers, placements)
+    assert (box < 255).any(axis=2).sum() > 1.5 * (triangle < 255).any(axis=2).sum() > 0
 
 
 def test_the_same_scene_gives_the_same_picture():
@@ -185,7 +192,7 @@ def test_bars_go_with_their_bodies_in_a_film(tmp_path):
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("kinefab.filming.animated_svg", seen)
-        film(chain(), ".svg", "Pin 1")
+        filming.film(chain(), ".svg", "Pin 1")
     shown = [(np.abs(image.astype(int) - grey).max(axis=2) < 3) for image in kept]
     assert (
         all(image.sum() > 200 for image in shown)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import printable
-from ..spatial import Array, IntArray, Pose, frame_from_axes, rotation_about
+from ..spatial import Array, Pose, frame_from_axes, rotation_about
 from .bars import Bar, bars
 from .camera import View, looking
 from .freedoms import (
@@ -30,7 +30,7 @@ from .freedoms import (
 from .raster.fragments import nearest_last
 from .raster.image import Canvas
 from .raster.solid import solid
-from .seen import seen_meshes
+from .seen import shapes
 
 WIDTH, HEIGHT, LEGEND = 760, 560, 400
 MAX_TRIANGLES = 40_000
@@ -121,60 +121,13 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
 def _triangles(
     document: Mapping[str, Any], buffers: Sequence[bytes], placements: Sequence[Placement]
 ) -> tuple[Array, Array]:
-    """World triangles, shape (n, 3, 3), and their RGB, shape (n, 3)."""
-    meshes, materials = document.get("meshes", []), document.get("materials", [])
-    shapes: list[Array] = []
-    tints: list[Array] = []
-    seen = seen_meshes(document["gameObjects"])
-    total = sum(
-        sum(submesh["indexCount"] for submesh in meshes[mesh]["submeshes"]) // 3 for _, mesh, _ in seen
-    )
-    for index, number_of_mesh, slots in seen:
-        mesh, placement = meshes[number_of_mesh], placements[index]
-        if total > MAX_TRIANGLES:
-            corners, faces = _box(mesh["bounds"])
-            spans = [(0, len(faces))]
-        else:
-            corners, faces = mesh_triangles(mesh, buffers)
-            spans = [(s["indexStart"] // 3, s["indexCount"] // 3) for s in mesh["submeshes"]]
-        world, faces = world_points(corners, placement), outward(faces, placement)
-        for number, (start, count) in enumerate(spans):
-            tint = (
-                materials[slots[number]].get("color", [1, 1, 1, 1])
-                if number < len(slots)
-                else [0.7, 0.7, 0.72, 1]
-            )
-            shapes.append(world[faces[start : start + count]])
-            tints.append(np.tile(np.array(tint[:3], float), (count, 1)))
-    if not shapes:
-        return np.zeros((0, 3, 3)), np.zeros((0, 3))
-    return np.concatenate(shapes), np.concatenate(tints)
-
-
-def mesh_triangles(mesh: Mapping[str, Any], buffers: Sequence[bytes]) -> tuple[Array, IntArray]:
-    """Vertices of a written scene's mesh, shape (n, 3), metres, and its triangles, shape (m, 3)."""
-    place = mesh["positions"]
-    held: bytes = buffers[int(place["buffer"])]
-    corners = np.frombuffer(held, "<f4", 3 * mesh["vertexCount"], place["offset"])
-    count = sum(s["indexCount"] for s in mesh["submeshes"])
-    kind = "<u2" if mesh["indexFormat"] == "uint16" else "<u4"
-    place = mesh["indices"]
-    held = buffers[int(place["buffer"])]
-    faces = np.frombuffer(held, kind, count, place["offset"]).astype(np.int64)
-    return corners.reshape(-1, 3).astype(np.float64), faces.reshape(-1, 3)
-
-
-def outward(faces: IntArray, placement: Placement) -> IntArray:
-    """Triangles, shape (m, 3), whose outside is still that where the object's scale mirrors them."""
-    return faces[:, ::-1] if placement[2].prod() < 0.0 else faces
-
-
-def _box(bounds: Mapping[str, Any]) -> tuple[Array, IntArray]:
-    """Corners and outward triangles (in Unity's winding) of an axis-aligned box."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    corners = np.array(bounds["center"]) + signs * np.array(bounds["extents"])
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+    """World triangles, shape (n, 3, 3), and their linear RGB, shape (n, 3)."""
+    corners, colours = [np.zeros((0, 3, 3))], [np.zeros((0, 3))]
+    for shape in shapes(document, buffers, placements, MAX_TRIANGLES):
+        rotation, position, _ = placements[shape.index]
+        corners.append((shape.corners @ rotation.T + position)[shape.faces])
+        colours.append(shape.colours)
+    return np.concatenate(corners), np.concatenate(colours)
 
 
 def hinge_axes(joints: Sequence[DrawnJoint]) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...spatial import Array
 from ...unity import frames
-from ..picture import mesh_triangles
+from ..seen import mesh_triangles
 from .blob import Blob
 
 MOST_TRIANGLES = 2_000_000

@@ -14,14 +14,16 @@ from ...spatial import Array, Pose
 from ..bars import bars
 from ..camera import View, looking
 from ..freedoms import Placement
-from ..picture import COLOURS, DrawnJoint, drawn_joints, hinge_axes, mesh_triangles, outward, strokes_of, tied
-from ..seen import seen_meshes
+from ..picture import COLOURS, DrawnJoint, drawn_joints, hinge_axes, strokes_of, tied
+from ..seen import shapes
 from .image import Canvas, png
 from .solid import Solid, solid
 
 WIDTH, HEIGHT, MARGIN = 640, 440, 26
 SECONDS = 4.0
 """Of the whole film."""
+MOST_TRIANGLES = 1_000_000
+"""Two kilobytes of memory each; of a scene with more each body is drawn as the box around it."""
 COUPLED = (0.53, 0.18, 0.61)
 Entry = Mapping[str, Any]
 Writer = Callable[[Sequence[np.ndarray], str], bytes]
@@ -32,7 +34,10 @@ def pictures(
 ) -> list[np.ndarray]:
     """The pixels of each frame, shape (height, width, 3).  frames: the placement of every GameObject, in Unity's world."""
     objects: Sequence[Entry] = document["gameObjects"]
-    solids, sticks = _solids(document, buffers, frames[0]), bars(objects)
+    # At their scales, which no motion changes.
+    seen = shapes(document, buffers, frames[0], MOST_TRIANGLES)
+    solids = {shape.index: solid(shape.corners, shape.faces, shape.colours) for shape in seen}
+    sticks = bars(objects)
     joints = [drawn_joints(objects, placements) for placements in frames]
     view = _camera(solids, frames, joints)
     moving = {i for i in solids if any(_moved(frames[0][i], placements[i]) for placements in frames)}
@@ -43,10 +48,10 @@ def pictures(
     found: list[np.ndarray] = []
     for placements, drawn in zip(frames, joints):
         canvas = ground.copy()
-        shapes = [_placed(shape, placements[i]) for i, shape in solids.items()]
+        placed = {i: _placed(shape, placements[i]) for i, shape in solids.items()}
         for i in sorted(moving):
-            canvas.surfaces(_placed(solids[i], placements[i]))
-        for shape in shapes:
+            canvas.surfaces(placed[i])
+        for shape in placed.values():
             canvas.edges(shape)
         for i, colour, ends in sticks:
             turn, place, _ = placements[i]
@@ -57,23 +62,6 @@ def pictures(
             for stroke in strokes_of(joint, (WIDTH - 60) / view.scale):
                 canvas.stroke(stroke, _rgb(COLOURS[joint.kind]))
         found.append(canvas.pixels())
-    return found
-
-
-def _solids(document: Entry, buffers: Sequence[bytes], placements: Sequence[Placement]) -> dict[int, Solid]:
-    """Of each GameObject whose mesh is seen, in its own frame at its scale, which no motion changes."""
-    meshes, materials = document.get("meshes", []), document.get("materials", [])
-    found: dict[int, Solid] = {}
-    for i, number_of_mesh, slots in seen_meshes(document["gameObjects"]):
-        mesh: Entry = meshes[number_of_mesh]
-        corners, faces = mesh_triangles(mesh, buffers)
-        colours = np.full((len(faces), 3), 0.7)
-        for number, part in enumerate(mesh["submeshes"]):
-            if number < len(slots):
-                first = part["indexStart"] // 3
-                colour = materials[slots[number]].get("color", [1, 1, 1, 1])[:3]
-                colours[first : first + part["indexCount"] // 3] = colour
-        found[i] = solid(corners * placements[i][2], outward(faces, placements[i]), colours)
     return found
 
 

@@ -1,7 +1,8 @@
-"""The Python in the READMEs runs as it stands."""
+"""The Python in the READMEs runs as it stands, and their picture and figures are those of the code and of the results."""
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
@@ -37,6 +38,14 @@ def test_readme_code_runs(readme, tmp_path):
 def test_python_readme_has_code():
     """The check above does not pass for want of anything to check."""
     assert ROOT / "python" / "README.md" in READMES
+
+
+def test_the_house_is_drawn_as_it_stands():
+    """``python python/draw_house.py`` would write the picture that is there."""
+    spec = importlib.util.spec_from_file_location("draw_house", ROOT / "python" / "draw_house.py")
+    drawing = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(drawing)
+    assert drawing.picture() == drawing.PICTURE.read_text(encoding="utf-8")
 
 
 SCENES = {"100 four-bars": "fourbar100", "1000 double pendulums": "dpend1000"}

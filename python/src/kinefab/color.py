@@ -1,4 +1,4 @@
-"""Channels of colours on screens (sRGB), which most formats state, and as linear light, which the model has (IEC 61966-2-1).
+"""Colours of the screen (sRGB) and of linear light; most formats state the one, the model has the other (IEC 61966-2-1).
 
 Standard library only: it also runs in a CAD program's own Python.
 """

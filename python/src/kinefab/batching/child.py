@@ -46,13 +46,10 @@ def serve() -> None:
 
 def _lines() -> Iterator[bytes]:
     """Lines of the input, read without a buffer, so that ``select`` tells what is there."""
-    rest: bytes = b""
+    rest = b""
     while chunk := os.read(0, 65536):
-        rest += chunk
-        while b"\n" in rest:
-            found: tuple[bytes, bytes, bytes] = rest.partition(b"\n")
-            rest = found[2]
-            yield found[0]
+        *lines, rest = (rest + chunk).split(b"\n")
+        yield from lines
 
 
 def _done(job: Job, reading: Reading) -> Record:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -41,7 +42,7 @@ def work(job: Job, reading: Reading) -> Record:
 def _done(job: Job, reading: Reading, start: float) -> Record:
     with claimed(job):
         if not job.force and (known := done(job, __version__)) is not None:
-            return _changed(known, Outcome.UP_TO_DATE, start)
+            return replace(known, outcome=Outcome.UP_TO_DATE, seconds=time.monotonic() - start)
         if not job.force and places.exists(job.target) and not is_ours(job):
             return _failed(job, diagnostic("BATCH_TARGET_FOREIGN", path=job.target), start)
         try:
@@ -138,8 +139,3 @@ def _thumbnail(job: Job, result: ExportResult, folder: Path) -> str:
 
 def _codes(report: Report) -> dict[str, int]:
     return dict(sorted(Counter(d.code for d in report.diagnostics).items()))
-
-
-def _changed(record: Record, outcome: Outcome, start: float) -> Record:
-    values = record.as_json() | {"outcome": outcome.value, "seconds": time.monotonic() - start}
-    return Record.of_json(values)

@@ -52,15 +52,15 @@ def checked_vector(what: str, values: Any) -> Array:
     return array
 
 
-def checked_name(what: str, name: object, empty: bool = True) -> None:
+def checked_name(name: object, empty: bool = True) -> None:
     """Raises TypeError for what is no string, ValueError for one that no file holds (a lone surrogate) and, unless
     ``empty``, for one without a character."""
     if not isinstance(name, str):
-        raise TypeError(f"{what} is {shown(name)}; pass a string")
+        raise TypeError(f"the name is {shown(name)}; pass a string")
     if any("\ud800" <= character <= "\udfff" for character in name):
-        raise ValueError(f"{what} is {shown(name)}; pass text that UTF-8 can hold")
+        raise ValueError(f"the name is {shown(name)}; pass text that UTF-8 can hold")
     if not name and not empty:
-        raise ValueError(f"{what} is empty; pass one, ids are made of it")
+        raise ValueError("the name is empty; pass one, ids are made of it")
 
 
 def checked_axes(axis: Any, secondary: Any) -> tuple[Array, Array | None]:

@@ -81,7 +81,7 @@ class Parts(model.Scene):
         >>> scene.add_part("Bar", trimesh.creation.box((0.4, 0.02, 0.03)), rotation=("XYZ", (30, 0, 90)), density=2700)
         0
         """
-        checked_name("the name", name, empty=False)
+        checked_name(name, empty=False)
         checked_flag(f"grounded of {name}", grounded)
         weight = weight_of(name, mass, density)
         shapes = shapes_of(name, mesh, unit)
@@ -142,7 +142,7 @@ class Parts(model.Scene):
         >>> scene.nodes[scene.add_part("Finger", parent=gripper)].id
         'Gripper/Finger'
         """
-        checked_name("the name", name, empty=False)
+        checked_name(name, empty=False)
         checked_flag(f"flexible of {name}", flexible)
         return self._add_node(name, NodeKind.ASSEMBLY, parent, translation, rotation, flexible=flexible)
 

@@ -88,7 +88,7 @@ class Scene(Parts):
             raise ValueError(f"a and b are both {a}; pass two different parts, or None for the world as a")
         main, near = checked_axes(axis, secondary)
         pitch = checked_lead(kind, lead)
-        checked_name("the name", name)
+        checked_name(name)
         checked_flag("collide", collide)
         force = checked_positive("the break_force", break_force, infinite=True)
         torque = checked_positive("the break_torque", break_torque, infinite=True)
@@ -253,7 +253,7 @@ class Scene(Parts):
         >>> scene.add_coupling(sun, gear, ratio=-0.5).kind.value  # 20 teeth drive 40
         'gear'
         """
-        checked_name("the name", name)
+        checked_name(name)
         number = len(self.couplings) + 1
         coupling = coupling_between(self.joints, a, b, ratio, offset, name, number)
         self.couplings.append(coupling)

@@ -19,7 +19,7 @@ Poses = dict[str, tuple[Array, Array]]
 Change = tuple[str, Callable[[Record], bool]]
 """Words for the report, and what turns a copy into that reading; it returns whether anything changed."""
 
-METRES_PER_CENTIMETRE = 100.0
+CENTIMETRES_PER_METRE = 100.0
 SIDES, FRAMES = ("a", "b", "c"), ("frameA", "frameB")
 
 
@@ -176,7 +176,7 @@ def _scalings() -> list[Change]:
         return change
 
     changes: list[Change] = []
-    for factor, words in ((METRES_PER_CENTIMETRE, "metres"), (1.0 / METRES_PER_CENTIMETRE, "centimetres")):
+    for factor, words in ((CENTIMETRES_PER_METRE, "metres"), (1.0 / CENTIMETRES_PER_METRE, "centimetres")):
         changes += [(f"value taken in {words}", value(factor)), (f"points taken in {words}", scaled(factor))]
     # A wrong value is the likelier one.
     return sorted(changes, key=lambda change: change[0].startswith("points"))

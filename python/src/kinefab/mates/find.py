@@ -30,10 +30,10 @@ def find_mates(scene: Scene, ground: str = "") -> Mates:
     pairs = near_parts(shapes)
     meshing = meshes(wheels, pairs)
     teeth = {(mesh.first, mesh.second) for mesh in meshing}
-    bodies = Bodies(shapes, contacts_of(shapes, [pair for pair in pairs if pair not in teeth]))
+    apart = [pair for pair in pairs if pair not in teeth]
+    bodies = Bodies(shapes, contacts_of(shapes, apart))
     _join_stated(scene, nodes, bodies)
     poses = [scene.nodes[node].pose for node in nodes]
-    apart = [pair for pair in pairs if pair not in teeth]
     decided = decide(bodies, Parts(forms, named, kinds, poses), apart)
     names = [scene.nodes[node].id for node in nodes]
     middles = [0.5 * (shape.low + shape.high) for shape in shapes]
@@ -58,7 +58,7 @@ def _parts(
     """Nodes with exact faces; their features in the world; the turned ones; whether a name says fastener; the wheels; a number
     for each definition."""
     active = active_nodes(scene)
-    known: dict[int, tuple[Shape, Turned | None, Wheel | None, int]] = {}
+    known: dict[tuple[int, ...], tuple[Shape, Turned | None, Wheel | None, int]] = {}
     kinds: list[int] = []
     wheels: list[Wheel | None] = []
     nodes: list[int] = []
@@ -68,11 +68,7 @@ def _parts(
     for i, node in enumerate(scene.nodes):
         if not active[i] or node.kind is not NodeKind.PART or not any(body.boundary for body in node.bodies):
             continue
-        key = (
-            id(node.bodies[0].boundary)
-            if len(node.bodies) == 1
-            else hash(tuple(id(b.boundary) for b in node.bodies))
-        )
+        key = tuple(id(body.boundary) for body in node.bodies)
         is_named = is_named_fastener(node.name) or is_named_fastener(node.definition or "")
         if key not in known:
             shape = shape_of(node)

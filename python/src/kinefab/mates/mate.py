@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ..model import ConstraintKind, FeatureKind
 from ..spatial import Array
@@ -46,4 +46,4 @@ class Mates:
     mates: Sequence[Mate]
     ground: int | None
     ground_reason: str = ""
-    loose: tuple[int, ...] = field(default_factory=tuple)
+    loose: tuple[int, ...] = ()

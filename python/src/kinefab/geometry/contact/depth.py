@@ -20,12 +20,11 @@ FARTHEST, SMALLEST = 1e9, 1e-9
 @dataclass(frozen=True, slots=True, eq=False)
 class Solid:
     """vertices: shape (n, 3), metres, all shapes in one frame.  faces: shape (m, 3).
-    convex: whether all inside counts; else only the surface does.  radius: what the shape is thicker by on all sides."""
+    convex: whether all inside counts; else only the surface does."""
 
     vertices: Array
     faces: IntArray
     convex: bool = True
-    radius: float = 0.0
 
 
 def is_available() -> bool:
@@ -37,7 +36,7 @@ class Depths:
 
     def __init__(self) -> None:
         self._coal: Any = import_module("coal")  # it states no types
-        self._prepared: dict[int, Any] = {}
+        self._prepared: dict[Solid, Any] = {}
 
     def between(self, first: Solid, second: Solid) -> float:
         """Metres that one must move to be free of the other; 0 where they do not touch, or one has no extent."""
@@ -57,13 +56,10 @@ class Depths:
 
     def _shape(self, solid: Solid) -> Any:
         """None of a shape without extent."""
-        if id(solid) not in self._prepared:
+        if solid not in self._prepared:
             extent = _extent(solid)
-            if not extent:
-                self._prepared[id(solid)] = None
-                return None
-            self._prepared[id(solid)] = self._made(solid, extent == 3)
-        return self._prepared[id(solid)]
+            self._prepared[solid] = self._made(solid, extent == 3) if extent else None
+        return self._prepared[solid]
 
     def _made(self, solid: Solid, spatial: bool) -> Any:
         """spatial: whether it is wide in three directions; qhull ends the whole process over a flat shape."""
@@ -71,8 +67,6 @@ class Depths:
         vertices = np.asarray(solid.vertices, dtype=np.float64)
         if solid.convex and spatial:
             made = coal.Convex.convexHull(_listed(coal.StdVec_Vec3s(), vertices), True, "Qt")
-            if solid.radius > 0.0:
-                made.setSweptSphereRadius(solid.radius)
         else:
             made = coal.BVHModelOBBRSS()
             made.beginModel(len(solid.faces), len(vertices))

@@ -132,7 +132,7 @@ def read_mass(
     record = component.record("mass", MASS)
     if record is None:
         return None
-    inside = frame_index(record, "in", node, index)
+    inside = frame_index(record, node, index)
     mass = record.number("mass") * frame.mass
     center = record.vector("center")
     xx, yy, zz, xy, yz, xz = (
@@ -145,11 +145,11 @@ def read_mass(
     return MassProperties(mass, placement.points([node], [inside], [center])[0], axes @ tensor @ axes.T)
 
 
-def frame_index(record: Record, key: str, own: int, index: Mapping[str, int]) -> int:
+def frame_index(record: Record, own: int, index: Mapping[str, int]) -> int:
     """The node in whose frame a vector is given ("world": -1, "part": ``own``, or a component's id)."""
-    inside = record.text(key)
+    inside = record.text("in")
     if inside == "part":
         return own
     if inside not in ("world", "") and inside not in index:
-        record.fault("FRAME_UNKNOWN", key, frame=inside)
+        record.fault("FRAME_UNKNOWN", "in", frame=inside)
     return index.get(inside, -1)

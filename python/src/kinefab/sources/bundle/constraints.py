@@ -171,7 +171,7 @@ def _feature(
         place = f"{record.pointer}/geometry"
         log.approximated(feature, "CONSTRAINT_GEOMETRY_UNKNOWN", place, word=word, known=", ".join(GEOMETRY))
     bare = kind is FeatureKind.BODY
-    inside = node if bare and not record.has("in") else frame_index(record, "in", node, components.index)
+    inside = node if bare and not record.has("in") else frame_index(record, node, components.index)
     draft = FeatureDraft(
         node,
         inside,

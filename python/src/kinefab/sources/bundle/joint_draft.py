@@ -144,7 +144,7 @@ def _frame(joint: Record, key: str, own: int, kind: JointKind, index: Mapping[st
     record = joint.record(key, FRAME, None if optional else REQUIRED)
     if record is None:
         return None
-    inside = frame_index(record, "in", own, index)
+    inside = frame_index(record, own, index)
     o, z = record.vector("o"), record.direction("z")
     x = record.direction("x", REQUIRED if kind is JointKind.UNIVERSAL else None)
     if record.sound and x is not None and abs(math.fsum(p * q for p, q in zip(x, z))) > PARALLEL:

@@ -103,6 +103,15 @@ def test_init_refuses_what_is_not_stated(tmp_path, arguments):
     assert done.exit_code == 2 and list(tmp_path.glob("*.json")) == []
 
 
+def test_init_says_what_it_wrote_unless_errors_alone_are_wanted(tmp_path):
+    """As every command; one part is one."""
+    box(tmp_path / "Base.stl", 10, 20, 30)
+    init = ("bundle", "init", tmp_path, "-o", tmp_path / "m.bundle.json", "--units", "mm", "--force")
+    quiet, told = run("-q", *init), run(*init)
+    assert quiet.exit_code == told.exit_code == 0
+    assert quiet.output == "" and "m.bundle.json: 1 part in mm, Z up" in told.output
+
+
 def test_init_leaves_a_bundle_that_is_there(tmp_path):
     """Somebody's work by hand is not overwritten unasked."""
     box(tmp_path / "a.stl", 1, 1, 1)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report, Severity
-from .console import count, demand_axis, demand_ending, fail, tell, typed, write
+from .console import count, demand_axis, demand_ending, fail, remark, tell, typed, write
 from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
@@ -88,10 +88,9 @@ def bundle_commands() -> typer.Typer:
             typer.echo(f"{target} was not written.", err=True)
             fail(error, target, as_json, False)
         write(target, text.encode("utf-8"), as_json)
-        typer.echo(
-            f"{target}: {len(files)} parts in {units}, {axis} up, no joints yet. "
-            f"Ground a part, add joints, then: kinefab bundle check {typed(target)}",
-            err=True,
+        remark(
+            f"{target}: {count(len(files), 'part', 'parts')} in {units}, {axis} up, no joints yet. "
+            f"Ground a part, add joints, then: kinefab bundle check {typed(target)}"
         )
         tell(report, target, as_json, True)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Optional
 import typer
 
 from ..diagnostics import KinefabError, Report
-from .console import demand_axis, demand_ending, fail, tell, typed, unwritable_as_finding
+from .console import count, demand_axis, demand_ending, fail, remark, tell, typed, unwritable_as_finding
 from .declared import AS_JSON, BUNDLE
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ def capture_commands() -> typer.Typer:
 
         with unwritable_as_finding(install, as_json):
             made = run(install)
-        typer.echo(f"{made}: the add-in was written.", err=True)
+        remark(f"{made}: the add-in was written.")
         tell(Report(), made, as_json, True)
 
     _ = onshape, fusion
@@ -182,10 +182,10 @@ def _finish(run: Callable[[Report], Captured], output: Path, as_json: bool) -> N
     tell(report, output, as_json, True)
     draft = done.draft
     counts = ", ".join(
-        f"{len(records)} {word}"
+        count(len(records), word, f"{word}s")
         for word, records in (
-            ("components", draft.components), ("joints", draft.joints), ("constraints", draft.constraints),
-            ("couplings", draft.couplings),
+            ("component", draft.components), ("joint", draft.joints), ("constraint", draft.constraints),
+            ("coupling", draft.couplings),
         )
     )  # fmt: skip
-    typer.echo(f"{output}: {counts}; {done.calls} answers of {draft.program}.", err=True)
+    remark(f"{output}: {counts}; {count(done.calls, 'answer', 'answers')} of {draft.program}.")

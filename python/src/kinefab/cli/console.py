@@ -44,6 +44,12 @@ def typed(path: Path) -> str:
     return subprocess.list2cmdline([str(path)]) if os.name == "nt" else shlex.quote(str(path))
 
 
+def remark(text: str) -> None:
+    """Say on stderr what was made, or what comes next, unless errors alone are wanted."""
+    if verbosity >= 0:
+        typer.echo(text, err=True)
+
+
 def log(report: Report) -> None:
     """Findings on stderr, one a line, coloured on a terminal; of thousands that are alike the first ones."""
     least = {1: 0, 0: 1, -1: 2}[verbosity]

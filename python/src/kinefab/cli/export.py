@@ -14,7 +14,7 @@ from ..replacing import demand_writable
 from ..targets import known_endings
 from . import console
 from .asking import taking
-from .console import count, demand_ending, json_text, log, progress_bar, unwritable_as_finding, write
+from .console import count, demand_ending, json_text, log, progress_bar, remark, unwritable_as_finding, write
 from .declared import SOURCE_HELP, TARGET_HELP, export_options
 
 if TYPE_CHECKING:
@@ -54,8 +54,8 @@ def export(
         words = ("loss or error", "losses or errors") if options.strict else ("error", "errors")
         reason = count(reasons, *words)
         typer.echo(f"{output} was not written: {reason}.", err=True)
-    elif console.verbosity >= 0:
-        typer.echo(_summary(result), err=True)
+    else:
+        remark(_summary(result))
     if as_json or report is not None:
         text = json_text(report_document(found, str(output), result is not None))
         if as_json:

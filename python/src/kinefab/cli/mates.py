@@ -9,9 +9,8 @@ import typer
 
 from ..diagnostics import KinefabError, Report
 from ..sources import source_options
-from . import console
 from .asking import asking
-from .console import demand_ending, fail, log, progress_bar, typed, write
+from .console import demand_ending, fail, log, progress_bar, remark, typed, write
 
 
 @asking(("reading", source_options(beside="mates")))
@@ -43,10 +42,8 @@ def mates(
     if not as_json:
         typer.echo(listing(scene, mates))
     write(output, content.encode("utf-8"), as_json)
-    if console.verbosity >= 0:
-        typer.echo(
-            f"{output}: look it over, then: kinefab export {typed(source)} --mates {typed(output)} -o NAME.kinefab",
-            err=True,
-        )
+    remark(
+        f"{output}: look it over, then: kinefab export {typed(source)} --mates {typed(output)} -o NAME.kinefab"
+    )
     if as_json:
         typer.echo(content, nl=False)

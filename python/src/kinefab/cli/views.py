@@ -12,9 +12,8 @@ import typer
 from ..diagnostics import KinefabError, Report
 from ..options import ExportOptions, Ground
 from ..sources import source_options
-from . import console
 from .asking import asking
-from .console import demand_ending, fail, tell, write
+from .console import demand_ending, fail, remark, tell, write
 from .declared import AS_JSON
 
 SOURCE: Path = typer.Argument(..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False)
@@ -85,8 +84,8 @@ def view(
     except KinefabError as error:
         fail(error, page, as_json, False)
     _tell(found, page, as_json)
-    if open_ and not _opened(page) and console.verbosity >= 0:
-        typer.echo(f"No browser could be started; open {page} in one.", err=True)
+    if open_ and not _opened(page):
+        remark(f"No browser could be started; open {page} in one.")
 
 
 @asking(("reading", source_options()))

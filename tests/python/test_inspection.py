@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import kinefab
 import pytest
@@ -47,3 +48,10 @@ def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
     (found,) = raised.value.diagnostics
     assert found.code == ("PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED")
     assert found.where == f"{path}#/{place}"
+
+
+def test_a_joint_is_told_with_what_it_leaves_and_what_it_does_in_a_loop():
+    lever = Path(__file__).resolve().parents[2] / "fixtures" / "lever" / "lever.kinefab"
+    told = overview(lever, False).splitlines()
+    assert "  Lever/Crank:1 -> world: HingeJoint, turn X" in told
+    assert sum(line.endswith(", closes a loop") for line in told) == 1

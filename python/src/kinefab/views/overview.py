@@ -97,7 +97,7 @@ def render(description: Mapping[str, Any]) -> str:
     lines += ["", f"{joints} joint{'' if joints == 1 else 's'}"]
     for joint in description["joints"]:
         freedoms = ", ".join(joint["freedoms"]) or "fixed"
-        marks = (" closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else " approximated")
+        marks = (", closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else ", approximated")
         name = f"{joint['name']}: " if joint["name"] else ""
         lines.append(
             f"  {name}{joint['object']} -> {joint['connected'] or 'world'}: {joint['type']}, {freedoms}{marks}"

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..diagnostics import KinefabError, Report
 from ..replacing import write_whole
-from .channel import Asked, Channel, Live, MemberFailed, RecordBroken, Replay, opened, record
+from .channel import MemberFailed, RecordBroken, Replay, opened, record
 from .checking import check
 from .comparing import compare
 from .draft import WRONG_ANSWER, Draft
@@ -148,6 +148,3 @@ def drafted(
 def stem(target: Path) -> str:
     """The bundle's name without its endings."""
     return target.name.removesuffix(".json").removesuffix(".bundle")
-
-
-__all__ = ["PROGRAMS", "Asked", "Captured", "Channel", "Live", "capture", "captured", "drafted", "replay"]

@@ -32,6 +32,26 @@ def colors(path: Path) -> tuple[list, set[str]]:
     return [s.color for s in found.surfaces.values()], {d.code for d in report.diagnostics}
 
 
+def test_modules_beside_a_user_s_files_are_not_run(tmp_path):
+    """What reads and what converts starts in the working folder, where modules may lie that came with somebody's files."""
+    folder, program = tmp_path / "files", tmp_path / "program" / "asks.py"
+    folder.mkdir()
+    program.parent.mkdir()
+    for name in ("numpy", "json", "pickle"):
+        (folder / f"{name}.py").write_text("open('was run', 'w').close()\n")
+    program.write_text(
+        "import kinefab\n"
+        "from kinefab.sources.guard import guarded\n"
+        "print(*guarded('os', 'listdir', '.', seconds=60))\n"
+        "print(kinefab.batch(['one.urdf'], 'out', jobs=1).counts)\n"
+    )
+    (folder / "one.urdf").write_text("<robot name='one'><link name='base'/></robot>")
+    done = subprocess.run([sys.executable, program], cwd=folder, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "one.urdf" in done.stdout and "{'written': 1}" in done.stdout
+    assert not (folder / "was run").exists()
+
+
 @posix
 @pytest.mark.parametrize(
     "way", ["../secret.mtl", "{folder}/secret.mtl", "link.mtl", "%2e%2e/secret.mtl", "..\\secret.mtl"]

@@ -21,6 +21,7 @@ from kinefab.batching import places
 from kinefab.batching.job import Outcome
 from kinefab.batching.ledger import AWAITED
 from kinefab.batching.plan import planned
+from kinefab.sources.guard import command
 from kinefab.views.picture import HEIGHT, WIDTH
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -213,7 +214,7 @@ def hostile(tmp_path, monkeypatch):
     real = subprocess.Popen
 
     def started(command, **options):
-        if command[1:] == ["-m", "kinefab.batching.child"]:
+        if "kinefab.batching.child" in command[-1]:
             command = [command[0], str(script)]
         return real(command, **options)
 
@@ -269,7 +270,7 @@ def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
 
 def test_a_converting_process_that_nobody_hears_ends_without_a_word(tmp_path):
     """Its batch was killed while the file was converted: its traceback stood below the job that was stopped."""
-    child = [sys.executable, "-m", "kinefab.batching.child"]
+    child = command("kinefab.batching.child", "serve")
     job = jobs.Job(str(tmp_path / "none.urdf"), str(tmp_path / "none.kinefab"), str(tmp_path / "ledger"))
     with subprocess.Popen(
         child, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE

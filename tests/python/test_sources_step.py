@@ -19,7 +19,7 @@ from kinefab.geometry.closure import is_closed, welded
 from kinefab.geometry.mass import solid_properties
 from kinefab.model import FaceKind, NodeKind, Scene
 from kinefab.sources import read
-from kinefab.sources.guard import GuardedCrash, GuardedError, end_idle, guarded
+from kinefab.sources.guard import GuardedCrash, GuardedError, command, end_idle, guarded
 from kinefab.sources.step import reader
 from kinefab.sources.step.iges.unit import metres_of
 from kinefab.sources.step.part21 import Part21
@@ -711,8 +711,8 @@ def test_a_library_that_loads_slowly_takes_nothing_of_the_files_time(tmp_path, m
 @pytest.mark.posix
 def test_what_is_busy_ends_when_nobody_asks_any_more():
     """Whoever asked may have been killed, as by a container's end; the process that reads would have gone on for ever."""
-    command = [sys.executable, "-m", "kinefab.sources.guard"]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
+    guard = command("kinefab.sources.guard", "serve")
+    with subprocess.Popen(guard, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
         pickle.dump((0.1, "time", "sleep", (600,)), child.stdin)
         child.stdin.flush()
         assert child.wait(timeout=120) == -signal.SIGALRM

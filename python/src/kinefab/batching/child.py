@@ -156,7 +156,3 @@ def _crashed(detail: str) -> Why:
 
 def _lost(job: Job, why: Why, seconds: float = 0.0, memory: int = 0) -> Record:
     return unmade(job.source, job.target, *why, seconds, memory)
-
-
-if __name__ == "__main__":
-    serve()

@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-import sys
 import threading
 from collections.abc import Generator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 
 from ..diagnostics import diagnostic
+from ..sources.guard import command
 from .job import Job, Outcome, Record, unmade
 
 GRACE_SECONDS = 10.0
@@ -62,7 +62,7 @@ class Slot:
         if self._process is None or self._process.poll() is not None:
             one = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "kinefab.batching.child"],
+                command(f"{__package__}.child", "serve"),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 env={**one, **os.environ},  # the files are what runs side by side

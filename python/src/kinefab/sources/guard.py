@@ -34,15 +34,23 @@ class GuardedError(Exception):
     """The question raised an exception in the child; the text is the exception's."""
 
 
+def command(module: str, function: str) -> list[str]:
+    """What starts another Python on a function of a module; it looks for modules where this one does.
+
+    ``-m`` looks in the working folder first, and would run a ``numpy.py`` that came there with somebody's files.
+    """
+    paths = [entry or "." for entry in sys.path]
+    call = f"import sys; sys.path[:] = {paths!a}; from {module} import {function}; {function}()"
+    return [sys.executable, "-c", call]
+
+
 class _Child:
     def __init__(self) -> None:
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(entry for entry in sys.path if entry)}
         self.process = subprocess.Popen(
-            [sys.executable, "-m", __name__],
+            command(__name__, serve.__name__),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env=environment,
         )
         self.questions = 0
 
@@ -150,13 +158,10 @@ def _end_after(seconds: float) -> None:
         signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
-def _live() -> None:
+def serve() -> None:
+    """What the child runs."""
     # Libraries print on standard output: the answers get a descriptor of their own.
     answers = os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     _answer(sys.stdin.buffer, answers)
-
-
-if __name__ == "__main__":
-    _live()

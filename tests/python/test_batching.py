@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,6 +19,7 @@ import pytest
 from dask_processes import cluster  # noqa: F401 (a fixture)
 from kinefab.batching import job as jobs
 from kinefab.batching import places
+from kinefab.batching.index import index_page
 from kinefab.batching.job import Outcome
 from kinefab.batching.ledger import AWAITED
 from kinefab.batching.plan import planned
@@ -322,6 +324,20 @@ def test_targets_of_somebody_else_are_left_alone(tmp_path):
     assert result.worst is Outcome.FAILED and "no batch wrote it" in result.records[0].messages[0]
     assert (tmp_path / "out" / "a.kinefab").read_text() == "mine"
     assert kinefab.batch([folder], tmp_path / "out", force=True).worst is Outcome.WRITTEN
+
+
+@pytest.mark.parametrize(
+    "target, out, link",
+    [
+        ("/out/javascript:1.kinefab", "/out", "javascript%3A1.kinefab"),
+        ("/out/a b/ö.kinefab", "/out", "a%20b/%C3%B6.kinefab"),
+        ("s3://b/out/a:1.kinefab", "s3://b/out", "a%3A1.kinefab"),
+        ("s3://b/elsewhere/a.kinefab", "s3://b/out", "s3://b/elsewhere/a.kinefab"),
+    ],
+)
+def test_links_of_the_index_lead_to_files_whatever_their_names(target, out, link):
+    page = index_page([jobs.Record("source", target, Outcome.WRITTEN)], out)
+    assert re.findall('href="([^"]*)"', page) == [link]
 
 
 def test_sources_of_one_name_keep_their_endings(tmp_path):

@@ -53,4 +53,6 @@ def _relative(place: str, out: str) -> str:
 
 
 def _link(place: str, out: str) -> str:
-    return html.escape(quote(_relative(place, out), safe="/:"))
+    """A colon divides a URL's scheme from the rest, and not one in a file's name, as in ``javascript:1.kinefab``."""
+    relative = _relative(place, out)
+    return html.escape(quote(relative, safe="/:" if places.is_url(relative) else "/"))

@@ -115,6 +115,7 @@ class Shape:
         ({"mesh": "no_such_file.obj"}, "where there is no file"),
         ({"mesh": Shape(), "unit": "parsec"}, "pass one of: m, cm"),
         ({"unit": "inch"}, "pass one of: m, cm"),
+        ({"unit": ["mm"]}, "pass one of: m, cm"),
         ({"rotation": kinefab.Pose(np.eye(2))}, "is no pose"),
         ({"rotation": kinefab.Pose(-np.eye(3))}, "is a reflection"),
         ({"mass": -3.0}, "the mass of Lid is -3.0; it must be a number above zero"),
@@ -182,6 +183,8 @@ def test_wrong_part_says_what_to_pass(change, says):
         {"flexible": 1},
         {"material": ""},
         {"material": 0},
+        {"material": np.array(3.0)},
+        {"collider": np.array(3.0)},
         {"material": {"color": (1, 0, 0)}},
         {"mass": "x" * 9999},
     ],
@@ -359,3 +362,18 @@ def test_a_pose_and_lists_are_taken_where_arrays_and_pairs_are():
     hinge = scene.add_hinge(None, one, **HINGE)
     rod = scene.add_joint("cylindrical", None, two, **HINGE)
     assert scene.add_coupling(hinge, [rod, "rx"], ratio=2.0).terms[0].joint == hinge.id
+
+
+def test_a_coupling_takes_joints_of_its_own_scene_alone():
+    """A hinge of another scene has the same id; a copy of the scene takes the joints of the first one, which stand alike."""
+    scenes = [kinefab.Scene(), kinefab.Scene()]
+    hinges = [
+        [scene.add_hinge(None, scene.add_part("Gear"), point=(x, at, 0), axis=(0, 0, 1)) for x in (0, 0.06)]
+        for at, scene in enumerate(scenes)
+    ]
+    assert [hinge.id for hinge in hinges[0]] == [hinge.id for hinge in hinges[1]]
+    for wrong in (hinges[1][0], np.array([1, 2, 3]), 3):
+        with pytest.raises(ValueError, match="pass a joint of this scene, or its id"):
+            scenes[0].add_coupling(wrong, hinges[0][1], ratio=-0.5)
+    assert scenes[0].couplings == []
+    assert copy.deepcopy(scenes[0]).add_coupling(*hinges[0], ratio=-0.5).terms[0].joint == hinges[0][0].id

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Union
 
+import numpy as np
+
 from ..model import FREEDOM_NAMES, RX, Coupling, CouplingKind, Joint, Term
 from .arguments import LARGEST, checked_number, shown
 
@@ -46,11 +48,23 @@ def coupling_between(
     return Coupling(name or f"{kind.value}:{number}", kind, joint_b.id, freedom_b, (term,), shift * unit_b)
 
 
+def _stands_as(joint: Joint, other: Joint) -> bool:
+    """Whether they are one joint, or copies of one: ids of other scenes are the same words."""
+    if joint is other:
+        return True
+    frames = ((joint.frame_a, other.frame_a), (joint.frame_b, other.frame_b))
+    return (joint.a, joint.b) == (other.a, other.b) and all(
+        np.array_equal(own.rotation, its.rotation) and np.array_equal(own.translation, its.translation)
+        for own, its in frames
+    )
+
+
 def _coordinate(joints: Sequence[Joint], argument: str, asked: JointLike) -> tuple[Joint, int]:
     which, name = asked if isinstance(asked, (tuple, list)) and len(asked) == 2 else (asked, "")
-    wanted = which.id if isinstance(which, Joint) else which
-    joint = next((joint for joint in joints if joint.id == wanted), None)
-    if joint is None:
+    wanted: object = which.id if isinstance(which, Joint) else which
+    named = isinstance(wanted, str)
+    joint = next((joint for joint in joints if named and joint.id == wanted), None)
+    if joint is None or (isinstance(which, Joint) and not _stands_as(joint, which)):
         raise ValueError(f"{argument} is {shown(asked)}; pass a joint of this scene, or its id")
     free = [FREEDOM_NAMES[i] for i in joint.unlocked]
     if not name and len(free) != 1:

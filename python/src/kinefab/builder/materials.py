@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
+import numpy as np
+
 from ..model import Collider, ColliderKind, PhysicsMaterial, Surface
 from ..options import ColliderShape
 from ..spatial import Array, Pose
@@ -69,7 +71,7 @@ def colliders_of(
 
 def _listed(given: Any) -> list[Any]:
     """One thing, or the members of several."""
-    if isinstance(given, Iterable) and not isinstance(given, (str, Mapping)):
+    if isinstance(given, Iterable) and not isinstance(given, (str, Mapping, np.ndarray)):
         return list(cast("Iterable[Any]", given))
     return [cast(Any, given)]
 

@@ -29,13 +29,13 @@ class Shape:
     surfaces: tuple[Surface, ...] = ()
 
 
-def shapes_of(name: str, given: Any, unit: str) -> list[Shape]:
+def shapes_of(name: str, given: Any, unit: Any) -> list[Shape]:
     """The bodies of what a script passes as a part's mesh; none of None.
 
     given: a trimesh.Trimesh or anything with ``vertices`` and ``faces``; a trimesh.Scene (a body for each of its
     geometries); the path of a mesh file.  unit: of its numbers.
     """
-    if unit not in METRES:
+    if not isinstance(unit, str) or unit not in METRES:
         raise ValueError(f"the unit of {name}'s mesh is {shown(unit)}; pass one of: {', '.join(METRES)}")
     if given is None:
         return []

@@ -518,3 +518,94 @@ def test_normals_that_are_counted_otherwise_are_made_anew(tmp_path, scale, bias,
     assert told(report) == set() and (image.path is not None) == (expected is None)
     if expected is not None:
         assert Pillow.open(io.BytesIO(image.data)).getpixel((3, 1)) == expected
+
+
+OMNIPBR = """def Scope "Looks" {
+ def Material "Paint" {
+  token outputs:mdl:surface.connect = </Looks/Paint/Shader.outputs:out>
+  color3f inputs:diffuse_tint = (0.5, 1, 0.25)
+  def Shader "Shader" {
+   uniform token info:implementationSource = "sourceAsset"
+   uniform asset info:mdl:sourceAsset = @OmniPBR.mdl@
+   SUB
+   color3f inputs:diffuse_tint.connect = </Looks/Paint.inputs:diffuse_tint>
+   STATED
+   token outputs:out
+  }
+ }
+}
+"""
+NAMED = 'uniform token info:mdl:sourceAsset:subIdentifier = "OmniPBR"'
+PAINTED = (
+    'def Mesh "M" (prepend apiSchemas = ["MaterialBindingAPI"]) {\nrel material:binding = </Looks/Paint>\n'
+    + QUAD
+    + SETS
+    + "}\n"
+)
+
+
+def omni(tmp_path, stated: str, named: str = NAMED):
+    """The surface of an OmniPBR with these inputs, and what is told of it."""
+    looks = OMNIPBR.replace("SUB", named).replace("STATED", stated)
+    scene, report = scene_of(tmp_path, stage(body("B", inside=PAINTED) + looks))
+    return painted(scene), {o.feature.split(" of ")[0] for o in report.outcomes}
+
+
+@pytest.mark.parametrize("named", [NAMED, ""])
+def test_the_constants_of_an_omnipbr_are_the_material(tmp_path, named):
+    stated = (
+        "color3f inputs:diffuse_color_constant = (0.4, 0.6, 0.8)\nfloat inputs:metallic_constant = 0.25\n"
+        "float inputs:reflection_roughness_constant = 0.7\nbool inputs:enable_emission = 0\n"
+        "bool inputs:enable_opacity = 1\nfloat inputs:opacity_constant = 0.5\nasset inputs:diffuse_texture = @@"
+    )
+    paint, told = omni(tmp_path, stated, named)
+    assert paint.color == pytest.approx((0.2, 0.6, 0.2, 0.5))
+    assert (paint.metallic, paint.smoothness) == pytest.approx((0.25, 0.3))
+    assert (paint.alpha_mode.value, paint.emission, told) == ("blend", (0, 0, 0), set())
+
+
+def test_the_images_of_an_omnipbr_are_the_material_s(tmp_path):
+    image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+    for name in ("paint", "orm"):
+        image.new("RGB", (2, 2), (10, 20, 30)).save(tmp_path / f"{name}.png")
+    image.new("RGB", (2, 2), (128, 40, 250)).save(tmp_path / "normal.png")
+    stated = (
+        "asset inputs:diffuse_texture = @paint.png@\nasset inputs:ORM_texture = @orm.png@\nbool inputs:enable_ORM_texture = 1\n"
+        "float inputs:reflection_roughness_texture_influence = 1\nfloat inputs:metallic_texture_influence = 1\n"
+        "float inputs:ao_to_diffuse = 1\nasset inputs:normalmap_texture = @normal.png@\nbool inputs:enable_emission = 1\n"
+        "color3f inputs:emissive_color = (0, 2, 1)\nasset inputs:emissive_color_texture = @paint.png@\n"
+        "float2 inputs:texture_scale = (3, 2)\nint inputs:uv_space_index = 1"
+    )
+    paint, told = omni(tmp_path, stated)
+    assert paint.color == pytest.approx((0.5, 1.0, 0.25, 1.0))
+    assert (paint.color_texture.name, paint.color_texture.uv_set, paint.color_texture.scale) == (
+        "paint.png",
+        1,
+        (3, 2),
+    )
+    assert paint.metallic_roughness_texture.name == paint.occlusion_texture.name == "orm.png"
+    assert (paint.metallic, paint.smoothness) == (1.0, 0.0)
+    assert (paint.emission, paint.emission_texture.name) == ((0, 2, 1), "paint.png")
+    with image.open(io.BytesIO(paint.normal_texture.data)) as found:  # y is downwards, as DirectX has it
+        assert found.getpixel((0, 0)) == (128, 215, 250)
+    assert told == {"emissive_intensity"}
+    kept, _ = omni(tmp_path, "asset inputs:normalmap_texture = @normal.png@\nbool inputs:flip_tangent_v = 0")
+    assert kept.normal_texture.name == "normal.png"
+
+
+def test_what_an_omnipbr_has_and_unity_has_not_is_told(tmp_path):
+    (tmp_path / "paint.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    stated = (
+        "asset inputs:diffuse_texture = @paint.png@\nfloat inputs:albedo_desaturation = 0.5\nbool inputs:project_uvw = 1\n"
+        "float inputs:reflection_roughness_texture_influence = 0.5\nasset inputs:reflectionroughness_texture = @paint.png@\n"
+        "asset inputs:metallic_texture = @paint.png@\nasset inputs:detail_normalmap_texture = @paint.png@\n"
+        "asset inputs:normalmap_texture = @gone.png@\nfloat inputs:specular_level = 1\n"
+        "float inputs:metallic_constant.connect = </Looks/Paint/Other.outputs:out>\ntoken outputs:out\n}\n"
+        'def Shader "Other" {\nuniform token info:id = "Noise"'
+    )
+    paint, told = omni(tmp_path, stated)
+    assert paint.metallic == 0.0 and paint.color_texture.name == "paint.png"
+    assert told >= {
+        "albedo_desaturation", "project_uvw", "roughness", "detail_normalmap_texture", "normalmap_texture",
+        "ior", "metallic_constant",
+    }  # fmt: skip

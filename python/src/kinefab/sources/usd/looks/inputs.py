@@ -30,7 +30,8 @@ class Inputs:
     values: Values
     read: dict[str, Any] = field(default_factory=dict[str, Any])
 
-    def _value(self, name: str) -> Any:
+    def value(self, name: str) -> Any:
+        """What is stated for an input, wherever it stands; None for nothing."""
         if name in self.read:
             return self.read[name]
         given = self.shader.GetInput(name)
@@ -42,7 +43,7 @@ class Inputs:
         return None
 
     def number(self, name: str, default: float) -> float:
-        value = self._value(name)
+        value = self.value(name)
         if value is None:
             return default
         if isinstance(value, bool) or not isinstance(value, (float, int)) or not math.isfinite(value):
@@ -50,7 +51,7 @@ class Inputs:
         return float(value)
 
     def color(self, name: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
-        value = self._value(name)
+        value = self.value(name)
         if value is None:
             return default
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import PurePath
 from typing import Any
 
 from ..api import Usd, UsdShade
@@ -82,7 +83,7 @@ class Materials:
         path = source_path(material)
         if path not in self._kinds:
             shader = surface_of(material)
-            kind = "" if not shader else shader.GetIdAttr().Get() or shader.GetSourceAssetSubIdentifier("mdl")
+            kind = "" if not shader else shader.GetIdAttr().Get() or _of_module(shader)
             stated = bool(shader) or bool(UsdShade.Material(material).GetOutputs())
             self._kinds[path] = str(kind or "none") if stated else ""
         return self._kinds[path]
@@ -92,6 +93,14 @@ def surface_of(material: Any) -> Any:
     """The shader of a material's surface, none where it has no such."""
     sources = (UsdShade.Material(material).ComputeSurfaceSource(context)[0] for context in CONTEXTS)
     return next((shader for shader in sources if shader), None)
+
+
+def _of_module(shader: Any) -> str:
+    """The name of a material in an MDL module: that of the module, where it states none."""
+    asset = shader.GetSourceAsset("mdl")
+    return str(
+        shader.GetSourceAssetSubIdentifier("mdl") or ("" if asset is None else PurePath(asset.path).stem)
+    )
 
 
 def _bound(prims: list[Any], purpose: str) -> list[Any]:

@@ -1,4 +1,4 @@
-"""Materials: UsdPreviewSurface as the model's Surface, with its textures."""
+"""Materials: UsdPreviewSurface and OmniPBR as the model's Surface, with its textures."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from typing import Any
 
 from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
-from ..api import UsdGeom
+from ..api import UsdGeom, UsdShade
 from ..found import Piece
 from ..prims import source_path
 from ..stage import OpenStage
 from ..values import Values
+from . import omnipbr
 from .inputs import DISPLAY, Inputs
 from .materials import PREVIEW, Materials, surface_of
 from .packing import normals_of, packed
@@ -22,7 +23,9 @@ from .textures import Sampler
 BIND = "materialBind"
 CONSTANTS = {
     "diffuse_color_constant": "color", "metallic_constant": "metallic", "reflection_roughness_constant": "roughness",
-    "base_color": "color", "diffuseColor": "color",
+    "base_color": "color", "diffuseColor": "color", "base_color_factor": "color",
+    "diffuse_reflection_color": "color", "glass_color": "color", "metallic_factor": "metallic",
+    "specular_reflection_roughness": "roughness", "roughness_factor": "roughness",
     "metalness": "metallic", "base_metalness": "metallic", "metallic": "metallic",
     "specular_roughness": "roughness", "roughness": "roughness",
 }  # fmt: skip
@@ -182,18 +185,20 @@ class Surfaces:
         if not kind:
             return None
         shader = surface_of(material)
-        if kind == PREVIEW:
-            return self._preview(material, shader, uv_names, display)
+        if kind == PREVIEW or kind in omnipbr.NAMES:
+            inputs_of = Inputs if kind == PREVIEW else omnipbr.inputs_of
+            return self._preview(material, inputs_of(shader, uv_names, display, self.values))
         found: dict[str, Any] = {}
-        for prim in [shader.GetPrim()] if shader else material.GetChildren():
+        children = [UsdShade.Shader(each) for each in material.GetChildren() if each.IsA(UsdShade.Shader)]
+        for each in [shader] if shader else children:
+            inputs = Inputs(each, uv_names, display, self.values)
             for source, wanted in CONSTANTS.items():
-                name = f"inputs:{source}"
-                if self.values.get(prim, name) is None:
+                if inputs.value(source) is None:
                     continue
                 if wanted == "color":
-                    found[wanted] = self.values.vector(prim, name, (0.8, 0.8, 0.8))
+                    found[wanted] = inputs.color(source, (0.8, 0.8, 0.8))
                 else:
-                    found[wanted] = self.values.number(prim, name, 0.5)
+                    found[wanted] = inputs.number(source, 0.5)
         self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind)
         color = found.get("color", (0.8, 0.8, 0.8))
         return Surface(
@@ -201,11 +206,8 @@ class Surfaces:
             _unit(found.get("metallic", 0.0)), 1.0 - _unit(found.get("roughness", 0.5)),
         )  # fmt: skip
 
-    def _preview(
-        self, material: Any, shader: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
-    ) -> Surface:
+    def _preview(self, material: Any, inputs: Inputs) -> Surface:
         where, feature = self.opened.place(material), f"material {material.GetPath()}"
-        inputs = Inputs(shader, uv_names, display, self.values)
         diffuse = inputs.sampler("diffuseColor")
         opacity = inputs.sampler("opacity")
         alpha = inputs.share("opacity", 1.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,9 +32,9 @@ MAX_BYTES = 256 * 2**20
 CHANNELS = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
 SQUARE = 1e-6
 """Axes of coordinates whose cosine is below this are at right angles."""
-_Move = tuple[tuple[float, float], tuple[float, float], float]
+Move = tuple[tuple[float, float], tuple[float, float], float]
 """Scale, offset and rotation (radians), as ``Texture`` has them: scaled first, then turned, then moved."""
-STILL: _Move = ((1.0, 1.0), (0.0, 0.0), 0.0)
+STILL: Move = ((1.0, 1.0), (0.0, 0.0), 0.0)
 WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRROR, "clamp": Wrap.CLAMP, "black": Wrap.CLAMP}
 
 
@@ -59,18 +59,9 @@ def read_sampler(shader: Any, output: str, uv_names: tuple[str, ...], values: Va
     """None, and a loss in the report, where the image is not there or is none."""
     prim, opened, report = shader.GetPrim(), values.opened, values.report
     where, feature = opened.place(prim, "inputs:file"), f"texture {prim.GetPath()}"
-    given = read_input(shader, "file", values)
-    if given is None:
-        report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
+    texture = read_image(shader, "file", feature, values)
+    if texture is None:
         return None
-    if not isinstance(given, Sdf.AssetPath):
-        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=shown(given), detail="it names no asset")
-        return None
-    image, detail = _image(str(given.path), str(given.resolvedPath), opened)
-    if image is None:
-        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=given.path, detail=detail)
-        return None
-    name, path, data, media = image
     uv_set, scale, offset, rotation = _coordinates(shader, uv_names, values)
     wraps = {str(read_input(shader, key, values) or "useMetadata") for key in ("wrapS", "wrapT")}
     wrap = next((WRAPS[w] for w in sorted(wraps) if w in WRAPS), Wrap.REPEAT)
@@ -81,17 +72,40 @@ def read_sampler(shader: Any, output: str, uv_names: tuple[str, ...], values: Va
             where,
             detail=f"wrap {', '.join(sorted(wraps))} became {wrap.value}",
         )
-    *tint, alpha = _floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), values)
-    r, g, b, _ = _floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), values)
-    texture = Texture(name, path, data, media, wrap, uv_set, scale, offset, rotation)
-    return Sampler(texture, output, (tint[0], tint[1], tint[2]), alpha, (r, g, b))
+    *tint, alpha = read_floats(shader, "scale", (1.0, 1.0, 1.0, 1.0), values)
+    r, g, b, _ = read_floats(shader, "bias", (0.0, 0.0, 0.0, 0.0), values)
+    laid = replace(moved(texture, uv_set, (scale, offset, rotation)), wrap=wrap)
+    return Sampler(laid, output, (tint[0], tint[1], tint[2]), alpha, (r, g, b))
+
+
+def read_image(shader: Any, name: str, feature: str, values: Values) -> Texture | None:
+    """The image that an input names, as it lies on the mesh's first coordinates; None, and a loss, where there is none."""
+    where, report = values.opened.place(shader.GetPrim(), f"inputs:{name}"), values.report
+    given = read_input(shader, name, values)
+    if given is None:
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path="", detail="no file is named")
+        return None
+    if not isinstance(given, Sdf.AssetPath):
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=shown(given), detail="it names no asset")
+        return None
+    image, detail = _image(str(given.path), str(given.resolvedPath), values.opened)
+    if image is None:
+        report.dropped(feature, "USD_TEXTURE_MISSING", where, path=given.path, detail=detail)
+        return None
+    return Texture(*image)
+
+
+def moved(texture: Texture, uv_set: int, move: Move) -> Texture:
+    """The image as it lies on a mesh's coordinates of that number."""
+    scale, offset, rotation = move
+    return replace(texture, uv_set=uv_set, scale=scale, offset=offset, rotation=rotation)
 
 
 def read_fallback(shader: Any, output: str, values: Values) -> float | tuple[float, ...] | None:
     """What the shader says to take where its image is not there, None for nothing."""
     if read_input(shader, "fallback", values) is None or output not in CHANNELS:
         return None
-    found = _floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), values)[CHANNELS[output]]
+    found = read_floats(shader, "fallback", (0.0, 0.0, 0.0, 1.0), values)[CHANNELS[output]]
     return found[0] if len(found) == 1 else found
 
 
@@ -104,7 +118,7 @@ def read_input(shader: Any, name: str, values: Values) -> Any:
     return values.current(producing[0]) if producing else None
 
 
-def _floats(shader: Any, name: str, default: tuple[float, ...], values: Values) -> tuple[float, ...]:
+def read_floats(shader: Any, name: str, default: tuple[float, ...], values: Values) -> tuple[float, ...]:
     """As many finite numbers as the default has; the default where nothing is said, or, told, something else."""
     value = read_input(shader, name, values)
     if value is None:
@@ -167,7 +181,7 @@ def _coordinates(
     shader: Any, uv_names: tuple[str, ...], values: Values
 ) -> tuple[int, tuple[float, float], tuple[float, float], float]:
     """Which uv set, and scale, offset and rotation (radians) of it."""
-    moves: list[_Move] = []
+    moves: list[Move] = []
     name = ""
     given = shader.GetInput("st")
     for _ in range(8):  # reader behind transforms; a circle ends here
@@ -175,9 +189,9 @@ def _coordinates(
         source: Any = UsdShade.Shader(producing[0].GetPrim()) if producing else None
         kind = "" if not source else str(source.GetIdAttr().Get() or "")
         if kind == "UsdTransform2d":
-            s = _floats(source, "scale", (1.0, 1.0), values)
-            t = _floats(source, "translation", (0.0, 0.0), values)
-            (turn,) = _floats(source, "rotation", (0.0,), values)
+            s = read_floats(source, "scale", (1.0, 1.0), values)
+            t = read_floats(source, "translation", (0.0, 0.0), values)
+            (turn,) = read_floats(source, "rotation", (0.0,), values)
             moves.append(((s[0], s[1]), (t[0], t[1]), math.radians(turn)))
             given = source.GetInput("in")
             continue
@@ -199,7 +213,7 @@ def _coordinates(
     return (uv_names.index(name) if name in uv_names else 0), scale, offset, rotation
 
 
-def _chained(moves: Sequence[_Move]) -> tuple[_Move, bool]:
+def _chained(moves: Sequence[Move]) -> tuple[Move, bool]:
     """Several moves of coordinates as one, and whether they are more than it.  moves: the last that is done first."""
     if len(moves) < 2:
         return (moves[0] if moves else STILL), False

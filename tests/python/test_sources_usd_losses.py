@@ -332,3 +332,11 @@ def test_a_material_that_is_not_there_is_told_once_where_it_is_named(tmp_path, m
     assert (found.feature, found.code) == ("material of /B/X", code) and "/M" in report.diagnostics[
         -1
     ].message
+
+
+@pytest.mark.parametrize("schema", ["Preliminary_PhysicsRigidBodyAPI", "Preliminary_PhysicsColliderAPI"])
+def test_physics_of_arkit_are_told_by_name(tmp_path, schema):
+    text = f'def Cube "Box" (prepend apiSchemas = ["{schema}"]) {{ double preliminary:physics:rigidBody:mass = 3\n }}'
+    _, report = scene_of(tmp_path, stage(text))
+    (told,) = [o for o in report.outcomes if schema in o.feature]
+    assert told.outcome.value == "dropped" and "/Box" in told.feature

@@ -28,6 +28,8 @@ HOLDERS = frozenset("Xform SkelRoot PointInstancer Camera".split())
 """Types that stand somewhere and are no geometry, of which all is read or told."""
 SOFT = ("Deformable", "PhysxParticle")
 """A part of the names of schemas for soft bodies, and the beginning of those for particles."""
+ARKIT = "Preliminary_Physics"
+"""The beginning of the names of Apple's schemas from before UsdPhysics."""
 SHINING = frozenset(("LightAPI", "MeshLightAPI", "VolumeLightAPI"))
 """Schemas that make a light of a prim."""
 UNKNOWN = "OpenUSD knows no such type; only what lies below it was read"
@@ -117,7 +119,7 @@ class _Look:
             self.found.filtered.append(seen.at(path))
         if "PhysicsArticulationRootAPI" in applied:
             self.found.articulations.append(seen.at(path))
-        self._tell_soft(seen, path)
+        self._tell_schemas(seen, path)
         # An instance of a PointInstancer has an id of its own beside the prototype's path.
         own = f"{context.id}/{seen.name}" if context.id else path[1:]
         if joint:
@@ -180,11 +182,14 @@ class _Look:
             place = self._opened.place(paths[0])
             self._report.dropped(f"{kind} {named(paths, 1)}", "USD_FEATURE_DROPPED", place, detail=detail)
 
-    def _tell_soft(self, seen: Seen, path: str) -> None:
+    def _tell_schemas(self, seen: Seen, path: str) -> None:
+        """What moves by schemas of which nothing is read."""
         for schema in seen.traits.schemas:
             if SOFT[0] in schema or schema.startswith(SOFT[1]):
                 detail = "what is soft or made of particles stands still here, as it is"
                 self._dropped(f"{schema} of", path, detail)
+            elif schema.startswith(ARKIT):
+                self._dropped(f"{schema} of", path, "ARKit's own physics are not read, only UsdPhysics")
 
     def _tell_mass(self, seen: Seen, path: str) -> None:
         """That a mass is stated of what weighs nothing."""

@@ -59,6 +59,20 @@ def test_open_mesh_takes_the_mass_of_its_hull_with_a_warning():
     assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
 
 
+def test_shells_wound_against_each_other_weigh_as_their_hull():
+    """A cube and a long bar turned inside out enclose a volume above 0, and a moment of inertia below it, which no scene may
+    have."""
+    cube, bar = trimesh.creation.box((1, 1, 1)), trimesh.creation.box((0.3, 0.3, 10))
+    vertices = np.concatenate([cube.vertices, bar.vertices + (3.0, 0.0, 0.0)])
+    for turn in (1, -1):
+        faces = np.concatenate([cube.faces, bar.faces[:, ::-1] + len(cube.vertices)])[:, ::turn]
+        scene, report = weighed(vertices, faces)
+        hull = trimesh.convex.convex_hull(vertices)
+        assert scene.nodes[0].mass.mass == pytest.approx(1000 * hull.volume)
+        assert is_possible(scene.nodes[0].mass.inertia)
+        assert [d.code for d in report.diagnostics] == ["MESH_OPEN"]
+
+
 def test_repeated_vertices_do_not_make_a_mesh_open():
     """A skin whose every triangle has vertices of its own is closed all the same."""
     box = trimesh.creation.box((1, 2, 3))

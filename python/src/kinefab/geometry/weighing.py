@@ -120,14 +120,17 @@ def _placed(body: Body, unit: Mapping[int, MassProperties | None], density: floa
 
 
 def _unit_properties(mesh: Mesh, body: str, where: str, report: Report) -> tuple[MassProperties | None, bool]:
-    """Of one mesh at density 1, of its convex hull where it is open, None where it has no volume; and whether it is closed."""
+    """Of one mesh at density 1, None where it has no volume; and whether it is closed.  Of an open one, and of one whose
+    shells are wound against each other so that no body could turn as they say, those of its convex hull."""
     low, high = bounds(mesh.vertices)
     size = float((high - low).max())
+    flat = False
     if is_skin(mesh.vertices, mesh.faces):
         found = solid_properties(mesh.vertices, mesh.faces, 1.0)
-        if abs(found.mass) > THIN * size**3:
+        flat = abs(found.mass) <= THIN * size**3
+        if not flat and is_possible(np.copysign(1.0, found.mass) * found.inertia):
             return found, True
-    elif (hull := hull_of_points(mesh.vertices)) is not None:
+    if not flat and (hull := hull_of_points(mesh.vertices)) is not None:
         report.add("MESH_OPEN", where, body=body)
         return solid_properties(*hull, 1.0), False
     report.add("MESH_WITHOUT_VOLUME", where, body=body)

@@ -397,6 +397,22 @@ def test_urls_are_read_and_written(tmp_path):
     assert places.read_bytes("memory://batch/x") == b"1" and places.read_bytes("memory://batch/y") is None
 
 
+@pytest.mark.parametrize("ending", [".usda", ".usdc"])
+def test_a_stage_by_url_comes_with_the_layers_beside_it(tmp_path, ending):
+    pytest.importorskip("fsspec", reason="the Python package fsspec is not installed")
+    usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
+    (tmp_path / "in").mkdir()
+    arm, robot = (f"{tmp_path}/in/{name}{ending}" for name in ("arm", "robot"))
+    for path in (arm, robot):
+        stage = usd.Stage.CreateNew(path)
+        stage.SetDefaultPrim(stage.DefinePrim("/Arm", "Cube"))
+        if path == robot:
+            stage.GetDefaultPrim().GetReferences().AddReference(f"./arm{ending}")
+        stage.GetRootLayer().Save()
+    (record,) = kinefab.batch([f"file://{robot}"], tmp_path / "out", jobs=1).records
+    assert record.outcome is Outcome.WRITTEN and "USD_COMPOSITION" not in record.codes
+
+
 def test_a_worker_that_is_killed_loses_nothing_and_nothing_is_done_twice(tmp_path, cluster):
     from kinefab.batching.cluster import executor_of
 

@@ -30,6 +30,7 @@ WITH_NEIGHBOURS = (
     ".txt",
     ".usd",
     ".usda",
+    ".usdc",
     ".asmt",
 )
 """Endings of sources that name files beside them: their folder is fetched too."""

@@ -11,6 +11,7 @@ import pytest
 from kinefab.diagnostics import Outcome
 from kinefab.model import DofRecord
 from kinefab.spatial import rotation_about
+from scene_kinematics import SceneKinematics
 from scenes import BOX, components, exported, lid_scene
 
 
@@ -87,15 +88,23 @@ def test_part_fixed_to_the_ground_is_static(tmp_path):
 
 @pytest.mark.parametrize("ground", ["body", "world"])
 def test_what_is_grounded_below_what_moves_stays(ground, tmp_path):
-    """In the source's tree only: without a Rigidbody of its own Unity would carry it, and make it a part of the other body."""
+    """Below it in the source's tree only: Unity carries a child along with its parent's Transform, a kinematic one too."""
     scene = kinefab.Scene()
     arm = scene.add_part("Arm", BOX, translation=(0, 1, 0))
     post = scene.add_part("Post", BOX, parent=arm, grounded=True)
     scene.add_part("Foot", BOX, parent=post, grounded=True, translation=(0, -1, 0))
     scene.add_hinge(post, arm, point=(0, 0.5, 0), axis=(0, 0, 1), limits=(-10, 80))
-    content, _ = exported(scene, tmp_path, ground=ground)
-    (body,) = components(content, "Post", "Rigidbody")
-    assert body["isKinematic"] and components(content, "Foot", "Rigidbody") == []
+    content, result = exported(scene, tmp_path, ground=ground)
+    names = [entry["name"] for entry in content["gameObjects"]]
+    above = {entry["name"]: entry.get("parent") for entry in content["gameObjects"]}
+    assert above["Post"] == (names.index("Ground") if ground == "body" else None)
+    assert above["Foot"] == names.index("Post")
+    assert components(content, "Post", "Rigidbody") == components(content, "Foot", "Rigidbody") == []
+    place = SceneKinematics(content).placed[names.index("Foot")][1]
+    assert place == pytest.approx([0.0, -1.0, 0.0])
+    assert [o.feature for o in result.report.outcomes if o.code == "GROUNDED_STANDS_BESIDE"] == [
+        "part Arm/Post"
+    ]
     (moved,) = components(content, "Arm", "Rigidbody")
     assert not moved.get("isKinematic", False)
 

@@ -18,7 +18,7 @@ from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
-from .bodies.rigidbodies import Rigidbodies, held_below, map_rigidbody, place_rigidbodies
+from .bodies.rigidbodies import Rigidbodies, held_below, map_rigidbody, parents_beside, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -103,6 +103,7 @@ class _Builder:
     joints: dict[str, tuple[UnityJoint, int]] = field(default_factory=dict[str, tuple[UnityJoint, int]])
     taken: set[str] = field(default_factory=set[str])
     rigidbodies: Rigidbodies | None = None
+    parents: list[int | None] = field(default_factory=list[int | None])
     ground: int | None = None
 
     def finished(self) -> list[GameObject]:
@@ -122,9 +123,13 @@ class _Builder:
 
     def add_objects(self) -> None:
         self.surfaces = list(self.scene.surfaces)
-        active, placed = active_nodes(self.scene), local_transforms(self.scene)
-        for i, node in enumerate(self.scene.nodes):
-            above = self.ground if node.parent is None else self.object_of[node.parent]
+        self.rigidbodies = place_rigidbodies(self.scene, self.groups)
+        self.parents = parents_beside(self.scene, self.groups, self.rigidbodies)
+        active, placed = active_nodes(self.scene), local_transforms(self.scene, self.parents)
+        for i, (node, parent) in enumerate(zip(self.scene.nodes, self.parents)):
+            above = self.ground if parent is None else self.object_of[parent]
+            if parent != node.parent:
+                self.report.kept(f"part {node.id}", node.where, "GROUNDED_STANDS_BESIDE", node=node.id)
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
@@ -202,7 +207,7 @@ class _Builder:
         return self.surfaces.index(PLAIN)
 
     def add_rigidbodies(self) -> None:
-        self.rigidbodies = place_rigidbodies(self.scene, self.groups)
+        assert self.rigidbodies is not None
         for carrier, members in self.rigidbodies.carriers.items():
             self.components[self.object_of[carrier]].append(
                 map_rigidbody(self.scene, carrier, members, self.report)
@@ -214,7 +219,8 @@ class _Builder:
             joint = FixedJoint(connectedBody=self.object_of[connected], because=because)
             self.components[self.object_of[own]].append(joint)
         for held in held_below(self.scene, self.groups, self.rigidbodies):
-            self.components[self.object_of[held]].append(Rigidbody(useGravity=False, isKinematic=True))
+            if self.parents[held] == self.scene.nodes[held].parent:  # a clip moves it
+                self.components[self.object_of[held]].append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_joints(self) -> None:
         for joint in self.scene.joints:

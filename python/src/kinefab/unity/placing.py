@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..model import Scene
@@ -17,12 +19,12 @@ def transform_of(local: Pose, scale: Vector3 = ONE) -> Transform:
     return Transform(vector3(placed.translation), quaternion_from_rows(placed.rotation.tolist()), scale)
 
 
-def local_transforms(scene: Scene) -> list[Transform]:
-    """Of each node against its parent, the world's nodes in one stack."""
+def local_transforms(scene: Scene, parents: Sequence[int | None]) -> list[Transform]:
+    """Of each node against what it stands below, the world's nodes in one stack.  parents: nodes, None for the world."""
     poses = [node.pose for node in scene.nodes]
     rotations = np.array([pose.rotation for pose in poses]).reshape(-1, 3, 3)
     places = np.array([pose.translation for pose in poses]).reshape(-1, 3, 1)
-    above = [(i, node.parent) for i, node in enumerate(scene.nodes) if node.parent is not None]
+    above = [(i, parent) for i, parent in enumerate(parents) if parent is not None]
     if above:
         below, parents = map(list, zip(*above))
         back = rotations[parents].transpose(0, 2, 1)

@@ -18,7 +18,7 @@ from ...options import ColliderShape
 from ...replacing import replacing
 from ...rigid import active_nodes, is_dynamic
 from ...spatial import Array, Pose, quaternion_from_matrix
-from ...unity.bodies.rigidbodies import body_dynamics, body_mass, held_below, place_rigidbodies
+from ...unity.bodies.rigidbodies import body_dynamics, body_mass, parents_beside, place_rigidbodies
 from ...unity.joints.coordinates import removes_nothing
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
@@ -138,10 +138,8 @@ class _Document:
 
     def _add_nodes(self) -> None:
         """A grounded node below a moving body stands beside it: readers give the colliders to the next motion above them."""
-        animated = {track.node for clip in self.scene.animations for track in clip.tracks}
-        held = set(held_below(self.scene, self.content.groups, self.placed)) - animated
-        for i, node in enumerate(self.scene.nodes):
-            above = self._beside(node.parent) if i in held else node.parent
+        parents = parents_beside(self.scene, self.content.groups, self.placed)
+        for i, (node, above) in enumerate(zip(self.scene.nodes, parents)):
             local = self.scene.pose(above).inverse() @ node.pose
             index = self._node(node.name, None if above is None else self.node_of[above], local)
             self.node_of.append(index)
@@ -159,15 +157,6 @@ class _Document:
                     self._add_body(i, index, body)
             for collider in node.colliders or ():
                 self._add_collider(i, index, collider)
-
-    def _beside(self, node: int | None) -> int | None:
-        """The first above all bodies that a node is in, None for the top."""
-        above = node
-        while node is not None:
-            if node in self.placed.carriers:
-                above = self.scene.nodes[node].parent
-            node = self.scene.nodes[node].parent
-        return above
 
     def _moves(self, node: int) -> bool:
         """Whether forces move a node's body."""

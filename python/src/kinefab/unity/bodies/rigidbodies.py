@@ -79,6 +79,24 @@ def held_below(scene: Scene, groups: RigidGroups, placed: Rigidbodies) -> list[i
     return found
 
 
+def parents_beside(scene: Scene, groups: RigidGroups, placed: Rigidbodies) -> list[int | None]:
+    """What each node stands below: a grounded one below a moving body is carried along with that body's Transform, so it stands
+    below the first node above all bodies that its parent is in.  One that a clip moves stays, as its track counts from its parent."""
+    parents = [node.parent for node in scene.nodes]
+    animated = {track.node for clip in scene.animations for track in clip.tracks}
+    for held in held_below(scene, groups, placed):
+        if held in animated:
+            continue
+        above = parents[held]
+        node = above
+        while node is not None:
+            if node in placed.carriers:
+                above = scene.nodes[node].parent
+            node = scene.nodes[node].parent
+        parents[held] = above
+    return parents
+
+
 def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> MassProperties:
     """Of everything a carrier moves, in the carrier's frame."""
     own = scene.nodes[carrier]

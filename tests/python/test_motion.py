@@ -270,6 +270,22 @@ def test_wrong_calls_say_what_to_pass(lever, values, says):
         lever.follow(values)
 
 
+def test_a_joint_stands_for_its_coordinate():
+    """As the builder returns it; two of one name are told apart by it."""
+    scene = kinefab.Scene()
+    doors = [scene.add_part(f"Door{i}", translation=(i, 1, 0)) for i in range(2)]
+    hinges = [
+        scene.add_hinge(None, d, point=(0, 1, 0), axis=(0, 1, 0), limits=(-10, 80), name="Hinge")
+        for d in doors
+    ]
+    motion = kinefab.motion(scene)
+    assert motion.coordinate(hinges[1]).joint == hinges[1].id != hinges[0].id
+    moved = motion.sweep(hinges[1], 0, 70, frames=2)
+    assert moved[motion.coordinate(hinges[1]).name].tolist() == pytest.approx([0.0, 70.0])
+    with pytest.raises(ValueError, match="there is no coordinate 'Elsewhere'"):
+        motion.sweep(replace(hinges[0], id="Elsewhere"))
+
+
 @pytest.mark.parametrize(
     ("asked", "error"),
     [

@@ -96,10 +96,11 @@ class Mechanism:
         return tuple(self._coordinates[self.name_of(block, i)] for block, i in chosen)
 
     def sweep(
-        self, name: str, start: float | None = None, stop: float | None = None, frames: int = 100
+        self, name: str | Joint, start: float | None = None, stop: float | None = None, frames: int = 100
     ) -> Trajectory:
         """Move one coordinate evenly from ``start`` to ``stop``, the others following or staying.
 
+        name: of a coordinate, or of a joint that has only one, or that joint.
         start, stop: degrees or metres as the source shows them; without them the joint's limits, or a whole turn from
         where it stands.  frames: at least 2, at most a million.
         Raises ValueError for a name that is none, a number that is not finite, and a slide without limits and stop,
@@ -107,7 +108,7 @@ class Mechanism:
 
         >>> scene = kinefab.Scene()
         >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
-        >>> kinefab.motion(scene).sweep("Hinge", frames=3)["Hinge"].round(9).tolist()
+        >>> kinefab.motion(scene).sweep(hinge, frames=3)["Hinge"].round(9).tolist()
         [0.0, 55.0, 110.0]
         """
         coordinate = self.coordinate(name)
@@ -160,8 +161,8 @@ class Mechanism:
         """
         return self._names[id(block), i]
 
-    def coordinate(self, name: str) -> Coordinate:
-        """A coordinate by its name, or by the id or name of a joint that has only one.  Raises ValueError.
+    def coordinate(self, name: str | Joint) -> Coordinate:
+        """A coordinate by its name, or by a joint that has only one, its id or name.  Raises ValueError.
 
         >>> scene = kinefab.Scene()
         >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
@@ -236,8 +237,9 @@ class Mechanism:
             found |= {self._assembly.part_of_block[int(blocks.block[b])]: depth for b in bodies}
         return found
 
-    def _named(self, name: str) -> str:
-        """The coordinate meant by its name, or by the id or name of a joint that has only one."""
+    def _named(self, name: str | Joint) -> str:
+        """The coordinate meant by its name, or by a joint that has only one, its id or name."""
+        name = name.id if isinstance(name, Joint) else name
         if name in self._place:
             return name
         others = self._other.get(name, [])

@@ -79,7 +79,7 @@ TOLD = {
     "centre of mass of words": ("VALUE_UNREADABLE", 2, robot(A.replace("<mass", "<origin xyz='0 nan 0'/><mass"))),
     "negative damping": ("VALUE_UNREADABLE", 4, robot(PAIR + joint("<dynamics damping='-1'/>"))),
     "friction of words": ("VALUE_UNREADABLE", 4, robot(PAIR + joint("<dynamics friction='none'/>"))),
-    "no axis": ("AXIS_ZERO_FIXED", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
+    "no axis": ("ROBOT_AXIS_ZERO", 4, robot(PAIR + joint("<axis xyz='0 0 0'/>"))),
     "a second robot": ("XML_AFTER_ROOT", 4, robot(A) + "\n<robot name='q'><link name='b'/></robot>"),
     "a colour of bytes": (
         "COLOR_CLAMPED",
@@ -279,7 +279,7 @@ def test_what_cannot_be_read_of_a_link_or_joint_leaves_the_others_theirs(tmp_pat
         + joint("<axis xyz='0 0 1'/><mimic joint='k'/>", name="l", parent="c", child="d")))  # fmt: skip
     scene = read(path, report := Report())
     assert {node.name: node.mass is None for node in scene.nodes[1:]} == {"b": False, "a": False}
-    assert {d.code for d in report.diagnostics} == {"VALUE_UNREADABLE", "AXIS_ZERO_FIXED", "MASS_STAND_IN"}
+    assert {d.code for d in report.diagnostics} == {"VALUE_UNREADABLE", "ROBOT_AXIS_ZERO", "MASS_STAND_IN"}
     (only,) = scene.joints
     freedom = only.freedoms[RX]
     assert (freedom.lower, freedom.upper, freedom.passive.damping, freedom.passive.friction) == (

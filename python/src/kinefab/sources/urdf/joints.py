@@ -56,7 +56,7 @@ def _joint(element: Element, name: str, robot: Robot, report: Report) -> UrdfJoi
         name, kind, ends[0], ends[1], origin(element), X if axis is None else axis, element.where
     )
     if axis is None:  # what draws robots turns about it by nothing, and Pinocchio and ROS load it
-        report.approximated(feature, "AXIS_ZERO_FIXED", element.where)
+        report.approximated(feature, "ROBOT_AXIS_ZERO", element.where)
         kind = joint.kind = "fixed"
     _limits(element, joint, feature, report)
     if (dynamics := element.child("dynamics")) is not None:

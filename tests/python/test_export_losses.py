@@ -8,7 +8,7 @@ from dataclasses import replace
 import kinefab
 import numpy as np
 import pytest
-from kinefab.diagnostics import KinefabError, Report
+from kinefab.diagnostics import KinefabError, Outcome, Report
 from kinefab.model import RX, Drive, Freedom, JointKind, Motion, Passive
 from kinefab.pipeline import prepared
 from kinefab.spatial import Pose, rotation_about
@@ -149,6 +149,22 @@ def test_a_drive_that_unity_cannot_hold_is_left_out_and_told(tmp_path, change, w
         assert (len(told) == 1 and what in told[0] and "motor" not in joint) if "drive" in more else not told
         springs.append(joint.get("spring", {}).get("spring", 0.0))
     assert springs[0] == 0.0 and springs[1] == pytest.approx(springs[2] * 3.5 / 5.0) != 0.0
+
+
+@pytest.mark.parametrize("what", ["force", "torque"])
+@pytest.mark.parametrize(
+    ("value", "kept"),
+    [(0.0, False), (-1.0, False), (1e-46, False), (math.nan, False), (3.5, True), (1e39, False)],
+)
+def test_a_joint_does_not_break_at_nothing(tmp_path, what, value, kept):
+    """Zero and less would break it at once, and C# refuses a scene that says so."""
+    scene = lid_scene()
+    scene.joints[0] = replace(scene.joints[0], **{f"break_{what}": value})
+    content, result = exported(scene, tmp_path)
+    (joint,) = components(content, "Lid", "HingeJoint")
+    assert joint.get(f"break{what.title()}") == (value if kept else None)
+    told = [o.outcome for o in result.report.outcomes if o.code == "JOINT_BREAKS_AT_NOTHING"]
+    assert told == ([] if kept or value > 1.0 else [Outcome.APPROXIMATED])
 
 
 @pytest.mark.parametrize("ending", ["kinefab", "usda", "glb"])

@@ -15,6 +15,7 @@ from typing import Any, cast
 from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
+from .analysis.joints.breaking import with_sound_breaks
 from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
@@ -120,7 +121,7 @@ def prepared(
     scene = source if isinstance(source, Scene) else _read(source, options.reading, files, report, progress)
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
-    scene = mated(_enabled(scene, report), options.reading, report)
+    scene = with_sound_breaks(mated(_enabled(scene, report), options.reading, report), report)
     check_limits(scene, report)
     scene = with_sound_meshes(load_geometry(scene, files, report, progress), report)
     report.raise_for_errors()

@@ -15,7 +15,6 @@ from typing import Any, cast
 from .analysis import Analysis, AnalysisOptions, analyse
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
-from .analysis.joints.breaking import with_sound_breaks
 from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
@@ -37,6 +36,7 @@ from .sources.parts.readers import part_readers
 from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
 from .unity.bodies.colliders import Colliders
+from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
 from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint

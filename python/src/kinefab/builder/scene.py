@@ -138,13 +138,10 @@ class Scene(Parts):
         >>> scene.add_hinge(None, lid, point=(0, 0.2, -0.15), axis=(-1, 0, 0), limits=(-10, 80), name="Hinge").id
         'Hinge'
         """
-        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        options: dict[str, Any] = moving | {
-            "collide": collide,
-            "break_force": break_force,
-            "break_torque": break_torque,
-        }
-        return self.add_joint(JointKind.REVOLUTE, a, b, point=point, axis=axis, name=name, **options)
+        return self.add_joint(
+            JointKind.REVOLUTE, a, b, point=point, axis=axis, limits=limits, drive=drive, spring=spring, damping=damping,
+            collide=collide, break_force=break_force, break_torque=break_torque, name=name,
+        )  # fmt: skip
 
     def add_slider(
         self,
@@ -171,13 +168,10 @@ class Scene(Parts):
         >>> scene.add_slider(None, table, point=(0, 0, 0), axis=(1, 0, 0), limits=(0, 0.4), drive=drive).unlocked  # TX
         (0,)
         """
-        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        options: dict[str, Any] = moving | {
-            "collide": collide,
-            "break_force": break_force,
-            "break_torque": break_torque,
-        }
-        return self.add_joint(JointKind.PRISMATIC, a, b, point=point, axis=axis, name=name, **options)
+        return self.add_joint(
+            JointKind.PRISMATIC, a, b, point=point, axis=axis, limits=limits, drive=drive, spring=spring, damping=damping,
+            collide=collide, break_force=break_force, break_torque=break_torque, name=name,
+        )  # fmt: skip
 
     def add_ball(
         self,
@@ -204,13 +198,10 @@ class Scene(Parts):
         >>> scene.add_ball(None, arm, point=(0, 1.4, 0), limits={"rx": (-10, 80)}).unlocked  # RX, RY, RZ
         (3, 4, 5)
         """
-        moving: dict[str, Any] = {"limits": limits, "drive": drive, "spring": spring, "damping": damping}
-        options: dict[str, Any] = moving | {
-            "collide": collide,
-            "break_force": break_force,
-            "break_torque": break_torque,
-        }
-        return self.add_joint(JointKind.SPHERICAL, a, b, point=point, axis=axis, name=name, **options)
+        return self.add_joint(
+            JointKind.SPHERICAL, a, b, point=point, axis=axis, limits=limits, drive=drive, spring=spring, damping=damping,
+            collide=collide, break_force=break_force, break_torque=break_torque, name=name,
+        )  # fmt: skip
 
     def add_fixed(
         self,
@@ -230,12 +221,10 @@ class Scene(Parts):
         """
         self._check_index(b, "b")
         point = tuple(self.nodes[b].pose.translation.tolist())
-        options: dict[str, Any] = {
-            "collide": collide,
-            "break_force": break_force,
-            "break_torque": break_torque,
-        }
-        return self.add_joint(JointKind.FIXED, a, b, point=point, name=name, **options)
+        return self.add_joint(
+            JointKind.FIXED, a, b, point=point,
+            collide=collide, break_force=break_force, break_torque=break_torque, name=name,
+        )  # fmt: skip
 
     def add_coupling(
         self, a: JointLike, b: JointLike, ratio: float, *, offset: float = 0.0, name: str = ""

@@ -45,13 +45,16 @@ def read_reference(folder: Path, name: str, limit: int = MOST_BYTES) -> bytes:
     return read_regular(path, limit)
 
 
+def is_package(folder: Path) -> bool:
+    """Whether a folder is the top of a package or model."""
+    return any((folder / name).is_file() for name in MANIFESTS)
+
+
 def package_of(folder: Path) -> Path:
     """The outermost folder above, or this, that is a package or model; this where none is.  A package of Gazebo's holds models,
     which share its images."""
     above = [folder, *folder.parents][:UPWARDS]
-    return next(
-        (each for each in reversed(above) if any((each / name).is_file() for name in MANIFESTS)), folder
-    )
+    return next(filter(is_package, reversed(above)), folder)
 
 
 def read_regular(path: Path, limit: int = MOST_BYTES) -> bytes:

@@ -123,9 +123,8 @@ class _Library:
             geom.contype, geom.conaffinity = bits
             if model is not None:
                 model.geom_contype[geom.id], model.geom_conaffinity[geom.id] = bits
-        if (
-            model is None
-        ):  # there are elements that ask for something that may be touched, as sensors of touch do
+        # There are elements that ask for something that may be touched, as sensors of touch do.
+        if model is None:
             del self.report.diagnostics[before:]
             model = self._tried(spec.compile)
         return model

@@ -58,8 +58,7 @@ class Looks:
         return (self._known[key],)
 
     def _color(self, geom: int, material: int, rgba: tuple[float, ...]) -> tuple[float, ...]:
-        kind, index = ("geom", geom) if material < 0 else ("mat", material)
-        word = {"mat": "material"}.get(kind, kind)
+        kind, word, index = ("geom", "geom", geom) if material < 0 else ("mat", "material", material)
         name = self.compiled.name(kind, index) or str(index)
         return clamped(rgba, f"colour of {word} {name}", self.compiled.where(word, name), self.report)
 

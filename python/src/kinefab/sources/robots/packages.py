@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from ...diagnostics import Report
-from ...geometry.references import MANIFESTS, UPWARDS
+from ...geometry.references import UPWARDS, is_package
 from ...options import FormatOption
 
 if TYPE_CHECKING:  # the command line lists the formats without numpy
@@ -93,7 +93,7 @@ class Packages:
         # A name that climbs into a folder that was given, or one from there or a package around the source.
         if found.path is None:
             others = [_inside(self.folder, plain, root) for root in self.given]
-            around = [self._home(), *filter(_is_top, _upwards(self.folder)), *self.given]
+            around = [self._home(), *filter(is_package, _upwards(self.folder)), *self.given]
             for other in (*others, *(_inside(root, plain) for root in around)):
                 if other.path is not None:
                     return other
@@ -167,7 +167,7 @@ class Packages:
     def _home(self) -> Path:
         """The package that the source lies in; without one the folder a little above it."""
         line = _upwards(self.folder)
-        return next(filter(_is_top, line), line[min(BESIDE, len(line) - 1)])
+        return next(filter(is_package, line), line[min(BESIDE, len(line) - 1)])
 
 
 def packages_of(source: Path, request: Request, report: Report) -> Packages:
@@ -191,11 +191,6 @@ def _is_name(name: str) -> bool:
 def _upwards(folder: Path) -> list[Path]:
     whole = Path(os.path.abspath(folder))
     return [whole, *whole.parents][: UPWARDS + 1]
-
-
-def _is_top(folder: Path) -> bool:
-    """Of a package or model."""
-    return any((folder / manifest).is_file() for manifest in MANIFESTS)
 
 
 def _is_workspace(folder: Path) -> bool:

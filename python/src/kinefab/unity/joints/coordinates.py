@@ -59,9 +59,10 @@ class Coordinates:
 
 def removes_nothing(joint: Joint, shape: CanonicalJoint | None = None) -> bool:
     """Whether a joint leaves all six freedoms, and nothing limits or drives one.  shape: the same joint, see ``canonical``."""
+    if joint.locked or joint.slerp is not None:  # as nearly always
+        return False
     shape = shape or canonical(joint)
-    free = len(shape.rotations) == len(shape.translations) == 3
-    return free and joint.slerp is None and shape.plain(range(6))
+    return len(shape.rotations) == len(shape.translations) == 3 and shape.plain(range(6))
 
 
 def canonical(joint: Joint) -> CanonicalJoint:

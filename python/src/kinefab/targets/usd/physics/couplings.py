@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -109,27 +110,40 @@ class _Writer:
         tree = self.trees.get(joint.prim.path)
         if tree is None or tree != self.trees.get(leader.prim.path) or joint is leader:
             return ()
-        newton = ("newton",) if joint.typed and leader.typed else ()
-        return (*newton, "physx") if own[1] >= RX and led[1] >= RX else newton
+        return tuple(word for word in self._words(own) if word in self._words(led))
+
+    def _words(self, slot: _Slot) -> tuple[str, ...]:
+        """Whose mimics know a coordinate."""
+        newton = ("newton",) if self.joints[slot[0]].typed else ()
+        return (*newton, "physx") if slot[1] >= RX else newton
+
+    def _root(self, slots: Sequence[_Slot], follows: Collection[_Slot]) -> _Slot:
+        """Of coordinates of one articulation that which most others can follow; of several one that follows nothing by itself."""
+        words = Counter(map(self._words, slots))
+        beside = Counter((slot[0], self._words(slot)) for slot in slots)
+
+        def able(slot: _Slot) -> int:
+            own = set(self._words(slot))
+            return sum(n - beside[slot[0], w] for w, n in words.items() if own.intersection(w))
+
+        return min(slots, key=lambda slot: (-able(slot), slot in follows))
 
     def write_star(self, couplings: Sequence[Coupling]) -> None:
-        """All that the couplings tie together as followers of one coordinate.  Of several, one that follows nothing by
-        itself is taken."""
+        """All that the couplings tie together as followers of one coordinate."""
         slots = list(dict.fromkeys(slot for c in couplings for slot in (_led(c), _own(c))))
-        follows = {_own(c) for c in couplings}
-        able = {a: sum(bool(self.kinds(b, a)) for b in slots) for a in slots}
-        root = min(slots, key=lambda slot: (-able[slot], slot in follows))
-        motions = _motions(root, couplings)
-        for (
-            coupling
-        ) in couplings:  # what closes a circle is implied: the analysis holds what contradicts others
-            if all(slot == root or self.kinds(slot, root) for slot in (_own(coupling), _led(coupling))):
+        root = self._root(slots, {_own(c) for c in couplings})
+        followers = {slot: self.kinds(slot, root) for slot in slots if slot != root}
+        star = {root, *(slot for slot, kinds in followers.items() if kinds)}
+        # What closes a circle is implied: the analysis holds what contradicts others.
+        for coupling in couplings:
+            if {_own(coupling), _led(coupling)} <= star:
                 self.report.kept(f"coupling {coupling.id}", coupling.where)
             else:
                 self.write_apart(coupling)
-        for slot in slots:
-            if slot != root and self.kinds(slot, root):
-                self._write_mimic(slot, root, motions[slot])
+        motions = _motions(root, couplings)
+        for slot, kinds in followers.items():
+            if kinds:
+                self._write_mimic(slot, root, kinds, motions[slot])
 
     def write_apart(self, coupling: Coupling) -> None:
         """In words of our own, as no engine's fit; turned round where its coordinate follows another so already."""
@@ -153,9 +167,9 @@ class _Writer:
             detail=f"{what} stands there that Kinefab alone reads; engines have mimics of hinges and slides, within one articulation",
         )  # fmt: skip
 
-    def _write_mimic(self, own: _Slot, led: _Slot, motion: _Motion) -> None:
+    def _write_mimic(self, own: _Slot, led: _Slot, kinds: Collection[str], motion: _Motion) -> None:
         joint, leader = self.joints[own[0]], self.joints[led[0]]
-        prim, kinds = joint.prim, self.kinds(own, led)
+        prim = joint.prim
         ratio, offset = _in_units(own, led, motion)
         if "newton" in kinds:
             prim.apply("NewtonMimicAPI")

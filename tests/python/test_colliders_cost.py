@@ -86,15 +86,55 @@ def test_a_stepped_shaft_falls_into_its_cylinders(monkeypatch):
 
 
 @MANIFOLD
-def test_the_first_plane_that_opens_a_ring_is_taken(monkeypatch):
-    """Seven cuts make eight pieces.  The first gains nothing by any plane, so all are tried and then the next cut, in the two
+def test_the_first_plane_that_opens_a_frame_is_taken(monkeypatch):
+    """Three cuts make four pieces.  The first gains nothing by any plane, so all are tried and then the next cut, in the two
     halves of one plane; each of the others is good at once."""
     searches = []
     best = cuts._best
     monkeypatch.setattr(cuts, "_best", lambda *given: searches.append(1) or best(*given))
-    shape = trimesh.creation.annulus(0.1, 0.2, 0.1, sections=16)
+    shape = trimesh.creation.annulus(0.1, 0.2, 0.1, sections=4)
     pieces = cuts.nearly_convex_parts(np.array(shape.vertices) / 0.4, np.array(shape.faces), 16)
-    assert len(pieces) == 8 and len(searches) == 2 + 2 + 6
+    assert len(pieces) == 4 and len(searches) == 2 + 2 + 2
+
+
+def turned(shape: trimesh.Trimesh) -> trimesh.Trimesh:
+    return shape.apply_transform(trimesh.transformations.euler_matrix(0.35, 0.58, 0.82))
+
+
+@MANIFOLD
+@pytest.mark.parametrize(
+    "shape, count, air",
+    [
+        (trimesh.creation.annulus(0.1, 0.2, 0.1, sections=48), 8, 0.04),
+        (turned(trimesh.creation.annulus(0.1, 0.2, 0.1, sections=48)), 8, 0.04),
+        (turned(trimesh.creation.annulus(0.09, 0.1, 0.4, sections=47)), 16, 0.12),
+        (trimesh.creation.torus(0.2, 0.05), 12, 0.04),
+    ],
+    ids=["washer", "turned washer", "turned tube", "torus"],
+)
+def test_a_ring_is_cut_into_equal_sectors_however_it_lies(shape, count, air):
+    pieces = decomposition._decomposed(mesh_of(shape))
+    volumes = np.array([solid_volume(p.vertices, p.faces) for p in pieces])
+    assert len(pieces) == count
+    assert np.ptp(volumes) < 0.05 * volumes.mean()
+    assert shape.volume < volumes.sum() < (1 + air) * shape.volume
+
+
+@MANIFOLD
+@pytest.mark.parametrize(
+    "shape, most",
+    [
+        (turned(trimesh.creation.annulus(0.1, 0.2, 0.1, sections=4)), 12),
+        (turned(trimesh.creation.annulus(0.1, 0.2, 0.1, sections=6)), 14),
+        (turned(trimesh.creation.revolve([(0.1, -0.1), (0.4, -0.1), (0.2, 0), (0.4, 0.1), (0.1, 0.1), (0.1, -0.1)])), 16),
+    ],
+    ids=["square frame", "hexagonal frame", "pulley"],
+)  # fmt: skip
+def test_no_ring_that_is_not_round_or_has_a_groove_is_cut_into_sectors(shape, most):
+    """By planes it takes fewer pieces, and leaves less air."""
+    pieces = decomposition._decomposed(mesh_of(shape))
+    assert len(pieces) <= most
+    assert sum(solid_volume(p.vertices, p.faces) for p in pieces) < 1.04 * shape.volume
 
 
 @MANIFOLD

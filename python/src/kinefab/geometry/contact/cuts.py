@@ -1,4 +1,4 @@
-"""Cuts a solid by planes until its parts are nearly convex, in Manifold's exact Booleans.
+"""Cuts a solid until its parts are nearly convex: a ring into sectors, all else by planes in Manifold's exact Booleans.
 
 The part with the most air in its hull is cut by the plane, of a few, that leaves the least air in the hulls of its halves.
 Where none helps at once (half a ring fills its hull no better than the ring), it is cut by the first plane whose halves gain
@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...spatial import Array, IntArray, cross
+from .sectors import Ring, ring_sectors
 
 AIR = 0.04
 """Of all hulls together, as a share of the solid: enough."""
@@ -67,8 +68,10 @@ def nearly_convex_parts(vertices: Array, faces: IntArray, most: int) -> list[Arr
     simpler = whole.simplify(COARSER)
     if abs(simpler.volume() - whole.volume()) < LOST * whole.volume():
         whole = simpler
-    reflex = _reflex_planes(vertices, faces)
     parts = _apart([whole], library)
+    if len(parts) == 1 and (sectors := _sectors(parts[0], AIR * whole.volume(), library)):
+        return sectors
+    reflex = _reflex_planes(vertices, faces)
     while len(parts) < most and sum(part.air for part in parts) > AIR * whole.volume():
         worst = max(parts, key=lambda part: part.air)
         halves = _cut(worst, reflex, library)
@@ -77,6 +80,14 @@ def nearly_convex_parts(vertices: Array, faces: IntArray, most: int) -> list[Arr
         k = parts.index(worst)
         parts[k : k + 1] = halves
     return [part.points for part in parts]
+
+
+def _sectors(part: _Part, enough: float, library: Any) -> list[Array]:
+    """The points of each sector where the part is a ring that is best cut so; else none."""
+    faces = np.asarray(part.solid.to_mesh64().tri_verts, dtype=np.int64)
+    ring = Ring(part.points, part.edges, faces, part.filled - part.air)
+    axes = [*np.eye(3), *_principal(part.points)]
+    return ring_sectors(ring, axes, enough, lambda points: _filled(points, library))
 
 
 def _cut(part: _Part, reflex: list[_Plane], library: Any) -> list[_Part]:
@@ -111,7 +122,7 @@ def _best(part: _Part, planes: list[_Plane], library: Any) -> tuple[float, _Plan
         filled, enough = 0.0, least * (1.0 - SAME)
         for side in (above, ~above):
             half = np.concatenate([part.points[side], section])
-            filled += float(library.Manifold.hull_points(half).volume())
+            filled += _filled(half, library)
             if filled >= enough:
                 break
         else:
@@ -132,9 +143,18 @@ def _within(points: Array, planes: list[_Plane]) -> list[_Plane]:
 
 def _middles(points: Array) -> list[_Plane]:
     """Planes through the middle, across the frame's axes and those along which the points spread, the widest first."""
+    return _distinct([*_across(points, np.eye(3), (0.5,)), *_across(points, _principal(points), (0.5,))])
+
+
+def _principal(points: Array) -> Array:
+    """Unit vectors along which the points spread, the widest first, shape (3, 3)."""
     centred = points - points.mean(axis=0)
-    principal = np.linalg.eigh(centred.T @ centred)[1].T[::-1]
-    return _distinct([*_across(points, np.eye(3), (0.5,)), *_across(points, principal, (0.5,))])
+    return np.linalg.eigh(centred.T @ centred)[1].T[::-1]
+
+
+def _filled(points: Array, library: Any) -> float:
+    """Volume of the hull."""
+    return float(library.Manifold.hull_points(points).volume())
 
 
 def _distinct(planes: list[_Plane]) -> list[_Plane]:
@@ -193,7 +213,7 @@ def _apart(solids: Iterable[Any], library: Any) -> list[_Part]:
         points = np.ascontiguousarray(mesh.vert_properties[:, :3], dtype=np.float64)
         corners = np.asarray(mesh.tri_verts, dtype=np.int64)
         start, end = corners.reshape(-1), np.roll(corners, -1, axis=1).reshape(-1)
-        filled = float(library.Manifold.hull_points(points).volume())
+        filled = _filled(points, library)
         once = start < end  # each edge is there both ways
         found.append(_Part(piece, points, np.stack([start[once], end[once]]), filled, filled - volume))
     return found

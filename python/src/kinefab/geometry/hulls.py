@@ -61,13 +61,18 @@ def collision_hulls(scene: Scene, bodies: Iterable[tuple[int, str]], report: Rep
     return hulls
 
 
-def hull_of_points(points: Array) -> Hull | None:
+def hull_of_points(points: Array, fast: bool = False) -> Hull | None:
     """Convex hull of points, shape (n, 3): vertices and outward wound faces; None for a flat cloud.
 
     Of many points by Manifold where it can: qhull takes the square of what stands on one face, minutes for a fine cylinder.
+    fast: of few points too, where flat faces may be cut into other triangles.
     """
     if len(points) < 4 or not _is_solid(points):
         return None
+    if fast:
+        low, high = bounds(points)
+        enclosing = _enclosing(points, np.arange(len(points)), float((high - low).max()), fast)
+        return None if enclosing is None else enclosing[0]
     found = _wrapped_fast(points) if len(points) > EXACT else None
     found = _wrapped(points) if found is None else found
     return None if found is None else found[0]

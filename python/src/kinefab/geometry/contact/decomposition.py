@@ -110,7 +110,7 @@ def _decomposed(mesh: Mesh) -> tuple[Mesh, ...]:
         parts = _by_coacd(scaled, faces)
     pieces: list[Mesh] = []
     for points in parts:
-        hull = hull_of_points(points * size + middle)
+        hull = hull_of_points(points * size + middle, fast=True)
         if hull is not None:
             which = f"piece {len(pieces) + 1}"
             origin = mesh.origin and f"{mesh.origin} {which}"

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ....spatial import bounds
 from ....unity.scene import Mesh
 from ..text.documents import HEAD
 from ..text.forms import BLANK, Form
@@ -52,7 +53,8 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
     short = len(vertices) <= UINT16_VERTICES
     indices = np.ascontiguousarray(mesh.triangles, dtype="<u2" if short else "<u4")
     width = 4 * sum(values.shape[1] for _, values in columns)
-    submeshes = _submeshes(mesh, vertices, indices)
+    extent = _bounds(vertices)
+    submeshes = _submeshes(mesh, vertices, indices, extent)
     form = _form(tuple((channel, values.shape[1]) for channel, values in columns), len(submeshes))
     told = form.filled(
         MESH_ID,
@@ -63,7 +65,7 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
         len(vertices),
         width * len(vertices),
         _SPLIT,
-        *_bounds(vertices),
+        *extent,
     )
     head, middle, tail = (HEADER + told).encode("ascii").split(_SPLIT.encode())
     yield head
@@ -76,7 +78,7 @@ def mesh_asset(mesh: Mesh, name: str) -> Iterator[bytes]:
 @lru_cache(maxsize=64)
 def _form(layout: tuple[tuple[int, int], ...], submeshes: int) -> Form:
     """The document of a mesh with these channels, each with its width in floats, and so many submeshes."""
-    bounds: Fields = {"m_Center": BLANK, "m_Extent": BLANK}
+    box: Fields = {"m_Center": BLANK, "m_Extent": BLANK}
     submesh: Fields = {
         "serializedVersion": 2,
         "firstByte": BLANK,
@@ -85,7 +87,7 @@ def _form(layout: tuple[tuple[int, int], ...], submeshes: int) -> Form:
         "baseVertex": 0,
         "firstVertex": BLANK,
         "vertexCount": BLANK,
-        "localAABB": bounds,
+        "localAABB": box,
     }
     fields: Fields = {
         **HEAD,
@@ -112,7 +114,7 @@ def _form(layout: tuple[tuple[int, int], ...], submeshes: int) -> Form:
             "_typelessdata": BLANK,
         },
         "m_CompressedMesh": _UNCOMPRESSED,
-        "m_LocalAABB": bounds,
+        "m_LocalAABB": box,
         "m_MeshUsageFlags": 0,
         "m_BakedConvexCollisionMesh": "",
         "m_BakedTriangleCollisionMesh": "",
@@ -152,15 +154,17 @@ def _interleaved(columns: list[tuple[int, np.ndarray]], width: int) -> Iterator[
         yield hexlify(rows.data)
 
 
-def _submeshes(mesh: Mesh, vertices: np.ndarray, indices: np.ndarray) -> list[tuple[int | Plain, ...]]:
-    """Of each its first byte, how many indices, its first vertex, how many vertices, centre and extent."""
+def _submeshes(
+    mesh: Mesh, vertices: np.ndarray, indices: np.ndarray, whole: tuple[Plain, Plain]
+) -> list[tuple[int | Plain, ...]]:
+    """Of each its first byte, how many indices, its first vertex, how many vertices, centre and extent.  whole: the mesh's."""
     found: list[tuple[int | Plain, ...]] = []
     start = 0
     for count in mesh.submeshes or (len(indices),):
         used = indices[start : start + count]
         first, last = (int(used.min()), int(used.max())) if count else (0, -1)
-        bounds = _bounds(vertices[first : last + 1] if len(mesh.submeshes) > 1 else vertices)
-        found.append((3 * start * indices.itemsize, 3 * count, first, last - first + 1, *bounds))
+        extent = _bounds(vertices[first : last + 1]) if len(mesh.submeshes) > 1 else whole
+        found.append((3 * start * indices.itemsize, 3 * count, first, last - first + 1, *extent))
         start += count
     return found
 
@@ -169,5 +173,5 @@ def _bounds(vertices: np.ndarray) -> tuple[Plain, Plain]:
     """Centre and extent."""
     if not len(vertices):
         return vector((0, 0, 0)), vector((0, 0, 0))
-    low, high = vertices.min(axis=0).astype(np.float64), vertices.max(axis=0).astype(np.float64)
+    low, high = (corner.astype(np.float64) for corner in bounds(vertices))
     return vector((0.5 * (low + high)).tolist()), vector((0.5 * (high - low)).tolist())

@@ -7,7 +7,7 @@ import pytest
 from kinefab.analysis import analyse
 from kinefab.analysis.equations.solve import Solver
 from kinefab.analysis.freedom.first_order import large_null_space, tree_motions
-from kinefab.analysis.freedom.rank import factored
+from kinefab.analysis.freedom.rank import factored, normalised
 from kinefab.spatial import skew
 from linkages import flat_ladder, ring
 from mechanism_cases import scene
@@ -38,8 +38,9 @@ def test_rank_and_null_space_are_those_of_the_dense_jacobian(case):
         (group,) = solver.groups
         _, at_a, at_b = system.linearise(start)
         jacobian = solver.sparse_jacobian(group, at_a, at_b)
-        rank, basis, _ = large_null_space(system, start, group.bodies[0], group.atoms, jacobian)
-        ranks, _, vt = factored(jacobian.toarray()[None])
+        sizes = solver.sizes(at_a, at_b)
+        rank, basis, _ = large_null_space(system, start, group.bodies[0], group.atoms, jacobian, sizes)
+        ranks, _, vt = factored(normalised(jacobian.toarray(), sizes)[None])
         assert rank == ranks[0]
         assert np.abs(basis.T @ basis - np.eye(basis.shape[1])).max(initial=0.0) < 1e-12
         assert np.linalg.norm(vt[0, :rank] @ basis) < 1e-6

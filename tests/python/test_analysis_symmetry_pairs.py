@@ -10,6 +10,7 @@ from kinefab.analysis import analyse
 from kinefab.model import Constraint, Feature, Node, Scene
 from kinefab.model import ConstraintKind as C
 from kinefab.model import FeatureKind as F
+from kinefab.spatial import Pose
 from strategies import random_direction, random_pose, seeds
 from test_analysis_components import worst_violation
 
@@ -81,3 +82,31 @@ def test_a_symmetry_within_one_part_is_with_itself():
     nodes = [Node("base", "base", grounded=True), Node("a", "a")]
     found = analyse(Scene(nodes=nodes, constraints=[Constraint("width", C.SYMMETRY, tuple(features))]))
     assert [o.code for o in found.report.outcomes] == ["CONSTRAINT_WITH_ITSELF"]
+
+
+@pytest.mark.parametrize("hung", [0, 35])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_row_whose_parts_cancel_holds_nothing(seed, hung):
+    """Two faces of grounded parts in one plane and a part's mid-plane square to them: of the three rows of their symmetry one
+    is left.  That of the distances comes to nothing but a rounding, which was taken for a row.  hung: parts of a chain from
+    there to the ground, pinned at points, so that the block is a large one."""
+    rng = np.random.default_rng(seed)
+    nodes = [Node(str(i), str(i), pose=random_pose(rng), grounded=i == 0) for i in range(2 + hung)]
+    face, normal, along = np.linalg.qr(rng.normal(size=(3, 3)))[0].T
+
+    def on(node, kind, at, direction=None):
+        inwards = Pose() if node is None else nodes[node].pose.inverse()
+        return Feature(
+            node, kind, inwards.point(at), None if direction is None else inwards.direction(direction)
+        )
+
+    first, second = (rng.uniform(-1, 1) * normal + rng.uniform(-1, 1) * along for _ in range(2))
+    sides = on(None, F.PLANE, first, face), on(0, F.PLANE, second, face)
+    constraints = [Constraint("mate", C.SYMMETRY, (*sides, on(1, F.PLANE, rng.uniform(-1, 1, 3), normal)))]
+    for i in range(1, 2 + hung if hung else 1):
+        at = rng.uniform(-1, 1, 3)
+        pin = on(i, F.POINT, at), on(i + 1 if i < 1 + hung else None, F.POINT, at)
+        constraints.append(Constraint(f"pin {i}", C.COINCIDENT, pin))
+    found = analyse(Scene(nodes=nodes, constraints=constraints))
+    expected = 6 * (1 + hung) - 1 - 3 * (len(constraints) - 1)
+    assert (found.mobility, found.first_order) == (expected, expected)

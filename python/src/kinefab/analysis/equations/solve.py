@@ -160,6 +160,13 @@ class Solver:
             (values, (index // width, index % width)), shape=(group.rows.shape[1], width)
         ).tocsr()
 
+    def sizes(self, block_a: Array, block_b: Array) -> Array:
+        """See ``System.sizes``: of the rows of ``jacobians``, shape (rows,)."""
+        s = self.system
+        across = s.body_a != s.body_b
+        moving_a, moving_b = ((across & (self.part[body] >= 0))[:, None] for body in (s.body_a, s.body_b))
+        return s.sizes(block_a * moving_a, block_b * moving_b)
+
     def worst(self, residual: Array) -> Array:
         """Largest residual of each part, shape (parts,)."""
         worst = np.zeros(self.parts)

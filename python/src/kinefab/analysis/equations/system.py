@@ -243,6 +243,15 @@ class System:
         residual = summed(self.row, s * value, self.rows)
         return residual, -block(self.body_a), block(self.body_b)
 
+    def sizes(self, *parts: Array) -> Array:
+        """What each row would be if its atoms did not cancel each other, shape (rows,); 0 for a row of one atom.
+
+        parts: what the atoms put into their rows, shape (atoms, k).
+        """
+        squares = np.sum([np.sum(part**2, axis=1) for part in parts], axis=0)
+        many = np.bincount(self.row, minlength=self.rows) > 1
+        return np.sqrt(summed(self.row, squares, self.rows)) * many
+
     def dense(self, state: State) -> tuple[Array, Array]:
         """Residual (rows,) and Jacobian on the scaled twists of all bodies but body 0, shape (rows, 6 (bodies - 1))."""
         residual, block_a, block_b = self.linearise(state)

@@ -19,7 +19,7 @@ from ...partition import Partition
 from ...spatial import Array, IntArray, cross, skew
 from ..equations.solve import DENSE, Solver
 from ..equations.system import State, System
-from .rank import factored, rank_of
+from .rank import factored, normalised, rank_of
 from .stacks import alike
 
 
@@ -58,16 +58,19 @@ def moved_to_one_point(twists: Array, bodies: IntArray, system: System) -> Array
 def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
     """Every part of the solver's system, in the order of its part numbers."""
     _, block_a, block_b = solver.system.linearise(state)
+    sizes = solver.sizes(block_a, block_b)
     found: dict[int, BlockFreedom] = {}
     for group in solver.groups:
         width = 6 * group.bodies.shape[1]
         if width > DENSE:
             part = int(group.members[0])
             jacobian = solver.sparse_jacobian(group, block_a, block_b)
-            rank, basis, gap = large_null_space(solver.system, state, group.bodies[0], group.atoms, jacobian)
+            rank, basis, gap = large_null_space(
+                solver.system, state, group.bodies[0], group.atoms, jacobian, sizes[group.rows[0]]
+            )
             found[part] = BlockFreedom(group.bodies[0], group.rows[0], rank, gap, basis)
             continue
-        ranks, gaps, vt = factored(solver.jacobians(group, block_a, block_b))
+        ranks, gaps, vt = factored(normalised(solver.jacobians(group, block_a, block_b), sizes[group.rows]))
         for i, part in enumerate(group.members.tolist()):
             found[part] = BlockFreedom(
                 group.bodies[i], group.rows[i], int(ranks[i]), float(gaps[i]), vt[i, ranks[i] :].T
@@ -76,17 +79,17 @@ def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
 
 
 def large_null_space(
-    system: System, state: State, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix
+    system: System, state: State, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix, sizes: Array
 ) -> tuple[int, Array, float]:
     """Rank, orthonormal null space and gap of one block's sparse Jacobian, shape (R, 6 n).
 
-    bodies: shape (n,), the block's.  atoms: the system's atoms in the block.
+    bodies: shape (n,), the block's.  atoms: the system's atoms in the block.  sizes: shape (R,), see ``normalised``.
     """
     rows, width = jacobian.shape
-    size = np.sqrt(np.asarray(jacobian.multiply(jacobian).sum(axis=1)).ravel())
+    size = np.maximum(np.sqrt(np.asarray(jacobian.multiply(jacobian).sum(axis=1)).ravel()), sizes)
     factor: Array = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
     jacobian = csr_matrix(diags(factor) @ jacobian)
-    tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian)
+    tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian, sizes * factor)
     point = (system.center + state.shift)[bodies] / system.length[bodies, None]
     free = tree_motions(tree, point)
     loops = jacobian[np.setdiff1d(np.arange(rows), tree_rows)] @ free
@@ -149,15 +152,16 @@ def _without(basis: Array, rows: Array) -> Array:
 
 
 def _spanning_tree(
-    system: System, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix
+    system: System, bodies: IntArray, atoms: IntArray, jacobian: csr_matrix, sizes: Array
 ) -> tuple[list[tuple[int, int, Array]], IntArray]:
     """(parent, body, null space of the joining rows on the body) outwards from the root (parent -1).
 
+    sizes: see ``normalised``.
     Pairs with the fewest freedoms come first, so that the tree has few unknowns.  Also returns the rows
     that the tree takes up.
     """
     row_ends, pairs, rows_of = _joined(system, bodies, atoms, jacobian.shape[0])
-    ranks, spaces = _left_free(jacobian, row_ends, pairs, rows_of)
+    ranks, spaces = _left_free(jacobian, row_ends, pairs, rows_of, sizes)
     near = _forest(pairs, ranks, len(bodies))
     tree: list[tuple[int, int, Array]] = []
     taken: list[IntArray] = []
@@ -196,7 +200,7 @@ def _joined(
 
 
 def _left_free(
-    jacobian: csr_matrix, row_ends: IntArray, pairs: IntArray, rows_of: list[IntArray]
+    jacobian: csr_matrix, row_ends: IntArray, pairs: IntArray, rows_of: list[IntArray], sizes: Array
 ) -> tuple[IntArray, dict[tuple[int, int], Array]]:
     """The rank of each pair's rows, and by pair and body what they leave free on that body, columns."""
     entries = jacobian.tocoo()
@@ -209,7 +213,8 @@ def _left_free(
     spaces: dict[tuple[int, int], Array] = {}
     for _, group in alike(map(len, rows_of)):
         members: list[int] = group.tolist()
-        rank, _, vt = factored(on_ends[:, np.array([rows_of[p] for p in members])])
+        rows = np.array([rows_of[p] for p in members])
+        rank, _, vt = factored(normalised(on_ends[:, rows], sizes[rows]))
         ranks[group] = rank[1]
         for end in (0, 1):
             for n, p in enumerate(members):

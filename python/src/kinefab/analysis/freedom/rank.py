@@ -40,18 +40,22 @@ def rank_of(s: Array) -> tuple[IntArray, Array]:
     return rank, gap
 
 
-def normalised(rows: Array) -> Array:
-    """Rows of unit length; a zero row stays zero."""
-    size = np.linalg.norm(rows, axis=-1, keepdims=True)
+def normalised(rows: Array, sizes: Array) -> Array:
+    """Rows (..., m, n) of unit length; a zero row stays zero.
+
+    sizes: shape (..., m), see ``System.sizes``: what is left of a row whose parts cancel is a rounding, or noise, and stays
+    as small as it is.
+    """
+    size = np.maximum(np.linalg.norm(rows, axis=-1), sizes)[..., None]
     return np.divide(rows, size, out=np.zeros_like(rows), where=size > 0.0)
 
 
 def factored(rows: Array) -> tuple[IntArray, Array, Array]:
-    """Rank and gap (...), and V' (..., n, n) of rows (..., m, n); the null space is V'[rank:]."""
+    """Rank and gap (...), and V' (..., n, n) of normalised rows (..., m, n); the null space is V'[rank:]."""
     m, n = rows.shape[-2:]
     if m < n:
         rows = np.concatenate([rows, np.zeros((*rows.shape[:-2], n - m, n))], axis=-2)
-    _, s, vt = np.linalg.svd(normalised(rows), full_matrices=False)
+    _, s, vt = np.linalg.svd(rows, full_matrices=False)
     return *rank_of(s), vt
 
 

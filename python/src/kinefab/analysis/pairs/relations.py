@@ -10,7 +10,7 @@ from ...spatial import Array, BoolArray, IntArray, cross
 from ..equations.atoms import LENGTHS
 from ..equations.system import IN_ONE_PLACE, State, System
 from ..freedom.finite import EXACT, Candidate, misfits
-from ..freedom.rank import SURE_GAP, factored
+from ..freedom.rank import SURE_GAP, factored, normalised
 from ..freedom.stacks import alike
 from ..freedom.twists import TwistSpace, twist_spaces
 from .candidates import Geometry, candidates
@@ -94,7 +94,7 @@ def pairs_of(system: System) -> Pairs:
 
 
 def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Array, Array]:
-    """Rows of each pair as scaled wrenches on the second body's twist, about the pair's own middle.
+    """Normalised rows of each pair as scaled wrenches on the second body's twist, about the pair's own middle.
 
     Returns (rows (m, 6), origin (pairs, 3), length (pairs,)) with zero rows for rows of no pair.
     """
@@ -119,12 +119,12 @@ def relative_rows(system: System, pairs: Pairs, state: State) -> tuple[Array, Ar
     sign = np.where(system.body_b == second, 1.0, -1.0)
     scale = (system.weight * sign)[used, None]
     lever = c[used] - origin[p]
-    wrench = np.concatenate(
-        [f[used] * scale, (cross(lever, f[used]) + tau[used]) * scale / length[p][:, None]], axis=1
-    )
+    wrench = np.zeros((len(used), 6))
+    wrench[used, :3] = f[used] * scale
+    wrench[used, 3:] = (cross(lever, f[used]) + tau[used]) * scale / length[p][:, None]
     rows = np.zeros((system.rows, 6))
-    np.add.at(rows, system.row[used], wrench)
-    return rows, origin, length
+    np.add.at(rows, system.row[used], wrench[used])
+    return normalised(rows, system.sizes(wrench)), origin, length
 
 
 def batched_null_spaces(

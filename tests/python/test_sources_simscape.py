@@ -12,6 +12,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab import sources
+from kinefab.analysis import analyse
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import ConstraintKind, JointKind, NodeKind
 from kinefab.sources.simscape.reader import sniff
@@ -203,6 +204,62 @@ def test_a_joint_to_the_assembly_itself_is_one_to_the_ground(tmp_path):
     assert np.allclose(at, (scene.pose(2) @ joint.frame_b).translation) and np.linalg.norm(
         at
     ) == pytest.approx(2.0)
+
+
+def nested(tmp_path, inside: str, held: str = "", constraints: str = ""):
+    """A sub-assembly of two parts, 3 m along X and turned about Z, on a hinge to the grounded base.  inside: attributes of its
+    first part.  held: of the instance of the sub-assembly itself.  constraints: in the sub-assembly."""
+    instances = f"""<Instance name="Sub" uid="s" entityUid="Sub" {held}><Transform><Rotation>0 -1 0 1 0 0 0 0 1</Rotation>
+<Translation>3 0 0</Translation></Transform><Instance name="Frame" uid="f" entityUid="F*" {inside}/>
+<Instance name="Foot" uid="g" entityUid="F*" grounded="true"><Transform><Translation>1 0 0</Translation></Transform></Instance></Instance>"""
+    foot = "<InstancePath><Uid>s</Uid><Uid>g</Uid></InstancePath><Transform><Translation>0 0 0</Translation></Transform>"
+    hinge = f'<Revolute name="h">{frame("BaseFrame", "b", "3 1 0")}<FollowerFrame>{foot}</FollowerFrame></Revolute>'
+    path = document(tmp_path, joints=hinge, instances=instances)
+    sub = f'<Assemblies><Assembly name="Sub" uid="Sub"><Constraints>{constraints}</Constraints></Assembly></Assemblies>'
+    path.write_text(path.read_text().replace("<Parts>", sub + "<Parts>"))
+    return path
+
+
+@pytest.mark.parametrize(
+    "inside, held, mobility, falls",
+    [('grounded="true"', "", 1, 0), ("", "", 1, 6), ('grounded="true"', 'grounded="true"', 0, 0), ("", 'rigid="true"', 1, 0)],
+)  # fmt: skip
+def test_what_is_grounded_in_a_sub_assembly_goes_with_it(tmp_path, inside, held, mobility, falls):
+    """The first part that somebody lays into an assembly is grounded in it, not in what the assembly is laid into.
+
+    falls: freedoms of a part that nothing holds in the sub-assembly."""
+    scene, codes = read(nested(tmp_path, inside, held))
+    assert codes == []
+    assert analyse(scene).mobility == 6 + mobility + falls  # the arm hangs on nothing
+
+
+def test_an_assembly_names_itself_by_its_own_uid(tmp_path):
+    """SolidWorks mates the first part to the planes of the assembly: of the root that is the ground, of one that moves what is
+    grounded in it."""
+    axes = ("1 0 0", "0 1 0", "0 0 1")
+    mates = [
+        (f"Coincident name='m{i}'", side("Two", "plane", "2 0 0", axis), side("a", "plane", "0 0 0", turned))
+        for i, (axis, turned) in enumerate(zip(axes, ("0 -1 0", "1 0 0", "0 0 1"), strict=True))
+    ]
+    text = "".join(f"<{tag}>{a}{b}</Coincident>" for tag, a, b in mates)
+    scene, codes = read(document(tmp_path, text))
+    assert codes == [] and {c.features[0].node for c in scene.constraints} == {None}
+    assert analyse(scene).mobility == 0
+
+    inner = "".join(
+        f'<Coincident name="n">{side("Sub", "plane", "0 0 0", axis)}{side("f", "plane", "0 0 0", axis)}</Coincident>'
+        for axis in axes
+    )
+    scene, codes = read(nested(tmp_path, "", constraints=inner))
+    assert codes == []
+    foot, frame_, sub = (
+        next(i for i, n in enumerate(scene.nodes) if n.name == name) for name in ("Foot", "Frame", "Sub")
+    )
+    assert {tuple(f.node for f in c.features) for c in scene.constraints} == {(foot, frame_)}
+    for constraint in scene.constraints:  # stated in the sub-assembly's own frame
+        at = scene.pose(foot).point(np.asarray(constraint.features[0].point))
+        np.testing.assert_allclose(at, scene.pose(sub).translation, atol=1e-12)
+    assert analyse(scene).mobility == 6 + 1
 
 
 def test_what_cannot_be_kept_is_told_by_name(tmp_path):

@@ -101,7 +101,7 @@ class Statements:
         self.joints.append(record)
 
     def _frame(self, owner: tuple[str, ...], element: Element, word: str) -> tuple[str, Record]:
-        component, _ = self.tree.inside(owner, element)
+        component, inside = self.tree.inside(owner, element)
         pose = self.tree.transform(element)
         z, x = pose.rotation[:, 2].tolist(), pose.rotation[:, 0].tolist()
         if word == "universal" and element.tag == "FollowerFrame":
@@ -109,7 +109,6 @@ class Statements:
             z, x = pose.rotation[:, 1].tolist(), pose.rotation[:, 0].tolist()
         elif word == "universal":
             z, x = pose.rotation[:, 0].tolist(), pose.rotation[:, 1].tolist()
-        inside = "world" if component == "ground" else "part"
         return component, {"in": inside, "o": pose.translation.tolist(), "z": z, "x": x}
 
     # Constraints ......................................................................................................
@@ -142,13 +141,13 @@ class Statements:
         self.constraints.append(record)
 
     def _side(self, owner: tuple[str, ...], element: Element) -> Record:
-        component, _ = self.tree.inside(owner, element)
+        component, inside = self.tree.inside(owner, element)
         word = element.attributes.get("geomType", "").strip().lower()
         position, axis = element.child("Position"), element.child("Axis")
         side: Record = {
             "component": component,
             "geometry": GEOMETRY.get(word, word) or "body",
-            "in": "world" if component == "ground" else "part",
+            "in": inside,
             "p": list((0.0,) * 3 if position is None else position.values(3, (0.0,) * 3)),
         }
         if axis is not None and axis.text.strip():
@@ -183,7 +182,5 @@ class Statements:
         p, d = np.array(side["p"]), side.get("d")
         length = 0.0 if d is None else float(np.linalg.norm(d))
         unit = np.array(d) / length if length > MIN_DIRECTION else None
-        if side["component"] == "ground":
-            return p, unit
-        pose = self.tree.poses[side["component"]]
+        pose = self.tree.poses[side["in"]]
         return pose.point(p), None if unit is None else pose.rotation @ unit

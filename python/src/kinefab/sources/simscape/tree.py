@@ -9,12 +9,13 @@ import numpy as np
 
 from ...color import linear
 from ...diagnostics import Report
-from ...spatial import Array, Pose
+from ...spatial import Pose
 from ..reading.record import is_encodable
 from ..robots.xml_elements import Element
 
 Record = dict[str, Any]
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+GROUNDED = "grounded"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,7 +31,9 @@ class Part:
 class Tree:
     """components, materials: records of a bundle.  ids: component by the uids that lead to it.  poses: in the world, by id,
     in the file's unit.  owners: uid paths of the root (empty) and of every instance of a sub-assembly, with its element.
-    groups: ids of the members of each rigid group.  lines: of each record, by pointer."""
+    groups: ids of the members of each rigid group, and of what is grounded in a sub-assembly that may move, by path and name.
+    loose: uid paths of the flexible assemblies, which are no bodies; still: of those of them that stand still in the root.
+    lines: of each record, by pointer."""
 
     def __init__(self, root: Element, assembly: Element, report: Report) -> None:
         self.report = report
@@ -41,6 +44,9 @@ class Tree:
         self.poses: dict[str, Pose] = {}
         self.groups: dict[tuple[tuple[str, ...], str], list[str]] = {}
         self.owners: list[tuple[tuple[str, ...], Element]] = [((), assembly)]
+        self.loose: set[tuple[str, ...]] = {()}
+        self.still: set[tuple[str, ...]] = {()}
+        self._uids: dict[tuple[str, ...], str] = {(): assembly.attributes.get("uid", "")}
         self._assemblies = _by_uid(root, "Assemblies", "Assembly")
         units = root.child("ModelUnits")
         length = "meter" if units is None else units.attributes.get("length", "meter")
@@ -70,13 +76,21 @@ class Tree:
             }
             if definition:
                 record["definition"] = definition
-            record["grounded"] = _true(instance, "grounded")
+            fixed = _true(instance, GROUNDED)  # to its own assembly, which may move
+            record["grounded"] = fixed and path in self.still
             if held:
                 record["flexible"] = not _true(instance, "rigid")
             self._add(instance, (*path, uid), record, world)
-            if group := instance.attributes.get("rigidGroup", ""):
+            groups = [instance.attributes.get("rigidGroup", "")]
+            groups += [GROUNDED] if fixed and path in self.loose - self.still else []
+            for group in filter(None, groups):
                 self.groups.setdefault((path, group), []).append(own)
             if held:
+                self._uids[(*path, uid)] = definition
+                if record["flexible"]:
+                    self.loose.add((*path, uid))
+                    if record["grounded"]:
+                        self.still.add((*path, uid))
                 if (assembly := self._assemblies.get(definition)) is not None:
                     self.owners.append(((*path, uid), assembly))
                 self._level(instance, (*path, uid), own, world, {})
@@ -120,16 +134,22 @@ class Tree:
         origin = (0.0,) * 3 if translation is None else translation.values(3, (0.0,) * 3)
         return Pose(np.reshape(rows, (3, 3)), np.array(origin))
 
-    def inside(self, owner: tuple[str, ...], element: Element) -> tuple[str, Array]:
-        """Id of the component that an element's ``InstancePath`` leads to, and its rotation; the owner itself, or the ground
-        of the root, where there is no path.  Raises KeyError."""
-        path = element.child("InstancePath")
-        uids = [] if path is None else [uid.text.strip() for uid in path.all("Uid")]
-        uids = [uid for uid in uids if uid]
-        if not uids and not owner:
-            return "ground", np.eye(3)
-        own = self.ids[(*owner, *uids)]
-        return own, self.poses[own].rotation
+    def inside(self, owner: tuple[str, ...], element: Element) -> tuple[str, str]:
+        """Ids of what moves as what an element's ``InstancePath`` names does, and of what its numbers are stated in.
+
+        An assembly's own planes and origin are named by its own uid, or by no path at all; for a flexible one, which is no
+        body, stands the ground where it stands still in the root, else what is grounded in it.  Raises KeyError.
+        """
+        found = element.child("InstancePath")
+        uids = [] if found is None else [uid.text.strip() for uid in found.all("Uid")]
+        path = (*owner, *filter(None, uids))
+        if path not in self.ids and path == (*owner, self._uids.get(owner, "")):
+            path = owner
+        own = self.ids[path]
+        if path not in self.loose:
+            return own, own
+        held = self.groups.get((path, GROUNDED), [own])[0]
+        return ("ground" if path in self.still else held), own
 
 
 def _by_uid(root: Element, group: str, tag: str) -> dict[str, Element]:

@@ -14,6 +14,7 @@ import pytest
 from kinefab import sources
 from kinefab.analysis import analyse
 from kinefab.diagnostics import KinefabError, Report
+from kinefab.geometry.mass import is_possible
 from kinefab.model import ConstraintKind, JointKind, NodeKind
 from kinefab.sources.simscape.reader import sniff
 from same_scene import compare, exported, undrawn
@@ -260,6 +261,24 @@ def test_an_assembly_names_itself_by_its_own_uid(tmp_path):
         at = scene.pose(foot).point(np.asarray(constraint.features[0].point))
         np.testing.assert_allclose(at, scene.pose(sub).translation, atol=1e-12)
     assert analyse(scene).mobility == 6 + 1
+
+
+@pytest.mark.parametrize(
+    "inertia",
+    ["0.000000000 0.000000004 0.000000004 0 0 0", "0 0 0 0 0 0", "0.000000061 0.000000030 0.000000030 0 0 0"],
+)
+def test_an_inertia_that_was_rounded_is_mended(tmp_path, inertia):
+    """Nine decimals, as Onshape's exporter writes them, leave a small pin a tensor that no body can have; its mass stands."""
+    part = f"""<Part name="Arm" uid="Arm*"><MassProperties><Mass>0.0002</Mass><CenterOfMass>0.01 0.02 0.03</CenterOfMass>
+<Inertia>{inertia}</Inertia></MassProperties></Part>"""
+    twin = '<Instance name="Twin" uid="t" entityUid="Arm*"/>'
+    scene, codes = read(document(tmp_path, parts=part, instances=twin))
+    assert codes == ["INERTIA_MENDED"]  # once for both
+    for node in scene.nodes[2:]:
+        assert (
+            node.mass is not None and node.mass.mass == pytest.approx(2e-4) and is_possible(node.mass.inertia)
+        )
+        np.testing.assert_allclose(node.mass.center, [0.01, 0.03, -0.02])
 
 
 def test_what_cannot_be_kept_is_told_by_name(tmp_path):

@@ -16,6 +16,12 @@ STAND_IN_DENSITY = 1000.0
 """kg/m^3 of the ball that stands in for an inertia that is not stated at all."""
 DIAGONAL = 1e-9
 """Products of inertia below this share of the largest moment are noise: the axes are principal already."""
+THIN = 1e-3
+"""Smallest moment against the largest that stands in for one that is zero or negative."""
+ROUNDING = 1e-9
+"""Share of the largest moment that is lost in sums and turns."""
+POINT = 1e-6
+"""Metres of the radius of gyration up to which no inertia is stated at all."""
 
 
 def solid_properties(vertices: Array, faces: IntArray, density: float) -> MassProperties:
@@ -163,3 +169,20 @@ def are_possible(moments: Array, tolerance: float = 1e-6) -> BoolArray:
     """Whether bodies can have these principal moments, ascending, shape (..., 3): positive, none above the sum of the others."""
     low, middle, high = moments[..., 0], moments[..., 1], moments[..., 2]
     return (low > 0.0) & (high <= (low + middle) * (1.0 + tolerance))
+
+
+def mended_inertia(inertia: Array, mass: float) -> Array | None:
+    """The possible inertia next to one that no body of this mass can have: moments positive, none above the sum of the others.
+    kg m^2, shape (3, 3); None where a body can have it."""
+    # Stricter than what is asked of a scene, so that the rounding of a later turn decides nothing.
+    moments, axes = np.linalg.eigh(inertia)
+    largest = float(moments[2])
+    if float(moments[0]) > ROUNDING * float(np.abs(inertia).max()) and are_possible(moments, ROUNDING):
+        return None
+    if not largest > POINT * POINT * mass:  # zero, or what is left of it by the sums
+        return ball_inertia(mass)
+    moments = np.maximum(moments, THIN * largest)
+    if (excess := float(moments[2] - moments[0] - moments[1])) > 0.0:
+        moments = moments + excess / 3.0 * np.array([1.0, 1.0, -1.0])
+        moments[2] *= 1.0 - 2.0 * ROUNDING
+    return axes @ np.diag(moments) @ axes.T

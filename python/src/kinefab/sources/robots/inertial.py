@@ -8,17 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.mass import ball_inertia, combined, is_possible, moved
+from ...geometry.mass import combined, mended_inertia, moved
 from ...model import MassProperties
 from ...spatial import Array, Pose
 from .robot_frame import TURN
-
-THIN = 1e-3
-"""Smallest moment against the largest that stands in for one that is zero or negative."""
-ROUNDING = 1e-9
-"""Share of the largest moment that is lost in sums and turns."""
-POINT = 1e-6
-"""Metres of the radius of gyration up to which a link states no inertia at all."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,22 +49,7 @@ def weighed_together(
         return None
     whole = combined(known)
     inertia = 0.5 * (whole.inertia + whole.inertia.T)
-    # Stricter than what is asked of a scene, so that the turn's rounding decides nothing.
-    thin = float(np.linalg.eigvalsh(inertia)[0]) <= ROUNDING * float(np.abs(inertia).max())
-    if thin or not is_possible(inertia, ROUNDING):
-        inertia = _mended(inertia, whole.mass)
+    if (mended := mended_inertia(inertia, whole.mass)) is not None:
+        inertia = mended
         report.approximated(f"inertia {name}", "INERTIA_MENDED", where, link=name)
     return MassProperties(whole.mass, TURN @ whole.center, TURN @ inertia @ TURN.T)
-
-
-def _mended(inertia: Array, mass: float) -> Array:
-    """The possible inertia next to one that is none: moments positive, none above the sum of the others."""
-    moments, axes = np.linalg.eigh(inertia)
-    largest = float(moments[2])
-    if not largest > POINT * POINT * mass:  # zero, or what is left of it by the sums
-        return ball_inertia(mass)
-    moments = np.maximum(moments, THIN * largest)
-    if (excess := float(moments[2] - moments[0] - moments[1])) > 0.0:
-        moments = moments + excess / 3.0 * np.array([1.0, 1.0, -1.0])
-        moments[2] *= 1.0 - 2.0 * ROUNDING
-    return axes @ np.diag(moments) @ axes.T

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ...diagnostics import Report
+from ...geometry.mass import mended_inertia
 from ...model import Body, Scene
 from ..bundle.reader import scene_from_values
 from ..reading.beside import beside
@@ -69,6 +70,7 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     scene = scene_from_values(values, path, data, report, {**tree.lines, **statements.lines})
     scene.source = replace(scene.source, meters_per_unit=METRES[units[0]])
     _with_geometry(scene, tree, path, report)
+    _mend_masses(scene, report)
     return scene
 
 
@@ -105,3 +107,16 @@ def _with_geometry(scene: Scene, tree: Tree, path: Path, report: Report) -> None
             reference = replace(reference, path=file, to_node=matrix, needed=False)
             bodies.append(replace(body, reference=reference))
         scene.nodes[index] = replace(node, bodies=tuple(bodies))
+
+
+def _mend_masses(scene: Scene, report: Report) -> None:
+    """Some writers round: nine decimals of a small part's kg m^2 are nought, or a tensor that no body can have."""
+    told: set[str] = set()
+    for index, node in enumerate(scene.nodes):
+        if node.mass is None or (mended := mended_inertia(node.mass.inertia, node.mass.mass)) is None:
+            continue
+        scene.nodes[index] = replace(node, mass=replace(node.mass, inertia=mended))
+        name = node.definition or node.id
+        if name not in told:
+            report.approximated(f"inertia {node.id}", "INERTIA_MENDED", node.where, link=node.id)
+        told.add(name)

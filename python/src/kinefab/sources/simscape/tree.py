@@ -183,8 +183,6 @@ def _mass(found: Element | None) -> Record | None:
         return None
     center, inertia = found.child("CenterOfMass"), found.child("Inertia")
     xx, yy, zz, yz, zx, xy = (0.0,) * 6 if inertia is None else inertia.values(6, (0.0,) * 6)
-    if not xx + yy + zz > 0.0:
-        return None
     at = (0.0,) * 3 if center is None else center.values(3, (0.0,) * 3)
     return {"in": "part", "mass": value, "center": list(at), "inertia": [xx, yy, zz, xy, yz, zx]}
 

@@ -28,6 +28,8 @@ from kinefab import sources
 from kinefab.analysis import analyse
 from kinefab.diagnostics import Report, Severity
 from kinefab.model import ConstraintKind, JointKind, Motion, NodeKind
+from kinefab.sources.freecad.links import Documents
+from kinefab.sources.freecad.occurrences import Tree
 from source_bundles import FIXTURES
 
 LEVER = FIXTURES / "lever"
@@ -534,3 +536,25 @@ def test_an_assembly_within_a_part_moves_and_what_stands_beside_it_does_not(tmp_
     grounded = {node.id for node in scene.nodes if node.grounded}
     assert grounded == {"Holder/Assembly/Base", "Holder/Stand"}
     assert analyse(scene).mobility == 1
+
+
+def test_what_a_folder_holds_is_there_once(tmp_path):
+    """A part lists what its folders hold, too, at any depth; the bolt fell a second time, of no joint."""
+    held = {"Pin": joint("Revolute", "Base.", "Bolt.")}
+    objects = assembly(
+        {"Base": part(), "Bolts": ("App::DocumentObjectGroup", {"Group": links("Bolt", "Small")}), "Bolt": part(),
+         "Screw": part(), "Plate": part(Group=links("Trim", "Box"))},
+        held,
+        Small=("App::DocumentObjectGroup", {"Group": links("Screw", "Stud")}),
+        Stud=part(),
+        Trim=("App::DocumentObjectGroup", {"Group": links("Box")}),
+        Box=("Part::Box", {"Shape": shape(""), "Placement": placement()}),
+    )  # fmt: skip
+    scene, _ = written(tmp_path, objects)
+    ids = ["Base", "Stud", "Bolt", "Screw", "Plate"]  # the stud is in its folder alone
+    assert [node.id for node in scene.nodes] == ["Assembly", *(f"Assembly/{name}" for name in ids)]
+    assert analyse(scene).mobility == 1 + 6  # the bolt turns, the plate falls, and empty parts are no bodies
+    (path,) = tmp_path.glob("*.FCStd")
+    root = Documents(path, Report())
+    tree = Tree(root).occurrence(root.root.things["Assembly"], None)
+    assert [below.name for below in tree.walk()].count("Box") == 1

@@ -160,9 +160,10 @@ class Tree:
     def _children(self, here: Occurrence, target: Thing, path: tuple[tuple[object, str], ...]) -> None:
         grouped = target.type == LINK_GROUP  # which says itself what it shows
         seen = target.flags("VisibilityList")
+        elsewhere = _listed_above(here)
         for number, entry in enumerate(target.targets("ElementList" if grouped else "Group")):
             child = self._documents.follow(target, entry)
-            if child is None or child.type.startswith(NO_PART):
+            if child is None or child.type.startswith(NO_PART) or child.key in elsewhere:
                 continue
             visible = seen[number : number + 1] != "0" if grouped else child.flag("Visibility", True)
             here.children.append(
@@ -220,6 +221,19 @@ class Tree:
             here.children.append(child)
             if target is not None and target.type in PARTS:
                 self._children(child, target, path)
+
+
+def _listed_above(here: Occurrence) -> set[tuple[object, str]]:
+    """Of what a folder holds that which stands in its container: FreeCAD lists in a part what is in the part's folders too."""
+    listed: set[tuple[object, str]] = set()
+    folder = here
+    while folder.is_group and folder.parent is not None:
+        folder = folder.parent
+        if folder.target is not None:
+            document = folder.target.document
+            names = (entry.name for entry in folder.target.targets("Group") if not entry.file)
+            listed |= {document.things[name].key for name in names if name in document.things}
+    return listed
 
 
 def _through(link: Thing, below: Thing, frame: Frame) -> Frame:

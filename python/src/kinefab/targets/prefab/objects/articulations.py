@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ....unity.scene import ArticulationBody, ArticulationDrive
 from ..text.dialects import Dialect
@@ -15,6 +16,9 @@ TYPES = {"Fixed": 0, "Prismatic": 1, "Revolute": 2, "Spherical": 3}
 LOCKS = {"Locked": 0, "Limited": 1, "Free": 2}
 UNLIMITED_FORCE = 3.4028235e38
 """What the editor writes for a link's drive without a largest force; of a joint's it is the float below."""
+BACKWARDS = ("Prismatic",)
+"""Links that run against their drive's ``targetVelocity``: PhysX 4.1 negates it for slides (NVIDIAGameWorks/PhysX#411).  6000.0.68 and
+6000.3.9 mended that (UUM-113920) with version 6 of the class, so in the versions that we write the number has the other sign."""
 
 
 def articulation_fields(body: ArticulationBody, owner: int, dialect: Dialect) -> Fields:
@@ -28,6 +32,9 @@ def articulation_fields(body: ArticulationBody, owner: int, dialect: Dialect) ->
             "m_ImplicitCom": 0,
             "m_ImplicitTensor": 0,
         }
+    along_x = body.xDrive
+    if body.jointType in BACKWARDS:
+        along_x = replace(along_x, targetVelocity=-along_x.targetVelocity)
     return {
         **component_head(owner),
         "m_Enabled": 1,
@@ -45,7 +52,7 @@ def articulation_fields(body: ArticulationBody, owner: int, dialect: Dialect) ->
         "m_SwingY": LOCKS[body.swingYLock],
         "m_SwingZ": LOCKS[body.swingZLock],
         "m_Twist": LOCKS[body.twistLock],
-        "m_XDrive": _drive(body.xDrive, dialect),
+        "m_XDrive": _drive(along_x, dialect),
         "m_YDrive": _drive(body.yDrive, dialect),
         "m_ZDrive": _drive(body.zDrive, dialect),
         "m_LinearDamping": float(body.linearDamping),

@@ -45,9 +45,10 @@ class Dialect:
     physics_material: int
 
 
-_2021 = Dialect("2021", True, False, False, False, 2, 2, 2, 1, 4, 1, 2, 3, 2, 1, 6, 3, 6, 5, 1)
+_2021 = Dialect("2021", True, False, False, False, 2, 2, 2, 1, 4, 1, 2, 3, 3, 1, 6, 3, 6, 5, 1)
 _2022 = Dialect("2022", True, True, True, True, 4, 3, 3, 2, 5, 2, 3, 4, 5, 1, 7, 3, 8, 7, 1)
 _6 = Dialect("6", False, True, True, True, 4, 3, 3, 2, 5, 3, 4, 4, 5, 2, 7, 4, 8, 7, 2)
 
 DIALECTS = {dialect.name: dialect for dialect in (_2021, _2022, _6)}
-"""2021.2, 2022.2 and 6000.0, by the type trees of those editors."""
+"""2021.2, 2022.2 and 6000.0, by the type trees of those editors; an articulation's of 2021.2.1, as 2021.2.0 alone has version 2, which
+every later one changes in a way that is not public."""

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tarfile
+import threading
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,7 @@ import kinefab
 import pytest
 import trimesh
 from kinefab.targets.prefab.manifest import MANIFEST
+from kinefab.targets.prefab.text.metas import guid_in
 from prefab_reader import read_prefab
 from prefab_scenes import rich_scene
 
@@ -269,6 +271,26 @@ def test_two_prefabs_in_one_folder_leave_each_other_alone(tmp_path):
     assert {n: d for n, d in files(tmp_path).items() if n in before} == before
     kinefab.export(box_scene("Wheel"), tmp_path / "A.prefab")
     read_prefab(tmp_path / "B.prefab"), read_prefab(tmp_path / "A.prefab")
+
+
+@pytest.mark.posix
+def test_exports_into_one_project_take_turns(tmp_path):
+    """Else two at the same time, as a batch makes them, have one another's guids and bring the script each."""
+    assets, options = tmp_path / "Assets", kinefab.ExportOptions(writing={"scripts": True})
+    (assets / "A").mkdir(parents=True), (assets / "B").mkdir()
+    scenes = [rich_scene(tmp_path), rich_scene(tmp_path)]
+    other = threading.Thread(target=kinefab.export, args=(scenes[1], assets / "B/Robot.prefab", options))
+
+    def meanwhile(stage: str, _: float) -> None:
+        if stage == "write" and other.ident is None:
+            other.start()
+            other.join(1.5)
+
+    kinefab.export(scenes[0], assets / "A/Robot.prefab", options, meanwhile)
+    other.join()
+    guids = [guid_in(path) for path in assets.rglob("*.meta")]
+    assert len(guids) == len(set(guids)) and len(list(assets.rglob("*.cs"))) == 1
+    read_prefab(assets / "A/Robot.prefab"), read_prefab(assets / "B/Robot.prefab")
 
 
 def test_what_a_yaml_parser_takes_for_a_word_of_its_own_is_quoted(tmp_path):

@@ -9,12 +9,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...diagnostics import KinefabError
+from ...replacing import one_at_a_time
 from ..content import Content
 from .exporting import prefab_files, script_files, script_folder
 from .folder import put_in_place
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
-from .project import elsewhere_in_project, has_script, identity_of, lends_script
+from .project import common_folder, elsewhere_in_project, has_script, identity_of, lends_script
 
 ENDING = ".prefab"
 
@@ -37,6 +38,13 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if detail := why_not_shared(name):
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     target = target.with_name(f"{name}{ENDING}")  # in Unity's own writing, whatever capitals were asked for
+    content.unity(links=options.articulation)  # what takes longest, before others have to wait
+    with one_at_a_time(common_folder(target)):
+        return _write(content, target, name, options)
+
+
+def _write(content: Content, target: Path, name: str, options: PrefabOptions) -> tuple[Path, ...]:
+    """While nobody else writes into the project: what is there decides about guids and the script."""
     home = f"{name}/Scripts"
     elsewhere = elsewhere_in_project(target)
     identity, lent = identity_of(target, elsewhere), lends_script(target, elsewhere, home)
@@ -45,4 +53,4 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if lent and not any(file.path == home for file in files):
         files += [script_folder(home), *script_files(home)]
     content.refuse_losses()
-    return put_in_place(files, target, identity, report, content.progress)
+    return put_in_place(files, target, identity, content.report, content.progress)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from ...diagnostics import KinefabError, Report
-from ...replacing import one_at_a_time, sync_directory
+from ...replacing import sync_directory
 from .files import AssetFile
 from .manifest import MANIFEST, Manifest, Pending, read_manifest
 from .moment import (
@@ -34,31 +34,31 @@ Progress = Callable[[float], None]
 def put_in_place(
     files: Sequence[AssetFile], target: Path, identity: str, report: Report, progress: Progress
 ) -> tuple[Path, ...]:
-    """files: the prefab first.  identity: see ``Manifest``.  Returns the prefab and every other file that has content."""
+    """To be called where nobody else writes.  files: the prefab first.  identity: see ``Manifest``.  Returns the prefab and every
+    other file that has content."""
     parent, folder = target.parent, target.with_name(target.stem)
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
         detail = "it is no folder of its own, and the prefab's assets go there"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=folder, detail=detail)])
-    with one_at_a_time(parent):
-        complete(target, folder)
-        remove_leftovers(parent, folder)
-        ours = read_manifest(folder).ours
-        ours |= _known_by_guid(files, parent, ours)
-        _refuse_foreign(files, parent, folder, ours, report)
-        if moved := moved_away(files, target, ours):
-            raise KinefabError([report.add("TARGET_ASSET_MOVED", path=p, asset=parent / a) for p, a in moved])
-        staging = Path(tempfile.mkdtemp(prefix=staging_prefix(folder), dir=parent))
-        try:
-            guids = _guids(ours, parent)
-            written = _write_all(files, staging, parent, folder, guids, progress)
-            gone = ours - written
-            _carry_over(folder, staging / folder.name, written | _taken_up(gone, files, guids))
-            pending = Pending(staging.name, tuple(sorted(gone)))
-            take_place(staging, target, folder, Manifest(written, pending, identity))
-        finally:
-            if not is_needed(staging, folder):
-                shutil.rmtree(staging, ignore_errors=True)
-        sync_directory(parent)
+    complete(target, folder)
+    remove_leftovers(parent, folder)
+    ours = read_manifest(folder).ours
+    ours |= _known_by_guid(files, parent, ours)
+    _refuse_foreign(files, parent, folder, ours, report)
+    if moved := moved_away(files, target, ours):
+        raise KinefabError([report.add("TARGET_ASSET_MOVED", path=p, asset=parent / a) for p, a in moved])
+    staging = Path(tempfile.mkdtemp(prefix=staging_prefix(folder), dir=parent))
+    try:
+        guids = _guids(ours, parent)
+        written = _write_all(files, staging, parent, folder, guids, progress)
+        gone = ours - written
+        _carry_over(folder, staging / folder.name, written | _taken_up(gone, files, guids))
+        pending = Pending(staging.name, tuple(sorted(gone)))
+        take_place(staging, target, folder, Manifest(written, pending, identity))
+    finally:
+        if not is_needed(staging, folder):
+            shutil.rmtree(staging, ignore_errors=True)
+    sync_directory(parent)
     return tuple(parent / file.path for file in files if file.content is not None)
 
 

@@ -18,6 +18,12 @@ Elsewhere = Sequence[tuple[Path, list[str]]]
 """Folders of a project with their files' names."""
 
 
+def common_folder(target: Path) -> Path:
+    """The project's ``Assets``, in which exports look at each other; outside a project the folder that gets the prefab."""
+    assets = _assets(_absolute(target))
+    return assets if assets.name == ASSETS else target.parent
+
+
 def elsewhere_in_project(target: Path) -> Elsewhere:
     """Where scripts and prefabs of the target's name are in its project, without the target's own; nothing outside a project."""
     absolute = _absolute(target)

@@ -59,7 +59,7 @@ def take_place(staging: Path, target: Path, folder: Path, manifest: Manifest) ->
     elif not exchanged(fresh, folder):
         os.rename(fresh, staging / INCOMING)
         manifest.write(folder)
-    complete(target, folder)
+    _end(target, folder, manifest)  # read again it would stand between the steps 2 and 3, and most of their time
 
 
 def is_needed(staging: Path, folder: Path) -> bool:
@@ -71,7 +71,11 @@ def is_needed(staging: Path, folder: Path) -> bool:
 def complete(target: Path, folder: Path) -> None:
     """End the export that stands under way in the folder's manifest, if any does: first the prefab takes its place, then what
     is left of the old set goes.  Killed, it can be done again.  Raises OSError."""
-    manifest = read_manifest(folder)
+    _end(target, folder, read_manifest(folder))
+
+
+def _end(target: Path, folder: Path, manifest: Manifest) -> None:
+    """manifest: what stands in the folder."""
     pending = manifest.pending
     if pending is None:
         return

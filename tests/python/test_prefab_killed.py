@@ -7,6 +7,7 @@ import re
 import shutil
 import signal
 import sys
+import unicodedata
 from dataclasses import replace
 from pathlib import Path
 
@@ -238,6 +239,24 @@ def test_a_manifest_that_was_edited_leads_nowhere_else(tmp_path, sets, pending):
     assert (tmp_path / "outside.txt").read_text() == "theirs"
     assert (tmp_path / "elsewhere" / "Robot.prefab").read_text() == "theirs"
     assert all((folder / n).read_bytes() == d for n, d in THEIRS.items())
+
+
+def test_a_file_system_that_lists_accents_apart_loses_no_asset(tmp_path, monkeypatch):
+    """HFS+, which cannot exchange folders either."""
+    (tmp_path / "Robot").mkdir()
+    (tmp_path / "Robot/notes.txt").write_text("mine")
+    walk = os.walk
+
+    def apart(top, *args, **options):
+        for where, folders, names in walk(top, *args, **options):
+            yield where, folders, [unicodedata.normalize("NFD", name) for name in names]
+
+    monkeypatch.setattr(moment, "exchanged", lambda *_: False)
+    monkeypatch.setattr(os, "walk", apart)
+    kinefab.export(machine("Gerät", "Arm", length=0.1), tmp_path / "Robot.prefab")
+    monkeypatch.undo()
+    assert (tmp_path / "Robot/Meshes/Gerät.asset").is_file()
+    assert_whole(kept(tmp_path))
 
 
 def test_a_renamed_part_takes_its_guid_along(tmp_path):

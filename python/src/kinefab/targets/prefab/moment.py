@@ -59,7 +59,9 @@ def take_place(staging: Path, target: Path, folder: Path, manifest: Manifest) ->
     elif not exchanged(fresh, folder):
         os.rename(fresh, staging / INCOMING)
         manifest.write(folder)
-    _end(target, folder, manifest)  # read again it would stand between the steps 2 and 3, and most of their time
+    _end(
+        target, folder, manifest
+    )  # read again it would stand between the steps 2 and 3, and most of their time
 
 
 def is_needed(staging: Path, folder: Path) -> bool:
@@ -90,10 +92,15 @@ def _end(target: Path, folder: Path, manifest: Manifest) -> None:
 
 
 def _bring_in(incoming: Path, folder: Path, manifest: Manifest) -> None:
-    """One by one, metas first, what could not come in one step."""
-    paths = [path for path in files_below(incoming, incoming) if f"{folder.name}/{path}" in manifest.files]
-    for path in sorted(paths, key=lambda path: not path.endswith(".meta")):
-        if path != MANIFEST:
+    """One by one, metas first, what could not come in one step; by the names that it was written under, as some file systems list
+    others (HFS+ takes letters and accents apart)."""
+    if not incoming.is_dir():
+        return
+    inside = [
+        path.removeprefix(f"{folder.name}/") for path in manifest.files if path.startswith(f"{folder.name}/")
+    ]
+    for path in sorted(inside, key=lambda path: (not path.endswith(".meta"), path)):
+        if path != MANIFEST and os.path.lexists(incoming / path):
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             os.replace(incoming / path, folder / path)
 

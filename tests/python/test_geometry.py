@@ -12,7 +12,7 @@ from kinefab.diagnostics import Report, Severity
 from kinefab.geometry.files import FORMATS, read_mesh_file, transformed
 from kinefab.geometry.loading import MeshFiles, load_geometry
 from kinefab.geometry.mass import solid_properties
-from kinefab.geometry.pieces import Piece
+from kinefab.geometry.pieces import Piece, joined
 from kinefab.geometry.wavefront import tables
 from kinefab.model import Body, Mesh, MeshKey, MeshReference, Node, Scene
 from kinefab.spatial import Pose, rotation_exp
@@ -230,15 +230,59 @@ def test_an_obj_of_any_polygons_is_the_same_at_once_and_line_by_line(tmp_path, m
 
 
 def test_obj_corners_that_name_different_things_keep_their_places(tmp_path):
-    """Where only some corners have texture coordinates there are none; a coordinate of u alone has v = 0."""
+    """Where only some corners have texture coordinates the others have 0 0, and a body without any has none; of normals a body
+    has all or none.  A coordinate of u alone has v = 0."""
     v, _ = cube_lines(1)
-    mixed = write(tmp_path / "a.obj", "o A", v, "vt 0 0", "f 5/1 7 8/1", "f 3 4 8")
-    (piece,) = read_mesh_file(mixed, Report(), "here").pieces
+    rows = [
+        "vt 0.25 0.75",
+        "vt 0.5 1",
+        "vn 0 0 1",
+        "f 5/1 7 8/2",
+        "f 3/1 4 8",
+        "o B",
+        "f 5//1 7//1 8//1",
+        "o C",
+        "f 5/2/1 7/2/1 8/1/1",
+    ]
+    mixed = write(tmp_path / "a.obj", "o A", v, *rows)
+    first, second, third = read_mesh_file(mixed, Report(), "here").pieces
     places = np.array([row.split()[1:] for row in v], dtype=float)
-    assert piece.uv is None and np.array_equal(piece.vertices[piece.faces], places[[[4, 6, 7], [2, 3, 7]]])
+    assert np.array_equal(first.vertices[first.faces], places[[[4, 6, 7], [2, 3, 7]]])
+    shown = [[[0.25, 0.75], [0.0, 0.0], [0.5, 1.0]], [[0.25, 0.75], [0.0, 0.0], [0.0, 0.0]]]
+    assert first.normals is None and first.uv[first.faces].tolist() == shown
+    assert second.uv is None and second.normals[second.faces].tolist() == [[[0.0, 0.0, 1.0]] * 3]
+    assert third.uv[third.faces].tolist() == [[[0.5, 1.0], [0.5, 1.0], [0.25, 0.75]]]
+    assert third.normals[third.faces].tolist() == [[[0.0, 0.0, 1.0]] * 3]
+    assert np.array_equal(third.vertices[third.faces], places[[[4, 6, 7]]])
     alone = write(tmp_path / "b.obj", "o A", v, "vt 0.5", "vt 1 1", "f 5/1 7/2 8/1")
     (piece,) = read_mesh_file(alone, Report(), "here").pieces
     assert piece.uv[piece.faces[0]].tolist() == [[0.5, 0.0], [1.0, 1.0], [0.5, 0.0]]
+
+
+def test_a_part_keeps_its_texture_coordinates_beside_bodies_that_have_none(tmp_path):
+    """A file whose bodies become one part: a truck with an image on its sides and plain windows."""
+    v, _ = cube_lines(1)
+    rows = [
+        "o Body",
+        *v,
+        "vt 0.25 0.75",
+        "vt 1 0",
+        "usemtl paint",
+        "f 1/1 2/2 3/1",
+        "o Glass",
+        *v,
+        "usemtl glass",
+        "f 9 10 12",
+    ]
+    file = write(tmp_path / "truck.obj", *rows)
+    body, glass = read_mesh_file(file, Report(), "here").pieces
+    assert glass.uv is None
+    whole = joined([body, glass])
+    assert (
+        np.array_equal(whole.uv[whole.faces[0]], body.uv[body.faces[0]])
+        and not whole.uv[whole.faces[1]].any()
+    )
+    assert joined([glass, glass]).uv is None
 
 
 @pytest.mark.parametrize(

@@ -65,8 +65,9 @@ def joined(pieces: list[Piece]) -> Piece:
         return pieces[0]
     starts = np.cumsum([0, *(len(p.vertices) for p in pieces)])
     normals = [p.normals for p in pieces if p.normals is not None]
-    uv = [p.uv for p in pieces if p.uv is not None]
-    colors = None
+    uv = colors = None
+    if any(p.uv is not None for p in pieces):  # what has none shows no texture, or the one pixel of it
+        uv = np.concatenate([np.zeros((len(p.vertices), 2)) if p.uv is None else p.uv for p in pieces])
     if any(p.colors is not None for p in pieces):  # what has none is multiplied by one
         colors = np.concatenate(
             [np.ones((len(p.vertices), 4)) if p.colors is None else p.colors for p in pieces]
@@ -75,7 +76,7 @@ def joined(pieces: list[Piece]) -> Piece:
         np.concatenate([p.vertices for p in pieces]),
         np.concatenate([p.faces + start for p, start in zip(pieces, starts)]),
         np.concatenate(normals) if len(normals) == len(pieces) else None,
-        np.concatenate(uv) if len(uv) == len(pieces) else None,
+        uv,
         sum((p.face_counts or (len(p.faces),) for p in pieces), ()),
         sum((p.surfaces or ("",) for p in pieces), ()),
         colors,

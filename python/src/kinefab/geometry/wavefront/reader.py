@@ -53,9 +53,12 @@ def read_obj(path: Path, report: Report) -> MeshFile:
     """Read bodies and surfaces of an OBJ file.  Raises ObjError or OSError."""
     lines = Lines(_plain_text(path.read_bytes()))
     faces = faces_of(lines)
+    uneven = None
     if faces is None:
         lines = Lines(_with_plain_faces(lines.text))
-        faces = faces_of(lines) or _uneven_faces(lines.of(b"f"))
+        faces = faces_of(lines)
+    if faces is None:
+        faces = uneven = _uneven_faces(lines.of(b"f"))
     sections = [s for s in _sections(lines, faces) if s.faces]
     looks = _surfaces(lines, path, report)
     whole = _parse(lines, faces) if sections else NOTHING
@@ -69,7 +72,8 @@ def read_obj(path: Path, report: Report) -> MeshFile:
         stop = start + section.faces
         runs = [run for run in section.runs if run[1]]
         counts, surfaces = tuple(n for _, n in runs), tuple(name or unnamed for name, _ in runs)
-        pieces.append(cut(whole, start, stop, counts, surfaces))
+        piece = cut(whole, start, stop, counts, surfaces)
+        pieces.append(piece if uneven is None else _with_named(piece, uneven.corners[start:stop]))
         start = stop
         for key, (statement, name) in ((MeshKey.OBJECT, section.object), (MeshKey.GROUP, section.group)):
             for word in dict.fromkeys([name, *name.split()]) if key is MeshKey.GROUP else [name]:
@@ -178,13 +182,13 @@ def _parse(lines: Lines, faces: Faces) -> Piece:
         corner -= 1  # hundreds of megabytes, which nobody asks for again
         return Piece(vertices, np.ascontiguousarray(corner), colors=colors)
     columns = [corner, texture if uv is not None else None, normal if normals is not None else None]
-    named: IntArray = np.stack([c.reshape(-1) for c in columns if c is not None], axis=1) - 1
+    named: IntArray = np.stack([c.reshape(-1) for c in columns if c is not None], axis=1)
     key = named[:, -1]
     for column in named.T[-2::-1]:
         _, key = np.unique(key, return_inverse=True)
         key = np.reshape(key, -1) * (int(column.max()) + 1) + column
     _, first, numbered = np.unique(key, return_index=True, return_inverse=True)
-    of_each: IntArray = named[first].T
+    of_each: IntArray = named[first].T - 1  # what one does not name is the last of its list
     return Piece(
         vertices[of_each[0]],
         np.reshape(numbered, (-1, 3)),
@@ -192,6 +196,13 @@ def _parse(lines: Lines, faces: Faces) -> Piece:
         None if uv is None else uv[of_each[1]],
         colors=None if colors is None else colors[of_each[0]],
     )
+
+
+def _with_named(piece: Piece, corners: IntArray) -> Piece:
+    """A piece with the texture coordinates and normals that its own corners name: coordinates where one does, and 0 0 where it does
+    not, as other programs have it; normals where all do.  corners: as ``Faces`` has them."""
+    uv = piece.uv if corners[..., 1].any() else None
+    return replace(piece, uv=uv, normals=piece.normals if corners[..., 2].all() else None)
 
 
 def _vertex_colors(numbers: Array) -> Array | None:
@@ -236,11 +247,13 @@ def _numbers(lines: Lines, word: bytes, columns: int) -> Array:
 
 
 def _values(named: IntArray | None, lines: Lines, word: bytes, columns: int) -> Array | None:
-    """What corners name, shape (n, columns), or None where one names none or one that is not there."""
-    if named is None or named.min(initial=1) < 1:
+    """What corners name, shape (n, columns), behind it zeros where one names none; None where all do, or one that is not there."""
+    if named is None or not named.any():
         return None
     values = _numbers(lines, word, columns)[:, :columns]
-    return values if 0 < named.max(initial=0) <= len(values) else None
+    if named.max() > len(values):
+        return None
+    return values if named.min() > 0 else np.vstack([values, np.zeros(columns)])
 
 
 def _surfaces(lines: Lines, path: Path, report: Report) -> dict[str, Surface]:

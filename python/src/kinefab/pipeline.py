@@ -216,6 +216,7 @@ def export(
             options.strict,
             lambda fraction: progress("write", fraction),
             options.colliders,
+            options.smooth,
         )
         # A rename would put a file in a device's place.
         if os.path.lexists(path) and not os.path.isfile(path):

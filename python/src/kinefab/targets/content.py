@@ -8,8 +8,9 @@ from typing import Any
 
 from ..diagnostics import KinefabError, Outcome, Report, Severity
 from ..findings import JointFinding
+from ..geometry.looks.shading import with_normals
 from ..model import Scene
-from ..options import ColliderShape
+from ..options import DEFAULT_SMOOTH, ColliderShape
 from ..rigid import RigidGroups
 from ..unity.scene import UnityScene
 
@@ -23,7 +24,7 @@ class Content:
     mapped: the scene in Unity's terms; ``unity`` makes it when a target asks, and the report tells its losses then.  Asked whether
     joints make links of the bodies that they join.
     report: gets what the target cannot say.  options: values by the names of the target's ``options``.
-    colliders: shape asked for where a part states no colliders.
+    colliders: shape asked for where a part states no colliders.  smooth: see ``with_normals``.
     strict: whether a loss that is worth a warning is an error.  progress: how much is written, 0 to 1.
     """
 
@@ -36,7 +37,12 @@ class Content:
     strict: bool = False
     progress: Callable[[float], None] = lambda fraction: None
     colliders: ColliderShape = ColliderShape.AUTO
+    smooth: float | None = DEFAULT_SMOOTH
     _unity: UnityScene | None = None
+
+    def drawn(self) -> Scene:
+        """The scene with normals on what is drawn.  What touches is made of ``scene``, whose vertices are fewer."""
+        return with_normals(self.scene, self.smooth)
 
     def unity(self, links: bool = False) -> UnityScene:
         """In Unity's terms, mapped once.  links: see ``mapped``, for a target that asks first."""

@@ -67,7 +67,7 @@ class _Document:
         self.meshes: list[dict[str, Any]] = []
         self.mesh_of: dict[tuple[int, tuple[int, ...]], int] = {}
         self.node_of: list[int] = []
-        self.model_meshes = list(content.scene.meshes)
+        self.model_meshes = list(content.drawn().meshes)
         self.pieces_of: dict[int, range] = {}
         self.active = active_nodes(content.scene)
         self.placed = place_rigidbodies(content.scene, content.groups)

@@ -42,10 +42,11 @@ class Shape:
 
 @dataclass(slots=True, eq=False)
 class Shapes:
-    """scope: of physics materials.  shape: asked for where the source states no colliders.  target: ending, for the report.
+    """drawn: the scene with normals.  scope: of physics materials.  shape: asked for where the source states no colliders.  target: ending, for the report.
     groups: paths of colliders by their collision group, as they are written."""
 
     scene: Scene
+    drawn: Scene
     bodies: Bodies
     scope: Prim
     shape: ColliderShape
@@ -61,7 +62,7 @@ class Shapes:
         """Below each node's prim what is on the node; yields as often as there are nodes."""
         found = [self._of(i, node, active[i]) for i, node in enumerate(self.scene.nodes)]
         uses = [shape.use for shapes in found for shape in shapes if shape.use is not None]
-        meshes = Meshes(self.scene, prototypes, materials, uses)
+        meshes = Meshes(self.drawn, prototypes, materials, uses)
         for prim, shapes in zip(prims, found):
             for shape in shapes:
                 path = _write(prim, shape, meshes)

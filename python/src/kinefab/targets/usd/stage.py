@@ -61,7 +61,15 @@ class Stage:
             root = self._hierarchy(bodies, clips)
             scopes = {name: root.child(name, "Scope", name=name) for name in SCOPES}
             self._metadata(root)
-            shapes = Shapes(scene, bodies, scopes[PHYSICS_MATERIALS], content.colliders, report, self.target)
+            shapes = Shapes(
+                scene,
+                content.drawn(),
+                bodies,
+                scopes[PHYSICS_MATERIALS],
+                content.colliders,
+                report,
+                self.target,
+            )
             materials = Materials(scopes[MATERIALS], self.textures)
             active = active_nodes(scene)
             for i, _ in enumerate(shapes.write(self.prims, scopes[PROTOTYPES], materials, active)):

@@ -10,7 +10,9 @@ import pytest
 import trimesh
 from kinefab.diagnostics import Report, Severity
 from kinefab.geometry.files import FORMATS, read_mesh_file, transformed
+from kinefab.geometry.hulls import collision_hulls
 from kinefab.geometry.loading import MeshFiles, load_geometry
+from kinefab.geometry.looks.shading import shaded
 from kinefab.geometry.mass import solid_properties
 from kinefab.geometry.pieces import Piece, joined
 from kinefab.geometry.wavefront import tables
@@ -451,3 +453,15 @@ def test_usd_is_not_promised(tmp_path):
     assert read_mesh_file(tmp_path / "a.usd", report, "here") is None
     (found,) = report.diagnostics
     assert found.code == "GEOMETRY_FORMAT_UNKNOWN" and "Export glTF or OBJ" in str(found)
+
+
+def test_a_hull_does_not_hang_on_vertices_that_are_repeated_for_their_normals():
+    """Of more vertices than Unity takes, so that it is simplified."""
+    ball = trimesh.creation.icosphere(4)
+    plain = Mesh("Ball", np.asarray(ball.vertices), np.asarray(ball.faces, dtype=np.int64))
+    split = shaded(plain, 1.0)
+    assert len(split.vertices) > 3 * len(plain.vertices)
+    (one,), (other,) = (
+        collision_hulls(Scene(meshes=[mesh]), [(0, "ball")], Report()).values() for mesh in (plain, split)
+    )
+    assert np.array_equal(one.vertices, other.vertices) and np.array_equal(one.faces, other.faces)

@@ -457,7 +457,7 @@ def test_usd_is_not_promised(tmp_path):
 
 def test_a_hull_does_not_hang_on_vertices_that_are_repeated_for_their_normals():
     """Of more vertices than Unity takes, so that it is simplified."""
-    ball = trimesh.creation.icosphere(4)
+    ball = trimesh.creation.icosphere(2)
     plain = Mesh("Ball", np.asarray(ball.vertices), np.asarray(ball.faces, dtype=np.int64))
     split = shaded(plain, 1.0)
     assert len(split.vertices) > 3 * len(plain.vertices)

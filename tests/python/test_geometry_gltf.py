@@ -113,3 +113,13 @@ def test_whole_numbers_that_stand_for_shares_are_shares(tmp_path):
     assert np.allclose(piece.vertices, CORNERS)
     assert np.allclose(piece.uv, np.column_stack([COORDINATES[:, 0], 1 - COORDINATES[:, 1]]), atol=1e-4)
     assert np.allclose(piece.colors, [[1, 0, 0, 1], [0, 0.5, 0, 1], [0, 0, 1, 1]], atol=1e-4)
+
+
+def test_coordinates_without_a_material_are_kept(tmp_path):
+    """Whoever gives the part a material in Unity needs them."""
+    read(tmp_path, {})
+    document = json.loads((tmp_path / "t.gltf").read_text("utf-8"))
+    del document["meshes"][0]["primitives"][0]["material"]
+    (tmp_path / "t.gltf").write_text(json.dumps(document), "utf-8")
+    file = read_mesh_file(tmp_path / "t.gltf", Report(), "here")
+    assert np.allclose(file.pieces[0].uv, np.column_stack([COORDINATES[:, 0], 1 - COORDINATES[:, 1]]))

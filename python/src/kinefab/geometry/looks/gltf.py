@@ -57,7 +57,8 @@ class GltfFile:
         (surface,), uv, colors, chosen = look.surfaces, look.uv, look.colors, 0
         if surface is not None and "material" in primitive:
             surface, chosen = self.surface(surface, primitive)
-        if chosen or self.is_share(primitive, "TEXCOORD_0"):
+        # trimesh takes coordinates with a material alone, and as whole numbers what are shares
+        if uv is None or chosen or self.is_share(primitive, "TEXCOORD_0"):
             uv = self.numbers(primitive, f"TEXCOORD_{chosen}")
             uv = None if uv is None else np.column_stack([uv[:, 0], 1.0 - uv[:, 1]])
         if colors is not None and self.is_share(primitive, "COLOR_0"):

@@ -6,8 +6,7 @@ import io
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from ..geometry.looks.pixels import pillow
-from ..geometry.references import read_regular
+from ..geometry.looks.pixels import bytes_of, pillow
 from ..model import Texture
 
 MAGIC = (
@@ -24,8 +23,6 @@ MAGIC = (
 """How images begin, and the endings of their files; a Targa has no such beginning."""
 LOADED = (".png", ".jpg", ".bmp", ".gif")
 """Endings of images whose every pixel is looked at, where Pillow is installed."""
-MOST_BYTES = 256 * 2**20
-"""Of one image."""
 
 
 class ImageError(Exception):
@@ -57,13 +54,6 @@ def read_image(texture: Texture, endings: Collection[str], otherwise: str) -> Im
         raise ImageError(otherwise if data else "it is empty")
     _demand_whole(data, ending)
     return Image(data, ending)
-
-
-def bytes_of(texture: Texture) -> bytes:
-    """As they are.  Raises OSError for a file that is not there, no regular one, or too large."""
-    if texture.data is not None:
-        return texture.data
-    return read_regular(texture.path, MOST_BYTES) if texture.path else b""
 
 
 def _demand_whole(data: bytes, ending: str) -> None:

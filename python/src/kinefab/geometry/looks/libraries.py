@@ -10,6 +10,7 @@ from typing import Any
 from ...diagnostics import Report
 from ...model import Texture, Wrap
 from ..references import read_reference
+from .pixels import MOST_BYTES
 
 MAPS = {
     "map_kd": "color_texture",
@@ -19,7 +20,6 @@ MAPS = {
 """What a statement of a library is in the model."""
 UNREAD = ("map_bump", "bump", "map_d", "map_ks", "map_ns", "map_pr", "map_pm", "disp", "refl")
 """Maps that the model has no place for: heights, and single channels that Unity packs otherwise."""
-MOST_IMAGE_BYTES = 256 * 2**20
 _ARGUMENTS = {"-o": 3, "-s": 3, "-t": 3, "-mm": 2}
 """Most values of an option; of any other one."""
 _MEDIA = {
@@ -76,7 +76,7 @@ def _texture(statement: str, path: Path, report: Report) -> Texture | None:
     if not name:
         return None
     try:
-        read_reference(path.parent, name, MOST_IMAGE_BYTES)  # inside the folder, regular, of bounded size
+        read_reference(path.parent, name, MOST_BYTES)  # inside the folder, regular, of bounded size
     except (OSError, ValueError) as error:
         _told(name, path, getattr(error, "strerror", None) or str(error), report)
         return None

@@ -1,4 +1,4 @@
-"""Pixels of images, where Pillow is installed: as eight bits a channel, and channels of several images in one."""
+"""Bytes of textures, and where Pillow is installed their pixels: as eight bits a channel, and channels of several images in one."""
 
 from __future__ import annotations
 
@@ -8,10 +8,22 @@ from typing import Any
 
 import numpy as np
 
+from ...model import Texture
+from ..references import read_regular
+
+MOST_BYTES = 256 * 2**20
+"""Of one image."""
 MOST_PIXELS = 16384 * 16384
 """Of one image: what Unity and others show at most."""
 GREY = {"rgb": 0, "r": 0, "g": 1, "b": 2, "a": 3}
 """Which channel of red, green, blue and opacity one number is taken of."""
+
+
+def bytes_of(texture: Texture) -> bytes:
+    """As they are.  Raises OSError for a file that is not there, no regular one, or too large."""
+    if texture.data is not None:
+        return texture.data
+    return read_regular(texture.path, MOST_BYTES) if texture.path else b""
 
 
 def pillow() -> Any:

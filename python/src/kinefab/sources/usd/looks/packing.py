@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-from ....geometry.looks.pixels import merged, recoded
-from ....geometry.references import read_regular
+from ....geometry.looks.pixels import bytes_of, merged, recoded
 from ....model import Texture
-from .textures import MAX_BYTES, Sampler
+from .textures import Sampler
 
 
 def packed(channels: Sequence[tuple[Sampler, str] | None]) -> Texture | None:
@@ -23,14 +22,14 @@ def packed(channels: Sequence[tuple[Sampler, str] | None]) -> Texture | None:
     return _made(
         first,
         "packed",
-        lambda: merged([None if c is None else (_bytes_of(c[0].texture), c[1]) for c in channels]),
+        lambda: merged([None if c is None else (bytes_of(c[0].texture), c[1]) for c in channels]),
     )
 
 
 def normals_of(sampler: Sampler) -> Texture | None:
     """The image of normals from -1 to 1, as all their axes are counted in Unity; None where its pixels cannot be read."""
     factors, offsets = [0.5 * s for s in sampler.tint], [0.5 * (b + 1.0) for b in sampler.bias]
-    return _made(sampler.texture, "normals", lambda: recoded(_bytes_of(sampler.texture), factors, offsets))
+    return _made(sampler.texture, "normals", lambda: recoded(bytes_of(sampler.texture), factors, offsets))
 
 
 def _made(like: Texture, what: str, make: Callable[[], bytes]) -> Texture | None:
@@ -48,9 +47,3 @@ def _made(like: Texture, what: str, make: Callable[[], bytes]) -> Texture | None
 
 def _laid(texture: Texture) -> tuple[object, ...]:
     return texture.wrap, texture.uv_set, texture.scale, texture.offset, texture.rotation
-
-
-def _bytes_of(texture: Texture) -> bytes:
-    if texture.data is not None or texture.path is None:
-        return texture.data or b""
-    return read_regular(texture.path, MAX_BYTES)

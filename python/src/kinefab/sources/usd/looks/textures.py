@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ....geometry.looks.pixels import MOST_BYTES
 from ....model import Texture, Wrap
 from ..api import Ar, Sdf, UsdShade
 from ..stage import OpenStage
@@ -28,7 +29,6 @@ MEDIA = {
     ".tiff": ("image/tiff", b""),
 }
 """Media type and first bytes by ending: what Unity imports."""
-MAX_BYTES = 256 * 2**20
 CHANNELS = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
 SQUARE = 1e-6
 """Axes of coordinates whose cosine is below this are at right angles."""
@@ -149,7 +149,7 @@ def _image(
     try:
         if inner:
             asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(resolved))
-            if asset is None or asset.GetSize() > MAX_BYTES:
+            if asset is None or asset.GetSize() > MOST_BYTES:
                 return None, "the package does not hold it" if asset is None else "it is too large"
             data = bytes(asset.GetBuffer())
             head = data[:8]

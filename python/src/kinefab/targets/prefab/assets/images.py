@@ -6,11 +6,11 @@ import hashlib
 import io
 from collections.abc import Callable
 
-from ....geometry.looks.pixels import eight_bit, pillow
+from ....geometry.looks.pixels import bytes_of, eight_bit, pillow
 from ....model import Texture
 from ....unity.scene import Material
 from ... import images
-from ...images import LOADED, MAGIC, ImageError, bytes_of
+from ...images import LOADED, MAGIC, ImageError
 
 ENDINGS = frozenset(ending for _, ending in MAGIC) | {".tga"}
 

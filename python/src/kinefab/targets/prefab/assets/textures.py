@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from ....diagnostics import Report
+from ....geometry.looks.pixels import bytes_of
 from ....model import Texture, Wrap
 from ....unity.scene import Material, Vector2
-from ...images import ImageError, bytes_of
+from ...images import ImageError
 from ..text.metas import texture_meta
 from ..text.yaml import NULL, Plain, external
 from .images import ENDINGS, Images, content_of, packed

@@ -18,13 +18,14 @@ def with_passive_drives(joint: Joint, report: Report) -> Joint:
     nothing."""
     if all(freedom.passive is None and freedom.drive is None for freedom in joint.freedoms):
         return joint
-    freedoms = tuple(
-        freedom if freedom.passive is None else _driven(joint, i, freedom, freedom.passive, report)
-        for i, freedom in enumerate(joint.freedoms)
-    )
-    freedoms = tuple(_without_impossible(joint, i, freedom, report) for i, freedom in enumerate(freedoms))
-    freedoms = tuple(_without_idle(joint, i, freedom, report) for i, freedom in enumerate(freedoms))
-    return replace(joint, freedoms=freedoms)
+    freedoms = [_in_one_drive(joint, i, freedom, report) for i, freedom in enumerate(joint.freedoms)]
+    return replace(joint, freedoms=tuple(freedoms))
+
+
+def _in_one_drive(joint: Joint, index: int, freedom: Freedom, report: Report) -> Freedom:
+    if freedom.passive is not None:
+        freedom = _driven(joint, index, freedom, freedom.passive, report)
+    return _without_idle(joint, index, _without_impossible(joint, index, freedom, report), report)
 
 
 def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Report) -> Freedom:

@@ -26,7 +26,7 @@ from .geometry.looks.soundness import with_sound_meshes
 from .geometry.plausibility import check_plausible
 from .geometry.weighing import weigh
 from .mates import Mates
-from .mates.asked import mated
+from .mates.asked import found_mates, mated
 from .model import Scene
 from .options import ExportOptions
 from .replacing import why_unwritable
@@ -135,18 +135,13 @@ def mates_of(
     source: str | Path, reading: Mapping[str, object], report: Report, progress: Progress = silent
 ) -> tuple[Scene, Mates]:
     """A source as it is read, and the mates found in its geometry.  Raises KinefabError with every error found."""
-    from .mates.find import find_mates  # as in ``mates.asked``
-
     files = MeshFiles(report, part_readers())
     own = {name: value for name, value in reading.items() if name != "mates"}
     scene = _read(Path(source), own, files, report, progress)
     progress("mates", 0.0)
-    ground = str(reading.get("ground", ""))
-    found = find_mates(scene, ground)
+    found = found_mates(scene, str(reading.get("ground", "")), report)
     if found.ground is None:
         report.add("MATES_WITHOUT_FACES", scene.source.uri)
-    elif ground and found.ground_reason != "named":
-        report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
     report.raise_for_errors()
     progress("mates", 1.0)
     return scene, found

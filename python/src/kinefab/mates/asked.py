@@ -1,4 +1,7 @@
-"""What a user asks about mates when a file is read: none, those found, or those of a file."""
+"""What a user asks about mates when a file is read: none, those found, or those of a file.
+
+What finds and reads them is imported where they are asked for: few exports do, and all would wait for it.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from pathlib import Path
 
 from ..diagnostics import Report
 from ..model import Scene
+from .mate import Mates
 
 
 def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
@@ -16,15 +20,10 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     Raises KinefabError for a mates file that is wrong or not there.
     """
     choice, ground = str(asked.get("mates", "")), str(asked.get("ground", ""))
-    # what finds and reads mates is imported where they are asked for: few exports do, and all would wait for it
     if choice == "auto":
         from .apply import with_found
-        from .find import find_mates
 
-        found = find_mates(scene, ground)
-        if ground and found.ground_reason != "named":
-            report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
-        return with_found(scene, found, report)
+        return with_found(scene, found_mates(scene, ground, report), report)
     if choice:
         from .mates_file import with_file
 
@@ -34,3 +33,13 @@ def mated(scene: Scene, asked: Mapping[str, object], report: Report) -> Scene:
     if silent and exact > 1:
         report.add("MATES_NOT_ASKED", scene.source.uri, count=exact)
     return scene
+
+
+def found_mates(scene: Scene, ground: str, report: Report) -> Mates:
+    """The mates found in the scene's geometry, as ``find_mates`` has them; told where no part is called like the ground."""
+    from .find import find_mates
+
+    found = find_mates(scene, ground)
+    if ground and found.ground is not None and found.ground_reason != "named":
+        report.add("GROUND_UNKNOWN", scene.source.uri, part=ground)
+    return found

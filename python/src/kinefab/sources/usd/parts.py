@@ -55,8 +55,8 @@ class Parts:
         self._opened, self._values, self._found, self._report = opened, values, found, report
         self._groups, self._purposes = groups, purposes or DEFAULT_PURPOSES
         self._shown = Materials(values)
-        self.looks = Surfaces(opened, values, report, self._shown)
-        self.library = Library(opened, values, self.looks.covers, report)
+        self.looks = Surfaces(values, self._shown)
+        self.library = Library(values, self.looks.covers)
         self._colliders = Colliders(opened, values, self.library, report)
         self._masses = MassApis(opened, values, report)
         self._materials: dict[str, tuple[PhysicsMaterial | None, float]] = {}
@@ -141,7 +141,7 @@ class Parts:
         mass = None
         if moves:
             meshes, apis = self.library.meshes, self._masses
-            mass = body_mass(prim, part.world, at, weighed, meshes, apis, values, opened, self._report)
+            mass = body_mass(prim, part.world, at, weighed, meshes, apis, values)
         return Node(
             part.id, values.title(prim), NodeKind.PART, None if part.parent < 0 else part.parent, pose,
             bodies=tuple(bodies), mass=mass, grounded=not moves, colliders=tuple(colliders),

@@ -10,12 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ....diagnostics import Report
 from ....model import Mesh
 from ....spatial import Array
 from ..found import Piece
 from ..prims import source_path
-from ..stage import OpenStage
 from ..values import Values
 from . import gprims
 from .meshes import Polygons, read_mesh
@@ -42,10 +40,8 @@ class Library:
     covers: whether materials hide the colours that a mesh states for its points or faces.
     """
 
-    opened: OpenStage
     values: Values
     covers: Callable[[Piece], bool]
-    report: Report
     meshes: list[Mesh] = field(default_factory=list[Mesh])
     _by_source: dict[tuple[str, bytes, bool], Shared | None] = field(
         default_factory=dict[tuple[str, bytes, bool], Shared | None]
@@ -77,8 +73,8 @@ class Library:
             return None
         if bare and polygons.colors is not None:
             polygons = replace(polygons, colors=None)
-            self.report.dropped(
-                f"colors of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim),
+            self.values.report.dropped(
+                f"colors of {prim.GetPath()}", "USD_FEATURE_DROPPED", self.values.opened.place(prim),
                 detail="its material does not show them, here as in the stage",
             )  # fmt: skip
         name = self.values.title(prim)
@@ -89,7 +85,7 @@ class Library:
         return Shared(index, name, polygons.subsets, polygons.uv_names)
 
     def _added(self, name: str, p: Polygons, bake: Array | None) -> int:
-        frame = self.opened.frame
+        frame = self.values.opened.frame
         linear = frame.turn if bake is None else frame.turn @ bake
         vertices = p.vertices @ (linear.T * frame.length)
         faces, normals = p.faces, p.normals
@@ -119,8 +115,8 @@ class Library:
             s = shape_of(prim, self.values)
             return Polygons(s.vertices, s.faces, s.normals, subsets=(None,))
         if source not in self._polygons:
-            self.report.dropped(
-                f"{kind} {prim.GetPath()}", "USD_FEATURE_DROPPED", self.opened.place(prim),
+            self.values.report.dropped(
+                f"{kind} {prim.GetPath()}", "USD_FEATURE_DROPPED", self.values.opened.place(prim),
                 detail=f"a {kind} has no triangles",
             )  # fmt: skip
             self._polygons[source] = None

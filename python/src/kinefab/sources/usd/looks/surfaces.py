@@ -7,12 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ....diagnostics import Report
 from ....model import AlphaMode, Surface, Texture
 from ..api import UsdGeom, UsdShade
 from ..found import Piece
 from ..prims import source_path
-from ..stage import OpenStage
 from ..values import Values
 from . import omnipbr
 from .inputs import DISPLAY, Inputs
@@ -46,9 +44,7 @@ DISPLAYED = (0.5, 0.5, 0.5)
 class Surfaces:
     """The scene's surfaces, each once.  by_material: index by the material's path and what it shows of the prim; by_color: of plain display colours."""
 
-    opened: OpenStage
     values: Values
-    report: Report
     materials: Materials
     surfaces: list[Surface] = field(default_factory=list[Surface])
     _by_material: dict[tuple[object, ...], int | None] = field(
@@ -137,8 +133,8 @@ class Surfaces:
             elif colored:
                 found[name] = (1.0,) * width
             elif piece.seen.traits.kind != "Mesh" and primvar and primvar.GetInterpolation() != "constant":
-                self.report.dropped(
-                    f"{name} of {piece.path}", "USD_FEATURE_DROPPED", self.opened.place(piece.path),
+                self.values.report.dropped(
+                    f"{name} of {piece.path}", "USD_FEATURE_DROPPED", self.values.opened.place(piece.path),
                     detail=f"it is {primvar.GetInterpolation()}, and a {piece.seen.traits.kind} has one here",
                 )  # fmt: skip
         return found
@@ -180,7 +176,7 @@ class Surfaces:
     def _read(
         self, material: Any, uv_names: tuple[str, ...], display: Mapping[str, tuple[float, ...]]
     ) -> Surface | None:
-        where, feature = self.opened.place(material), f"material {material.GetPath()}"
+        where, feature = self.values.opened.place(material), f"material {material.GetPath()}"
         kind = self.materials.kind(material)
         if not kind:
             return None
@@ -199,7 +195,7 @@ class Surfaces:
                     found[wanted] = inputs.color(source, (0.8, 0.8, 0.8))
                 else:
                     found[wanted] = inputs.number(source, 0.5)
-        self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind)
+        self.values.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind=kind)
         color = found.get("color", (0.8, 0.8, 0.8))
         return Surface(
             self._unique(self.values.title(material)), (_unit(color[0]), _unit(color[1]), _unit(color[2]), 1.0),
@@ -207,7 +203,7 @@ class Surfaces:
         )  # fmt: skip
 
     def _preview(self, material: Any, inputs: Inputs) -> Surface:
-        where, feature = self.opened.place(material), f"material {material.GetPath()}"
+        where, feature = self.values.opened.place(material), f"material {material.GetPath()}"
         diffuse = inputs.sampler("diffuseColor")
         opacity = inputs.sampler("opacity")
         alpha = inputs.share("opacity", 1.0)
@@ -230,7 +226,9 @@ class Surfaces:
         if abs(reflected - _reflected(USUAL)) > UNSEEN or inputs.sampler("ior") is not None:
             inputs.approximated("ior", f"Unity's standard surface reflects as one of {USUAL:g} does")
         if inputs.number("useSpecularWorkflow", 0.0):
-            self.report.approximated(feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow")
+            self.values.report.approximated(
+                feature, "USD_MATERIAL_UNKNOWN", where, kind="the specular workflow"
+            )
         base = diffuse.tint if diffuse else inputs.color("diffuseColor", (0.18, 0.18, 0.18))
         r, g, b = inputs.color_within("diffuseColor", base)
         emissive = inputs.sampler("emissiveColor")
@@ -328,8 +326,8 @@ class Surfaces:
             if amounts[-1] > 0.0:
                 still.append(f"{name} {amounts[-1]:g} is multiplied by its {channel}")
         if image is not None and still:
-            self.report.approximated(
-                f"texture {image.name}", "USD_FEATURE_APPROXIMATED", self.opened.place(inputs.shader.GetPrim()),
+            self.values.report.approximated(
+                f"texture {image.name}", "USD_FEATURE_APPROXIMATED", self.values.opened.place(inputs.shader.GetPrim()),
                 detail=f"Unity has roughness and metallic in one image, so the {', '.join(still)}",
             )  # fmt: skip
         return image, amounts[0], amounts[1]

@@ -12,14 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from ....diagnostics import Report
 from ....geometry.closure import is_skin
 from ....geometry.hulls import hull_of_points
 from ....geometry.mass import combined, moved, shape_properties, solid_properties
 from ....model import Collider, ColliderKind, MassProperties, Mesh
 from ....spatial import Array, Pose, rotation_about
 from ..looks.gprims import axis_turn
-from ..stage import OpenStage
 from ..transforms import Stand, rotation_of
 from ..values import Values, identity
 from .stated import MassApis, Stated
@@ -45,17 +43,23 @@ class Weighed:
 
 
 def body_mass(
-    prim: Any, world: Array, stand: Stand, solids: Sequence[Weighed], meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage, report: Report
-) -> MassProperties:  # fmt: skip
+    prim: Any,
+    world: Array,
+    stand: Stand,
+    solids: Sequence[Weighed],
+    meshes: Sequence[Mesh],
+    apis: MassApis,
+    values: Values,
+) -> MassProperties:
     """Mass of a body, kg; centre and inertia in its node's frame."""
     stated = apis.of(prim, world, stand)
     if stated.whole is not None:
         return stated.whole
     counted = [s for s in solids if s.collider.enabled]
-    parts = [_solid(s, stated.density, stand, meshes, apis, values, opened) for s in counted]
+    parts = [_solid(s, stated.density, stand, meshes, apis, values) for s in counted]
     parts = [p for p in parts if p is not None and p.mass > 0.0]
     if not parts:
-        return _without_solids(prim, stated, opened, report)
+        return _without_solids(prim, stated, values)
     total = combined(parts)
     mass, inertia, center = total.mass, total.inertia, total.center
     if stated.mass is not None:
@@ -63,7 +67,7 @@ def body_mass(
     if stated.center is not None:
         inertia = inertia + _steiner(mass, stated.center - center)
         center = stated.center
-    turn = opened.frame.turn  # moments are stated along the stage's axes
+    turn = values.opened.frame.turn  # moments are stated along the stage's axes
     moments, axes = _diagonal(turn.T @ inertia @ turn)
     axes = turn @ axes
     moments = moments if stated.moments is None else stated.moments
@@ -88,11 +92,12 @@ def _diagonal(inertia: Array) -> tuple[Array, Array]:
     return np.diag(axes.T @ inertia @ axes), axes
 
 
-def _without_solids(prim: Any, stated: Stated, opened: OpenStage, report: Report) -> MassProperties:
+def _without_solids(prim: Any, stated: Stated, values: Values) -> MassProperties:
+    opened = values.opened
     mass = opened.frame.mass if stated.mass is None else stated.mass
     if stated.mass is None or stated.moments is None:
         what = "mass and inertia" if stated.mass is None else "inertia"
-        report.approximated(
+        values.report.approximated(
             f"mass {identity(prim)}", "USD_MASS_ASSUMED", opened.place(prim),
             node=identity(prim), what=what, mass=f"{mass:g}", radius=f"{POINT:g}",
         )  # fmt: skip
@@ -103,16 +108,21 @@ def _without_solids(prim: Any, stated: Stated, opened: OpenStage, report: Report
 
 
 def _solid(
-    solid: Weighed, body_density: float | None, stand: Stand, meshes: Sequence[Mesh], apis: MassApis, values: Values, opened: OpenStage
-) -> MassProperties | None:  # fmt: skip
+    solid: Weighed,
+    body_density: float | None,
+    stand: Stand,
+    meshes: Sequence[Mesh],
+    apis: MassApis,
+    values: Values,
+) -> MassProperties | None:
     """Of one collider in the node's frame; None where it has no volume."""
     if solid.solid in ROUND:
-        unit = round_solid(solid, values, opened)
+        unit = round_solid(solid, values)
     else:
         unit = unit_solid(solid.collider, meshes, solid.solid)
     if unit is None:
         return None
-    frame = opened.frame
+    frame = values.opened.frame
     stated = apis.of(solid.prim, solid.world)
     material = solid.density * frame.mass / frame.length**3
     density = stated.density or body_density or material or WATER
@@ -135,7 +145,7 @@ def _solid(
     return MassProperties(mass, at, placed.inertia + _steiner(mass, at - placed.center))
 
 
-def unit_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str = "") -> MassProperties | None:
+def unit_solid(collider: Collider, meshes: Sequence[Mesh], approximation: str) -> MassProperties | None:
     """Volume (as mass), centre and inertia at density 1 of a collider in its own frame; None where it is flat."""
     if collider.kind is ColliderKind.BOX:
         size = collider.size
@@ -170,9 +180,9 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
 """Exact for the polynomials up to the seventh degree that a cone or a ball gives."""
 
 
-def round_solid(solid: Weighed, values: Values, opened: OpenStage) -> MassProperties | None:
+def round_solid(solid: Weighed, values: Values) -> MassProperties | None:
     """As ``unit_solid`` for a prim of ROUND: moments of its discs, stretched by the collider's scale."""
-    prim, kind, frame = solid.prim, solid.solid, opened.frame
+    prim, kind, frame = solid.prim, solid.solid, values.opened.frame
     size = {
         name: abs(values.number(prim, name, default)) * frame.length
         for name, default in (("radius", 1.0), ("radiusBottom", 0.5), ("radiusTop", 0.5), ("height", 2.0))

@@ -26,13 +26,10 @@ from ...spatial import Array, Pose
 from ..asmt.assembled import UNCARRIED, bodies_of
 from ..asmt.constant_velocity import add_constant_velocity
 from ..asmt.couplings import UncarriedError, coupling_of
-from ..asmt.joints import Marker, Statement
+from ..asmt.joints import TO_X_MAIN, Marker, Statement
 from ..reading.record import is_encodable, shown
 from .pairs import COUPLED, FREEDOMS, Link, Mechanism, Pair, mechanism_of
 from .part21 import Part21
-
-SHAFT: Array = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])
-"""Columns z, x, y."""
 
 
 def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Report) -> None:
@@ -114,7 +111,7 @@ def _in_scene(frame: Pose, turn: Array, length: float) -> Pose:
 def _shaft(frame: Pose, turn: Array, length: float) -> Pose:
     """A homokinetic pair's placement with its shaft, which is along y, along z."""
     placed = _in_scene(frame, turn, length)
-    return Pose(placed.rotation @ SHAFT, placed.translation)
+    return Pose(placed.rotation @ TO_X_MAIN, placed.translation)
 
 
 def _left(scene: Scene, name: str, reason: str, report: Report) -> None:

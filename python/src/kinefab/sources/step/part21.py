@@ -33,6 +33,11 @@ _DEGREES = (b"DEGREE", b"DEGREES")
 _CONVERSIONS = {b"INCH": 0.0254, b"FOOT": 0.3048, b"YARD": 0.9144, b"MILE": 1609.344, b"MIL": 2.54e-5}
 
 
+def references(text: bytes) -> list[int]:
+    """The numbers of the instances that a piece of ``Part21.plain`` refers to, in order."""
+    return [int(number) for number in _REFERENCE.findall(text)]
+
+
 @dataclass(frozen=True, eq=False)
 class Part21:
     """The bytes of a STEP file.  strings and comments are blanked in ``plain``, so that what stands there is syntax."""
@@ -68,7 +73,7 @@ class Part21:
 
     def dangling(self) -> int:
         """How many numbers are referred to and never defined."""
-        return len({int(number) for number in _REFERENCE.findall(self.plain)} - self.instances.keys())
+        return len(set(references(self.plain)) - self.instances.keys())
 
     @cached_property
     def _units(self) -> list[bytes]:
@@ -77,7 +82,7 @@ class Part21:
         contexts = [int(found[1]) for found in _MECHANISM.finditer(self.plain)]
         texts = [self.plain[slice(*self.instances[c])] for c in contexts if c in self.instances]
         assigned = [found[1] for text in (*texts, self.plain) for found in _ASSIGNED.finditer(text)]
-        numbers = dict.fromkeys(int(number) for units in assigned for number in _REFERENCE.findall(units))
+        numbers = dict.fromkeys(number for units in assigned for number in references(units))
         return [self.text(number) for number in numbers if number in self.instances] or [self.data]
 
     def metres(self) -> float:

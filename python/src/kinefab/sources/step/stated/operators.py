@@ -12,18 +12,17 @@ import numpy as np
 from ....diagnostics import Report
 from ....spatial import Array
 from ..entities import EntityError, Ref, Value, entity
-from ..part21 import Part21
+from ..part21 import Part21, references
 
 NAME = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
 _PLACING = re.compile(rb"\b(?:MAPPED_ITEM|REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION)\s*\([^;]*")
-_REFERENCE = re.compile(rb"#\s*(\d+)")
 
 
 def tell_mirrors(text: Part21, file: str, report: Report) -> None:
     """Report each operator that places something and whose axes are left-handed.  file: name of the source, for places."""
     if NAME.encode() not in text.plain:
         return
-    placing = {int(n) for found in _PLACING.finditer(text.plain) for n in _REFERENCE.findall(found[0])}
+    placing = {n for found in _PLACING.finditer(text.plain) for n in references(found[0])}
     for number in sorted(placing & text.instances.keys()):
         if NAME.encode() not in text.text(number):
             continue

@@ -6,12 +6,11 @@ import re
 from collections import defaultdict
 
 from ..entities import EntityError, Ref, entity, ref, text_of
-from ..part21 import Part21
+from ..part21 import Part21, references
 
 PLACEMENTS = frozenset({"AXIS2_PLACEMENT_3D", "AXIS1_PLACEMENT", "PLACEMENT"})
 _SHAPED = re.compile(rb"=\s*(SHAPE_DEFINITION_REPRESENTATION\s*\([^;]*)")
 _RELATED = re.compile(rb"=\s*\(?\s*(?:SHAPE_)?REPRESENTATION_RELATIONSHIP\s*\(([^;]*)")
-_REFERENCE = re.compile(rb"#\s*(\d+)")
 
 
 def name_of(text: Part21, definition: int) -> str:
@@ -31,7 +30,7 @@ def shapeless(text: Part21) -> frozenset[str]:
     beside = _related(text)
     found: defaultdict[str, bool] = defaultdict(bool)
     for match in _SHAPED.finditer(text.plain):
-        shape, representation = [int(number) for number in _REFERENCE.findall(match[1])][:2]
+        shape, representation = references(match[1])[:2]
         try:
             definition = ref(entity(text, shape).get("PRODUCT_DEFINITION_SHAPE", []), 2)
             found[name_of(text, definition)] |= _has_shape(text, representation, beside)
@@ -44,7 +43,7 @@ def _related(text: Part21) -> defaultdict[int, set[int]]:
     """Representations that say the same of one product, by each other; not those that an assembly places."""
     found: defaultdict[int, set[int]] = defaultdict(set)
     for match in _RELATED.finditer(text.plain):
-        ends = [int(number) for number in _REFERENCE.findall(match[1])][:2]
+        ends = references(match[1])[:2]
         if len(ends) == 2 and b"WITH_TRANSFORMATION" not in match[1]:
             found[ends[0]].add(ends[1])
             found[ends[1]].add(ends[0])

@@ -14,14 +14,13 @@ from ...diagnostics import KinefabError, Report
 from ...model import SourceFile
 from ..reading.file import read_bytes
 from ..robots.packages import Packages
-from ..robots.xml_elements import Element, parse_xml
+from ..robots.xml_elements import Element, parse_xml, without_comments
 
 MOST_FILES = 1000
 MOST_COPIES = 100_000
 """Of what one element makes: ``replicate``, ``composite``, ``flexcomp``."""
 MOST_CELLS = 2**24
 """Of a heightfield or a made texture: pixels or points."""
-_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _CROWDED = re.compile(rb"(=\s*(?:\"[^\"<]*\"|'[^'<]*'))(?=[A-Za-z_])")
 COUNTED = {
     "replicate": (("count",), MOST_COPIES),
@@ -139,22 +138,20 @@ def _check_soft(files: Files, packages: Packages) -> None:
 def _parsed(data: bytes, name: str, report: Report) -> Element:
     """MuJoCo's parser minds neither a blank that is missing between attributes nor ``--`` in a comment, and takes every
     file for UTF-8 whatever it declares."""
-    tried = Report()
+    text, tried = without_comments(data), Report()
     try:
         root = parse_xml(data, name, tried)
     except KinefabError as error:
         if any(d.code != "XML_SYNTAX" for d in error.diagnostics):
             report.extend(tried)
             raise
-        mended = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
         try:
-            root = parse_xml(_CROWDED.sub(rb"\1 ", mended), name, Report())
+            root = parse_xml(_CROWDED.sub(rb"\1 ", text), name, Report())
         except KinefabError:
             report.extend(tried)
             raise error from None
     else:
         report.extend(tried)
-    text = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
     try:
         text.decode("utf-8")
     except UnicodeDecodeError as error:

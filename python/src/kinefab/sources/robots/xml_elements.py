@@ -219,6 +219,11 @@ class _Builder:
         raise _Refused
 
 
+def without_comments(data: bytes) -> bytes:
+    """The same, each line where it was."""
+    return _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
+
+
 def parse_xml(data: bytes, name: str, report: Report) -> Element:
     """The root element.  name: of the file, for places.  Raises KinefabError for what is no XML or beyond the limits."""
     # Against the rules, and read by robot programs: blanks before the declaration, one without a version, -- in a comment,
@@ -227,8 +232,7 @@ def parse_xml(data: bytes, name: str, report: Report) -> Element:
     tried = Report()
     root = _built(data, name, report, tried)
     if root is None and any(d.code == "XML_SYNTAX" for d in tried.diagnostics):
-        bare = _COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), data)
-        root = _built(_BARE.sub(b"&amp;", bare), name, report, Report())
+        root = _built(_BARE.sub(b"&amp;", without_comments(data)), name, report, Report())
     if root is None:
         report.extend(tried)
         raise KinefabError(report.of(Severity.ERROR))

@@ -34,10 +34,10 @@ from ...model import (
 )
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
+from ..scene.joints.configurable_joint import MOTION_FIELDS
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
-_MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
 _COORDINATES = ("x", "y", "z", "angularX", "angularY", "angularZ")
 _WORDS = {"Locked": Motion.LOCKED, "Limited": Motion.LIMITED, "Free": Motion.FREE}
 
@@ -190,7 +190,7 @@ def _freedoms(component: Entry) -> tuple[Freedom, ...]:
     if component["type"] == "FixedJoint":
         return (LOCKED,) * 6
     found: list[Freedom] = []
-    for i, field in enumerate(_MOTIONS):
+    for i, field in enumerate(MOTION_FIELDS):
         motion = _WORDS[component.get(field, "Free")]
         found.append(_limited(component, i) if motion is Motion.LIMITED else Freedom(motion))
     return tuple(found)

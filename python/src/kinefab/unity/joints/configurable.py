@@ -17,6 +17,7 @@ from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Joint, Motion, Spherical
 from ...spatial import Array, quaternion_from_matrix, rotation_exp, rotation_log
 from ..frames import Senses
 from ..scene import JointDrive, SoftJointLimit, SoftJointLimitSpring
+from ..scene.joints.configurable_joint import MOTION_FIELDS
 from ..scene.vectors import quaternion4, vector3
 from .coordinates import CanonicalJoint, Coordinates
 from .limits import one_sided, report_outside
@@ -27,7 +28,6 @@ OPEN_TRAVEL = 100.0
 TURNED = 1e-4
 """Radians that the frames may be turned against each other before it is reported."""
 
-_MOTIONS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
 MOTION_TITLES = (
     "X Motion",
     "Y Motion",
@@ -36,7 +36,7 @@ MOTION_TITLES = (
     "Angular Y Motion",
     "Angular Z Motion",
 )
-"""The same as Unity's inspector names them."""
+"""The motions, as Unity's inspector names them."""
 _TITLES = {Motion.LOCKED: "Locked", Motion.LIMITED: "Limited", Motion.FREE: "Free"}
 
 
@@ -91,7 +91,7 @@ def configurable_fields(
         _slerp_drive(writing, joint.slerp, coordinates)
     if placement.swap:
         writing.fields["swapBodies"] = True
-    written = {name: _TITLES[motion] for name, motion in zip(_MOTIONS, motions)}
+    written = {name: _TITLES[motion] for name, motion in zip(MOTION_FIELDS, motions)}
     return written | writing.fields, middle
 
 

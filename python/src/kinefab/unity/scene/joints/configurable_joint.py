@@ -67,3 +67,7 @@ class ConfigurableJoint(AnchoredJoint):
     projectionAngle: float = 180.0
     configuredInWorldSpace: bool = False
     swapBodies: bool = False
+
+
+MOTION_FIELDS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")
+"""The fields of its motions, in the order of ``model.FREEDOM_NAMES``."""

@@ -60,6 +60,7 @@ class _Articulation:
     objects: list[GameObject] = field(default_factory=list[GameObject])
     poses: list[Pose] = field(default_factory=list[Pose])
     bodies: dict[int, Rigidbody] = field(default_factory=dict[int, Rigidbody])
+    edges: list[Edge] = field(default_factory=list[Edge])
     ground: int | None = None
 
     def scene_of_links(self) -> UnityScene:
@@ -107,13 +108,13 @@ class _Articulation:
             for body in (c for c in entry.components if isinstance(c, Rigidbody)):
                 self.bodies[i] = body
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
-        edges = [
+        self.edges = [
             (i, k)
             for i in self.bodies
             for k, c in enumerate(self.objects[i].components)
             if isinstance(c, Joint)
         ]
-        if self.ground is None and any(self._joint(edge).connectedBody is None for edge in edges):
+        if self.ground is None and any(self._joint(edge).connectedBody is None for edge in self.edges):
             self.objects.append(GameObject(ARTICULATION_GROUND_ID, "Ground"))
             self.poses.append(Pose())
             self.ground = len(self.objects) - 1
@@ -135,14 +136,8 @@ class _Articulation:
 
         From the ground outwards, else from what scripts move, by joints that close no loop as the analysis has it; the rest of what is reached is closing.
         """
-        edges = [
-            (i, k)
-            for i in sorted(self.bodies)
-            for k, c in enumerate(self.objects[i].components)
-            if isinstance(c, Joint)
-        ]
         at: dict[int, list[Edge]] = defaultdict(list)
-        for edge in sorted(edges, key=lambda e: (self._joint(e).closure, e)):
+        for edge in sorted(self.edges, key=lambda e: (self._joint(e).closure, e)):
             at[edge[0]].append(edge)
             at[self._other(edge)].append(edge)
         found: dict[int, tuple[int | None, Edge | None]] = {}
@@ -161,7 +156,7 @@ class _Articulation:
                         found[other] = (body, edge)
                         waiting.append(other)
         inner = {edge for _, edge in found.values()}
-        return found, [edge for edge in edges if edge not in inner]
+        return found, [edge for edge in self.edges if edge not in inner]
 
     def _tell_size(self, above: Mapping[int, int | None]) -> None:
         """above: of each link the one above it, roots first."""

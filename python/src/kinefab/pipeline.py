@@ -1,7 +1,7 @@
 """The road of a scene, read like a sentence: prepared, analysed, written.
 
-``prepared`` reads a source, loads its geometry and weighs it; ``analysed`` finds the mechanism; ``written`` hands it to a
-target.  ``export``, ``analyse`` and everything else that asks about a mechanism share the first two.
+``prepared`` reads a source, loads its geometry and weighs it; ``analysed`` finds the mechanism; ``export`` hands it to a
+target.  It, ``analyse`` and everything else that asks about a mechanism share the first two.
 """
 
 from __future__ import annotations

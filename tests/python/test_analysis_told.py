@@ -67,9 +67,11 @@ def test_the_table_lists_every_joint_of_every_fixture():
         lines = table(found).splitlines()
         middles = {node.id for node in found.nodes}
         assert {line.split()[0] for line in lines if line.startswith("middle:")} == middles
-        names = [n.id for n in (*found.source.nodes, *found.nodes)]
+        assert middles or name not in ("M17", "M18")
+        own = len(found.source.nodes)
         for joint in found.joints:
-            if {joint.a, joint.b} & set(range(len(found.source.nodes), len(names))):
+            stated = all(node is None or node < own for node in (joint.a, joint.b))
+            if not (stated and found.groups.together(joint.a, joint.b)):
                 kind = found.findings[joint.id].whole_kind(joint).value.replace("_", " ")
                 assert any(kind in line and joint.because[0] in line for line in lines)
 

@@ -363,7 +363,9 @@ def test_no_image_is_made_smaller(tmp_path):
     """Unity's own most of a side, in what the editor reads for every platform; no side is made a power of two."""
     scene = rich_scene(tmp_path)
     exported(scene, tmp_path)
-    for path in sorted((tmp_path / "out").rglob("*.png.meta")):
+    images = sorted((tmp_path / "out").rglob("*.png.meta"))
+    assert images
+    for path in images:
         imported = mapping(path.read_text())["TextureImporter"]
         (platform,) = imported["platformSettings"]
         assert platform["buildTarget"] == "DefaultTexturePlatform"

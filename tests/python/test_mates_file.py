@@ -13,7 +13,7 @@ from kinefab.diagnostics import KinefabError, Report
 from kinefab.mates.asked import mated
 from kinefab.mates.find import find_mates
 from kinefab.mates.mates_file import text
-from kinefab.model import ConstraintKind, Scene
+from kinefab.model import ConstraintKind, Node, Scene
 from kinefab.sources import read
 
 pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
@@ -104,6 +104,12 @@ def test_the_ground_can_be_named(lever: Scene):
     report = Report()
     mated(lever, {"mates": "auto", "ground": "Nobody"}, report)
     assert "GROUND_UNKNOWN" in [d.code for d in report.diagnostics]
+
+
+def test_where_no_part_has_faces_none_is_said_to_be_called_otherwise():
+    report = Report()
+    mated(Scene([Node("Base", "Base"), Node("Arm", "Arm")]), {"mates": "auto", "ground": "Base"}, report)
+    assert not report.diagnostics
 
 
 def test_without_mates_a_file_of_parts_is_told_so(lever: Scene):

@@ -16,8 +16,7 @@ from cad.onshape import answers as onshape
 from cad.onshape import boxes, masses, of_each_part
 from cad.solidworks import SolidWorks
 from cad.tetrahedron import FACES, POINTS, fusion_bodies, inventor_bodies, solidworks_bodies
-from kinefab.capture.draft import BodyMesh, Draft
-from kinefab.capture.inventor.joints import mirrored
+from kinefab.capture.draft import BodyMesh, Draft, exchanged
 from kinefab.capture.looks import look
 from kinefab.capture.masses import mass_record, mesh_tensor, together
 from kinefab.diagnostics import Report
@@ -254,8 +253,13 @@ def test_bodies_weighed_each_are_one_by_the_parallel_axis_theorem():
 
 def test_a_joint_seen_from_its_other_side_counts_the_other_way():
     dof = {"name": "rz", "value": 0.3, "min": -0.2, "max": 1.4, "minEnabled": True, "maxEnabled": True}
-    seen = mirrored(
+    seen = exchanged(
         {"id": "j", "a": "A", "b": "ground", "frameA": {"o": 1}, "frameB": {"o": 2}, "dof": [dof]}
     )
     assert (seen["a"], seen["b"], seen["frameA"]["o"], seen["frameB"]["o"]) == ("ground", "A", 2, 1)
     assert seen["dof"] == [dof | {"value": -0.3, "min": -1.4, "max": 0.2}]
+    assert exchanged({"a": "A", "b": "ground", "frameA": {"o": 1}}) == {
+        "a": "ground",
+        "b": "A",
+        "frameA": {"o": 1},
+    }

@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
+from types import ModuleType
 from typing import Any, Protocol, cast
 
 FORMAT, VERSION = "kinefab.capture", "1.0"
@@ -74,8 +75,9 @@ class Channel(Protocol):
     def ask(self, number: int, name: str, arguments: tuple[Any, ...] | None) -> Any: ...
 
 
-def methods_of(*interfaces: type) -> frozenset[str]:
-    """The members that the interfaces declare as methods."""
+def methods_of(api: ModuleType) -> frozenset[str]:
+    """The members that the interfaces of a module declare as methods."""
+    interfaces = (v for v in vars(api).values() if isinstance(v, type) and v.__module__ == api.__name__)
     return frozenset(
         name
         for interface in interfaces

@@ -265,6 +265,20 @@ def freedom(
     }
 
 
+def exchanged(joint: Record) -> Record:
+    """The joint seen from its other side: its coordinates change their signs, their ends their places.  A single frame is
+    both sides'."""
+    found = {**joint, "a": joint["b"], "b": joint["a"]}
+    if "frameB" in joint:
+        found |= {"frameA": joint["frameB"], "frameB": joint["frameA"]}
+    if "dof" in joint:
+        found["dof"] = [
+            freedom(d["name"], *(None if key not in d else -d[key] for key in ("value", "max", "min")))
+            for d in joint["dof"]
+        ]
+    return found
+
+
 def frame(inside: str, o: Numbers, z: Numbers, x: Numbers | None = None) -> Record:
     """A joint frame.  Raises ValueError or TypeError for what is no vector."""
     return {"in": inside, "o": three(o), "z": three(z), **({} if x is None else {"x": three(x)})}
@@ -276,6 +290,11 @@ def pose(o: Numbers, x: Numbers, y: Numbers, z: Numbers) -> Record:
     if abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < FLAT:
         raise ValueError("the axes of its pose lie in one plane")
     return {"o": three(o), **dict(zip("xyz", axes))}
+
+
+def at_origin() -> Record:
+    """The pose of what stands where its assembly does."""
+    return pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
 
 
 def three(values: Numbers) -> list[float]:

@@ -18,10 +18,7 @@ from .parts import Parts
 from .patterns import read_patterns
 
 NAME, DESIGN = "Fusion", "DesignProductType"
-INTERFACES = tuple(
-    value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
-)
-METHODS = methods_of(*INTERFACES)
+METHODS = methods_of(api)
 
 
 def capture(application: Application, draft: Draft) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import cast
 
-from ..draft import Draft, Numbers, Record, frame, freedom, reach
+from ..draft import Draft, Numbers, Record, exchanged, frame, freedom, reach
 from .api import (
     AsBuiltJoint,
     AssemblyConstraint,
@@ -93,17 +93,11 @@ def joint_id(draft: Draft, joint: Joint | AsBuiltJoint, component: Component) ->
 def _finish(draft: Draft, record: Record, word: str, motion: Motion, locked: bool) -> None:
     """Coordinates; the sides changed where b is the root; a locked joint is rigid."""
     dofs = _freedoms(word, motion)
-    if record["b"] == "ground":
-        record["a"], record["b"] = record["b"], record["a"]
-        if "frameB" in record:
-            record["frameA"], record["frameB"] = record["frameB"], record["frameA"]
-        dofs = [
-            freedom(d["name"], -d["value"], *(None if e not in d else -d[e] for e in ("max", "min")))
-            for d in dofs
-        ]
-        draft.turned |= {(record["id"], d["name"]) for d in dofs}
     if dofs:
         record["dof"] = dofs
+    if record["b"] == "ground":
+        record |= exchanged(record)
+        draft.turned |= {(record["id"], d["name"]) for d in dofs}
     if locked and word != "rigid":
         draft.report.approximated(
             f"joint {record['id']}", "CAPTURE_LOCKED", id=record["id"], program=draft.program

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import cast
 
 from ..channel import methods_of
-from ..draft import Draft, Record
+from ..draft import Draft, Record, at_origin
 from ..held import standing
 from . import api
 from .api import (
@@ -24,10 +24,7 @@ from .patterns import read_patterns
 
 NAME, LEAST_MAJOR = "Inventor", 23
 """Version 23 is 2019: from there on a mate states its solution."""
-INTERFACES = tuple(
-    value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
-)
-METHODS = methods_of(*INTERFACES)
+METHODS = methods_of(api)
 HANDED = {"GetMatrixData": ("doubles",), "CalculateFacets": ("long", "long", "doubles", "doubles", "longs")}
 """Methods that write into arrays of their caller."""
 NUMBERS = {"Geometry": 67119422}
@@ -50,15 +47,7 @@ def capture(application: Application, draft: Draft) -> None:
         draft.report.add("CAPTURE_UNSAVED", program=NAME, name=document.DisplayName)
     draft.dirty = bool(document.RequiresUpdate)
     root = document.DisplayName.rpartition(".")[0] or document.DisplayName
-    draft.component(
-        {
-            "id": root,
-            "name": root,
-            "kind": "assembly",
-            "flexible": True,
-            "pose": {"o": [0.0, 0.0, 0.0], "x": [1.0, 0.0, 0.0], "y": [0.0, 1.0, 0.0], "z": [0.0, 0.0, 1.0]},
-        }
-    )
+    draft.component({"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": at_origin()})
     definition = document.ComponentDefinition
     found = Occurrences(draft, root)
     found.read(definition.Occurrences, root)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..channel import MemberFailed
-from ..draft import Record, frame, freedom, reach
+from ..draft import Record, exchanged, frame, freedom, reach
 from .api import Entity, Intent, Joint, JointDefinition, Parameter
 from .constraints import HEALTH, SUPPRESSED, WELL, Owner
 from .geometry import entity_shape, numbers
@@ -42,7 +42,7 @@ def read_joint(owner: Owner, joint: Joint) -> None:
     if dofs:
         record["dof"] = dofs
     if b == "ground":  # a joint's second side is a component
-        record = mirrored(record)
+        record = exchanged(record)
     if (gap := _number(definition.Gap)) and "extras" not in record:
         record["extras"] = {"gap": gap}
     if bool(joint.Suppressed) or health == SUPPRESSED:
@@ -58,28 +58,6 @@ def read_joint(owner: Owner, joint: Joint) -> None:
             record.pop(key, None)
     draft.owners[own] = owner.frame
     draft.joints.append(record)
-
-
-def mirrored(record: Record) -> Record:
-    """The joint seen from its other side: its coordinates change their signs, their ends their places."""
-    swapped = {
-        **record,
-        "a": record["b"],
-        "b": record["a"],
-        "frameA": record["frameB"],
-        "frameB": record["frameA"],
-    }
-    if "dof" in record:
-        swapped["dof"] = [
-            freedom(
-                dof["name"],
-                None if "value" not in dof else -dof["value"],
-                -dof["max"] if "max" in dof else None,
-                -dof["min"] if "min" in dof else None,
-            )
-            for dof in record["dof"]
-        ]
-    return swapped
 
 
 def _frame(owner: Owner, origin: Intent, alignment: Entity | None, flip_z: bool, flip_x: bool) -> Record:

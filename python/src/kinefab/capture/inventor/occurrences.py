@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import cast
 
 from ..channel import MemberFailed
-from ..draft import BodyMesh, Draft, Numbers, Record, pose_of_rows
+from ..draft import BodyMesh, Draft, Numbers, Record, at_origin, pose_of_rows
 from ..held import hold
 from ..looks import look, painted
 from ..masses import mass_record
@@ -57,8 +57,7 @@ class Occurrences:
         suppressed = bool(occurrence.Suppressed)
         record: Record = {"id": own, "name": name, "kind": "part", "parent": parent}
         if suppressed:
-            identity = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
-            self.draft.component({**record, "pose": pose_of_rows(identity), "suppressed": True})
+            self.draft.component({**record, "pose": at_origin(), "suppressed": True})
             return
         is_assembly = occurrence.DefinitionDocumentType == ASSEMBLY
         record["kind"] = "assembly" if is_assembly else "part"

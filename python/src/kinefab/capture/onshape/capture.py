@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, cast
 
-from ..draft import Draft, pose
+from ..draft import Draft, at_origin
 from .answers import Answers, limits_question, replayed, unnamed
 from .definition import Definition
 from .mates import Limits, Mates, limits_of
@@ -25,8 +25,7 @@ def capture(root: Answers, draft: Draft) -> None:
     if root.fetch is not None or "name" in root.answers:
         with draft.safely("name of the assembly"):
             name = str(root.ask("name")[0]["name"]).replace("/", "_")
-    identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-    draft.component({"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": identity})
+    draft.component({"id": name, "name": name, "kind": "assembly", "flexible": True, "pose": at_origin()})
     definition = Definition(Parts(root, draft), draft, name, cast("dict[str, Any]", values))
     definition.read()
     features: Limits = {}

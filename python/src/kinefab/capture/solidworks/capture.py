@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
 from ..channel import MemberFailed, methods_of
-from ..draft import BodyMesh, Draft, Record, pose
+from ..draft import BodyMesh, Draft, Record, at_origin, pose
 from ..held import hold, standing
 from ..looks import look, painted
 from ..masses import mass_record
@@ -26,10 +26,7 @@ SHAPING = frozenset({
     "WeldBeadFeat",
 })  # fmt: skip
 """``GetTypeName2`` of what an assembly may do to the shapes of its parts."""
-INTERFACES = tuple(
-    value for value in vars(api).values() if isinstance(value, type) and value.__module__ == api.__name__
-)
-METHODS = methods_of(*INTERFACES)
+METHODS = methods_of(api)
 
 
 def capture(application: Application, draft: Draft) -> None:
@@ -49,8 +46,7 @@ def capture(application: Application, draft: Draft) -> None:
     with draft.safely("rebuild state"):
         draft.dirty = model.Extension.NeedsRebuild2 != 0
     root = title.rpartition(".")[0] if title.lower().endswith(".sldasm") else title
-    identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-    draft.component({"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": identity})
+    draft.component({"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": at_origin()})
     with _in_bulk(application):
         _assembly(model, draft, root)
 
@@ -134,8 +130,7 @@ class Components:
         own = f"{self.root}/{path}"
         record: Record = {"id": own, "name": path.rpartition("/")[2], "kind": "part", "parent": parent}
         if component.GetSuppression2() == SUPPRESSED:
-            identity = pose([0.0] * 3, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-            self.draft.component({**record, "pose": identity, "suppressed": True})
+            self.draft.component({**record, "pose": at_origin(), "suppressed": True})
             return
         transform = component.Transform2
         if transform is None:

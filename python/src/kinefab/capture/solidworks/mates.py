@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from ..channel import MemberFailed
-from ..draft import Draft, Record, frame, freedom, three
+from ..draft import Draft, Record, exchanged, frame, freedom, three
 from .api import Component, Entity, Feature, Mate, MateData, MateEntity
 
 TYPES = (
@@ -261,14 +261,17 @@ def _hinge(given: Given, record: Record) -> Record | None:
             frame(given.owner.frame, seat, axes[0]["d"], side["d"])
             for seat, side in zip(seats, given.sides[4:6])
         ]
-        dof = freedom("rz", None, data.MinVal, data.MaxVal)
-        ends = {"a": axes[0]["component"], "b": axes[1]["component"]}
-        if ends["b"] == "ground":
-            ends = {"a": ends["b"], "b": ends["a"]}
-            frames.reverse()
-            dof = freedom("rz", None, -data.MaxVal, -data.MinVal)
-        base: Record = {"id": record["id"], "name": record["name"], "type": "revolute", **ends}
-        return {**base, "frameA": frames[0], "frameB": frames[1], "dof": [dof]}
+        joint: Record = {
+            "id": record["id"],
+            "name": record["name"],
+            "type": "revolute",
+            "a": axes[0]["component"],
+            "b": axes[1]["component"],
+            "frameA": frames[0],
+            "frameB": frames[1],
+            "dof": [freedom("rz", None, data.MinVal, data.MaxVal)],
+        }
+        return exchanged(joint) if joint["b"] == "ground" else joint
     for key, seat, axis in zip("ab", seats, axes):
         record[key] = {**axis, "geometry": "circle", "p": seat}
     record |= {"kind": "insert", **given.sense}

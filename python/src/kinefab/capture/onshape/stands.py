@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...geometry.mass import solid_properties
 from ...spatial import Array, IntArray
 
 FITS = 0.02
@@ -76,19 +77,10 @@ def misfits(points: Array, faces: IntArray, said: Said) -> dict[str, float]:
 
 def _solid(points: Array, faces: IntArray) -> tuple[float, Array, Array]:
     """Volume, centre and moments of one kilogram about it, of the solid between the triangles; a volume of 0 for none."""
-    origin = points.mean(axis=0)
-    a, b, c = (points[faces[:, i]] - origin for i in range(3))
-    sixth = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    volume = float(sixth.sum())
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    if volume <= 1e-9 * size**3:  # open, flat or inside out
-        return 0.0, origin, np.zeros((3, 3))
-    center = (sixth[:, None] * (a + b + c)).sum(axis=0) / (4.0 * volume)
-    a, b, c = a - center, b - center, c - center
-    sixth = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    s = a + b + c
-    spread = sum(np.einsum("i,ij,ik->jk", sixth, v, v) for v in (a, b, c, s)) / (20.0 * volume)
-    return volume, origin + center, np.trace(spread) * np.eye(3) - spread
+    found = solid_properties(points, faces, 1.0)
+    if found.mass <= 1e-9 * float(np.linalg.norm(np.ptp(points, axis=0))) ** 3:  # open, flat or inside out
+        return 0.0, np.zeros(3), np.zeros((3, 3))
+    return found.mass, found.center, found.inertia / found.mass
 
 
 @dataclass(slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -137,8 +137,8 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
                 look = document.completed(look, primitives[name])
                 vertices = document.places(primitives[name])
             own[name] = _piece(mesh, look, surfaces, vertices)
-        placed = np.asarray(transform)
-        pieces.append(own[name] if (placed == UNMOVED).all() else transformed(own[name], placed))
+        matrix = np.asarray(transform)
+        pieces.append(own[name] if (matrix == UNMOVED).all() else transformed(own[name], matrix))
         by_node.setdefault(str(node), []).append((number,))
         by_geometry.setdefault(str(name), []).append((number,))
         above, passed = parents.get(node), {node}
@@ -153,25 +153,21 @@ def _read_scene(path: Path, report: Report, where: str) -> MeshFile:
         objects.setdefault(name, [tuple(numbers)])
     for name, occurrences in by_geometry.items():
         objects.setdefault(name, occurrences)
-    for name, detail in resolver.failed.items():  # of buffers the whole file would have failed
-        report.dropped(
-            f"texture {name}", "TEXTURE_UNREADABLE", where, file=name, path=path.name, detail=detail
-        )
-    if gltf and find_spec("PIL") is None and b'"images"' in path.read_bytes():
-        detail = "reading images needs the Python package pillow"
-        report.dropped(
-            "textures of " + path.name,
-            "TEXTURE_UNREADABLE",
-            where,
-            file="of it",
-            path=path.name,
-            detail=detail,
-        )
+    _tell_images(path, resolver.failed, report, where)
     metres = None
     if suffix in ARCHIVES:
         metres = metres_of_3mf(heads := heads_of_3mf(path))
         tell_3mf(heads, path, report, where)
     return MeshFile(path, pieces, {MeshKey.OBJECT: objects, MeshKey.GROUP: by_geometry}, surfaces, metres)
+
+
+def _tell_images(path: Path, failed: Mapping[str, str], report: Report, where: str) -> None:
+    """failed: what could not be read beside the file, and why; of buffers the whole file would have failed."""
+    told = [(f"texture {name}", name, detail) for name, detail in failed.items()]
+    if path.suffix.lower() in GLTF and find_spec("PIL") is None and b'"images"' in path.read_bytes():
+        told.append((f"textures of {path.name}", "of it", "reading images needs the Python package pillow"))
+    for feature, file, detail in told:
+        report.dropped(feature, "TEXTURE_UNREADABLE", where, file=file, path=path.name, detail=detail)
 
 
 _UNHEARD = logging.NullHandler()

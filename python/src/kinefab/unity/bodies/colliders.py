@@ -121,28 +121,9 @@ def stated_collider(
         "group": collider.group,
         "id": collider.name,
     }
-    center, turn = collider.pose.translation, collider.pose.rotation
-    if collider.kind is ColliderKind.SPHERE:
+    if (simple := _without_mesh(collider, common)) is not None:
         report.kept(feature, collider.where)
-        sphere = SphereCollider(**common, center=vector3(frames.point(center)), radius=collider.radius)
-        return [PlacedCollider(sphere)]
-    if collider.kind is ColliderKind.BOX:
-        size = _along_axes(np.array(collider.size), turn)
-        report.kept(feature, collider.where)
-        if size is None:
-            return [PlacedCollider(BoxCollider(**common, size=collider.size), collider.pose)]
-        return [
-            PlacedCollider(BoxCollider(**common, center=vector3(frames.point(center)), size=vector3(size)))
-        ]
-    if collider.kind is ColliderKind.CAPSULE:
-        height = collider.length + 2.0 * collider.radius
-        size = _along_axes(np.array([0.0, 0.0, 1.0]), turn)
-        report.kept(feature, collider.where)
-        shape: dict[str, Any] = {**common, "radius": collider.radius, "height": height}
-        if size is None:
-            return [PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)]
-        shape |= {"center": vector3(frames.point(center)), "direction": "XYZ"[int(size.argmax())]}
-        return [PlacedCollider(CapsuleCollider(**shape))]
+        return [simple]
     if _is_flat(collider, dynamic):
         report.dropped(feature, "COLLIDER_FLAT_DROPPED", collider.where, collider=feature)
         return []
@@ -165,6 +146,27 @@ def stated_collider(
     if collider.kind is ColliderKind.PIECES:
         convex = colliders.pieces_of.get(collider.mesh, convex)
     return [_meshed(MeshCollider(**common, mesh=mesh, convex=True), collider) for mesh in convex]
+
+
+def _without_mesh(collider: Collider, common: Mapping[str, Any]) -> PlacedCollider | None:
+    """A ball, box or capsule, on an object of its own where its axes are not the node's; None for any other shape."""
+    center, turn = vector3(frames.point(collider.pose.translation)), collider.pose.rotation
+    if collider.kind is ColliderKind.SPHERE:
+        return PlacedCollider(SphereCollider(**common, center=center, radius=collider.radius))
+    if collider.kind is ColliderKind.BOX:
+        size = _along_axes(np.array(collider.size), turn)
+        if size is None:
+            return PlacedCollider(BoxCollider(**common, size=collider.size), collider.pose)
+        return PlacedCollider(BoxCollider(**common, center=center, size=vector3(size)))
+    if collider.kind is ColliderKind.CAPSULE:
+        along = _along_axes(np.array([0.0, 0.0, 1.0]), turn)
+        height = collider.length + 2.0 * collider.radius
+        shape: dict[str, Any] = {**common, "radius": collider.radius, "height": height}
+        if along is None:
+            return PlacedCollider(CapsuleCollider(**shape, direction="Z"), collider.pose)
+        direction = "XYZ"[int(along.argmax())]
+        return PlacedCollider(CapsuleCollider(**shape, center=center, direction=direction))
+    return None
 
 
 def _meshed(component: MeshCollider | BoxCollider, collider: Collider) -> PlacedCollider:

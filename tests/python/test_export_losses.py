@@ -250,6 +250,8 @@ def test_drive_on_a_locked_freedom_is_mentioned(tmp_path):
     content, result = exported(scene, tmp_path)
     assert [d.code for d in result.report.diagnostics] == ["JOINT_DRIVE_LOCKED"]
     assert "yDrive" not in components(content, "P", "ConfigurableJoint")[0]
+    told = kinefab.export(scene, tmp_path / "scene.glb").report.diagnostics
+    assert [d.code for d in told] == ["JOINT_DRIVE_LOCKED"]
 
 
 def test_ball_joint_exported_at_a_swing_reports_where_its_limits_start(tmp_path):

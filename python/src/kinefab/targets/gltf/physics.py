@@ -18,6 +18,7 @@ from ...model import (
     RX,
     Collider,
     ColliderKind,
+    Drive,
     Freedom,
     Joint,
     MassProperties,
@@ -81,15 +82,12 @@ class PhysicsEntries:
         )
 
     def joint(self, joint: Joint) -> int:
-        """The description of a joint's limits and drives; the report tells what it has no field for."""
+        """The description of a joint's limits and drives; the report tells what it has no field for.  joint: its drives as
+        ``with_passive_drives`` leaves them."""
         feature, before = f"joint {joint.id}", len(self._report.outcomes)
         limits = [limit for i, f in enumerate(joint.freedoms) if (limit := _limit(i, f)) is not None]
         limits = _merged(limits)
-        drives = [
-            _drive(i, f)
-            for i, f in enumerate(joint.freedoms)
-            if f.drive is not None and f.motion is not Motion.LOCKED
-        ]
+        drives = [_drive(i, f.drive) for i, f in enumerate(joint.freedoms) if f.drive is not None]
         told: list[tuple[str, bool]] = [
             ("friction", any(f.passive is not None and f.passive.friction for f in joint.freedoms)),
             ("armature", any(f.passive is not None and f.passive.armature for f in joint.freedoms)),
@@ -177,9 +175,7 @@ def _merged(limits: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return found
 
 
-def _drive(index: int, freedom: Freedom) -> dict[str, Any]:
-    drive = freedom.drive
-    assert drive is not None
+def _drive(index: int, drive: Drive) -> dict[str, Any]:
     entry: dict[str, Any] = {
         "type": "angular" if index >= RX else "linear",
         "mode": "acceleration" if drive.acceleration else "force",

@@ -110,9 +110,6 @@ def map_joint(
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
     placement = place(shape, a is None, b is None)
     before = len(report.outcomes)
-    for i, freedom in enumerate(joint.freedoms):
-        if freedom.drive is not None and freedom.motion is Motion.LOCKED:
-            report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i))
     component = _component(joint, shape, found, frame_a, frame_b, placement, coordinates, report)
     owner, connected = (a, b) if placement.on_a else (b, a)
     assert owner is not None, "two parts of the ground are one rigid group"

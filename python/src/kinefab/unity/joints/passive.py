@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from ...diagnostics import Report
-from ...model import FREEDOM_NAMES, Drive, Freedom, Joint, Motion, Passive
+from ...model import Drive, Freedom, Joint, Motion, Passive
 
 MOST = 1e36
 """Newtons, metres, radians: a 32-bit float holds it in degrees too."""
@@ -47,10 +47,14 @@ def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Repo
 
 
 def _without_idle(joint: Joint, index: int, freedom: Freedom, report: Report) -> Freedom:
-    """The freedom without a drive that has aims and nothing that takes it there; a single such aim is told."""
+    """The freedom without a drive that it is locked against, or that has aims and nothing that takes it there; a single such
+    aim is told."""
     drive = freedom.drive
-    if drive is None or freedom.motion is Motion.LOCKED:
+    if drive is None:
         return freedom
+    if freedom.motion is Motion.LOCKED:
+        report.add("JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(index))
+        return replace(freedom, drive=None)
     idle: dict[str, str] = {}
     if drive.target != 0.0 and (drive.motor or not drive.stiffness):
         idle["target"] = "stiffness"
@@ -65,7 +69,7 @@ def _without_idle(joint: Joint, index: int, freedom: Freedom, report: Report) ->
 
 
 def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:
-    names = {"joint": joint.id, "freedom": FREEDOM_NAMES[index]}
+    names = {"joint": joint.id, "freedom": joint.freedom_name(index)}
     bare = replace(freedom, passive=None)
     if freedom.motion is Motion.LOCKED:
         return bare

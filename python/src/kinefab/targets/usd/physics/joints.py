@@ -167,11 +167,6 @@ class Joints:
             names = exchange.picked(shape.name_of)
             shape = replace(shape, freedoms=exchange.freedoms(shape.freedoms), name_of=names)
         self.places.write_sides(prim, sides, exchanged)
-        for freedom, i in ((f, i) for i, f in enumerate(joint.freedoms) if f.drive is not None):
-            if freedom.motion is Motion.LOCKED:
-                self.report.add(
-                    "JOINT_DRIVE_LOCKED", joint.where, joint=joint.id, freedom=joint.freedom_name(i)
-                )
         free = unlocked_of(shape.freedoms)
         if begun.kind == "PhysicsJoint":
             self._write_generic(prim, joint, shape, begun.passives, values)

@@ -14,17 +14,15 @@ from typing import Any, cast
 
 import numpy as np
 
+from ...geometry.looks.gltf_document import MAGIC, Json, accessor_values
 from ...spatial import Array, IntArray
 
-MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
+JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TRIANGLES = 4
 """Modes below are points and lines, those above strips and fans."""
-TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 FLOAT = 5126
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 NAMING = frozenset({"name", "extras", "extensions", "generator", "copyright"})
 WHITE = (1.0, 1.0, 1.0, 1.0)
-Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,15 +187,7 @@ def _values(document: Json, buffers: list[bytes], entry: Json) -> Array:
     """The numbers of an accessor as they stand, (count, width).  Raises ValueError or TypeError beyond its buffer."""
     if "sparse" in entry or "bufferView" not in entry:
         raise ValueError("an accessor without plain numbers")
-    view = document["bufferViews"][entry["bufferView"]]
-    kind: np.dtype[Any] = np.dtype(TYPES[entry["componentType"]])
-    width, count = WIDTHS[entry["type"]], entry["count"]
-    step = view.get("byteStride") or kind.itemsize * width
-    start, length = view.get("byteOffset", 0), view["byteLength"]
-    if start < 0 or length < 0 or count < 0:
-        raise ValueError("a negative size")
-    held = buffers[int(view.get("buffer", 0))][start : start + length]
-    return np.ndarray((count, width), kind, held, entry.get("byteOffset", 0), (step, kind.itemsize))
+    return accessor_values(document, entry, buffers.__getitem__)
 
 
 def _faces(document: Json, buffers: list[bytes], index: int | None, count: int) -> IntArray:

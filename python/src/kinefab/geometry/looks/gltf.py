@@ -15,7 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import AlphaMode, Surface, Texture, Wrap
 from ...spatial import Array
-from .gltf_document import COMPONENTS, COMPRESSIONS, GLB_HEAD, Json
+from .gltf_document import COMPRESSIONS, GLB_HEAD, Json, accessor_values
 from .visuals import Look, linear_colors
 
 READ_MODES = (0, 1, 4, 5)
@@ -33,7 +33,6 @@ SLOTS = {
 STRENGTHS = {"normalTexture": "scale", "occlusionTexture": "strength"}
 TRANSFORM, STRENGTH = "KHR_texture_transform", "KHR_materials_emissive_strength"
 GLOSSY = "KHR_materials_pbrSpecularGlossiness"
-TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
 
 @dataclass(slots=True, eq=False)
@@ -152,16 +151,10 @@ class GltfFile:
         entry = self.document["accessors"][index]
         if "sparse" in entry or "bufferView" not in entry:
             return None
-        view: Json = self.document["bufferViews"][entry["bufferView"]]
-        kind: np.dtype[Any] = np.dtype(TYPES[entry["componentType"]])
-        width, count = COMPONENTS[entry["type"]], int(entry["count"])
-        step = view.get("byteStride") or kind.itemsize * width
-        start, at = view.get("byteOffset", 0), entry.get("byteOffset", 0)
-        held = self._buffer(view["buffer"])[start : start + view["byteLength"]]
-        values = np.ndarray((count, width), kind, held, at, (step, kind.itemsize)).astype(np.float64)
-        if entry.get("normalized") and kind.kind != "f":
-            return np.maximum(values / float(np.iinfo(kind).max), -1.0)
-        return values
+        values = accessor_values(self.document, entry, self._buffer)
+        if entry.get("normalized") and values.dtype.kind != "f":
+            return np.maximum(values.astype(np.float64) / float(np.iinfo(values.dtype).max), -1.0)
+        return values.astype(np.float64)
 
     def _buffer(self, number: int) -> bytes:
         if number not in self._buffers:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ast
+import copy
+import pickle
 import re
 from pathlib import Path
 
 import kinefab
+import pytest
 from scenes import lid_scene
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,6 +51,17 @@ def test_what_the_api_hands_out_is_public(tmp_path):
         found.severity,
     ):
         assert type(thing).__name__ in kinefab.__all__
+
+
+@pytest.mark.parametrize("through", [copy.copy, copy.deepcopy, lambda error: pickle.loads(pickle.dumps(error))])
+def test_a_refusal_is_the_same_on_the_other_side_of_a_process(tmp_path, through):
+    """A pool whose task raised what cannot be unpickled is broken, and says only that a process ended abruptly."""
+    with pytest.raises(kinefab.KinefabError) as refused:
+        kinefab.export(tmp_path / "gone.urdf", tmp_path / "gone.kinefab")
+    error = refused.value
+    other = through(error)
+    assert (type(other), str(other), other.diagnostics) == (type(error), str(error), error.diagnostics)
+    assert [str(found) for found in other.report.diagnostics] == [str(found) for found in error.report.diagnostics]
 
 
 def test_both_languages_have_one_version():

@@ -158,6 +158,11 @@ class KinefabError(Exception):
         self.report = report
         super().__init__("\n".join(map(str, listed(self.diagnostics))))
 
+    def __reduce__(self) -> tuple[type[KinefabError], tuple[tuple[Diagnostic, ...], Report | None]]:
+        """By what it was made of: a process pool hands its tasks' exceptions over pickled, and an exception's own way takes
+        the text for the diagnostics."""
+        return type(self), (self.diagnostics, self.report)
+
 
 def schema_directory() -> Path:
     """Where the schemas are: beside the package when installed, at the root in a checkout."""

@@ -64,6 +64,14 @@ def test_a_refusal_is_the_same_on_the_other_side_of_a_process(tmp_path, through)
     assert [str(found) for found in other.report.diagnostics] == [str(found) for found in error.report.diagnostics]
 
 
+def test_what_an_export_returns_comes_out_of_a_process(tmp_path):
+    """A pool's task that returns what ``export`` returned; only its files came out."""
+    result = kinefab.export(lid_scene(), tmp_path / "lid.glb")
+    other = pickle.loads(pickle.dumps(result))
+    assert (other.files, other.numbers, repr(other)) == (result.files, result.numbers, repr(result))
+    assert [entry.name for entry in other.unity.gameObjects] == [entry.name for entry in result.unity.gameObjects]
+
+
 def test_both_languages_have_one_version():
     """Scenes, exporter and library are released together."""
     properties = (ROOT / "csharp" / "Directory.Build.props").read_text(encoding="utf-8")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
@@ -205,11 +206,11 @@ def export(
             found.scene,
             found.groups,
             found.analysis.findings,
-            lambda links: _mapped(found, options, links, report),
+            partial(_mapped, found, options, report=report),
             report,
             asked,
             options.strict,
-            lambda fraction: progress("write", fraction),
+            partial(progress, "write"),
             options.colliders,
             options.smooth,
         )

@@ -94,6 +94,21 @@ def test_what_a_script_prints_is_a_line(tmp_path: Path):
     )
     counts = "0 error, 1 warning, 0 info, 1 kept, 1 approximated, 0 dropped"
     assert repr(result) == f"<ExportResult: {tmp_path / 'a.kinefab'}; <Report: {counts}>>"
+    assert repr(scene) == "<Scene: 1 nodes, 0 meshes, 1 joints, 0 couplings>"
+    assert repr(scene.joints[0]) == "<Joint Hinge: revolute; a None, b 0>"
+    out = tmp_path / "out"
+    batch = kinefab.batch([tmp_path / "gone.urdf"], out, jobs=1)
+    assert repr(batch) == f"<BatchResult: 1 refused; {out / 'index.html'}>"
+    assert repr(kinefab.batch([], out)) == f"<BatchResult: no files; {out / 'index.html'}>"
+
+
+def test_arguments_in_the_wrong_order_are_told_in_a_line():
+    """The scene stood in the message whole, with all its arrays."""
+    scene = kinefab.Scene()
+    scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0))
+    with pytest.raises(TypeError) as refused:
+        kinefab.export("door.kinefab", scene)
+    assert str(refused.value).startswith("the target is <Scene: 1 nodes, 0 meshes, 1 joints, 0 couplings>; pass")
 
 
 @pytest.mark.parametrize("command", ["view", "report", "draw"])

@@ -42,6 +42,11 @@ class BatchResult:
     records: tuple[Record, ...]
     index: str
 
+    def __repr__(self) -> str:
+        """In one line: it may have thousands of records."""
+        counts = [f"{number} {outcome}" for outcome, number in self.counts.items()]
+        return f"<BatchResult: {', '.join(counts) or 'no files'}; {self.index}>"
+
     @property
     def counts(self) -> dict[str, int]:
         """How many of each outcome.

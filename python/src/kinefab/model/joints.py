@@ -134,6 +134,10 @@ class Joint:
     where: str = ""
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
 
+    def __repr__(self) -> str:
+        """In one line: two frames and six freedoms are in it."""
+        return f"<Joint {self.id}: {self.kind.value}; a {self.a}, b {self.b}>"
+
     @property
     def unlocked(self) -> tuple[int, ...]:
         """The freedoms TX..RZ that may move.

@@ -75,6 +75,11 @@ class Scene:
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
     identities: Mapping[str, str] = field(default_factory=dict[str, str])
 
+    def __repr__(self) -> str:
+        """In one line: all its parts and meshes are in it."""
+        counts = ("nodes", "meshes", "joints", "couplings")
+        return f"<Scene: {', '.join(f'{len(getattr(self, name))} {name}' for name in counts)}>"
+
     def pose(self, node: int | None) -> Pose:
         """World pose of a node; the identity for ground."""
         return Pose() if node is None else self.nodes[node].pose

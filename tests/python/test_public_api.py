@@ -26,6 +26,16 @@ def test_every_public_name_says_what_it_is():
     assert [name for name, doc in told.items() if not doc or len(doc) < 20] == []
 
 
+def test_a_shell_offers_every_public_name_and_help_tells_of_it():
+    """In a process of its own, where nothing was asked for yet."""
+    code = "import sys, kinefab; print(*dir(kinefab)); print('numpy' in sys.modules); help(kinefab)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    offered, numpy, told = done.stdout.split("\n", 2)
+    assert set(API) <= set(offered.split()) and numpy == "False"
+    shown = [name for name in API if f"\n    {name}(" in told or f"\n    class {name}(" in told]
+    assert sorted(shown) == sorted(set(API) - {"__version__"})
+
+
 def test_importing_the_package_imports_nothing_heavy():
     """``import kinefab`` is for everybody who only might need it; numpy comes with the first name that is used."""
     code = "import sys, kinefab; print(sorted({'numpy', 'scipy', 'trimesh', 'typer', 'rich', 'pxr'} & sys.modules.keys()))"

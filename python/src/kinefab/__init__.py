@@ -82,6 +82,11 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .spatial import Pose as Pose
 
 
+def __dir__() -> list[str]:
+    """What a shell offers to complete and ``help(kinefab)`` tells of; imported or not."""
+    return list(__all__)
+
+
 def __getattr__(name: str) -> Any:
     """Import what is asked for only then, so that ``kinefab --help`` need not wait for numpy."""
     if name not in _HOMES:

@@ -58,6 +58,37 @@ def test_numbers_that_allow_nothing_are_a_wrong_call(tmp_path, numbers):
     assert done.exit_code == 2 and f"--{name}" in done.stderr and not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("through", [str, Path], ids=["text", "path"])
+def test_one_folder_alone_is_that_folder(tmp_path, monkeypatch, through):
+    """Text is a sequence too: each of its letters was looked for, and what lay in a folder of one letter was exported."""
+    monkeypatch.chdir(tmp_path)
+    sources(tmp_path / "robots", "arm")
+    sources(tmp_path / "o", "other")
+    result = kinefab.batch(through("robots"), "out", jobs=1)
+    assert [*found(result)] == ["arm"] and result.counts == {"written": 1}
+
+
+@pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ({"inputs": None}, "the inputs are None; pass files, folders or patterns"),
+        ({"inputs": ["a.urdf", 3]}, "3 is among the inputs; pass files, folders or patterns"),
+        ({"out": None}, "out is None; pass a folder or a URL"),
+        ({"options": {"colliders": "box"}}, "the options are {'colliders': 'box'}; pass kinefab.ExportOptions(...)"),
+        ({"jobs": "2"}, "jobs is '2'; pass a number, or None"),
+        ({"timeout": True}, "timeout is True; pass a number, or None"),
+        ({"options": kinefab.ExportOptions(reading={"up": "z"})}, "up is 'z'; pass one of: X, Y, Z"),
+        ({"options": kinefab.ExportOptions(writing={"scripts": 1})}, "scripts is 1; pass True or False"),
+    ],
+)  # fmt: skip
+def test_what_is_no_input_folder_option_or_number_is_a_wrong_call(tmp_path, wrong, told):
+    """At once, and nothing is made."""
+    call = {"inputs": [tmp_path / "gone.urdf"], "out": tmp_path / "out"} | wrong
+    with pytest.raises((TypeError, ValueError)) as refused:
+        kinefab.batch(**call)
+    assert str(refused.value) == told and not (tmp_path / "out").exists()
+
+
 def test_a_target_folder_that_is_a_file_is_told_before_anything_is_read(tmp_path):
     (tmp_path / "out").write_text("somebody's")
     with pytest.raises(KinefabError) as caught:

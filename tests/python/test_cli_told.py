@@ -108,7 +108,9 @@ def test_arguments_in_the_wrong_order_are_told_in_a_line():
     scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0))
     with pytest.raises(TypeError) as refused:
         kinefab.export("door.kinefab", scene)
-    assert str(refused.value).startswith("the target is <Scene: 1 nodes, 0 meshes, 1 joints, 0 couplings>; pass")
+    assert str(refused.value).startswith(
+        "the target is <Scene: 1 nodes, 0 meshes, 1 joints, 0 couplings>; pass"
+    )
 
 
 @pytest.mark.parametrize("command", ["view", "report", "draw"])

@@ -168,6 +168,21 @@ def test_a_broken_scene_is_refused_in_a_sentence(text, tmp_path):
     assert page.read_text("utf-8") == "old"
 
 
+@pytest.mark.parametrize("written", [kinefab.view, kinefab.report], ids=["view", "report"])
+@pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ({"source": 3}, "the source is 3; pass a file's path or a kinefab.Scene"),
+        ({"target": None}, "the target is None; pass the path of the page, NAME.html"),
+        ({"options": {"limits": True}}, "the options are {'limits': True}; pass kinefab.ExportOptions(...)"),
+    ],
+)
+def test_what_is_no_source_target_or_options_is_a_wrong_call(written, wrong, told, tmp_path):
+    with pytest.raises(TypeError) as refused:
+        written(**({"source": kinefab.Scene(), "target": tmp_path / "a.html"} | wrong))
+    assert str(refused.value) == told
+
+
 def test_a_target_that_cannot_be_written_is_named(tmp_path):
     done = run("view", LEVER, "-o", tmp_path / "nowhere" / "page.html")
     assert done.returncode == 1 and "TARGET_UNWRITABLE" in done.stderr

@@ -31,3 +31,33 @@ def test_a_library_that_is_missing_is_named_with_the_extra_that_installs_it(monk
 def test_options_of_one_name_are_one():
     names = [option.name for option in source_options()]
     assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize(
+    "source, asked, told",
+    [
+        ("lever.step", {"up": "z"}, "up is 'z'; pass one of: X, Y, Z"),
+        ("lever.usda", {"load": "nothing"}, "load is 'nothing'; pass one of: all, none"),
+        ("lever.usda", {"purpose": ["proxy", "x"]}, "purpose is 'x'; pass one of: proxy, guide"),
+        ("lever.urdf", {"floating_base": "no"}, "floating_base is 'no'; pass True or False"),
+        ("lever.urdf", {"package_path": 3}, "package_path is 3; pass one of its values, or a list of them"),
+    ],
+)
+def test_a_value_that_an_option_cannot_have_is_a_wrong_call(source, asked, told, monkeypatch):
+    """The command line refuses it by itself; a script saw it passed over, taken for a yes, or a traceback."""
+    monkeypatch.setattr(registry, "find_spec", lambda name: True)
+    with pytest.raises((TypeError, ValueError)) as refused:
+        read(LEVER.parent / source, Report(), options=asked)
+    assert str(refused.value) == told
+
+
+def test_an_open_stage_s_options_are_held_to_their_words():
+    usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
+    with pytest.raises(ValueError, match="load is 'some'; pass one of: all, none"):
+        registry.read_stage(usd.Stage.CreateInMemory(), Report(), {"load": "some"})
+
+
+def test_one_value_of_an_option_that_may_have_several_is_the_only_one():
+    asked = {"purpose": "proxy", "variant": "a=b"}
+    for option in source_options():
+        option.check(asked.get(option.name))

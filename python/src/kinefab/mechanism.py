@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import cast
 
 from .analysis import Analysis, analyse
 from .analysis.driving.coordinates import Driven
-from .analysis.driving.mechanism import Branching, Coordinate, Mechanism, Stop, Trajectory
+from .analysis.driving.mechanism import Mechanism
+from .analysis.driving.trajectory import Branching, Coordinate, Stop, Trajectory
 from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .analysis.joints.welding import welded
@@ -38,8 +38,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
     (1, ('Door',))
     """
     report = Report()
-    if not isinstance(cast(object, source), (str, os.PathLike, Scene)):
-        raise TypeError(f"the source is {source!r}; pass a file's path or a kinefab.Scene")
+    check_source(source)
     if isinstance(source, Scene):
         scene = source
     elif Path(source).suffix.lower() == ".kinefab":
@@ -54,6 +53,12 @@ def motion(source: str | Path | Scene) -> Mechanism:
     found = analyse(replace(scene, joints=[*scene.joints, *records]))
     found.report.raise_for_errors()
     return mechanism_of(found)
+
+
+def check_source(source: object) -> None:
+    """Raises TypeError for what is none."""
+    if not isinstance(source, (str, os.PathLike, Scene)):
+        raise TypeError(f"the source is {source!r}; pass a file's path or a kinefab.Scene")
 
 
 def mechanism_of(found: Analysis) -> Mechanism:

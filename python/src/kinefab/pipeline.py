@@ -29,7 +29,7 @@ from .geometry.weighing import weigh
 from .mates import Mates
 from .mates.asked import found_mates, mated
 from .model import Scene
-from .options import ExportOptions
+from .options import ExportOptions, check_options
 from .replacing import why_unwritable
 from .rigid import RigidGroups, rigid_groups
 from .sources import Stage, read, read_stage
@@ -171,9 +171,10 @@ def export(
     """Export ``source`` to ``target``, by whose ending the kind of output is chosen (``NAME.kinefab`` ...).
 
     source: a file that a reader of ``kinefab.sources`` knows, an open ``pxr.Usd.Stage``, or a Scene made in code.
+    progress: called with a stage's name (``read``, ``meshes`` ...) and how much of it is done, 0 to 1.
     Raises KinefabError, with every error found, when the data is wrong (or lossy, if strict) or the target
-    cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has,
-    TypeError for a source, a target or options that are none.
+    cannot be written; then the target is as it was.  Raises ValueError for a target of an ending that no target has and
+    for a word that an option has not, TypeError for a source, a target or options that are none.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -190,8 +191,7 @@ def export(
     if kind is None:
         known = " or ".join(known_endings())
         raise ValueError(f"the target is {os.fspath(target)!r}; its name must end in {known}")
-    if not isinstance(cast(object, options), ExportOptions):
-        raise TypeError(f"the options are {options!r}; pass kinefab.ExportOptions(...)")
+    check_options(options)
     if not (isinstance(source, (str, Path, Scene)) or hasattr(source, "GetRootLayer")):
         raise TypeError(
             f"the source is {source!r}; pass a file's path, a kinefab.Scene or an open pxr.Usd.Stage"

@@ -6,7 +6,7 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,9 +16,9 @@ from .diagnostics import KinefabError, Report, diagnostic
 from .mates.apply import with_found
 from .mates.mates_file import document as mates_document
 from .mates.mates_file import listed
-from .mechanism import Mechanism, mechanism_of
+from .mechanism import Mechanism, check_source, mechanism_of
 from .model import Joint, Scene
-from .options import ExportOptions
+from .options import ExportOptions, check_options
 from .pipeline import export, mates_of
 from .replacing import why_unwritable, write_whole
 from .spatial import Array, Pose
@@ -51,7 +51,8 @@ def view(
     options: what the source is exported with.  Its reading option ``mates``, "auto" or a ``NAME.mates.json``, has those
     mates listed by number, to be switched and copied back; of a written scene they are listed only.
     found: takes what reading and exporting the source found.
-    Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.
+    Raises KinefabError when the data is wrong or the target cannot be written; then the target is as it was.  Raises
+    TypeError for a source, a target or options that are none.
 
     >>> import kinefab, trimesh
     >>> scene = kinefab.Scene()
@@ -60,12 +61,17 @@ def view(
     >>> kinefab.view(scene, "door.html").name
     'door.html'
     """
-    return _written(source, Path(target), options, found, told=False)
+    return _written(source, target, options, found, told=False)
 
 
 def _written(
-    source: str | Path | Scene, target: Path, options: ExportOptions, found: Report | None, told: bool
+    source: str | Path | Scene, target: str | Path, options: ExportOptions, found: Report | None, told: bool
 ) -> Path:
+    check_source(source)
+    check_options(options)
+    if not isinstance(cast(object, target), (str, os.PathLike)):
+        raise TypeError(f"the target is {target!r}; pass the path of the page, NAME.html")
+    target = Path(target)
     found = Report() if found is None else found
     mates, shown = _with_mates(source, options, found)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
@@ -208,7 +214,7 @@ def report(
     >>> kinefab.report(scene, "door.html").name
     'door.html'
     """
-    return _written(source, Path(target), options, found, told=True)
+    return _written(source, target, options, found, told=True)
 
 
 def motion_of(back: Restored, mechanism: Mechanism) -> Motion:

@@ -9,12 +9,15 @@ from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Executor, Future, as_completed
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
+from typing import cast
 
 from ..diagnostics import KinefabError, diagnostic
-from ..options import ExportOptions
+from ..options import ExportOptions, check_options
 from ..replacing import demand_writable
-from ..targets import known_endings
+from ..sources import source_options
+from ..targets import known_endings, target_options
 from . import places
 from .index import index_page
 from .job import Job, Outcome, Record, options_as_json, unmade
@@ -69,7 +72,7 @@ class BatchResult:
 
 
 def batch(
-    inputs: Iterable[str | os.PathLike[str]],
+    inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     out: str | os.PathLike[str],
     to: str = "kinefab",
     options: ExportOptions = ExportOptions(),
@@ -83,31 +86,34 @@ def batch(
 ) -> BatchResult:
     """Export every source in ``inputs`` into the folder ``out``.
 
-    inputs: files, folders, patterns; paths, or URLs that fsspec knows.  out: folder or URL.
+    inputs: a file, a folder or a pattern, or several; paths, or URLs that fsspec knows.  out: folder or URL.
     to: kind of target, an ending without its dot.  jobs: files at once, None for one a processor.
     executor: who does the work instead, any of ``concurrent.futures`` or ``distributed.Client.get_executor()``; Kinefab is
     installed where it works, and paths mean the same there.
     timeout: seconds a file.  memory: bytes a file.  force: convert what is up to date, overwrite what others wrote.
-    Raises ValueError for a kind that no target has and for a number that is not above zero, KinefabError where ``out``
-    cannot be written.  What goes wrong with a file is in its record.
+    progress: called with how many are done, of how many, and the last one's record.
+    Raises ValueError for a kind that no target has, for a word that an option has not and for a number that is not above
+    zero, TypeError for inputs, a folder, options or a number that are none, KinefabError where ``out`` cannot be written.
+    What goes wrong with a file is in its record.
 
     >>> import kinefab
     >>> result = kinefab.batch(["gone.urdf"], "out", timeout=120)
     >>> result.counts, [*result.records[0].codes]
     ({'refused': 1}, ['SOURCE_NOT_FOUND'])
     """
-    ending = f".{to.lstrip('.')}"
+    ending = f".{str(to).lstrip('.')}"
     if ending not in known_endings():
         raise ValueError(
             f"there is no output {to!r}; pass one of: {', '.join(e[1:] for e in known_endings())}"
         )
-    for name, number in (("jobs", jobs), ("timeout", timeout), ("memory", memory)):
-        if number is not None and not number > 0:
-            raise ValueError(f"{name} is {number}; it must be a number above zero, or None")
+    _check_numbers(jobs=jobs, timeout=timeout, memory=memory)
+    _check_options(options)
+    if not isinstance(cast(object, out), (str, os.PathLike)):
+        raise TypeError(f"out is {out!r}; pass a folder or a URL")
     folder = os.fspath(out)
     folder = folder if places.is_url(folder) else os.path.abspath(folder)
     ledger = places.join(folder, LEDGER)
-    named = [os.fspath(place) for place in inputs]
+    named = _named(inputs)
     absolute = [place if places.is_url(place) else os.path.abspath(place) for place in named]
     asked = options_as_json(options)
     with _unwritable_as_finding(folder):
@@ -137,6 +143,39 @@ def batch(
         places.write_bytes(places.join(folder, "batch.jsonl"), told)
         places.write_bytes(index, index_page(records, folder).encode("utf-8", "backslashreplace"))
     return BatchResult(records, index)
+
+
+def _named(inputs: object) -> list[str]:
+    """A single path is the only one; it would be taken letter by letter."""
+    if isinstance(inputs, (str, os.PathLike)):
+        return [os.fspath(cast("str | os.PathLike[str]", inputs))]
+    if not isinstance(inputs, Iterable):
+        raise TypeError(f"the inputs are {inputs!r}; pass files, folders or patterns")
+    named: list[str] = []
+    for place in cast("Iterable[object]", inputs):
+        if not isinstance(place, (str, os.PathLike)):
+            raise TypeError(f"{place!r} is among the inputs; pass files, folders or patterns")
+        named.append(os.fspath(cast("str | os.PathLike[str]", place)))
+    return named
+
+
+def _check_numbers(**numbers: object) -> None:
+    for name, number in numbers.items():
+        if number is None:
+            continue
+        if isinstance(number, bool) or not isinstance(number, Real):
+            raise TypeError(f"{name} is {number!r}; pass a number, or None")
+        if not float(number) > 0:
+            raise ValueError(f"{name} is {number}; it must be a number above zero, or None")
+
+
+def _check_options(options: ExportOptions) -> None:
+    """At once, not by each of ten thousand files."""
+    check_options(options)
+    for option in source_options():
+        option.check(options.reading.get(option.name))
+    for option in target_options():
+        option.check(options.writing.get(option.name))
 
 
 def _demand_folder(ledger: str) -> None:

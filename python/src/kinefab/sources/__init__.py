@@ -112,7 +112,7 @@ def read(
     """Read a source by whichever reader knows it.
 
     report: receives every finding.  vertices, progress: see ``Request``.  options: by name; one that the format does not have
-    is a warning.  Raises KinefabError with every error found.
+    is a warning.  Raises KinefabError with every error found, ValueError or TypeError for a value that an option cannot have.
     """
     from .reading.request import Request
 
@@ -141,6 +141,8 @@ def read(
     for name in sorted(asked.keys() - {option.name for option in found.options}):
         report.add("SOURCE_OPTION_UNUSED", path.name, option=name.replace("_", "-"), format=found.name)
         del asked[name]
+    for option in found.options:
+        option.check(asked.get(option.name))
     reader = import_module(f".{found.module}", __name__)
     scene: Scene = reader.read(path, report, Request(asked, vertices, progress))
     return scene
@@ -158,6 +160,8 @@ def read_stage(stage: Stage, report: Report, options: Mapping[str, Any] | None =
     """Read an open stage as it is; what is not saved counts too.  report, options: as in ``read``."""
     from .reading.request import Request
 
+    for option in next(entry.options for entry in FORMATS if entry.module == "usd.reader"):
+        option.check((options or {}).get(option.name))
     reader = import_module(".usd.reader", __name__)
     scene: Scene = reader.read_stage(stage, report, Request(dict(options or {})))
     return scene

@@ -74,7 +74,10 @@ def target_options() -> Iterator[FormatOption]:
 
 
 def check_target(target: Target, options: Mapping[str, Any], report: Report) -> dict[str, Any]:
-    """The options that the target has; a warning for each other, an error for each library that is not there."""
+    """The options that the target has; a warning for each other, an error for each library that is not there.
+
+    Raises ValueError or TypeError for a value that an option cannot have.
+    """
     for name in target.requires:
         if find_spec(name) is None:
             report.add("TARGET_LIBRARY_MISSING", target=target.name, library=name, extra=target.extra)
@@ -82,6 +85,8 @@ def check_target(target: Target, options: Mapping[str, Any], report: Report) -> 
     for name in sorted(asked.keys() - {option.name for option in target.options}):
         report.add("TARGET_OPTION_UNUSED", option=name.replace("_", "-"), target=target.name)
         del asked[name]
+    for option in target.options:
+        option.check(asked.get(option.name))
     return asked
 
 

@@ -39,11 +39,24 @@ def test_what_the_api_hands_out_is_public(tmp_path):
     result = kinefab.export(scene, tmp_path / "lid.kinefab", options)
     (kept,) = result.report.outcomes
     found = result.report.add("SCENE_WITHOUT_PARTS")
+    mechanism = kinefab.motion(scene)
+    swept = mechanism.sweep("Hinge", 0, 120)
+    scene.add_hinge(None, scene.add_part("Gear"), point=(0, 0, 0), axis=(0, 0, 1), name="Gear")
+    batch = kinefab.batch(tmp_path / "gone.urdf", tmp_path / "out")
     for thing in (
         scene,
         *scene.joints,
         result,
+        scene.add_coupling("Hinge", "Gear", -2),
         options.colliders,
+        options.closures,
+        options.ground,
+        mechanism,
+        mechanism.coordinates[0],
+        swept,
+        swept.stop,
+        batch,
+        batch.records[0],
         result.report,
         kept,
         kept.outcome,
@@ -53,7 +66,9 @@ def test_what_the_api_hands_out_is_public(tmp_path):
         assert type(thing).__name__ in kinefab.__all__
 
 
-@pytest.mark.parametrize("through", [copy.copy, copy.deepcopy, lambda error: pickle.loads(pickle.dumps(error))])
+@pytest.mark.parametrize(
+    "through", [copy.copy, copy.deepcopy, lambda error: pickle.loads(pickle.dumps(error))]
+)
 def test_a_refusal_is_the_same_on_the_other_side_of_a_process(tmp_path, through):
     """A pool whose task raised what cannot be unpickled is broken, and says only that a process ended abruptly."""
     with pytest.raises(kinefab.KinefabError) as refused:
@@ -61,7 +76,9 @@ def test_a_refusal_is_the_same_on_the_other_side_of_a_process(tmp_path, through)
     error = refused.value
     other = through(error)
     assert (type(other), str(other), other.diagnostics) == (type(error), str(error), error.diagnostics)
-    assert [str(found) for found in other.report.diagnostics] == [str(found) for found in error.report.diagnostics]
+    assert [str(found) for found in other.report.diagnostics] == [
+        str(found) for found in error.report.diagnostics
+    ]
 
 
 def test_what_an_export_returns_comes_out_of_a_process(tmp_path):
@@ -69,7 +86,9 @@ def test_what_an_export_returns_comes_out_of_a_process(tmp_path):
     result = kinefab.export(lid_scene(), tmp_path / "lid.glb")
     other = pickle.loads(pickle.dumps(result))
     assert (other.files, other.numbers, repr(other)) == (result.files, result.numbers, repr(result))
-    assert [entry.name for entry in other.unity.gameObjects] == [entry.name for entry in result.unity.gameObjects]
+    assert [entry.name for entry in other.unity.gameObjects] == [
+        entry.name for entry in result.unity.gameObjects
+    ]
 
 
 def test_both_languages_have_one_version():

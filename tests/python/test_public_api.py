@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import inspect
+import re
 import subprocess
 import sys
 
 import kinefab
+from kinefab.model import FREEDOM_NAMES, UNLOCKED
 
 API = """
-BatchResult Closures Collider ColliderKind ColliderShape Diagnostic Drive ExportOptions ExportResult FeatureOutcome Freedom Joint
-JointKind KinefabError MassProperties Mechanism Motion Outcome PhysicsMaterial Pose Report Scene Severity Surface Trajectory
-__version__ batch export motion report view
+BatchResult Branching Closures Collider ColliderKind ColliderShape Coordinate Coupling Diagnostic Drive ExportOptions ExportResult
+FeatureOutcome Freedom Ground Joint JointKind KinefabError MassProperties Mechanism Motion Outcome PhysicsMaterial Pose Record Report
+Scene Severity Stop Surface Trajectory __version__ batch export motion report view
 """.split()
 """A name that is added or gone changes what scripts may rely on: write it in CHANGELOG.md too."""
 
@@ -24,6 +26,14 @@ def test_the_public_names_are_those_listed():
 def test_every_public_name_says_what_it_is():
     told = {name: inspect.getdoc(getattr(kinefab, name)) for name in API if name != "__version__"}
     assert [name for name, doc in told.items() if not doc or len(doc) < 20] == []
+
+
+def test_help_tells_what_each_joint_kind_leaves():
+    """It stood in remarks of the source, where ``help`` does not look: a script could not know which axis a slot lies along."""
+    told = dict(re.findall(r"^(\w+): (.*)$", inspect.getdoc(kinefab.JointKind) or "", re.MULTILINE))
+    words = {kind: set(re.split(r"[;,]", told[kind.value])[0].split()) for kind in UNLOCKED}
+    names = {kind: {FREEDOM_NAMES[i] for i in free} or {"none"} for kind, free in UNLOCKED.items()}
+    assert words == names and "general" in told
 
 
 def test_a_shell_offers_every_public_name_and_help_tells_of_it():

@@ -21,19 +21,25 @@ _HOMES = {
     "view": "showing",
     "report": "showing",
     "Mechanism": "mechanism",
+    "Coordinate": "mechanism",
     "Trajectory": "mechanism",
+    "Stop": "mechanism",
+    "Branching": "mechanism",
     "ExportOptions": "options",
     "ExportResult": "pipeline",
     "batch": "batching.run",
     "BatchResult": "batching.run",
+    "Record": "batching.job",
     "ColliderShape": "options",
     "Closures": "options",
+    "Ground": "options",
     "Scene": "builder",
     "Joint": "model",
     "JointKind": "model",
     "Freedom": "model",
     "Motion": "model",
     "Drive": "model",
+    "Coupling": "model",
     "MassProperties": "model",
     "Surface": "model",
     "PhysicsMaterial": "model",
@@ -50,6 +56,7 @@ _HOMES = {
 __all__ = [*_HOMES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
 
 if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
+    from .batching.job import Record as Record
     from .batching.run import BatchResult as BatchResult
     from .batching.run import batch as batch
     from .builder import Scene as Scene
@@ -59,11 +66,15 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .diagnostics import Outcome as Outcome
     from .diagnostics import Report as Report
     from .diagnostics import Severity as Severity
+    from .mechanism import Branching as Branching
+    from .mechanism import Coordinate as Coordinate
     from .mechanism import Mechanism as Mechanism
+    from .mechanism import Stop as Stop
     from .mechanism import Trajectory as Trajectory
     from .mechanism import motion as motion
     from .model import Collider as Collider
     from .model import ColliderKind as ColliderKind
+    from .model import Coupling as Coupling
     from .model import Drive as Drive
     from .model import Freedom as Freedom
     from .model import Joint as Joint
@@ -75,6 +86,7 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .options import Closures as Closures
     from .options import ColliderShape as ColliderShape
     from .options import ExportOptions as ExportOptions
+    from .options import Ground as Ground
     from .pipeline import ExportResult as ExportResult
     from .pipeline import export as export
     from .showing import report as report

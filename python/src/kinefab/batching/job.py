@@ -54,6 +54,11 @@ class Record:
 
     codes: how often each diagnostic was found.  messages: of the errors, at most a few.  seconds: on the clock;
     memory: the most that the process held, bytes.  thumbnail: target of a picture, "" for none.
+
+    >>> import kinefab
+    >>> record = kinefab.batch("gone.urdf", "out").records[0]
+    >>> record.outcome.value, record.outcome.good, record.codes
+    ('refused', False, {'SOURCE_NOT_FOUND': 1})
     """
 
     source: str
@@ -67,10 +72,21 @@ class Record:
     thumbnail: str = ""
 
     def as_json(self) -> dict[str, Any]:
+        """As ``batch.jsonl`` has it.
+
+        >>> kinefab.batch("gone.urdf", "out").records[0].as_json()["outcome"]
+        'refused'
+        """
         return asdict(self) | {"outcome": self.outcome.value, "messages": list(self.messages)}
 
     @staticmethod
     def of_json(values: dict[str, Any]) -> Record:
+        """What ``as_json`` undoes.
+
+        >>> record = kinefab.batch("gone.urdf", "out").records[0]
+        >>> kinefab.Record.of_json(record.as_json()) == record
+        True
+        """
         read: dict[str, Any] = {"outcome": Outcome(values["outcome"]), "messages": tuple(values["messages"])}
         return Record(**(values | read))
 

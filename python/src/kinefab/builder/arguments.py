@@ -5,13 +5,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any, Union, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..spatial import Array, Pose, matrix_from_quaternion, rotation_about
 
-Vector = Sequence[float]
+Vector = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
+"""Numbers in a row; to a type checker an array is no sequence."""
 ROUNDED = 1e-4
 """Largest entry of R'R - 1 that is the rounding of typed digits; the nearest rotation is taken then."""
 EXACT = 1e-12

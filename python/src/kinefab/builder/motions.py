@@ -23,9 +23,10 @@ from ..model import (
     Passive,
     freedoms_of,
 )
-from .arguments import LARGEST, checked_flag, checked_number, numbers_in, shown
+from .arguments import LARGEST, Vector, checked_flag, checked_number, numbers_in, shown
 
-Range = tuple[float, float]
+Range = Vector
+"""(lower, upper)."""
 FreedomLike = Union[Freedom, Range, bool]
 """A range in degrees or metres, True for free, False for locked, or the model's own (radians)."""
 

@@ -58,9 +58,10 @@ class Scene(Parts):
     ) -> Joint:
         """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
 
-        kind: a JointKind or its word (``revolute``); ``hinge``, ``slider`` and ``ball`` too.
-        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD; Z is across both.  A universal joint
-        turns about X, which stays in ``b``, and Z, which stays in ``a``.  lead: of a screw, metres a turn.
+        kind: a JointKind or its word (``revolute``); ``hinge``, ``slider`` and ``ball`` too.  ``help(kinefab.JointKind)`` has
+        what each leaves, about which axis of its frame: a pin in a slot has the pin as axis, the slot as secondary.
+        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD; Z is across both.
+        lead: of a screw, metres a turn.
         limits: (lower, upper) in degrees or metres from the present pose.
         drive: a dict with ``target``, ``target_velocity`` (degrees or metres, a second), ``stiffness``, ``damping``,
         ``max_force`` (newtons, metres, radians), ``acceleration``, ``motor``.

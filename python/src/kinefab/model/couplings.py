@@ -29,6 +29,14 @@ class Coupling:
 
     joint, freedom: the coordinate q, by the id of its joint and TX..RZ.  Ids, since the analysis orders and adds joints.
     terms: what it follows, one for a gear, a rack, a mimic (of a screw: a coordinate of the same joint).
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> for name, x in (("Sun", 0), ("Gear", 0.06)):
+    ...     hinge = scene.add_hinge(None, scene.add_part(name), point=(x, 0, 0), axis=(0, 0, 1), name=name)
+    >>> gear = scene.add_coupling("Sun", "Gear", ratio=-0.5)
+    >>> gear.joint, gear.terms[0].joint, gear.terms[0].ratio
+    ('Gear', 'Sun', -0.5)
     """
 
     id: str
@@ -41,5 +49,12 @@ class Coupling:
 
     @property
     def joints(self) -> frozenset[str]:
-        """Ids of all joints that it counts from."""
+        """Ids of all joints that it counts from.
+
+        >>> scene = kinefab.Scene()
+        >>> for name, x in (("Sun", 0), ("Gear", 0.06)):
+        ...     hinge = scene.add_hinge(None, scene.add_part(name), point=(x, 0, 0), axis=(0, 0, 1), name=name)
+        >>> sorted(scene.add_coupling("Sun", "Gear", ratio=-0.5).joints)
+        ['Gear', 'Sun']
+        """
         return frozenset((self.joint, *(term.joint for term in self.terms)))

@@ -12,7 +12,26 @@ from .freedoms import FREE, FREEDOM_NAMES, LOCKED, RX, RY, RZ, TX, TY, TZ, Freed
 
 
 class JointKind(str, Enum):
-    """Lower pairs and their relatives.  In brackets: the unlocked freedoms of the joint's frame.
+    """Lower pairs and their relatives, with the freedoms that each leaves and the axes of the joint's frame.
+
+    fixed: none
+    revolute: rx
+    prismatic: tx
+    cylindrical: tx rx
+    screw: tx rx, coupled: tx = lead / 2 pi * rx
+    pin_slot: ty rx; X the pin, Y the slot (in a)
+    planar: ty tz rx; X the normal
+    spherical: rx ry rz
+    universal: rx rz; X fixed in b, Z fixed in a
+    point_on_line: tx rx ry rz; X the line (in a)
+    point_on_plane: tx ty rx ry rz; Z the normal (in a)
+    line_in_plane: tx ty rx rz; X the line (in b), Z the normal (in a)
+    perpendicular: tx ty tz rx rz; X fixed in b, Z fixed in a
+    parallel_planes: tx ty tz rx; X the normal (Schoenflies motion)
+    translate_2: ty tz; X the normal
+    translate_3: tx ty tz
+    free: tx ty tz rx ry rz
+    general: those that are stated.  With two rotations X (or Y where X is locked) is fixed in b, the other in a
 
     >>> import kinefab
     >>> kinefab.JointKind("revolute") is kinefab.JointKind.REVOLUTE
@@ -20,23 +39,22 @@ class JointKind(str, Enum):
     """
 
     FIXED = "fixed"
-    REVOLUTE = "revolute"  # rx
-    PRISMATIC = "prismatic"  # tx
-    CYLINDRICAL = "cylindrical"  # tx rx
-    SCREW = "screw"  # tx rx, coupled: tx = lead / 2 pi * rx
-    PIN_SLOT = "pin_slot"  # ty rx: X the pin, Y the slot
-    PLANAR = "planar"  # ty tz rx: X the normal
-    SPHERICAL = "spherical"  # rx ry rz
-    UNIVERSAL = "universal"  # rx rz: X fixed in b, Z fixed in a, ry locked
-    POINT_ON_LINE = "point_on_line"  # tx rx ry rz: X the line
-    POINT_ON_PLANE = "point_on_plane"  # tx ty rx ry rz: Z the normal
-    LINE_IN_PLANE = "line_in_plane"  # tx ty rx rz: X the line (in b), Z the normal (in a)
-    PERPENDICULAR = "perpendicular"  # tx ty tz rx rz: X fixed in b, Z fixed in a
-    PARALLEL_PLANES = "parallel_planes"  # tx ty tz rx: X the normal (Schoenflies motion)
-    TRANSLATE_2 = "translate_2"  # ty tz: X the normal
-    TRANSLATE_3 = "translate_3"  # tx ty tz
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+    CYLINDRICAL = "cylindrical"
+    SCREW = "screw"
+    PIN_SLOT = "pin_slot"
+    PLANAR = "planar"
+    SPHERICAL = "spherical"
+    UNIVERSAL = "universal"
+    POINT_ON_LINE = "point_on_line"
+    POINT_ON_PLANE = "point_on_plane"
+    LINE_IN_PLANE = "line_in_plane"
+    PERPENDICULAR = "perpendicular"
+    PARALLEL_PLANES = "parallel_planes"
+    TRANSLATE_2 = "translate_2"
+    TRANSLATE_3 = "translate_3"
     FREE = "free"
-    # Any other set of freedoms.  With two rotations X (or Y where X is locked) is fixed in b, the other in a.
     GENERAL = "general"
 
 

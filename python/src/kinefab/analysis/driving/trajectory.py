@@ -17,6 +17,13 @@ class Coordinate:
 
     name: by which it is driven.  joint: the joint's id.  unit: ``deg`` or ``m``.  value: at the exported pose.
     lower, upper: the joint's own limits, infinite where it has none.  All as the source shows them.
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> coordinate = kinefab.motion(scene).coordinate("Hinge")
+    >>> coordinate.unit, round(coordinate.upper)
+    ('deg', 110)
     """
 
     name: str
@@ -33,6 +40,13 @@ class Stop:
 
     reason: ``limit`` or ``dead point``.  coordinate: whose limit it is; at a dead point, the driven one that stops.
     value: of that coordinate there, in its ``unit``.  frames: those reached.
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
+    >>> stop = kinefab.motion(scene).sweep("Hinge", 0, 120, frames=61).stop
+    >>> stop.reason, stop.coordinate, round(stop.value), stop.frames
+    ('limit', 'Hinge', 110, 56)
     """
 
     reason: str
@@ -51,6 +65,10 @@ class Branching:
     """Where another motion crosses the way (a folded parallelogram): it goes on straight, a built mechanism may not.
 
     coordinate: the driven one.  value: of it there, in its ``unit``.  frames: those that lie up to there.
+
+    >>> import kinefab
+    >>> print(kinefab.Branching("Crank", 180.0, "deg", 19))
+    another motion branches off where Crank is at 180 deg
     """
 
     coordinate: str

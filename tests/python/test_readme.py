@@ -40,6 +40,18 @@ def test_python_readme_has_code():
     assert ROOT / "python" / "README.md" in READMES
 
 
+EXTRA = re.compile(r"""pip install +(?:-e +)?((?:\\?["'])?)(?:\./python|kinefab)\[""")
+
+
+def test_extras_are_asked_for_in_words_that_every_shell_takes():
+    """Brackets alone are a pattern to zsh, macOS' own, which finds no file; apostrophes are letters to Windows' cmd."""
+    told = [ROOT / "README.md", ROOT / "python" / "README.md", ROOT / "schemas" / "diagnostics.json"]
+    told += (ROOT / "python" / "src").rglob("*.py")
+    marks = {path: EXTRA.findall(path.read_text(encoding="utf-8")) for path in told}
+    wrong = {path.name: found for path, found in marks.items() if set(found) - {'"', '\\"'}}
+    assert wrong == {} and sum(map(len, marks.values())) > 12
+
+
 def test_the_house_is_drawn_as_it_stands():
     """``python python/draw_house.py`` would write the picture that is there."""
     spec = importlib.util.spec_from_file_location("draw_house", ROOT / "python" / "draw_house.py")

@@ -30,7 +30,7 @@ def executor_of(scheduler: str | None) -> Generator[Executor | None, None, None]
         from distributed import Client
     except ImportError:
         raise _unusable(
-            scheduler, "the Python package distributed is not installed (pip install 'kinefab[cluster]')"
+            scheduler, 'the Python package distributed is not installed (pip install "kinefab[cluster]")'
         ) from None
     client, detail = None, ""
     try:

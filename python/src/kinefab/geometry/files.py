@@ -37,7 +37,7 @@ _STEP, _MESH = (
     "Open it in its own program and export STEP or STL.",
     "Open it in its own program and export glTF or OBJ.",
 )
-_CAD, _ASSIMP = "pip install 'kinefab[cad]'", "pip install 'kinefab[meshes]'"
+_CAD, _ASSIMP = 'pip install "kinefab[cad]"', 'pip install "kinefab[meshes]"'
 _ADVICE = {
     **dict.fromkeys(
         (".step", ".stp", ".iges", ".igs", ".wrl", ".vrml"), f"Install OpenCASCADE: {_CAD}; or export STL or OBJ instead."

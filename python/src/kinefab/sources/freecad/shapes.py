@@ -16,7 +16,7 @@ from .document import UNIT, Thing
 from .looks import Looks
 from .parts import ShownShape, scene_matrix
 
-NO_LIBRARY = f"OpenCASCADE is not installed: pip install kinefab[{EXTRA}]"
+NO_LIBRARY = f'OpenCASCADE is not installed: pip install "kinefab[{EXTRA}]"'
 BREP = "kinefab.sources.occ.brep"
 SECONDS, SECONDS_PER_MEGABYTE = 120.0, 20.0
 """For the shapes of a document together: two minutes, and more for large ones."""

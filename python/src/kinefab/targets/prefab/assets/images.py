@@ -33,7 +33,7 @@ class Images:
             pillow()
         except ImportError:
             raise ImageError(
-                "it has to be repacked, which needs Pillow: pip install 'kinefab[picture]'"
+                'it has to be repacked, which needs Pillow: pip install "kinefab[picture]"'
             ) from None
         if ending not in LOADED:
             _once(self._pixels, texture, _decoded)

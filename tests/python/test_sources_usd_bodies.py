@@ -11,6 +11,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.geometry.mass import is_possible
 from kinefab.model import ColliderKind, NodeKind
 from scene_kinematics import angle_between
 from usd_stages import BODY, body, codes, joint, scene_of, stage
@@ -308,6 +309,27 @@ def test_an_inertia_without_principal_axes_is_along_the_prims_own(tmp_path, up, 
     scene, _ = scene_of(tmp_path, stage(body("B", mass=mass), up=up))
     (node,) = scene.nodes
     assert node.mass.inertia == pytest.approx(np.diag(moments))
+
+
+@pytest.mark.parametrize(
+    "stated, moments",
+    [
+        ("float3 physics:diagonalInertia = (2, 3, 6)", (7 / 3, 10 / 3, 17 / 3)),
+        ("float3 physics:diagonalInertia = (4, -1e-9, 4)", (4.0, 0.004, 4.0)),
+        ("double[] newton:inertia = [2, 6, 3, 0, 0, 0]", (7 / 3, 17 / 3, 10 / 3)),
+    ],
+)
+def test_an_inertia_that_no_body_can_have_is_mended_as_a_robots_is(tmp_path, stated, moments):
+    """A converter writes what the URDF says: the stage is read as the URDF is, each body told."""
+    mass = f"float physics:mass = 2; point3f physics:centerOfMass = (0, 0, 0); {stated}"
+    text = stage(body("B", mass=mass) + body("C", (1, 0, 0), mass=mass), up="Y")
+    scene, report = scene_of(tmp_path, text)
+    assert scene is not None
+    for node in scene.nodes:
+        assert node.mass.inertia == pytest.approx(np.diag(moments), abs=1e-6)
+        assert is_possible(node.mass.inertia, 1e-9)
+    told = [d.where for d in report.diagnostics if d.code == "INERTIA_MENDED"]
+    assert told == ["stage.usda</B>", "stage.usda</C>"]
 
 
 def test_bodies_that_state_the_same_mass_share_it_and_each_wrong_one_is_told(tmp_path):

@@ -176,13 +176,21 @@ def mended_inertia(inertia: Array, mass: float) -> Array | None:
     kg m^2, shape (3, 3); None where a body can have it."""
     # Stricter than what is asked of a scene, so that the rounding of a later turn decides nothing.
     moments, axes = np.linalg.eigh(inertia)
-    largest = float(moments[2])
     if float(moments[0]) > ROUNDING * float(np.abs(inertia).max()) and are_possible(moments, ROUNDING):
         return None
-    if not largest > POINT * POINT * mass:  # zero, or what is left of it by the sums
+    if not float(moments[2]) > POINT * POINT * mass:  # zero, or what is left of it by the sums
         return ball_inertia(mass)
-    moments = np.maximum(moments, THIN * largest)
-    if (excess := float(moments[2] - moments[0] - moments[1])) > 0.0:
-        moments = moments + excess / 3.0 * np.array([1.0, 1.0, -1.0])
-        moments[2] *= 1.0 - 2.0 * ROUNDING
-    return axes @ np.diag(moments) @ axes.T
+    return axes @ np.diag(nearest_possible(moments)) @ axes.T
+
+
+def nearest_possible(moments: Array) -> Array:
+    """Principal moments that a body can have, next to three that none can: in the same order, shape (3,).  The largest is
+    above zero."""
+    found = np.maximum(moments, THIN * float(moments.max()))
+    last = int(np.argmax(found))
+    first, second = (i for i in range(3) if i != last)
+    if (excess := float(found[last] - found[first] - found[second])) > 0.0:
+        found[first] += excess / 3.0
+        found[second] += excess / 3.0
+        found[last] = (found[last] - excess / 3.0) * (1.0 - 2.0 * ROUNDING)
+    return found

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from ....diagnostics import Report
-from ....geometry.mass import principal
+from ....geometry.mass import are_possible, nearest_possible, principal
 from ....model import MassProperties
 from ....spatial import Array
 from ..stage import OpenStage
 from ..transforms import EXACT, Stand, rotation_of
-from ..values import Values
+from ..values import Values, identity
 
 UNIT = np.eye(3)
 NAMES = (
@@ -70,10 +70,11 @@ class MassApis:
         density = self._values.number(prim, "physics:density", 0.0)
         moments = self._values.vector(prim, "physics:diagonalInertia", (0.0, 0.0, 0.0))
         least, *_, largest = sorted(moments.tolist())
+        negative = least if largest <= 0.0 else 0.0
         for name, found in (
             ("physics:mass", mass),
             ("physics:density", density),
-            ("physics:diagonalInertia", least),
+            ("physics:diagonalInertia", negative),
         ):
             if found < 0.0:
                 self._values.wrong(prim, name, f"{found:g}")
@@ -95,6 +96,12 @@ class MassApis:
             xx, yy, zz, xy, xz, yz = (float(v) for v in tensor)
             inertia, axes = principal(
                 np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * frame.mass * frame.length**2
+            )
+        if inertia is not None and not are_possible(np.sort(inertia)) and inertia.max() > 0.0:
+            inertia = nearest_possible(inertia)
+            name = identity(prim)
+            self._report.approximated(
+                f"inertia {name}", "INERTIA_MENDED", self._opened.place(prim), link=name
             )
         stated = (
             mass * frame.mass if mass > 0.0 else None,

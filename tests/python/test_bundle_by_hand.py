@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 from pathlib import Path
 
 import kinefab
 import numpy as np
 import pytest
 import trimesh
+from golden import FIXTURES
 from jsonschema import Draft202012Validator
 from kinefab import sources
 from kinefab.bundling.checking import check
@@ -245,6 +247,24 @@ def test_a_folder_is_told_as_that(tmp_path):
     with pytest.raises(KinefabError) as refused:
         sources.read(tmp_path, Report())
     assert [found.code for found in refused.value.diagnostics] == ["SOURCE_IS_FOLDER"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="paths are bytes on POSIX alone")
+@pytest.mark.parametrize(
+    "library, source", [("pxr", "lever.usda"), ("OCP", "lever.step")], ids=["usd", "step"]
+)
+@pytest.mark.parametrize("within", [False, True], ids=["named", "stood in"])
+def test_a_path_that_a_library_cannot_open_is_told_as_that(library, source, within, tmp_path, monkeypatch):
+    """A folder's name in Latin-1: pxr raised UnicodeEncodeError, and OCP told of its arguments."""
+    pytest.importorskip(library)
+    folder = tmp_path / os.fsdecode(b"lat\xfcn")
+    folder.mkdir()
+    shutil.copy(FIXTURES / "lever" / source, folder)
+    if within:
+        monkeypatch.chdir(folder)
+    with pytest.raises(KinefabError) as refused:
+        sources.read(source if within else folder / source, Report())
+    assert [found.code for found in refused.value.diagnostics] == ["SOURCE_PATH_NOT_UTF8"]
 
 
 def test_the_page_of_cad_programs_is_short():

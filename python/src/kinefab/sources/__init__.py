@@ -136,6 +136,9 @@ def read(
             report.add(
                 "SOURCE_LIBRARY_MISSING", path.name, format=found.name, library=name, extra=found.extra
             )
+    if found.requires and any("\ud800" <= character <= "\udfff" for character in os.path.abspath(path)):
+        library = found.requires[0]
+        report.add("SOURCE_PATH_NOT_UTF8", path.name, path=path, library=library, format=found.name)
     report.raise_for_errors()
     asked = dict(options or {})
     for name in sorted(asked.keys() - {option.name for option in found.options}):

@@ -59,9 +59,8 @@ def take_place(staging: Path, target: Path, folder: Path, manifest: Manifest) ->
     elif not exchanged(fresh, folder):
         os.rename(fresh, staging / INCOMING)
         manifest.write(folder)
-    _end(
-        target, folder, manifest
-    )  # read again it would stand between the steps 2 and 3, and most of their time
+    # The manifest, read again, would stand between the steps 2 and 3, and take most of their time.
+    _end(target, folder, manifest)
 
 
 def is_needed(staging: Path, folder: Path) -> bool:

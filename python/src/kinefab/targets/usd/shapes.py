@@ -42,7 +42,8 @@ class Shape:
 
 @dataclass(slots=True, eq=False)
 class Shapes:
-    """drawn: the scene with normals.  scope: of physics materials.  shape: asked for where the source states no colliders.  target: ending, for the report.
+    """drawn: the scene with normals.  scope: of physics materials.  shape: asked for where the source states no colliders.
+    target: ending, for the report.
     groups: paths of colliders by their collision group, as they are written."""
 
     scene: Scene

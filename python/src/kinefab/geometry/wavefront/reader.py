@@ -118,8 +118,9 @@ def _sections(lines: Lines, faces: Faces) -> list[_Section]:
     """The sections in file order, each with its runs of one material."""
     statements = _statements(lines)
     stops = [*(s.start for s in statements), len(lines.text)]
-    before = np.concatenate([[0], np.cumsum(faces.triangles)])
-    until: list[int] = before[np.searchsorted(lines.starts[lines.which(b"f ")], stops)].tolist()
+    counts = np.searchsorted(lines.starts[lines.which(b"f ")], stops).tolist()
+    total = np.cumsum(faces.triangles)
+    until = [int(total[count - 1]) if count else 0 for count in counts]
     current_object, current_group, material = (0, ""), (0, ""), ""
     sections = [_Section(current_object, current_group, [(material, until[0])])]
     for number, statement in enumerate(statements, 1):

@@ -19,8 +19,8 @@ import kinefab
 import numpy as np
 import pytest
 from golden import FIXTURES, golden_pairs
-from kinefab.spatial import matrix_from_quaternion
 from kinefab.unity.scene import MeshFilter, MeshRenderer, Rigidbody, UnityScene
+from unity_world import world_of
 
 GODOT = os.environ.get("KINEFAB_GODOT") or shutil.which("godot")
 UNIDOT = os.environ.get("KINEFAB_UNIDOT")
@@ -66,14 +66,8 @@ def imported(prefabs: Path, project: Path) -> dict[str, list[dict[str, Any]]]:
 
 def expected(scene: UnityScene) -> list[dict[str, Any]]:
     """The same of a scene."""
-    world: list[tuple[np.ndarray, np.ndarray]] = []
     told: list[dict[str, Any]] = []
-    for entry in scene.gameObjects:
-        t = entry.transform
-        own = matrix_from_quaternion(np.array(t.localRotation)) * np.array(t.localScale)
-        linear, at = (np.eye(3), np.zeros(3)) if entry.parent is None else world[entry.parent]
-        linear, at = linear @ own, linear @ np.array(t.localPosition) + at
-        world.append((linear, at))
+    for entry, (linear, at) in zip(scene.gameObjects, world_of(scene)):
         looks = next((c.materials for c in entry.components if isinstance(c, MeshRenderer)), ())
         for component in entry.components:
             one: dict[str, Any] = {"at": TURNED * at}

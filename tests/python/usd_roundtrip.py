@@ -15,6 +15,7 @@ from kinefab.geometry.hulls import hull_of_points
 from kinefab.spatial import matrix_from_quaternion
 from kinefab.unity.scene import FixedJoint, Joint, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from pxr import Usd
+from unity_world import world_of
 
 LENGTH = 1e-6
 """Share of a scene's size that places may differ by: USD keeps joint frames, masses and limits in 32 bits."""
@@ -47,13 +48,9 @@ class Told:
         self.scene, self.back, self.lost = scene, back, lost
         objects = scene.gameObjects
         self.names = [self._name(o.id) for o in objects]
-        self.world: list[tuple[np.ndarray, np.ndarray]] = []
+        self.world = world_of(scene)
         self.body: list[int | None] = []
         for i, entry in enumerate(objects):
-            t = entry.transform
-            local = matrix_from_quaternion(np.array(t.localRotation)) * np.array(t.localScale)
-            linear, place = (np.eye(3), np.zeros(3)) if entry.parent is None else self.world[entry.parent]
-            self.world.append((linear @ local, linear @ np.array(t.localPosition) + place))
             own = any(isinstance(c, Rigidbody) for c in entry.components)
             self.body.append(i if own else None if entry.parent is None else self.body[entry.parent])
         points = [p for _, p in self.world]

@@ -85,7 +85,7 @@ def hull_of_points(points: Array, fast: bool = False) -> Hull | None:
         return None
     if fast:
         low, high = bounds(points)
-        enclosing = _enclosing(points, np.arange(len(points)), float((high - low).max()), fast)
+        enclosing = _enclosing(points, np.arange(len(points)), float((high - low).max()), fast=True)
         return None if enclosing is None else enclosing[0]
     found = _wrapped_fast(points) if len(points) > EXACT else None
     found = _wrapped(points) if found is None else found

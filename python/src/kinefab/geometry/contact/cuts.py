@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...spatial import Array, IntArray, cross
+from .crossings import crossings
 from .sectors import Ring, ring_sectors
 
 AIR = 0.04
@@ -47,10 +48,12 @@ _Plane = tuple[Array, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Part:
-    """points: shape (n, 3).  edges: pairs of them, shape (2, k).  filled: volume of the hull.  air: of that, what is not solid."""
+    """points: shape (n, 3).  faces: shape (m, 3).  edges: pairs of points, each once, shape (2, k).  filled: volume of the hull.
+    air: of that, what is not solid."""
 
     solid: Any
     points: Array
+    faces: IntArray
     edges: IntArray
     filled: float
     air: float
@@ -84,8 +87,7 @@ def nearly_convex_parts(vertices: Array, faces: IntArray, most: int) -> list[Arr
 
 def _sectors(part: _Part, enough: float, library: Any) -> list[Array]:
     """The points of each sector where the part is a ring that is best cut so; else none."""
-    faces = np.asarray(part.solid.to_mesh64().tri_verts, dtype=np.int64)
-    ring = Ring(part.points, part.edges, faces, part.filled - part.air)
+    ring = Ring(part.points, part.faces, part.edges, part.filled - part.air)
     axes = [*np.eye(3), *_principal(part.points)]
     return ring_sectors(ring, axes, enough, lambda points: _filled(points, library))
 
@@ -116,9 +118,7 @@ def _best(part: _Part, planes: list[_Plane], library: Any) -> tuple[float, _Plan
     for normal, offset in planes:
         height = part.points @ normal - offset
         above = height >= 0.0
-        start, end = part.edges[:, above[part.edges[0]] != above[part.edges[1]]]
-        share = height[start] / (height[start] - height[end])
-        section = part.points[start] + share[:, None] * (part.points[end] - part.points[start])
+        section = crossings(part.points, part.edges, height)
         filled, enough = 0.0, least * (1.0 - SAME)
         for side in (above, ~above):
             half = np.concatenate([part.points[side], section])
@@ -215,5 +215,6 @@ def _apart(solids: Iterable[Any], library: Any) -> list[_Part]:
         start, end = corners.reshape(-1), np.roll(corners, -1, axis=1).reshape(-1)
         filled = _filled(points, library)
         once = start < end  # each edge is there both ways
-        found.append(_Part(piece, points, np.stack([start[once], end[once]]), filled, filled - volume))
+        edges = np.stack([start[once], end[once]])
+        found.append(_Part(piece, points, corners, edges, filled, filled - volume))
     return found

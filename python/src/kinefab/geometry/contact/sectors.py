@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...spatial import Array, IntArray
+from ...spatial import Array, IntArray, bounds, cross, perpendicular
+from .crossings import crossings
 
 FEW, SOME, MANY = 8, 12, 16
 """Sectors, of which the fewest are taken that leave little air."""
@@ -26,12 +27,12 @@ CONVEX = 0.1
 class Ring:
     """What may be one: a closed mesh in one piece.
 
-    points: shape (n, 3).  edges: pairs of them, each once, shape (2, k).  faces: shape (m, 3).  volume: the solid's.
+    points: shape (n, 3).  faces: shape (m, 3).  edges: pairs of points, each once, shape (2, k).  volume: the solid's.
     """
 
     points: Array
-    edges: IntArray
     faces: IntArray
+    edges: IntArray
     volume: float
 
 
@@ -73,11 +74,10 @@ def _about(flat: Array, ring: Ring, enough: float, filled: Callable[[Array], flo
 
 def _seen_along(axis: Array, points: Array) -> Array:
     """The points in a plane across the axis, from the middle of their extents, shape (n, 2)."""
-    aside = np.eye(3)[np.abs(axis).argmin()]
-    first = aside - axis * (aside @ axis)
-    first /= np.linalg.norm(first)
-    flat = points @ np.column_stack([first, np.cross(axis, first)])
-    return flat - 0.5 * (flat.min(axis=0) + flat.max(axis=0))
+    second = perpendicular(axis)
+    flat = points @ np.column_stack([cross(second, axis), second])
+    low, high = bounds(flat)
+    return flat - 0.5 * (low + high)
 
 
 def _covers_origin(triangles: Array) -> bool:
@@ -89,19 +89,16 @@ def _covers_origin(triangles: Array) -> bool:
 
 def _cut(flat: Array, ring: Ring, count: int) -> list[Array]:
     """The points of an even number of sectors; none where a half plane between two meets nothing: the ring is open."""
-    points, (start, end) = ring.points, ring.edges
+    points, both = ring.points, np.hstack([ring.points, flat])
     turn = 2.0 * np.pi / count
     number = np.floor_divide(np.arctan2(flat[:, 1], flat[:, 0]), turn).astype(np.int64) % count
     borders: list[Array] = [points[:0]] * count
     for k in range(count // 2):
         along = np.array([np.cos(k * turn), np.sin(k * turn)])
         height = flat @ np.array([-along[1], along[0]])
-        crosses = (height[start] >= 0.0) != (height[end] >= 0.0)
-        a, b = start[crosses], end[crosses]
-        share = (height[a] / (height[a] - height[b]))[:, None]
-        crossing = points[a] + share * (points[b] - points[a])
-        ahead = (flat[a] + share * (flat[b] - flat[a])) @ along > 0.0
+        crossing = crossings(both, ring.edges, height)
+        ahead = crossing[:, 3:] @ along > 0.0
         if ahead.all() or not ahead.any():
             return []
-        borders[k], borders[k + count // 2] = crossing[ahead], crossing[~ahead]
+        borders[k], borders[k + count // 2] = crossing[ahead, :3], crossing[~ahead, :3]
     return [np.concatenate([points[number == k], borders[k], borders[(k + 1) % count]]) for k in range(count)]

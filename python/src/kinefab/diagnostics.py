@@ -90,6 +90,12 @@ class FeatureOutcome:
     where: str = ""
 
 
+def is_encodable(text: str) -> bool:
+    """Whether a string can be written as UTF-8: JSON's escapes can hold half of a surrogate pair, and Python has such halves
+    for the bytes of a file's name that are no UTF-8."""
+    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
+
+
 def readable(text: str) -> bool:
     """Whether people can be shown the text as it is: spaces of every script and joiners (U+200C, U+200D), but nothing that
     controls or turns round the line."""

@@ -10,6 +10,7 @@ from typing import Any, Union, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..diagnostics import is_encodable
 from ..spatial import Array, Pose, matrix_from_quaternion, rotation_about
 
 Vector = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
@@ -59,7 +60,7 @@ def checked_name(name: object, empty: bool = True) -> None:
     ``empty``, for one without a character."""
     if not isinstance(name, str):
         raise TypeError(f"the name is {shown(name)}; pass a string")
-    if any("\ud800" <= character <= "\udfff" for character in name):
+    if not is_encodable(name):
         raise ValueError(f"the name is {shown(name)}; pass text that UTF-8 can hold")
     if not name and not empty:
         raise ValueError("the name is empty; pass one, ids are made of it")

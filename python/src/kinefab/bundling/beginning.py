@@ -10,7 +10,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..diagnostics import KinefabError, Report, diagnostic
+from ..diagnostics import KinefabError, Report, diagnostic, is_encodable
 from ..geometry.files import FORMATS, GLTF
 from ..sources.parts.readers import part_readers
 from ..sources.reading.record import is_array, is_object
@@ -47,7 +47,7 @@ def meshes_in(folder: Path) -> list[Path]:
             f"{folder} holds no mesh file ({', '.join(known)})", "Export one file for each part into it."
         )
     for path in found:
-        if any("\ud800" <= letter <= "\udfff" for letter in path.name):
+        if not is_encodable(path.name):
             raise _no_beginning(f"the name of {path!a} is not UTF-8", "Rename the file.")
     return found
 

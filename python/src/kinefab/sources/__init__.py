@@ -15,6 +15,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
+from ..diagnostics import Report, is_encodable
 from ..options import FormatOption
 from .mjcf.options import KEYFRAME
 from .occ.options import TOLERANCE
@@ -25,7 +26,6 @@ from .step.options import UP
 from .urdf.options import FLOATING_BASE, XACRO_ARG
 
 if TYPE_CHECKING:  # the command line asks for the endings alone, and should not wait for numpy
-    from ..diagnostics import Report
     from ..model import Scene
     from .reading.request import Vertices
 
@@ -136,7 +136,7 @@ def read(
             report.add(
                 "SOURCE_LIBRARY_MISSING", path.name, format=found.name, library=name, extra=found.extra
             )
-    if found.requires and any("\ud800" <= character <= "\udfff" for character in os.path.abspath(path)):
+    if found.requires and not is_encodable(os.path.abspath(path)):
         library = found.requires[0]
         report.add("SOURCE_PATH_NOT_UTF8", path.name, path=path, library=library, format=found.name)
     report.raise_for_errors()

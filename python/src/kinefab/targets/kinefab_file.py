@@ -20,7 +20,7 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 
 from .. import __version__, model
-from ..diagnostics import KinefabError, Report
+from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
 from ..unity.counting import with_led_joints_on_light_bodies
@@ -202,7 +202,7 @@ def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:
 
 def _unsafe(name: str) -> str:
     """What stands in a file name that no scene may name, as the reader would refuse it; "" where nothing does."""
-    if any("\ud800" <= character <= "\udfff" for character in name):
+    if not is_encodable(name):
         return "is not UTF-8"
     if any(unicodedata.category(character) == "Cc" for character in name):
         return "holds a control character"

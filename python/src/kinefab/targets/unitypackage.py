@@ -9,7 +9,7 @@ from __future__ import annotations
 import tarfile
 from pathlib import Path
 
-from ..diagnostics import KinefabError
+from ..diagnostics import KinefabError, is_encodable
 from ..replacing import one_at_a_time, remove_leftovers, replacing
 from .content import Content
 from .packing import GzipStream
@@ -30,7 +30,7 @@ INNER_NAME = "archtemp.tar"
 def write(content: Content, target: Path) -> tuple[Path, ...]:
     """Write the package.  Raises OSError as the file system does; then the old file stands as it was."""
     options = PrefabOptions.of(content.options)
-    if any("\ud800" <= character <= "\udfff" for character in target.name):
+    if not is_encodable(target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([content.report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     files = prefab_files(content, _plain(target.name[: -len(ENDING)]), options, "Scripts")

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, is_encodable
 from ...model import RX, TX, Drive, Motion, Node, NodeKind, Scene, Source
 from ...spatial import Array, Pose
 from ..reading.file import read_bytes
 from ..reading.placement import SKEWED
-from ..reading.record import is_encodable, shown
+from ..reading.record import shown
 from ..reading.request import Request
 from ..reading.source_frame import DIRECTIONS, FORWARD, turn_to_scene
 from .assembled import add_statements

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ...diagnostics import is_encodable
 from ...model import Constraint, ConstraintKind, DofRecord, Feature, FeatureKind, Sense, Side
-from ..reading.record import REQUIRED, Log, Record, Vector, is_encodable, is_object
+from ..reading.record import REQUIRED, Log, Record, Vector, is_object
 from ..reading.source_frame import SourceFrame
 from .bodies import frame_index
 from .components import Components

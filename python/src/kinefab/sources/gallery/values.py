@@ -6,8 +6,9 @@ from typing import Any, cast
 
 import numpy as np
 
+from ...diagnostics import is_encodable
 from ...spatial import Array, Pose
-from ..reading.record import MAX_NUMBER, MIN_DIRECTION, is_encodable, is_number, is_object
+from ..reading.record import MAX_NUMBER, MIN_DIRECTION, is_number, is_object
 
 Json = dict[str, Any]
 

@@ -6,8 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from ...diagnostics import Report
-from .record import is_encodable
+from ...diagnostics import Report, is_encodable
 
 MAX_BYTES = 128 * 2**20
 """Largest text source that is read.  A bundle of 100,000 components has about 100 MB."""

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeGuard, TypeVar, cast, overload
 
-from ...diagnostics import Report, Severity, diagnostic_table
+from ...diagnostics import Report, Severity, diagnostic_table, is_encodable
 
 T = TypeVar("T")
 Vector = tuple[float, float, float]
@@ -100,11 +100,6 @@ def _is_plain(value: object) -> bool:
 def entries_in(values: dict[str, object], key: str) -> list[object]:
     """The array ``key`` of a raw object that is being put together, made where there is none."""
     return cast("list[object]", values.setdefault(key, []))
-
-
-def is_encodable(text: str) -> bool:
-    """Whether a string can be written as UTF-8: JSON's escapes can hold half of a surrogate pair."""
-    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
 
 
 class Record:

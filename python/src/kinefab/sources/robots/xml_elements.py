@@ -15,8 +15,8 @@ from itertools import islice
 from typing import TypeVar
 from xml.parsers import expat
 
-from ...diagnostics import MOST_ALIKE, KinefabError, Report, Severity
-from ..reading.record import MAX_NUMBER, is_encodable, shown
+from ...diagnostics import MOST_ALIKE, KinefabError, Report, Severity, is_encodable
+from ..reading.record import MAX_NUMBER, shown
 
 T = TypeVar("T")
 

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...color import linear
-from ...diagnostics import Report
+from ...diagnostics import Report, is_encodable
 from ...spatial import Pose
-from ..reading.record import is_encodable
 from ..robots.xml_elements import Element
 
 Record = dict[str, Any]

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, is_encodable
 from ...model import (
     FREEDOM_NAMES,
     IN_BRACKETS,
@@ -27,7 +27,7 @@ from ..asmt.assembled import UNCARRIED, bodies_of
 from ..asmt.constant_velocity import add_constant_velocity
 from ..asmt.couplings import UncarriedError, coupling_of
 from ..asmt.joints import TO_X_MAIN, Marker, Statement
-from ..reading.record import is_encodable, shown
+from ..reading.record import shown
 from .pairs import COUPLED, FREEDOMS, Link, Mechanism, Pair, mechanism_of
 from .part21 import Part21
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...diagnostics import KinefabError
+from ...diagnostics import KinefabError, is_encodable
 from ...replacing import one_at_a_time
 from ..content import Content
 from .exporting import prefab_files, script_files, script_folder
@@ -28,7 +28,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     """
     report = content.report
     options = PrefabOptions.of(content.options)
-    if any("\ud800" <= character <= "\udfff" for character in target.name):
+    if not is_encodable(target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     name = target.name[: -len(ENDING)]

@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ....diagnostics import Report
+from ....diagnostics import Report, is_encodable
 from ....model import Node, Scene
-from ...reading.record import is_encodable, shown
+from ...reading.record import shown
 from ..entities import EntityError, Ref, Value, entity, number, ref, text_of
 from ..part21 import METRES_OF_PREFIX, Part21
 from .products import name_of

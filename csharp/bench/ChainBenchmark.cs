@@ -2,8 +2,8 @@ using System;
 using System.Diagnostics;
 using System.Globalization;
 using Kinefab.Dynamics;
-using Kinefab.Dynamics.Exact;
-using Kinefab.Tests.Dynamics.Exact;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Tests.Dynamics.Rattle;
 
 namespace Kinefab.Bench;
 
@@ -42,7 +42,7 @@ internal static class ChainBenchmark
         for (int run = 0; run < Runs; run++)
         {
             MultibodySystem chain = SolverScenes.HangingChain(links);
-            var solver = new ExactSolver(chain);
+            RattleSolver solver = new RattleSolver(chain);
             double sum = 0;
             for (int i = 0; i < Steps; i++)
             {

@@ -2,9 +2,9 @@ using System;
 using System.Diagnostics;
 using System.Globalization;
 using Kinefab.Dynamics;
-using Kinefab.Dynamics.Exact;
+using Kinefab.Dynamics.Rattle;
 using Kinefab.Dynamics.Pgs;
-using Kinefab.Tests.Dynamics.Exact;
+using Kinefab.Tests.Dynamics.Rattle;
 
 namespace Kinefab.Bench;
 
@@ -22,23 +22,23 @@ internal static class SolverBenchmark
     {
         Console.WriteLine("| scene | solver | us/step | ns/joint-step | drift m | energy end % (max) |");
         Console.WriteLine("|---|---|---|---|---|---|");
-        Row("fourbar100", "unity", () => SolverScenes.FourBars(100), m => new UnitySolver(m), 100 * 1.7 * 9.81);
-        Row("dpend1000", "unity", () => SolverScenes.DoublePendulums(1000), m => new UnitySolver(m), 1000 * 9.81 * 2);
+        Row("fourbar100", "unity", () => SolverScenes.FourBars(100), m => new PgsSolver(m), 100 * 1.7 * 9.81);
+        Row("dpend1000", "unity", () => SolverScenes.DoublePendulums(1000), m => new PgsSolver(m), 1000 * 9.81 * 2);
         foreach (int width in new[] { 1, 4, 8 })
         {
             string name = $"exact, {width} lanes";
-            Row("fourbar100", name, () => SolverScenes.FourBars(100), m => new ExactSolver(m, width), 100 * 1.7 * 9.81);
-            Row("dpend1000", name, () => SolverScenes.DoublePendulums(1000), m => new ExactSolver(m, width), 1000 * 9.81 * 2);
+            Row("fourbar100", name, () => SolverScenes.FourBars(100), m => new RattleSolver(m, width), 100 * 1.7 * 9.81);
+            Row("dpend1000", name, () => SolverScenes.DoublePendulums(1000), m => new RattleSolver(m, width), 1000 * 9.81 * 2);
         }
 
-        Row("slidercrank", "unity", SolverScenes.SliderCrank, m => new UnitySolver(m), null);
-        Row("slidercrank", "exact", SolverScenes.SliderCrank, m => new ExactSolver(m), null);
-        Row("chain64", "exact", () => SolverScenes.Chain(64), m => new ExactSolver(m), 64 * 9.81 * 6.4);
-        Row("heavy8", "exact", SolverScenes.Heavy8, m => new ExactSolver(m), 10.7 * 9.81 * 1.6);
-        Row("para", "exact", SolverScenes.Parallelogram, m => new ExactSolver(m), null);
-        Row("tilt 1e-6", "exact", () => SolverScenes.FourBars(1, 1e-6), m => new ExactSolver(m), 1.7 * 9.81);
-        Row("tilt 1e-4", "exact", () => SolverScenes.FourBars(1, 1e-4), m => new ExactSolver(m), 1.7 * 9.81);
-        Row("tilt 1e-2", "exact", () => SolverScenes.FourBars(1, 1e-2), m => new ExactSolver(m), 1.7 * 9.81);
+        Row("slidercrank", "unity", SolverScenes.SliderCrank, m => new PgsSolver(m), null);
+        Row("slidercrank", "exact", SolverScenes.SliderCrank, m => new RattleSolver(m), null);
+        Row("chain64", "exact", () => SolverScenes.Chain(64), m => new RattleSolver(m), 64 * 9.81 * 6.4);
+        Row("heavy8", "exact", SolverScenes.Heavy8, m => new RattleSolver(m), 10.7 * 9.81 * 1.6);
+        Row("para", "exact", SolverScenes.Parallelogram, m => new RattleSolver(m), null);
+        Row("tilt 1e-6", "exact", () => SolverScenes.FourBars(1, 1e-6), m => new RattleSolver(m), 1.7 * 9.81);
+        Row("tilt 1e-4", "exact", () => SolverScenes.FourBars(1, 1e-4), m => new RattleSolver(m), 1.7 * 9.81);
+        Row("tilt 1e-2", "exact", () => SolverScenes.FourBars(1, 1e-2), m => new RattleSolver(m), 1.7 * 9.81);
     }
 
     /// <param name="energyScale">What 100 % of energy is, J; null where a motor does work and the energy says nothing.</param>

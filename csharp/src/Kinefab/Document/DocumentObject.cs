@@ -8,5 +8,5 @@ public abstract class DocumentObject
     }
 
     /// <summary>The object's <c>extras</c> as raw JSON text, kept as it stood and never interpreted; null when there are none.</summary>
-    public string? Extras { get; init; }
+    public string? ExtrasJson { get; init; }
 }

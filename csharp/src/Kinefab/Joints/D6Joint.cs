@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
@@ -7,7 +8,7 @@ namespace Kinefab.Joints;
 /// PxD6Joint, the joint under Unity's ConfigurableJoint: six axes, each locked, limited or free, with drives. Linear axes,
 /// cone and single swing limits turn with actor 0; twist and swing drives act about actor 1's axes.
 /// </summary>
-internal sealed class D6Joint : Joint
+internal sealed class D6Joint : JointModel
 {
     // Below this distance the direction of a disc or ball limit is undefined (PhysX: 1e-6 of the length scale).
     private const double LeastLimitedDistance = 1e-6;
@@ -22,16 +23,16 @@ internal sealed class D6Joint : Joint
     public AngularLimit TwistLimit;
     public ConeLimit SwingLimit;
 
-    public JointDrive DriveX, DriveY, DriveZ;
+    public DriveModel DriveX, DriveY, DriveZ;
 
     /// <summary>About actor 1's X.</summary>
-    public JointDrive DriveTwist;
+    public DriveModel DriveTwist;
 
     /// <summary>About actor 1's Y and Z.</summary>
-    public JointDrive DriveSwing;
+    public DriveModel DriveSwing;
 
     /// <summary>Along the shortest arc; replaces twist and swing drives, and needs all three angles unlocked.</summary>
-    public JointDrive DriveSlerp;
+    public DriveModel DriveSlerp;
 
     /// <summary>Goal of frame 1 in frame 0.</summary>
     public Pose DrivePose = Pose.Identity;
@@ -47,23 +48,20 @@ internal sealed class D6Joint : Joint
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 
     /// <inheritdoc/>
-    public override int PrepareLaws(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
-
-    /// <inheritdoc/>
-    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.D6(this, ref body0, ref body1, moveBody1);
+    public override int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
     /// <summary>
     /// The motion of X, Y or Z. Where the rows of all limits are asked for, Limited to a hard radius of nothing is Locked:
     /// the direction of so small a distance would come and go, and with it the limit's row, which PhysX lets happen.
     /// </summary>
     public AxisMotion Linear(AxisMotion motion) =>
-        EveryLimit && motion == AxisMotion.Limited && LinearLimit.Value <= LeastLimitedDistance && !LinearLimit.Response.IsSoft
+        LimitsFromAfar && motion == AxisMotion.Limited && LinearLimit.Value <= LeastLimitedDistance && !LinearLimit.Response.IsSoft
             ? AxisMotion.Locked
             : motion;
 
     /// <summary>The motion of either swing, Locked likewise where both are Limited to a hard cone without width.</summary>
     public AxisMotion Swing(AxisMotion motion) =>
-        EveryLimit && Swing1 == AxisMotion.Limited && Swing2 == AxisMotion.Limited && !SwingLimit.Response.IsSoft
+        LimitsFromAfar && Swing1 == AxisMotion.Limited && Swing2 == AxisMotion.Limited && !SwingLimit.Response.IsSoft
             && Math.Max(SwingLimit.Y, SwingLimit.Z) <= NoConeAngle
             ? AxisMotion.Locked
             : motion;
@@ -72,7 +70,7 @@ internal sealed class D6Joint : Joint
     {
         JointFrames.At(this, body0, body1, out JointFrames f);
         f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
-        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
 
         LinearDrives(ref writer, f);
         AngularDrives(ref writer, f, x1, y1, z1);
@@ -187,7 +185,7 @@ internal sealed class D6Joint : Joint
         {
             // In the cone's middle its nearest line has no direction: half of it is far enough.
             double every = Math.Min(SwingLimit.Y, SwingLimit.Z) / 2;
-            double padding = EveryLimit ? every : response.IsSoft ? 0 : response.ContactDistance;
+            double padding = LimitsFromAfar ? every : response.IsSoft ? 0 : response.ContactDistance;
             if (ConeLimitError.Find(SwingLimit, padding, parts.Swing, out Vector3d axis, out double error))
             {
                 writer.ConeLimit(f.Q0 * axis, error, response);

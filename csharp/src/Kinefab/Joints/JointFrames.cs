@@ -22,7 +22,7 @@ internal struct JointFrames
     private Vector3d _z0;
 
     /// <summary>As <see cref="At"/>.</summary>
-    public JointFrames(Joint joint, in Pose body0, in Pose body1) => At(joint, body0, body1, out this);
+    public JointFrames(JointModel joint, in Pose body0, in Pose body1) => At(joint, body0, body1, out this);
 
     /// <summary>Frames at the given body poses; written where they stay, since they are large.</summary>
     /// <param name="joint">Gives the frames in the bodies; without extended limits Q1 is taken on Q0's side of the
@@ -31,7 +31,7 @@ internal struct JointFrames
     /// <param name="body1">Pose of body 1.</param>
     /// <param name="f">The frames.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static void At(Joint joint, in Pose body0, in Pose body1, out JointFrames f)
+    public static void At(JointModel joint, in Pose body0, in Pose body1, out JointFrames f)
     {
         Pose f0 = body0 * joint.Frame0;
         Pose f1 = body1 * joint.Frame1;

@@ -50,7 +50,7 @@ internal struct ConeLimit
 }
 
 /// <summary>A spring-damper towards a target (PxD6JointDrive).</summary>
-internal struct JointDrive
+internal struct DriveModel
 {
     /// <summary>N/m or N m/rad; 1/s^2 in acceleration mode.</summary>
     public double Stiffness;

@@ -7,7 +7,7 @@ namespace Kinefab.Joints;
 /// PxRevoluteJoint, the joint under Unity's HingeJoint: rotation about the frames' common X, with limits and a motor;
 /// and Unity's hinge spring, which PxRevoluteJoint lacks.
 /// </summary>
-internal sealed class RevoluteJoint : Joint
+internal sealed class RevoluteJoint : JointModel
 {
     public bool LimitEnabled;
 
@@ -26,7 +26,7 @@ internal sealed class RevoluteJoint : Joint
     public bool MotorFreeSpin;
 
     /// <summary>Spring towards SpringTarget; inactive while it has no gains or the motor is enabled.</summary>
-    public JointDrive Spring;
+    public DriveModel Spring;
 
     /// <summary>Target of actor 1's angle against actor 0, radians.</summary>
     public double SpringTarget;
@@ -35,18 +35,15 @@ internal sealed class RevoluteJoint : Joint
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 
     /// <inheritdoc/>
-    public override int PrepareLaws(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
+    public override int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
     /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
     public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
 
-    /// <inheritdoc/>
-    public override bool Project(ref Pose body0, ref Pose body1, bool moveBody1) => Projections.Revolute(this, ref body0, ref body1, moveBody1);
-
     private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
         JointFrames.At(this, body0, body1, out JointFrames f);
-        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, EveryLimit);
+        var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
         bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
         if (hasLockedAxes)
         {

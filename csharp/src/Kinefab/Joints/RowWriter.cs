@@ -126,11 +126,11 @@ internal ref struct RowWriter
     }
 
     /// <summary>Spring-damper along a line through frame 1's origin: C = target - ordinate, J as a linear row.</summary>
-    public void LinearDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive) =>
+    public void LinearDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive) =>
         Drive(ref LinearRow(axis, _lever0, _lever1, error), velocityTarget, drive);
 
     /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
-    public void AngularDrive(Vector3d axis, double velocityTarget, double error, in JointDrive drive, SolveHint hint = SolveHint.None)
+    public void AngularDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive, SolveHint hint = SolveHint.None)
     {
         Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive);
     }
@@ -171,7 +171,7 @@ internal ref struct RowWriter
         }
     }
 
-    private static void Drive(ref ConstraintRow row, double velocityTarget, in JointDrive drive)
+    private static void Drive(ref ConstraintRow row, double velocityTarget, in DriveModel drive)
     {
         row.VelocityTarget = velocityTarget;
         row.Flags |= RowFlags.Spring | RowFlags.HasDriveLimit | RowFlags.Drive;

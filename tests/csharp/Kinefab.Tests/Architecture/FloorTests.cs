@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using System.Runtime.CompilerServices;
 using System.Text.RegularExpressions;
+using Kinefab.Mechanisms;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Architecture;
@@ -51,7 +52,7 @@ public sealed class FloorTests
     }
 
     [TestCase("using Kinefab.Joints;", "Joints")]
-    [TestCase("using static Kinefab.Joints.UnityFrames;", "Joints")]
+    [TestCase("using static Kinefab.Mechanisms.UnityFrames;", "Joints")]
     [TestCase("using Joint = Kinefab.Joints.Joint;", "Joints")]
     [TestCase("var text = Json.Invariant.Text(1);", "Json")]
     [TestCase("foreach (Dynamics.WorldJoint joint in all)", "Dynamics")]

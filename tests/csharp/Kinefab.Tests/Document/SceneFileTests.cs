@@ -101,7 +101,7 @@ public class SceneFileTests
     {
         const string extras = """{"shop": [1.50, {"deep": null}], "é": "\u00e9"}""";
         byte[] text = Encoding.UTF8.GetBytes(OneObject.Replace("EXTRA", ", \"extras\": " + extras, StringComparison.Ordinal));
-        Assert.That(SceneFile.Parse(text).Document!.GameObjects[0].Extras, Is.EqualTo(extras));
+        Assert.That(SceneFile.Parse(text).Document!.GameObjects[0].ExtrasJson, Is.EqualTo(extras));
     }
 
     [Test]

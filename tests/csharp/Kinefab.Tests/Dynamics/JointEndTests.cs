@@ -53,5 +53,5 @@ public sealed class JointEndTests
         Assert.That((hung.Pose.Point(anchor) - before).Length, Is.LessThan(1e-9));
     }
 
-    private static string Name(World world, int body) => body == Joint.World ? "world" : world.Bodies[body].Id;
+    private static string Name(World world, int body) => body == JointModel.World ? "world" : world.Bodies[body].Id;
 }

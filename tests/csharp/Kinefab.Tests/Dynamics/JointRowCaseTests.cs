@@ -46,9 +46,9 @@ public sealed class JointRowCaseTests
 
     private static bool IsAllowed(World world)
     {
-        Kinefab.Joints.Joint joint = world.Joints[0].Solved;
+        Kinefab.Joints.JointModel joint = world.Joints[0].Solved;
         Pose Of(int body) => body < 0 ? Pose.Identity : world.Bodies[body].Pose;
-        var rows = new ConstraintRow[Kinefab.Joints.Joint.MaxRows];
+        var rows = new ConstraintRow[Kinefab.Joints.JointModel.MaxRows];
         // Centres of mass are at the objects' origins here, so objects' poses are bodies' poses.
         int count = joint.Prepare(Of(joint.Body0), Of(joint.Body1), rows);
         return rows.Take(count).All(r =>

@@ -17,7 +17,7 @@ internal sealed record PhysXComparison(double Position, double Angle, double Ran
     public static PhysXComparison Run(Scenario scenario)
     {
         MultibodySystem mechanism = scenario.Build();
-        var solver = new UnitySolver(mechanism);
+        PgsSolver solver = new PgsSolver(mechanism);
         double position = 0;
         double angle = 0;
         double range = 0;
@@ -61,7 +61,7 @@ internal sealed record PhysXComparison(double Position, double Angle, double Ran
     private static int Whole(MultibodySystem mechanism)
     {
         int whole = 0;
-        foreach (Kinefab.Joints.Joint joint in mechanism.Joints)
+        foreach (Kinefab.Joints.JointModel joint in mechanism.Joints)
         {
             whole += joint.IsBroken ? 0 : 1;
         }

@@ -95,7 +95,7 @@ public sealed class PhysXFuzzTests
         for (int i = 0; i < system.Bodies.Count; i++)
             Unpack(state, i, system.Bodies);
         scenario.Drive(system, step * scenario.Dt);
-        new UnitySolver(system).Step(scenario.Dt);
+        new PgsSolver(system).Step(scenario.Dt);
         return system;
     }
 

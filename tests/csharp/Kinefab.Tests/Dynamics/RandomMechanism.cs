@@ -27,7 +27,7 @@ internal static class RandomMechanism
             };
         }
 
-        var joints = new Joint[random.Next(1, 9)];
+        var joints = new JointModel[random.Next(1, 9)];
         for (int i = 0; i < joints.Length; i++)
         {
             joints[i] = random.Next(3) == 0 ? Revolute(random) : D6(random);
@@ -35,7 +35,7 @@ internal static class RandomMechanism
             joints[i].Body1 = bodies.Length > 1 ? (joints[i].Body0 + 1 + random.Next(bodies.Length - 1) + bodies.Length) % bodies.Length : 0;
             if (joints[i].Body0 == joints[i].Body1)
             {
-                joints[i].Body0 = Joint.World;
+                joints[i].Body0 = JointModel.World;
             }
 
             joints[i].Frame0 = new Pose(random.Next(4) == 0 ? Vector3d.Zero : Point(random, 1), Turn(random));
@@ -95,9 +95,9 @@ internal static class RandomMechanism
         ContactDistance = Between(random, 0, 0.2),
     };
 
-    private static JointDrive Drive(Random random) => random.Next(2) == 0
+    private static DriveModel Drive(Random random) => random.Next(2) == 0
         ? default
-        : new JointDrive
+        : new DriveModel
         {
             Stiffness = Math.Pow(10, Between(random, -1, 8)),
             Damping = Math.Pow(10, Between(random, -2, 5)),

@@ -54,7 +54,7 @@ internal sealed class Scenario
     public MultibodySystem Build()
     {
         BodyDefinition[] bodies = _spec.GetProperty("bodies").EnumerateArray().Select(Body).ToArray();
-        Joint[] joints = _spec.GetProperty("joints").EnumerateArray().Select(ToJoint).ToArray();
+        JointModel[] joints = _spec.GetProperty("joints").EnumerateArray().Select(ToJoint).ToArray();
         return new MultibodySystem(new Bodies(bodies), joints, []) { Gravity = Vector(_spec, "gravity", new Vector3d(0, -9.81, 0)) };
     }
 
@@ -134,11 +134,11 @@ internal sealed class Scenario
         return d;
     }
 
-    private static Joint ToJoint(JsonElement j)
+    private static JointModel ToJoint(JsonElement j)
     {
-        Joint joint = j.GetProperty("type").GetString() == "revolute" ? Revolute(j) : D6(j);
-        joint.Body0 = j.TryGetProperty("body0", out JsonElement b0) ? b0.GetInt32() : Joint.World;
-        joint.Body1 = j.TryGetProperty("body1", out JsonElement b1) ? b1.GetInt32() : Joint.World;
+        JointModel joint = j.GetProperty("type").GetString() == "revolute" ? Revolute(j) : D6(j);
+        joint.Body0 = j.TryGetProperty("body0", out JsonElement b0) ? b0.GetInt32() : JointModel.World;
+        joint.Body1 = j.TryGetProperty("body1", out JsonElement b1) ? b1.GetInt32() : JointModel.World;
         joint.Frame0 = FramePose(j.GetProperty("frame0"));
         joint.Frame1 = FramePose(j.GetProperty("frame1"));
         joint.BreakForce = Number(j, "breakForce", double.PositiveInfinity);
@@ -222,7 +222,7 @@ internal sealed class Scenario
 
         if (j.TryGetProperty("drives", out JsonElement drives))
         {
-            JointDrive Drive(string name) => drives.TryGetProperty(name, out JsonElement d) ? Scenario.Drive(d) : default;
+            DriveModel Drive(string name) => drives.TryGetProperty(name, out JsonElement d) ? Scenario.Drive(d) : default;
             joint.DriveX = Drive("x");
             joint.DriveY = Drive("y");
             joint.DriveZ = Drive("z");
@@ -245,7 +245,7 @@ internal sealed class Scenario
         return joint;
     }
 
-    private static JointDrive Drive(JsonElement d) => new()
+    private static DriveModel Drive(JsonElement d) => new()
     {
         Stiffness = Number(d, "stiffness", 0),
         Damping = Number(d, "damping", 0),

@@ -1,5 +1,6 @@
 using System;
 using Kinefab.Joints;
+using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 using NUnit.Framework;
 

@@ -15,7 +15,7 @@ public sealed class UnitySolverTests
         for (int seed = 0; seed < 500; seed++)
         {
             MultibodySystem mechanism = RandomMechanism.Make(seed);
-            var solver = new UnitySolver(mechanism);
+            PgsSolver solver = new PgsSolver(mechanism);
             double dt = RandomMechanism.Step(seed);
             for (int step = 0; step < 20; step++)
             {
@@ -33,7 +33,7 @@ public sealed class UnitySolverTests
         var bodies = new Bodies([BodyDefinition.Default with { LinearVelocity = new Vector3d(1e300, 0, 0) }]);
         var mechanism = new MultibodySystem(bodies, [], []);
 
-        new UnitySolver(mechanism).Step(0.02);
+        new PgsSolver(mechanism).Step(0.02);
 
         Assert.That(mechanism.Stops, Is.EqualTo(1));
         Assert.That(bodies.Poses[0].Position, Is.EqualTo(Vector3d.Zero));
@@ -44,7 +44,7 @@ public sealed class UnitySolverTests
     {
         // Three bodies in a row; the middle joint cannot hold and goes, the other two still do.
         BodyDefinition[] bodies = [.. Enumerable.Range(0, 3).Select(i => BodyDefinition.Default with { Pose = new Pose(new Vector3d(i, 0, 0), Quaterniond.Identity) })];
-        Joint[] joints = [.. Enumerable.Range(0, 3).Select(i => new RevoluteJoint
+        JointModel[] joints = [.. Enumerable.Range(0, 3).Select(i => new RevoluteJoint
         {
             Body0 = i - 1,
             Body1 = i,
@@ -53,7 +53,7 @@ public sealed class UnitySolverTests
             BreakForce = i == 1 ? 1 : double.PositiveInfinity,
         })];
         var mechanism = new MultibodySystem(new Bodies(bodies), joints, []);
-        var solver = new UnitySolver(mechanism);
+        PgsSolver solver = new PgsSolver(mechanism);
 
         for (int i = 0; i < 50; i++)
         {

@@ -82,7 +82,7 @@ public class ExportedMechanismTests
             Redundant = Wrong("/analysis/redundant", 3),
             Islands =
             [
-                new Island
+                new AnalysisIsland
                 {
                     GameObjects = [0, 1, 2],
                     Mobility = Wrong("/analysis/islands/0/mobility", 1),

@@ -48,5 +48,5 @@ public sealed class JointEndTests
     }
 
     private static string Name(Mechanism mechanism, int body) =>
-        body == Joint.World ? "world" : mechanism.Scene.Document.GameObjects[mechanism.GameObjects[body]].Id;
+        body == JointModel.World ? "world" : mechanism.Scene.Document.GameObjects[mechanism.GameObjects[body]].Id;
 }

@@ -21,7 +21,7 @@ public sealed class LoopPartTests
         }
 
         Mechanism mechanism = scene.Mechanism();
-        LoopParts parts = PartsOf(mechanism);
+        IndependentLinkages parts = PartsOf(mechanism);
         MobilityReport report = MobilityAnalysis.Of(mechanism);
 
         // Three bars and the car, which stands still.
@@ -60,11 +60,11 @@ public sealed class LoopPartTests
         JointPlace tip = scene.Hinge(last, middle, new Vector3d(2, 0.2, 0), new Vector3d(0, 1, 0.3));
         scene.Couple(sliding, Coordinate.AngularX, tip, Coordinate.Angle, 0.7);
         Mechanism mechanism = scene.Mechanism();
-        LoopParts parts = PartsOf(mechanism);
+        IndependentLinkages parts = PartsOf(mechanism);
 
         MobilityReport report = MobilityAnalysis.Of(mechanism);
 
-        LoopPart part = parts.Make(0, mechanism.NewState().Poses);
+        IndependentLinkage part = parts.Make(0, mechanism.NewState().Poses);
         Assert.That((parts.Count, string.Join(" ", part.Bodies), part.Linkage.Tree.Freedoms[part.IndexOf(middle)]), Is.EqualTo((1, "0 1 2", 0)));
         Assert.That(string.Join(" ", report.Bodies.Select(b => b.Translations + b.Rotations)), Is.EqualTo("2 3 3"));
         Assert.That((report.Mobility, report.Idle.Count), Is.EqualTo((3, 0)), "the slide carries the tip: it is not idle");
@@ -100,10 +100,10 @@ public sealed class LoopPartTests
         return rocker;
     }
 
-    private static LoopParts PartsOf(Mechanism mechanism)
+    private static IndependentLinkages PartsOf(Mechanism mechanism)
     {
         var newton = new NewtonSolver(mechanism.Linkage);
-        var blocks = new LoopBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
-        return new LoopParts(mechanism.Linkage, blocks, newton.Firsts);
+        FreedomBlocks blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        return new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
     }
 }

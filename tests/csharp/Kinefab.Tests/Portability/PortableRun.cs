@@ -4,12 +4,12 @@ using System.IO;
 using System.Linq;
 using Kinefab.Document;
 using Kinefab.Dynamics;
-using Kinefab.Dynamics.Exact;
+using Kinefab.Dynamics.Rattle;
 using Kinefab.Dynamics.Pgs;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
 using Kinefab.Tests.Dynamics;
-using Kinefab.Tests.Dynamics.Exact;
+using Kinefab.Tests.Dynamics.Rattle;
 using Kinefab.Validation;
 
 namespace Kinefab.Tests.Portability;
@@ -60,19 +60,19 @@ internal sealed class PortableRun
     {
         BenchmarkMechanism benchmark = make();
         MultibodySystem system = benchmark.MultibodySystem;
-        return Run(system, new ExactSolver(system), dt, (int)Math.Round(end / dt), _ => benchmark.Drive(system));
+        return Run(system, new RattleSolver(system), dt, (int)Math.Round(end / dt), _ => benchmark.Drive(system));
     });
 
     private static PortableRun Exact(string name, Func<MultibodySystem> make) => new($"exact {name}", () =>
     {
         MultibodySystem system = make();
-        return Run(system, new ExactSolver(system), 1.0 / 60, 120, _ => { });
+        return Run(system, new RattleSolver(system), 1.0 / 60, 120, _ => { });
     });
 
     private static IEnumerable<double> Run(Scenario scenario)
     {
         MultibodySystem system = scenario.Build();
-        return Run(system, new UnitySolver(system), scenario.Dt, scenario.Steps, t => scenario.Drive(system, t));
+        return Run(system, new PgsSolver(system), scenario.Dt, scenario.Steps, t => scenario.Drive(system, t));
     }
 
     private static IEnumerable<double> Run(MultibodySystem system, ISolver solver, double dt, int steps, Action<double> beforeStep)

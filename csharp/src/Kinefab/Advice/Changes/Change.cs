@@ -30,7 +30,7 @@ internal sealed class Change
     public static Change Both(Change a, Change b) => new(a.Kind + " + " + b.Kind, a.Parts.Concat(b.Parts), a.AltersMotion || b.AltersMotion);
 
     /// <summary>What of it an island has to do with.</summary>
-    public IReadOnlyList<ChangePart> In(Island island) =>
+    public IReadOnlyList<ChangePart> In(RunIsland island) =>
         Parts.Where(p => p.GameObject is not int gameObject || island.Holds(gameObject)).ToArray();
 
     /// <summary>Parts in words.</summary>

@@ -4,7 +4,7 @@ using Kinefab.Advice.Runs;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Validation;
-using Island = Kinefab.Advice.Runs.Island;
+using Island = Kinefab.Advice.Runs.RunIsland;
 
 namespace Kinefab.Advice.Changes;
 
@@ -21,10 +21,10 @@ internal static class JointSettings
     }
 
     /// <summary>Projection of every ConfigurableJoint to a thousandth of a link and a tenth of a degree.</summary>
-    public static Change? Projection(ValidScene scene, World world, IEnumerable<Island> islands)
+    public static Change? Projection(ValidScene scene, World world, IEnumerable<RunIsland> islands)
     {
         var parts = new List<ChangePart>();
-        foreach (Island island in islands)
+        foreach (RunIsland island in islands)
         {
             string distance = EditText.Number(0.001 * island.Length);
             foreach (WorldJoint joint in island.Joints.Select(j => world.Joints[j]))

@@ -18,7 +18,7 @@ internal sealed class HeldPose
     /// <param name="island">Whose drives they are.</param>
     /// <param name="sites">Those of limited force, one or more.</param>
     /// <param name="strong">The pose held with unlimited forces.</param>
-    public HeldPose(Island island, DriveSite[] sites, SceneRun strong)
+    public HeldPose(RunIsland island, DriveSite[] sites, SceneRun strong)
     {
         Island = island;
         _sites = sites;
@@ -27,7 +27,7 @@ internal sealed class HeldPose
         Parts = Array.Empty<ChangePart>();
     }
 
-    public Island Island { get; }
+    public RunIsland Island { get; }
 
     /// <summary>The forces raised so far.</summary>
     public IReadOnlyList<ChangePart> Parts { get; private set; }

@@ -12,7 +12,7 @@ internal static class JointDrifts
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.WorstFirst(i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure)))
+        foreach (RunIsland island in e.WorstFirst(i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure)))
         {
             Threshold threshold = Threshold.Drift(island);
             (Dynamics.WorldJoint joint, AdviceMeasure before) = e.WorstDrift(e.Unity, island);

@@ -11,7 +11,7 @@ internal static class JointShakes
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.WorstFirst(i => Score(e, i)))
+        foreach (RunIsland island in e.WorstFirst(i => Score(e, i)))
         {
             Threshold threshold = Threshold.Drift(island);
             (Dynamics.WorldJoint joint, AdviceMeasure before) = e.Worst(e.Unity, island, r => r.Shake);
@@ -25,7 +25,7 @@ internal static class JointShakes
     }
 
     // 0 where the true motion shakes half as much or more.
-    private static double Score(Examination e, Island island)
+    private static double Score(Examination e, RunIsland island)
     {
         double unity = Threshold.Drift(island).Score(e.Worst(e.Unity, island, r => r.Shake).Measure);
         double exact = !e.Exact.IsSound ? 0 : Threshold.Drift(island).Score(e.Worst(e.Exact, island, r => r.Shake).Measure);

@@ -12,7 +12,7 @@ internal static class MotionDiffers
 {
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        foreach (Island island in e.WorstFirst(i => Threshold.Place(i).Score(e.WorstPlace(e.Unity, i).Measure)))
+        foreach (RunIsland island in e.WorstFirst(i => Threshold.Place(i).Score(e.WorstPlace(e.Unity, i).Measure)))
         {
             Threshold threshold = Threshold.Place(island);
             (Dynamics.WorldBody body, AdviceMeasure before) = e.WorstPlace(e.Unity, island);

@@ -7,7 +7,7 @@ using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Validation;
-using Island = Kinefab.Advice.Runs.Island;
+using Island = Kinefab.Advice.Runs.RunIsland;
 
 namespace Kinefab.Advice.Findings;
 
@@ -18,13 +18,13 @@ internal static class NarrowLimits
 
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
-        IEnumerable<Island> islands = e.Islands.Where(i => i.Joints.Any(j => e.Unity.Joints[j].Freedoms.Any(IsNarrow)));
-        foreach (Island island in e.WorstFirst(islands, i => Narrow(e, i)[0].Beyond, least: 0))
+        IEnumerable<RunIsland> islands = e.Islands.Where(i => i.Joints.Any(j => e.Unity.Joints[j].Freedoms.Any(IsNarrow)));
+        foreach (RunIsland island in e.WorstFirst(islands, i => Narrow(e, i)[0].Beyond, least: 0))
             yield return Judge(e, island, Narrow(e, island));
     }
 
     // Furthest beyond first, degrees.
-    private static (int Joint, JointFreedom Freedom, double Beyond)[] Narrow(Examination e, Island island) => island.Joints
+    private static (int Joint, JointFreedom Freedom, double Beyond)[] Narrow(Examination e, RunIsland island) => island.Joints
         .SelectMany(j => e.Unity.Joints[j].Freedoms.Where(IsNarrow).Select(f => (j, f, Beyond: e.Unity.Joints[j].Overshoot(f.Coordinate))))
         .OrderByDescending(n => n.Beyond)
         .ToArray();
@@ -32,7 +32,7 @@ internal static class NarrowLimits
     private static bool IsNarrow(JointFreedom freedom) =>
         freedom.IsAngle && freedom.IsLimited && freedom.Upper > freedom.Lower && freedom.Upper - freedom.Lower < Range;
 
-    private static AdviceFinding Judge(Examination e, Island island, (int Joint, JointFreedom Freedom, double Beyond)[] narrow)
+    private static AdviceFinding Judge(Examination e, RunIsland island, (int Joint, JointFreedom Freedom, double Beyond)[] narrow)
     {
         Threshold threshold = Threshold.Drift(island);
         AdviceMeasure before = Measure(e.Unity);

@@ -17,7 +17,7 @@ internal static class RepeatedRows
         if (e.Mobility is not { Redundant: > 0 } counted)
             yield break;
         Change?[] cures = { e.Remedies.ClosuresMinimal, e.Remedies.PreprocessingOff };
-        foreach (Island island in Suspects.Islands(e, i => counted.Joints.Any(j => i.Holds(j.GameObject, j.Component))))
+        foreach (RunIsland island in Suspects.Islands(e, i => counted.Joints.Any(j => i.Holds(j.GameObject, j.Component))))
         {
             RedundantRows[] joints = counted.Joints.Where(j => island.Holds(j.GameObject, j.Component)).OrderByDescending(j => j.Redundant).ToArray();
             yield return Suspects.Judge(

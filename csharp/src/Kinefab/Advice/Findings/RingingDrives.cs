@@ -21,7 +21,7 @@ internal static class RingingDrives
     public static IEnumerable<AdviceFinding> Find(Examination e)
     {
         ILookup<int, DriveSite> springs = DriveSite.Of(e.Scene, e.World).Where(s => s.Spring > 0).ToLookup(s => s.Joint.Index);
-        foreach (Island island in e.WorstFirst(i => Ringing(e, i, springs).Select(d => Threshold.Hold(i).Score(Swing(e.Unity, d))).FirstOrDefault()))
+        foreach (RunIsland island in e.WorstFirst(i => Ringing(e, i, springs).Select(d => Threshold.Hold(i).Score(Swing(e.Unity, d))).FirstOrDefault()))
         {
             Threshold threshold = Threshold.Hold(island);
             DriveSite[] sites = island.Joints.SelectMany(j => springs[j]).ToArray();
@@ -41,7 +41,7 @@ internal static class RingingDrives
     }
 
     // Those that go to and fro, widest first.
-    private static (DriveSite Site, int Freedom)[] Ringing(Examination e, Island island, ILookup<int, DriveSite> springs) => island.Joints
+    private static (DriveSite Site, int Freedom)[] Ringing(Examination e, RunIsland island, ILookup<int, DriveSite> springs) => island.Joints
         .SelectMany(j => springs[j]).SelectMany(s => Driven(e, s))
         .Where(d => Period(Values(e.Unity, d)) > 0)
         .OrderByDescending(d => Threshold.Hold(island).Score(Swing(e.Unity, d)))

@@ -15,7 +15,7 @@ namespace Kinefab.Advice.Findings;
 internal static class Suspects
 {
     /// <summary>Of the islands that hold suspects the ones whose joints drift most.</summary>
-    public static IReadOnlyList<Island> Islands(Examination e, Func<Island, bool> holds) =>
+    public static IReadOnlyList<RunIsland> Islands(Examination e, Func<RunIsland, bool> holds) =>
         e.WorstFirst(e.Islands.Where(holds), i => Threshold.Drift(i).Score(e.WorstDrift(e.Unity, i).Measure), least: 0);
 
     /// <summary>The finding about a suspect.</summary>
@@ -27,7 +27,7 @@ internal static class Suspects
     /// <param name="cures">Changes that take the suspect away.</param>
     /// <param name="values">For the message, "measure" left out.</param>
     public static AdviceFinding Judge(
-        Examination e, Island island, string code, string pointer, string id, IEnumerable<Change?> cures, params (string Name, string Value)[] values)
+        Examination e, RunIsland island, string code, string pointer, string id, IEnumerable<Change?> cures, params (string Name, string Value)[] values)
     {
         Threshold threshold = Threshold.Drift(island);
         AdviceMeasure before = e.WorstDrift(e.Unity, island).Measure;

@@ -17,7 +17,7 @@ internal static class ThinInertias
     {
         Vector3d[] turns = BodySettings.TurnsInAStep(e.World, e.Plan.Step);
         IEnumerable<Change?> cures = e.Remedies.SmallerSteps.Prepend(e.Remedies.InertiasRaised);
-        foreach (Island island in Suspects.Islands(e, i => i.Bodies.Any(b => Largest(turns[b]) > 1)))
+        foreach (RunIsland island in Suspects.Islands(e, i => i.Bodies.Any(b => Largest(turns[b]) > 1)))
         {
             int worst = island.Bodies.OrderByDescending(b => Largest(turns[b])).First();
             WorldBody body = e.World.Bodies[worst];

@@ -16,7 +16,7 @@ internal static class UnlikeMasses
     {
         var pairs = BodySettings.UnlikeMasses(e.World).ToDictionary(p => p.Joint.Index);
         Change?[] cures = { e.Remedies.MassesScaled, e.Remedies.MassesRaised };
-        foreach (Island island in Suspects.Islands(e, i => i.Joints.Any(pairs.ContainsKey)))
+        foreach (RunIsland island in Suspects.Islands(e, i => i.Joints.Any(pairs.ContainsKey)))
         {
             (WorldJoint joint, double ratio, WorldBody light, WorldBody heavy) = island.Joints.Where(pairs.ContainsKey).Select(j => pairs[j]).OrderByDescending(p => p.Ratio).First();
             yield return Suspects.Judge(

@@ -9,7 +9,7 @@ using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
-using Island = Kinefab.Advice.Runs.Island;
+using Island = Kinefab.Advice.Runs.RunIsland;
 
 namespace Kinefab.Advice.Findings;
 
@@ -31,7 +31,7 @@ internal static class WeakDrives
             || Hold(e, "drives unlimited", sites.Select(s => s.WithForce(Unlimited))) is not SceneRun strong)
             return Array.Empty<AdviceFinding>();
         ILookup<int, DriveSite> sitesOf = sites.ToLookup(s => s.Joint.Index);
-        Dictionary<Island, HeldPose> held = e.Islands.Where(i => i.Joints.Any(sitesOf.Contains))
+        Dictionary<RunIsland, HeldPose> held = e.Islands.Where(i => i.Joints.Any(sitesOf.Contains))
             .ToDictionary(i => i, i => new HeldPose(i, i.Joints.SelectMany(j => sitesOf[j]).ToArray(), strong));
         HeldPose[] weak = e.WorstFirst(held.Keys, i => held[i].Worst(asIs).Score, least: 1).Select(i => held[i]).ToArray();
         SceneRun last = asIs;

@@ -11,10 +11,10 @@ internal sealed class Deviation
 {
     private readonly SceneRun _a;
     private readonly SceneRun _b;
-    private readonly Island _island;
+    private readonly RunIsland _island;
     private readonly IReadOnlyList<WorldBody> _bodies;
 
-    public Deviation(SceneRun a, SceneRun b, Island island, IReadOnlyList<WorldBody> bodies)
+    public Deviation(SceneRun a, SceneRun b, RunIsland island, IReadOnlyList<WorldBody> bodies)
     {
         _a = a;
         _b = b;

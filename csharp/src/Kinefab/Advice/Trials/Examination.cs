@@ -46,7 +46,7 @@ internal sealed class Examination
         Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1);
         SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2);
 
-        Islands = Island.Of(World, scene.Document.Couplings);
+        Islands = RunIsland.Of(World, scene.Document.Couplings);
         Foreseen = Islands.Select(i => Exact.IsSound && half.IsSound ? Horizon(i, half) : 0).ToArray();
         Workbench = new Workbench(scene, Plan, World.Joints.Count, options);
         Mechanism? mechanism = World.Joints.Count <= MostJointsCounted ? Mechanism.Create(scene) : null;
@@ -71,7 +71,7 @@ internal sealed class Examination
     /// <summary>Null in a scene of too many joints to count rows in.</summary>
     public MobilityReport? Mobility { get; }
 
-    public IReadOnlyList<Island> Islands { get; }
+    public IReadOnlyList<RunIsland> Islands { get; }
 
     /// <summary>For each island the number of samples up to which its exact motion is known.</summary>
     public IReadOnlyList<int> Foreseen { get; }
@@ -86,20 +86,20 @@ internal sealed class Examination
     /// <summary>The islands to speak of for one kind of finding, worst first.</summary>
     /// <param name="score">How bad an island is.</param>
     /// <param name="least">How bad it must be.</param>
-    public IReadOnlyList<Island> WorstFirst(Func<Island, double> score, double least = 1) => WorstFirst(Islands, score, least);
+    public IReadOnlyList<RunIsland> WorstFirst(Func<RunIsland, double> score, double least = 1) => WorstFirst(Islands, score, least);
 
-    public IReadOnlyList<Island> WorstFirst(IEnumerable<Island> islands, Func<Island, double> score, double least)
+    public IReadOnlyList<RunIsland> WorstFirst(IEnumerable<RunIsland> islands, Func<RunIsland, double> score, double least)
     {
-        Island[] bad = islands.Select(i => (Island: i, Score: score(i))).Where(i => i.Score >= least).OrderByDescending(i => i.Score).Select(i => i.Island).ToArray();
+        RunIsland[] bad = islands.Select(i => (Island: i, Score: score(i))).Where(i => i.Score >= least).OrderByDescending(i => i.Score).Select(i => i.Island).ToArray();
         Omitted += Math.Max(0, bad.Length - MostOfAKind);
         return bad.Take(MostOfAKind).ToArray();
     }
 
     /// <summary>The joint of an island that comes apart most, and how far.</summary>
-    public (WorldJoint Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, Island island) => Worst(run, island, r => r.Drift);
+    public (WorldJoint Joint, AdviceMeasure Measure) WorstDrift(SceneRun run, RunIsland island) => Worst(run, island, r => r.Drift);
 
     /// <summary>The joint of an island with the worst of some measure.</summary>
-    public (WorldJoint Joint, AdviceMeasure Measure) Worst(SceneRun run, Island island, Func<JointRecord, AdviceMeasure> of)
+    public (WorldJoint Joint, AdviceMeasure Measure) Worst(SceneRun run, RunIsland island, Func<JointRecord, AdviceMeasure> of)
     {
         Threshold threshold = Threshold.Drift(island);
         int worst = island.Joints[0];
@@ -113,7 +113,7 @@ internal sealed class Examination
     }
 
     /// <summary>The body of an island that is furthest from its exact motion, and how far.</summary>
-    public (WorldBody Body, AdviceMeasure Measure) WorstPlace(SceneRun run, Island island)
+    public (WorldBody Body, AdviceMeasure Measure) WorstPlace(SceneRun run, RunIsland island)
     {
         Threshold threshold = Threshold.Place(island);
         AdviceMeasure[] all = new Deviation(run, Exact, island, World.Bodies).Worst(Foreseen[island.Index]);
@@ -127,7 +127,7 @@ internal sealed class Examination
         return (World.Bodies[island.Bodies[worst]], all[worst]);
     }
 
-    private int Horizon(Island island, SceneRun half)
+    private int Horizon(RunIsland island, SceneRun half)
     {
         Threshold threshold = Threshold.Place(island);
         var deviation = new Deviation(Exact, half, island, World.Bodies);

@@ -16,7 +16,7 @@ internal sealed class Treatment
     private const double Harm = 1.1;
 
     private readonly Examination _examination;
-    private readonly Island _island;
+    private readonly RunIsland _island;
     private readonly Func<SceneRun, AdviceMeasure> _measure;
     private readonly Threshold _threshold;
     private readonly double _before;
@@ -24,7 +24,7 @@ internal sealed class Treatment
     private readonly double _place;
     private readonly List<(Change Change, TriedChange Tried, bool IsHarmless)> _tried = new();
 
-    private Treatment(Examination examination, Island island, Func<SceneRun, AdviceMeasure> measure, Threshold threshold)
+    private Treatment(Examination examination, RunIsland island, Func<SceneRun, AdviceMeasure> measure, Threshold threshold)
     {
         _examination = examination;
         _island = island;
@@ -46,7 +46,7 @@ internal sealed class Treatment
     /// <param name="measure">What it measures in a run.</param>
     /// <param name="threshold">What of that is worth a warning.</param>
     /// <param name="ladders">Changes; in each ladder from the cheapest upwards.</param>
-    public static Treatment Of(Examination examination, Island island, Func<SceneRun, AdviceMeasure> measure, Threshold threshold, IEnumerable<Change[]> ladders)
+    public static Treatment Of(Examination examination, RunIsland island, Func<SceneRun, AdviceMeasure> measure, Threshold threshold, IEnumerable<Change[]> ladders)
     {
         var treatment = new Treatment(examination, island, measure, threshold);
         foreach (Change[] ladder in ladders)

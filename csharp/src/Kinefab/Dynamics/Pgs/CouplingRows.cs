@@ -52,7 +52,7 @@ internal sealed class CouplingRows
         Bodies bodies = _mechanism.Bodies;
         for (int i = 0; i < _rows.Length; i++)
         {
-            Coupling coupling = _mechanism.Couplings[i];
+            CoordinateCoupling coupling = _mechanism.Couplings[i];
             ref Row row = ref _rows[i];
             row = default;
             if (coupling.A.Joint.IsBroken || coupling.B.Joint.IsBroken)
@@ -60,8 +60,8 @@ internal sealed class CouplingRows
                 continue;
             }
 
-            Joint a = coupling.A.Joint;
-            Joint b = coupling.B.Joint;
+            JointModel a = coupling.A.Joint;
+            JointModel b = coupling.B.Joint;
             double error = coupling.Prepare(
                 bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), out ConstraintRow rowA, out ConstraintRow rowB);
             Add(i, a.Body0, rowA.Linear0 * -coupling.Ratio, rowA.Angular0 * -coupling.Ratio);
@@ -107,10 +107,10 @@ internal sealed class CouplingRows
     public void Finish()
     {
         Bodies bodies = _mechanism.Bodies;
-        foreach (Coupling coupling in _mechanism.Couplings)
+        foreach (CoordinateCoupling coupling in _mechanism.Couplings)
         {
-            Joint a = coupling.A.Joint;
-            Joint b = coupling.B.Joint;
+            JointModel a = coupling.A.Joint;
+            JointModel b = coupling.B.Joint;
             coupling.LastA = coupling.A.Evaluate(bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), coupling.LastA, out _);
             coupling.LastB = coupling.B.Evaluate(bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), coupling.LastB, out _);
         }

@@ -11,7 +11,7 @@ namespace Kinefab.Dynamics.Pgs;
 internal static class Preprocessing
 {
     /// <summary>No joint needs more factors than this: at most six equalities, each taken from all rows after it.</summary>
-    public const int MaxFactors = 6 * Joint.MaxRows;
+    public const int MaxFactors = 6 * JointModel.MaxRows;
 
     private const double LeastShare = 1e-12;
 

@@ -43,7 +43,7 @@ internal sealed class SolveOrder
         int partitions = 0;
         for (int i = _partition.Length - 1; i >= 0; i--)
         {
-            Joint joint = _mechanism.Joints[i];
+            JointModel joint = _mechanism.Joints[i];
             if (!joint.IsBroken && Moves(joint.Body0) && Moves(joint.Body1))
             {
                 _partition[i] = FreePartition(joint.Body0, joint.Body1);
@@ -53,7 +53,7 @@ internal sealed class SolveOrder
 
         for (int i = _partition.Length - 1; i >= 0; i--)
         {
-            Joint joint = _mechanism.Joints[i];
+            JointModel joint = _mechanism.Joints[i];
             if (!joint.IsBroken && Moves(joint.Body0) != Moves(joint.Body1))
             {
                 int body = Moves(joint.Body0) ? joint.Body0 : joint.Body1;
@@ -67,7 +67,7 @@ internal sealed class SolveOrder
         {
             for (int i = 0; i < _partition.Length; i++)
             {
-                Joint joint = _mechanism.Joints[i];
+                JointModel joint = _mechanism.Joints[i];
                 if (_partition[i] == p && !joint.IsBroken && (Moves(joint.Body0) || Moves(joint.Body1)))
                 {
                     _order[_count++] = i;

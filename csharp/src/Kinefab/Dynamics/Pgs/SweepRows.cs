@@ -71,7 +71,7 @@ internal sealed class SweepRows
 
     public SweepRows(int joints)
     {
-        int capacity = joints * Joint.MaxRows;
+        int capacity = joints * JointModel.MaxRows;
         Vectors = new RowVectors[capacity];
         Angular0 = new Vector3d[capacity];
         Factors = new double[joints * Preprocessing.MaxFactors];

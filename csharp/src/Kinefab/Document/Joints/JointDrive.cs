@@ -1,0 +1,57 @@
+using Kinefab.Json;
+
+namespace Kinefab.Document;
+
+/// <summary>JointDrive: force = positionSpring * (target - position) + positionDamper * (target velocity - velocity).</summary>
+public sealed class JointDrive : DocumentObject
+{
+    internal static readonly FieldNames Fields = new(
+        [],
+        "positionSpring", "positionDamper", "maximumForce", "useAcceleration", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public JointDrive()
+    {
+    }
+
+    internal JointDrive(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "positionSpring":
+                    PositionSpring = json.Number();
+                    break;
+                case "positionDamper":
+                    PositionDamper = json.Number();
+                    break;
+                case "maximumForce":
+                    MaximumForce = json.Number();
+                    break;
+                case "useAcceleration":
+                    UseAcceleration = json.Boolean();
+                    break;
+                case "extras":
+                    ExtrasJson = json.Extras();
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Unity's defaults: a drive that does nothing.</summary>
+    public static JointDrive Default { get; } = new();
+
+    /// <summary>N/m or N m/rad (per kg or kg m^2 with <see cref="UseAcceleration"/>).</summary>
+    public double PositionSpring { get; init; }
+
+    /// <summary>N s/m or N m s/rad (per kg or kg m^2 with <see cref="UseAcceleration"/>).</summary>
+    public double PositionDamper { get; init; }
+
+    /// <summary>N or N m; infinite: unlimited.</summary>
+    public double MaximumForce { get; init; } = double.PositiveInfinity;
+
+    /// <summary>Spring and damper give accelerations instead of forces.</summary>
+    public bool UseAcceleration { get; init; }
+}

@@ -1,0 +1,63 @@
+using Kinefab.Json;
+
+namespace Kinefab.Document;
+
+/// <summary>JointLimits of a <see cref="HingeJoint"/>.</summary>
+public sealed class JointLimits : DocumentObject
+{
+    internal static readonly FieldNames Fields = new(
+        [],
+        "min", "max", "bounciness", "bounceMinVelocity", "contactDistance", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public JointLimits()
+    {
+    }
+
+    internal JointLimits(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "min":
+                    Min = json.Number();
+                    break;
+                case "max":
+                    Max = json.Number();
+                    break;
+                case "bounciness":
+                    Bounciness = json.Number();
+                    break;
+                case "bounceMinVelocity":
+                    BounceMinVelocity = json.Number();
+                    break;
+                case "contactDistance":
+                    ContactDistance = json.Number();
+                    break;
+                case "extras":
+                    ExtrasJson = json.Extras();
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Unity's defaults.</summary>
+    public static JointLimits Default { get; } = new();
+
+    /// <summary>Degrees.</summary>
+    public double Min { get; init; }
+
+    /// <summary>Degrees.</summary>
+    public double Max { get; init; }
+
+    /// <summary>Share of the speed kept at the limit, 0 to 1.</summary>
+    public double Bounciness { get; init; }
+
+    /// <summary>Slowest approach that bounces, degrees per second.</summary>
+    public double BounceMinVelocity { get; init; } = 0.2;
+
+    /// <summary>Distance from the limit within which it is looked at, degrees; 0: PhysX's choice.</summary>
+    public double ContactDistance { get; init; }
+}

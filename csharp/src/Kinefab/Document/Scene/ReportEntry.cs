@@ -1,0 +1,80 @@
+using Kinefab.Diagnostics;
+using Kinefab.Json;
+
+namespace Kinefab.Document;
+
+/// <summary>What became of a feature of the source.</summary>
+public enum Outcome
+{
+    /// <summary>It is in the scene as it was.</summary>
+    Kept,
+
+    /// <summary>It is in the scene as near as Unity allows.</summary>
+    Approximated,
+
+    /// <summary>It is not in the scene.</summary>
+    Dropped,
+}
+
+/// <summary>One line of the exporter's loss report.</summary>
+public sealed class ReportEntry : DocumentObject
+{
+    internal static readonly FieldNames Fields = new(
+        ["feature", "outcome"],
+        "severity", "code", "message", "source", "extras");
+
+    /// <summary>With nothing stated.</summary>
+    public ReportEntry()
+    {
+    }
+
+    internal ReportEntry(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "feature":
+                    Feature = json.Text();
+                    break;
+                case "outcome":
+                    Outcome = json.Word(DocumentWords.Outcomes);
+                    break;
+                case "severity":
+                    Severity = json.Word(DocumentWords.Severities);
+                    break;
+                case "code":
+                    Code = json.Text();
+                    break;
+                case "message":
+                    Message = json.Text();
+                    break;
+                case "source":
+                    Source = json.Text();
+                    break;
+                case "extras":
+                    ExtrasJson = json.Extras();
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Kind and id in the source.</summary>
+    public string Feature { get; init; } = "";
+
+    /// <summary>What became of it.</summary>
+    public Outcome Outcome { get; init; }
+
+    /// <summary>How grave that is; null: not stated.</summary>
+    public Severity? Severity { get; init; }
+
+    /// <summary>Code of the exporter's diagnostic; null when kept without remark.</summary>
+    public string? Code { get; init; }
+
+    /// <summary>In words.</summary>
+    public string? Message { get; init; }
+
+    /// <summary>Place in the source.</summary>
+    public string? Source { get; init; }
+}

@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Json;
+
+namespace Kinefab.Document;
+
+/// <summary>
+/// A scene file as it stands: Unity's terms, left-handed, +Y up, +Z forward, metres, kilograms, seconds.
+/// Nothing has been checked but its shape; <c>SceneValidator</c> checks the rest.
+/// </summary>
+public sealed class SceneDocument : DocumentObject
+{
+    internal static readonly FieldNames Fields = new(
+        ["format", "version", "gameObjects"],
+        "generator", "source", "physics", "buffers", "meshes", "materials", "couplings", "animations", "constraints",
+        "analysis", "report", "extras");
+
+    private GameObject[] gameObjects = Array.Empty<GameObject>();
+
+    /// <summary>With nothing in it.</summary>
+    public SceneDocument()
+    {
+    }
+
+    internal SceneDocument(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "format":
+                    FormatVersion.ReadFormat(ref json);
+                    break;
+                case "version":
+                    Version = FormatVersion.ReadVersion(ref json);
+                    break;
+                case "generator":
+                    Generator = new Generator(ref json);
+                    break;
+                case "source":
+                    Source = new SceneSource(ref json);
+                    break;
+                case "physics":
+                    Physics = new Physics(ref json);
+                    break;
+                case "buffers":
+                    Buffers = json.List(static (ref JsonCursor at) => new SceneBuffer(ref at));
+                    break;
+                case "meshes":
+                    Meshes = json.List(static (ref JsonCursor at) => new Mesh(ref at));
+                    break;
+                case "materials":
+                    Materials = json.List(static (ref JsonCursor at) => new Material(ref at));
+                    break;
+                case "gameObjects":
+                    gameObjects = json.List(static (ref JsonCursor at) => new GameObject(ref at));
+                    break;
+                case "couplings":
+                    Couplings = json.List(static (ref JsonCursor at) => new Coupling(ref at));
+                    break;
+                case "animations":
+                    Animations = json.List(static (ref JsonCursor at) => new AnimationClip(ref at));
+                    break;
+                case "constraints":
+                    Constraints = json.List(static (ref JsonCursor at) => new Constraint(ref at));
+                    break;
+                case "analysis":
+                    Analysis = new Analysis(ref json);
+                    break;
+                case "report":
+                    Report = json.List(static (ref JsonCursor at) => new ReportEntry(ref at));
+                    break;
+                case "extras":
+                    ExtrasJson = json.Extras();
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Version of the format that the file states, "1.x".</summary>
+    public string Version { get; init; } = "1.0";
+
+    /// <summary>The program that wrote the file; null: not stated.</summary>
+    public Generator? Generator { get; init; }
+
+    /// <summary>Where the scene came from; null: not stated.</summary>
+    public SceneSource? Source { get; init; }
+
+    /// <summary>Project settings.</summary>
+    public Physics Physics { get; init; } = Physics.Default;
+
+    /// <summary>Binary data.</summary>
+    public IReadOnlyList<SceneBuffer> Buffers { get; init; } = Array.Empty<SceneBuffer>();
+
+    /// <summary>Meshes.</summary>
+    public IReadOnlyList<Mesh> Meshes { get; init; } = Array.Empty<Mesh>();
+
+    /// <summary>Materials.</summary>
+    public IReadOnlyList<Material> Materials { get; init; } = Array.Empty<Material>();
+
+    /// <summary>Flat and ordered: a parent stands before its children.</summary>
+    public IReadOnlyList<GameObject> GameObjects
+    {
+        get => gameObjects;
+        init => gameObjects = value.ToArray();
+    }
+
+    /// <summary>The same, without the price of an interface.</summary>
+    internal ReadOnlySpan<GameObject> GameObjectSpan => gameObjects;
+
+    /// <summary>Relations between joint coordinates.</summary>
+    public IReadOnlyList<Coupling> Couplings { get; init; } = Array.Empty<Coupling>();
+
+    /// <summary>Animations.</summary>
+    public IReadOnlyList<AnimationClip> Animations { get; init; } = Array.Empty<AnimationClip>();
+
+    /// <summary>The source's own constraints.</summary>
+    public IReadOnlyList<Constraint> Constraints { get; init; } = Array.Empty<Constraint>();
+
+    /// <summary>Mobility as the exporter found it; null: not analysed.</summary>
+    public Analysis? Analysis { get; init; }
+
+    /// <summary>The exporter's loss report.</summary>
+    public IReadOnlyList<ReportEntry> Report { get; init; } = Array.Empty<ReportEntry>();
+
+    /// <summary>The UTF-8 text that the scene was read from, for the places of later findings; empty when there is none.</summary>
+    internal ReadOnlyMemory<byte> Text { get; set; }
+}

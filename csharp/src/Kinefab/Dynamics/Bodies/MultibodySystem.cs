@@ -1,0 +1,104 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>Bodies, joints and couplings in PhysX's terms: all that a solver needs. The arrays never change length.</summary>
+internal sealed class MultibodySystem
+{
+    private readonly JointReaction[] _reactions;
+
+    public readonly Bodies Bodies;
+
+    /// <summary>In the order of their creation, which decides the order in which PGS solves them.</summary>
+    public readonly JointModel[] Joints;
+    public readonly CoordinateCoupling[] Couplings;
+
+    /// <summary>m/s^2.</summary>
+    public Vector3d Gravity = new(0, -9.81, 0);
+
+    /// <summary>Writes the last step's reactions; set by a solver that leaves this until they are read.</summary>
+    public Action<JointReaction[]>? UnreadReactions;
+
+    /// <summary>Times that motion was stopped: a body's that left the range of numbers, or an island's in a part of a step without solution; counted by the solver.</summary>
+    public int Stops;
+
+    /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>
+    public readonly List<UnsolvedStep> Unsolved = new();
+
+    /// <summary>Islands of which the last step found the joints apart and moved the bodies together; written by the exact solver.</summary>
+    public readonly List<ClosedPose> Closed = new();
+
+    public MultibodySystem(Bodies bodies, JointModel[] joints, CoordinateCoupling[] couplings)
+    {
+        Bodies = bodies;
+        Joints = joints;
+        Couplings = couplings;
+        _reactions = new JointReaction[joints.Length];
+    }
+
+    /// <summary>What each joint's constraint (locked axes and limits) did to actor 0 in the last step; written by the solver.</summary>
+    public JointReaction[] Reactions
+    {
+        get
+        {
+            UnreadReactions?.Invoke(_reactions);
+            UnreadReactions = null;
+            return _reactions;
+        }
+    }
+
+    /// <summary>Before a step that does not write this one any more.</summary>
+    public void ClearReaction(int joint) => _reactions[joint] = default;
+}
+
+/// <summary>Force and torque of a joint's constraint on actor 0, world frame; the torque is about the joint's anchor in actor 1.</summary>
+internal struct JointReaction
+{
+    /// <summary>N.</summary>
+    public Vector3d Force;
+
+    /// <summary>N m.</summary>
+    public Vector3d Torque;
+}
+
+/// <summary>An island that stood still in a part of a step.</summary>
+internal struct UnsolvedStep
+{
+    /// <summary>One of the island's bodies.</summary>
+    public int Body;
+
+    /// <summary>The joint that was farthest from closed, or null when all closed and energy came from nothing.</summary>
+    public JointModel? Joint;
+
+    /// <summary>By how much, m or rad; infinite when it was no number.</summary>
+    public double Error;
+    public bool IsAngular;
+}
+
+/// <summary>An island whose bodies were moved to close its joints.</summary>
+internal struct ClosedPose
+{
+    /// <summary>One of the island's bodies.</summary>
+    public int Body;
+
+    /// <summary>The joint that stood farthest open.</summary>
+    public JointModel? Joint;
+
+    /// <summary>By how much, m or rad.</summary>
+    public double Error;
+    public bool IsAngular;
+
+    /// <summary>The farthest that a body's centre of mass was moved, m, and a body turned, rad.</summary>
+    public double Distance;
+    public double Angle;
+}
+
+/// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>
+internal interface ISolver
+{
+    /// <summary>One step of dt seconds; forces and torques are used up by it.</summary>
+    void Step(double dt);
+}

@@ -1,0 +1,66 @@
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Where a body's numbers stand in its record (each number is Width lanes wide). World frame unless said; the body frame
+/// is that of the centre of mass and principal axes.
+/// </summary>
+internal static class BodySlot
+{
+    /// <summary>Position of the centre of mass at the start of the step.</summary>
+    public const int X = 0;
+
+    /// <summary>Velocity of the centre of mass.</summary>
+    public const int V = 3;
+
+    /// <summary>Angular momentum about the centre of mass.</summary>
+    public const int L = 6;
+
+    /// <summary>Rotation at the start of the step, xyzw.</summary>
+    public const int Q = 9;
+
+    /// <summary>Position and rotation at the end of the flight.</summary>
+    public const int EndX = 13;
+    public const int EndQ = 16;
+
+    /// <summary>Angular velocity: the world's before and after a step; in it the flight's mean, of kinematic bodies and where laws need it.</summary>
+    public const int W = 20;
+
+    /// <summary>Rotation matrix at the end of the flight, row-major.</summary>
+    public const int R = 23;
+
+    /// <summary>Inverse mass.</summary>
+    public const int InverseMass = 32;
+
+    /// <summary>Inverse principal moments.</summary>
+    public const int InverseInertia = 33;
+
+    /// <summary>Inverse inertia at the end of the flight: xx, yy, zz, xy, xz, yz.</summary>
+    public const int WorldInverse = 36;
+
+    /// <summary>Gravity and forces over the mass; torques.</summary>
+    public const int Acceleration = 42;
+    public const int Torque = 45;
+
+    /// <summary>Largest inverse principal moment.</summary>
+    public const int MostInverseInertia = 48;
+
+    /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
+    public const int Stiffness = 49;
+
+    /// <summary>Angular momentum in the body's axes while they turn, in the order of its <see cref="Spin"/>.</summary>
+    public const int Local = 50;
+
+    /// <summary>Principal moments; 0 for an infinite one.</summary>
+    public const int Inertia = 53;
+
+    /// <summary>What damping leaves of the linear and of the angular velocity in the step.</summary>
+    public const int Kept = 56;
+
+    /// <summary>Largest angular speed, rad/s.</summary>
+    public const int MaxSpeed = 58;
+
+    /// <summary>Least inverse principal moment but for those of frozen axes; 0 of a body that does not turn.</summary>
+    public const int LeastInverseInertia = 59;
+
+    public const int Count = 60;
+}

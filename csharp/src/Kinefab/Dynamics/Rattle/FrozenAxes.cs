@@ -1,0 +1,34 @@
+using System.Runtime.CompilerServices;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Bodies with an infinite moment of inertia. What joints press against such an axis goes nowhere: kept in the angular
+/// momentum, it would spill into the axes that do turn as soon as the body turns, and make a gyroscope of it.
+/// </summary>
+internal static class FrozenAxes<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Takes what lies along frozen axes, as they stand at the start of the step, out of the angular momenta.</summary>
+    public static void Clear(Batch<V> batch)
+    {
+        foreach (int body in batch.Shape.FrozenBodies)
+        {
+            Clear(batch.Bodies, Batch<V>.Body(body, 0));
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Clear(double[] a, int o)
+    {
+        int w = Lane<V>.Width;
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodySlot.L * w));
+
+        // 1 for an axis that turns, 0 for one that does not.
+        LaneVector<V> turns = LaneVector<V>.Scale(
+            LaneVector<V>.Load(a, o + BodySlot.Inertia * w), LaneVector<V>.Load(a, o + BodySlot.InverseInertia * w));
+        q.Rotate(LaneVector<V>.Scale(turns, inBody)).Store(a, o + BodySlot.L * w);
+    }
+}

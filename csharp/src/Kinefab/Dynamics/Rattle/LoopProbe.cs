@@ -1,0 +1,326 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Finds loops whose axes are a little off: locked by an angle that is small, but too large to be rounding, which an exact
+/// solution holds to the letter where Unity's soft joints let the mechanism move. Such a loop has a velocity that all
+/// anchors allow and that turns the axes apart only slowly; that stays so when it is followed for a finite way. Of a loop
+/// near a singular pose the same is true there, but not further on; of one that moves, or is singular, the axes' speed is 0;
+/// of a stiff frame it is of the order of the motion.
+/// Masses play no part: each body has unit moments, and a mass that weighs the levers' mean length as one radian.
+/// </summary>
+internal sealed class LoopProbe
+{
+    // Deterministic mixtures of all allowed velocities that are tried.
+    private const int Mixtures = 2;
+
+    // Corrections towards the allowed velocities, and of a pose.
+    private const int Projections = 40;
+    private const int Closings = 12;
+
+    // How far a velocity is followed, radians of the fastest body.
+    private const double Way = 0.15;
+
+    // Speed of the axes against the fastest body's: below the least a loop closes as far as motion shows; below the next what
+    // is off may be files' rounding, and angles held a little softer suffice; above the most it is a frame.
+    private const double LeastSpeed = 5e-8;
+    private const double LeastNamedSpeed = 1e-4;
+    private const double MostSpeed = 0.04;
+
+    // Share of the axes' speed that further projections leave of one that is slow by itself. Of a freedom with a rest of a
+    // stiffer motion they leave less: the rest goes, and nothing but its smallness made it look slow.
+    private const double LeastKept = 0.5;
+
+    // Share by which rows are taken to the letter, so that the slowest that is named is gone after so many projections, and
+    // the speed of a joint, of what it was, that is none.
+    private const double LetterShare = 1e-11;
+    private const int LetterProjections = 4;
+    private const double LeastRate = 0.01;
+
+    // Error at the end of the way against that of a constant speed.
+    private const double MostGrowth = 3;
+
+    // Gap of the anchors there, against the levers' length.
+    private const double MostGap = 1e-6;
+
+    private readonly Batch<ScalarLane> _batch;
+    private readonly double _length;
+
+    private LoopProbe(Island island, MultibodySystem mechanism)
+    {
+        _batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
+        Transfer<ScalarLane>.LoadConstants(_batch, 0, island, mechanism);
+        Transfer<ScalarLane>.Load(_batch, mechanism, 1);
+        _length = Length(island);
+        double[] a = _batch.Bodies;
+        for (int body = 0; body < island.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            a[o + BodySlot.InverseMass] = _length * _length;
+            for (int i = 0; i < 3; i++)
+            {
+                a[o + BodySlot.InverseInertia + i] = a[o + BodySlot.InverseInertia + i] > 0 ? 1 : 0;
+            }
+
+            a[o + BodySlot.LeastInverseInertia] = a[o + BodySlot.LeastInverseInertia] > 0 ? 1 : 0;
+        }
+
+        for (int body = island.MovingBodies; body < island.Bodies.Length; body++)
+        {
+            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.W), 3);
+        }
+
+        _batch.Work.Active[0] = 1;
+    }
+
+    /// <summary>Each island with such a loop.</summary>
+    public static List<InexactLoop> Find(MultibodySystem mechanism)
+    {
+        var found = new List<InexactLoop>();
+        foreach (Island island in IslandFinder.Find(mechanism))
+        {
+            island.Fit = LoopFit.Inexact;
+            LoopFit fit = island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None)
+                ? new LoopProbe(island, mechanism).Fit()
+                : LoopFit.Exact;
+            if (fit != LoopFit.Exact)
+            {
+                var joints = new List<int>();
+                foreach (Node node in island.Nodes)
+                {
+                    if (node.Joint != null)
+                    {
+                        joints.Add(node.Index);
+                    }
+                }
+
+                found.Add(new InexactLoop(joints.ToArray(), fit));
+            }
+        }
+
+        return found;
+    }
+
+    private static double Length(Island island)
+    {
+        double sum = 0;
+        int count = 0;
+        foreach (Node node in island.Nodes)
+        {
+            for (int side = 0; side < 2 && node.Joint != null; side++)
+            {
+                if (node.Bodies[side] < island.MovingBodies)
+                {
+                    sum += (side == 0 ? node.Joint.Frame0 : node.Joint.Frame1).Position.Length;
+                    count++;
+                }
+            }
+        }
+
+        return sum > 0 ? sum / count : 1;
+    }
+
+    private LoopFit Fit()
+    {
+        var fit = LoopFit.Exact;
+        for (int mixture = 1; mixture <= Mixtures && fit != LoopFit.Inexact; mixture++)
+        {
+            Restart(mixture);
+            if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first
+                && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
+            {
+                bool isNamed = Math.Min(first, Math.Min(speed, last)) >= LeastNamedSpeed;
+                fit = isNamed && IsHeld(mixture) ? LoopFit.Inexact : isNamed ? fit : LoopFit.Loose;
+            }
+        }
+
+        return fit;
+    }
+
+    private void Restart(int mixture)
+    {
+        Flight<ScalarLane>.Stay(_batch);
+        Rebuild();
+        Start(mixture);
+    }
+
+    // Whether the rows, taken to the letter, hold a joint that their softness lets move. In a loop that is only near a
+    // singular pose there is a slow velocity too, far along its way, but its joints move without it.
+    private bool IsHeld(int mixture)
+    {
+        Restart(mixture);
+        Allowed();
+        Allowed();
+        double[] before = Rates();
+        ResponseMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
+        _batch.Laws?.Condition(true);
+        BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
+        for (int i = 0; i < LetterProjections; i++)
+        {
+            Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+
+        double[] after = Rates();
+        for (int n = 0; n < before.Length; n++)
+        {
+            if (before[n] > LeastRate && after[n] < LeastRate * before[n])
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    // Speed of each joint: of its bodies' turn and of its anchors, against the levers' length.
+    private double[] Rates()
+    {
+        var rates = new double[_batch.Shape.Nodes.Length];
+        for (int n = 0; n < rates.Length; n++)
+        {
+            Node node = _batch.Shape.Nodes[n];
+            if (node.Joint != null)
+            {
+                Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[1]) - Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[0]);
+                rates[n] = Math.Max(turn.Length, (AnchorSpeed(n, 1) - AnchorSpeed(n, 0)).Length / _length);
+            }
+        }
+
+        return rates;
+    }
+
+    private Vector3d AnchorSpeed(int n, int side)
+    {
+        int body = _batch.Shape.Nodes[n].Bodies[side];
+        Vector3d speed = Transfer<ScalarLane>.Vector(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V));
+        Vector3d lever = Transfer<ScalarLane>.Vector(_batch.Joints, Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side)));
+        return speed + Vector3d.Cross(Impulses<ScalarLane>.AngularVelocity(_batch, body), lever);
+    }
+
+    private static bool IsSlow(double speed, out double same)
+    {
+        same = speed;
+        return speed >= LeastSpeed && speed <= MostSpeed;
+    }
+
+    // Numbers of no pattern, the same on every machine.
+    private void Start(int mixture)
+    {
+        uint state = (uint)mixture * 2654435761;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            for (int i = 0; i < 6; i++)
+            {
+                state = 1664525 * state + 1013904223;
+                double number = state / (double)uint.MaxValue - 0.5;
+                _batch.Bodies[o + BodySlot.V + i] = i < 3 ? number * _length : number;
+            }
+        }
+    }
+
+    // Takes from the velocities what the rows do not allow, scales them and returns the axes' speed in what is left.
+    private double Allowed()
+    {
+        for (int i = 0; i < Projections; i++)
+        {
+            Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+            if (MostAngular(_batch.Work.Solution) < LeastSpeed * Fastest())
+            {
+                return 0;
+            }
+
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+
+        double most = Fastest();
+        if (!(most > 0))
+        {
+            return double.NaN;
+        }
+
+        Scale(1 / most);
+        Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+        return MostAngular(_batch.Work.Solution);
+    }
+
+    private bool Follow(double way)
+    {
+        Scale(way);
+        for (int i = 0; ; i++)
+        {
+            Flight<ScalarLane>.Run(_batch, 1);
+            RigidRows<ScalarLane>.Evaluate(_batch);
+            Rebuild();
+            if (i == Closings)
+            {
+                return _batch.Work.MaxGap[0] <= MostGap * _length && Fastest() >= way / 2;
+            }
+
+            for (int row = 0; row < _batch.Work.Solution.Length; row++)
+            {
+                _batch.Work.Solution[row] = -_batch.Work.Error[row];
+            }
+
+            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+        }
+    }
+
+    private double AngularError() => MostAngular(_batch.Work.Error);
+
+    private void Rebuild()
+    {
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        if (_batch.Laws != null)
+        {
+            RattleStep<ScalarLane>.Factor(_batch, true);
+        }
+    }
+
+    private double MostAngular(double[] rows)
+    {
+        double most = 0;
+        for (int i = 0; i < rows.Length; i++)
+        {
+            most = _batch.Shape.IsAngular[i] ? Math.Max(most, Math.Abs(rows[i])) : most;
+        }
+
+        return most;
+    }
+
+    private double Fastest()
+    {
+        double most = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            for (int i = 0; i < 6; i++)
+            {
+                most = Math.Max(most, Math.Abs(_batch.Bodies[o + i]) / (i < 3 ? _length : 1));
+            }
+        }
+
+        return most;
+    }
+
+    private void Scale(double factor)
+    {
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            for (int i = 0; i < 6; i++)
+            {
+                _batch.Bodies[o + i] *= factor;
+            }
+        }
+    }
+}

@@ -1,0 +1,261 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Closes a pose that stands open, of a scene as it starts or written from outside, by position alone: the flight would do
+/// it with speeds of gap / h, most of which stay. Gauss-Newton on C in the metric of the masses: x += M^-1 J^T l with
+/// J M^-1 J^T l = -C, the whole of it shortened where a body would turn far. Hard limits that are passed take part.
+/// Locked turns count by their angle, which leads back from anywhere; the sines of <see cref="RigidRows{V}"/> lead to the
+/// wrong side beyond a right angle.
+/// </summary>
+internal sealed class PoseClosure
+{
+    /// <summary>A pose less open than this is the flight's to close, m or rad.</summary>
+    public const double MostOpen = 1e-6;
+
+    private const int MaxIterations = 300;
+
+    // Iterations without a smaller error after which there is no place where all rows hold.
+    private const int MaxIdle = 30;
+
+    // Largest turn of a body in an iteration, rad.
+    private const double MostTurn = 0.5;
+
+    private readonly Batch<ScalarLane> _batch;
+    private readonly double[] _start;
+
+    // Velocities and angular momenta, whose place the moves take.
+    private readonly double[] _momenta;
+
+    public PoseClosure(Batch<ScalarLane> batch)
+    {
+        _batch = batch;
+        _start = new double[7 * batch.Shape.MovingBodies];
+        _momenta = new double[6 * batch.Shape.MovingBodies];
+    }
+
+    /// <summary>The row that was farthest from closed where the last <see cref="TryClose"/> began.</summary>
+    public int Worst { get; private set; }
+
+    /// <summary>By how much, m or rad.</summary>
+    public double WorstError { get; private set; }
+
+    /// <summary>The farthest that a centre of mass, and a body's rotation, was moved, m and rad.</summary>
+    public double Distance { get; private set; }
+
+    public double Angle { get; private set; }
+
+    /// <summary>Whether the end pose stands open by more than <see cref="MostOpen"/>; the rows have to be built anew after it.</summary>
+    public bool IsOpen() => !(Evaluate() <= MostOpen);
+
+    /// <summary>
+    /// Moves the bodies from their start pose to the nearest closed one, their speeds turned with them, and builds the rows
+    /// there. False, with all as it was, when it is open by too little or does not close.
+    /// </summary>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool TryClose(double tolerance)
+    {
+        // Loops that are inexact close only as far as their angles give: in the flight.
+        if (_batch.Shape.IsInexact)
+        {
+            return false;
+        }
+
+        SaveStart();
+        bool isClosed = IsOpen() && Iterate(tolerance);
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            Finish(body, isClosed);
+        }
+
+        if (isClosed)
+        {
+            RattleStep<ScalarLane>.Accept(_batch);
+        }
+        else
+        {
+            Flight<ScalarLane>.Stay(_batch);
+        }
+
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        return isClosed;
+    }
+
+    private bool Iterate(double tolerance)
+    {
+        double least = double.PositiveInfinity;
+        int idle = 0;
+        for (int iteration = 0; iteration < MaxIterations && idle < MaxIdle; iteration++)
+        {
+            double error = Evaluate();
+            if (iteration == 0)
+            {
+                WorstError = error;
+                Worst = Array.FindIndex(_batch.Work.Error, c => Math.Abs(c) == error);
+            }
+
+            if (error < tolerance)
+            {
+                return true;
+            }
+
+            idle = error < least ? 0 : idle + 1;
+            least = Math.Min(least, error);
+            if (!(error < double.MaxValue) || !Move())
+            {
+                return false;
+            }
+        }
+
+        return false;
+    }
+
+    // Largest C of all rows that hold where the bodies are at the end.
+    private double Evaluate()
+    {
+        ResponseMatrix<ScalarLane>.InverseInertias(_batch);
+        RigidRows<ScalarLane>.Evaluate(_batch);
+        RigidRows<ScalarLane>.Build(_batch);
+        _batch.Laws?.HoldPassedStops();
+        for (int n = 0; n < _batch.Shape.Nodes.Length; n++)
+        {
+            MeasureTurns(n, _batch.Shape.Nodes[n]);
+        }
+
+        double most = 0;
+        foreach (double c in _batch.Work.Error)
+        {
+            // Unlike a comparison, this keeps NaN.
+            most = Math.Max(most, Math.Abs(c));
+        }
+
+        return most;
+    }
+
+    // C of locked turns is the turn from frame 1 to frame 0 along axes of frame 0, or the world's where all are locked; of a
+    // hinge only that of its axis.
+    private void MeasureTurns(int n, Node node)
+    {
+        if (node.Turns == 0)
+        {
+            return;
+        }
+
+        Quaterniond q0 = FrameOf(n, node, 0);
+        Quaterniond q1 = FrameOf(n, node, 1);
+        node.Turn(0, out int axis, out int free);
+        Vector3d turn = node.Turns == 3 ? Turn(q0 * q1.Conjugate()) : Between(q1 * Unit(free), q0 * Unit(free), q0 * Unit(axis));
+        int first = node.RigidRows - node.Turns;
+        for (int i = 0; i < node.Turns; i++)
+        {
+            node.Turn(i, out axis, out _);
+            Vector3d along = node.Turns == 3 ? Unit(i) : q0 * Unit(axis);
+            _batch.Work.Error[_batch.Shape.Pattern.Rows[n] + first + i] = Vector3d.Dot(along, turn);
+            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 0), along);
+            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 1), -1 * along);
+        }
+    }
+
+    private bool Move()
+    {
+        Island shape = _batch.Shape;
+        double[] solution = _batch.Work.Solution;
+        ResponseMatrix<ScalarLane>.Assemble(_batch, _batch.AngularShare);
+        _batch.Laws?.Condition(false);
+        BlockCholesky<ScalarLane>.Factor(shape.Pattern, _batch.Matrix);
+        for (int i = 0; i < solution.Length; i++)
+        {
+            solution[i] = -_batch.Work.Error[i];
+        }
+
+        BlockCholesky<ScalarLane>.Solve(shape.Pattern, _batch.Matrix, solution);
+        double[] a = _batch.Bodies;
+        for (int body = 0; body < shape.MovingBodies; body++)
+        {
+            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+        }
+
+        _batch.Work.Active[0] = 1;
+        Impulses<ScalarLane>.Apply(_batch, solution);
+        double widest = 0;
+        for (int body = 0; body < shape.MovingBodies; body++)
+        {
+            double turn = Impulses<ScalarLane>.AngularVelocity(_batch, body).Length;
+            widest = Math.Max(widest, turn);
+        }
+
+        double share = widest > MostTurn ? MostTurn / widest : 1;
+        for (int body = 0; body < shape.MovingBodies && share > 0; body++)
+        {
+            int o = Batch<ScalarLane>.Body(body, 0);
+            Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, body) * share;
+            double angle = turn.Length;
+            Quaterniond q = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ);
+            q = angle > 0 ? (Quaterniond.AxisAngle(turn * (1 / angle), angle) * q).Normalized() : q;
+            for (int i = 0; i < 3; i++)
+            {
+                a[o + BodySlot.EndX + i] += share * a[o + BodySlot.V + i];
+            }
+
+            Transfer<ScalarLane>.Put(a, o + BodySlot.EndQ, q);
+            LaneQuaternion<ScalarLane>.Load(a, o + BodySlot.EndQ).StoreMatrix(a, o + BodySlot.R);
+        }
+
+        return share > 0;
+    }
+
+    private void SaveStart()
+    {
+        Distance = 0;
+        Angle = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            Array.Copy(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.EndX), _start, 7 * body, 7);
+            Array.Copy(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V), _momenta, 6 * body, 6);
+        }
+    }
+
+    // The momenta come back, the angular one turned as its body was, so that it keeps its energy.
+    private void Finish(int body, bool isClosed)
+    {
+        double[] a = _batch.Bodies;
+        int o = Batch<ScalarLane>.Body(body, 0);
+        Array.Copy(_momenta, 6 * body, a, o + BodySlot.V, 6);
+        if (isClosed)
+        {
+            Quaterniond turn = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ) * Transfer<ScalarLane>.Quaternion(_start, 7 * body + 3).Conjugate();
+            Transfer<ScalarLane>.Put(a, o + BodySlot.L, turn * Transfer<ScalarLane>.Vector(a, o + BodySlot.L));
+            Distance = Math.Max(Distance, (Transfer<ScalarLane>.Vector(a, o + BodySlot.EndX) - Transfer<ScalarLane>.Vector(_start, 7 * body)).Length);
+            Angle = Math.Max(Angle, Turn(turn).Length);
+        }
+    }
+
+    private Quaterniond FrameOf(int n, Node node, int side)
+    {
+        double[] joints = _batch.Joints;
+        int o = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Frame(side));
+        Quaterniond frame = Quaterniond.FromAxes(Transfer<ScalarLane>.Vector(joints, o + 3), Transfer<ScalarLane>.Vector(joints, o + 6), Transfer<ScalarLane>.Vector(joints, o + 9));
+        return Transfer<ScalarLane>.Quaternion(_batch.Bodies, Batch<ScalarLane>.Body(node.Bodies[side], BodySlot.EndQ)) * frame;
+    }
+
+    private static Vector3d Turn(Quaterniond q)
+    {
+        double sine = q.Vector.Length;
+        double angle = 2 * Math.Atan2(sine, Math.Abs(q.W));
+        return sine > 0 ? q.Vector * ((q.W < 0 ? -angle : angle) / sine) : Vector3d.Zero;
+    }
+
+    // The turn from one direction to another, and about the third where they are opposite.
+    private static Vector3d Between(Vector3d from, Vector3d to, Vector3d across)
+    {
+        Vector3d normal = Vector3d.Cross(from, to);
+        double sine = normal.Length;
+        double cosine = Vector3d.Dot(from, to);
+        double angle = Math.Atan2(sine, cosine);
+        return sine > 0 ? normal * (angle / sine) : cosine < 0 ? across * Math.PI : Vector3d.Zero;
+    }
+
+    private static Vector3d Unit(int axis) => axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+}

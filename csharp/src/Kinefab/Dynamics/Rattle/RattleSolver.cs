@@ -1,0 +1,137 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Solves each island of a mechanism directly: maximal coordinates, one block-sparse factorisation a step, closed to
+/// the tolerance at position level, so that the mechanism's true motion is known.
+/// </summary>
+internal sealed class RattleSolver : ISolver
+{
+    // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps by the square of the step
+    // less, so that what a gap leaves in the speeds, gap / h, does not outweigh the method's own error, which falls with
+    // h^2; never less than rounding lets it reach.
+    private const double MostGap = 1e-9;
+    private const double LeastGap = 2e-13;
+    private const double GapAcceleration = 3.6e-6;
+
+    private readonly MultibodySystem _mechanism;
+    private readonly int _maxWidth;
+    private readonly List<IslandGroup> _groups = new();
+    private readonly Dictionary<int, LoopFit> _fits = new();
+    private RowWatch _watch;
+
+    /// <summary>A solver for the mechanism as it stands.</summary>
+    /// <param name="mechanism">Bodies and joints.</param>
+    /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
+    public RattleSolver(MultibodySystem mechanism, int maxWidth = int.MaxValue)
+        : this(mechanism, LoopProbe.Find(mechanism), maxWidth)
+    {
+    }
+
+    /// <summary>A solver for the mechanism as it stands.</summary>
+    /// <param name="mechanism">Bodies and joints.</param>
+    /// <param name="loops">What <see cref="LoopProbe"/> found in it.</param>
+    /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
+    public RattleSolver(MultibodySystem mechanism, List<InexactLoop> loops, int maxWidth = int.MaxValue)
+    {
+        _mechanism = mechanism;
+        _maxWidth = maxWidth;
+        foreach (JointModel joint in mechanism.Joints)
+        {
+            joint.LimitsFromAfar = true;
+        }
+
+        foreach (InexactLoop loop in loops)
+        {
+            foreach (int joint in loop.Joints)
+            {
+                _fits[joint] = loop.Fit;
+            }
+        }
+
+        Regroup();
+    }
+
+    /// <inheritdoc/>
+    public void Step(double dt)
+    {
+        if (_watch.IsStale())
+        {
+            Regroup();
+        }
+
+        _mechanism.Unsolved.Clear();
+        _mechanism.Closed.Clear();
+        double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
+        foreach (IslandGroup group in _groups)
+        {
+            group.Step(dt, tolerance);
+        }
+
+        Bodies bodies = _mechanism.Bodies;
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            if (bodies.IsKinematic[i])
+            {
+                bodies.Poses[i] = bodies.KinematicTargets[i];
+            }
+        }
+
+        Array.Clear(bodies.Forces, 0, bodies.Count);
+        Array.Clear(bodies.Torques, 0, bodies.Count);
+    }
+
+    private void Regroup()
+    {
+        _groups.Clear();
+        List<Island> rest = IslandFinder.Find(_mechanism);
+        _watch = new RowWatch(rest);
+        foreach (Island island in rest)
+        {
+            // What a break has left of an island that was probed is still as it was found.
+            Node? probed = Array.Find(island.Nodes, node => node.Joint != null && _fits.ContainsKey(node.Index));
+            island.Fit = probed is null ? LoopFit.Exact : _fits[probed.Index];
+        }
+
+        List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);
+        rest.RemoveAll(island => island.HasPreparedRows);
+        if (prepared.Count > 0)
+        {
+            _groups.Add(new PreparedIslands(_mechanism, prepared));
+        }
+
+        while (rest.Count > 0)
+        {
+            Island shape = rest[0];
+            List<Island> alike = rest.FindAll(island => island.HasShapeOf(shape));
+            rest.RemoveAll(new HashSet<Island>(alike).Contains);
+            AddInLanes(alike);
+        }
+    }
+
+    private void AddInLanes(List<Island> islands)
+    {
+#if NET
+        if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
+        {
+            int whole = islands.Count / 8 * 8;
+            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole)));
+            islands.RemoveRange(0, whole);
+        }
+
+        if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
+        {
+            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands));
+            return;
+        }
+#endif
+        if (islands.Count > 0)
+        {
+            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+using System.Runtime.CompilerServices;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>What the joints' locked axes and limits did in a step, and which joints it broke.</summary>
+internal static class Reactions<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Writes the mechanism's reactions of the joints of a batch's islands; marks those that broke.</summary>
+    /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
+    /// <param name="count">Lanes with an island of their own.</param>
+    /// <param name="mechanism">Where to.</param>
+    /// <param name="dt">Step, s.</param>
+    public static void Report(Batch<V> batch, int count, MultibodySystem mechanism, double dt)
+    {
+        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        {
+            Node node = batch.Shape.Nodes[n];
+            if (node.Joint == null)
+            {
+                continue;
+            }
+
+            Sum(batch, n, node, 1 / dt);
+            for (int lane = 0; lane < count; lane++)
+            {
+                int index = batch.JointMembers[n * Lane<V>.Width + lane];
+                Vector3d force = Transfer<V>.Vector(batch.Work.Reaction, lane);
+                Vector3d torque = Transfer<V>.Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
+                if (batch.Laws != null)
+                {
+                    AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
+                }
+
+                mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
+                JointModel joint = mechanism.Joints[index];
+                if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
+                {
+                    joint.IsBroken = true;
+                }
+            }
+        }
+    }
+
+    // Force and torque about the anchor of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Sum(Batch<V> batch, int n, Node node, double rate)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> zero = Lane<V>.Splat(0);
+        Lane<V> times = Lane<V>.Splat(rate);
+        var force = new LaneVector<V>(zero, zero, zero);
+        LaneVector<V> torque = force;
+        int row = batch.Shape.Pattern.Rows[n] * w;
+        int i = 0;
+        if (node.LinearMask == 7)
+        {
+            force = LaneVector<V>.Load(batch.Work.Total, row);
+            i = 3;
+        }
+
+        for (; i < node.RigidRows; i++)
+        {
+            Lane<V> impulse = Lane<V>.Load(batch.Work.Total, row + i * w);
+            int o = batch.Row(n, i, 0);
+            torque += impulse * LaneVector<V>.Load(batch.Angular, o);
+            if (node.Classes[i] == RowClass.General)
+            {
+                LaneVector<V> share = impulse * LaneVector<V>.Load(batch.Linear, o);
+                force += share;
+                torque -= LaneVector<V>.Cross(LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), share);
+            }
+        }
+
+        (times * force).Store(batch.Work.Reaction, 0);
+        (times * torque).Store(batch.Work.Reaction, 3 * w);
+    }
+
+    private static void AddLimits(Batch<V> batch, Laws<V> laws, int n, double rate, ref Vector3d force, ref Vector3d torque)
+    {
+        Vector3d linear = Vector3d.Zero;
+        Vector3d angular = Vector3d.Zero;
+        laws.AddLimits(n, ref linear, ref angular);
+        force += linear * rate;
+        torque += (angular - Vector3d.Cross(Transfer<V>.Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
+    }
+}

@@ -1,0 +1,46 @@
+using System.Collections.Generic;
+using Kinefab.Joints;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Tells when joints' fields ask for other rows than their nodes were made for. It looks at every joint in every step, with
+/// nothing of the nodes in between: in a large world each further object is one more wait for memory.
+/// </summary>
+internal readonly struct RowWatch
+{
+    private readonly JointModel[] _joints;
+    private readonly int[] _signatures;
+
+    public RowWatch(List<Island> islands)
+    {
+        var joints = new List<JointModel>();
+        foreach (Island island in islands)
+        {
+            foreach (Node node in island.Nodes)
+            {
+                if (node.Joint != null)
+                {
+                    joints.Add(node.Joint);
+                }
+            }
+        }
+
+        _joints = joints.ToArray();
+        _signatures = joints.ConvertAll(Node.Signature).ToArray();
+    }
+
+    /// <summary>Whether a joint broke or changed since.</summary>
+    public bool IsStale()
+    {
+        for (int i = 0; i < _joints.Length; i++)
+        {
+            if (_joints[i].IsBroken || Node.Signature(_joints[i]) != _signatures[i])
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+}

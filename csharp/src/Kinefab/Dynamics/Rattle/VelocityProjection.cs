@@ -1,0 +1,168 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// The second half of a RATTLE step: half a kick, then impulses l along the rows of the end pose that make the momenta
+/// tangent, A l = -J v. The matrix's compliance E leaves the rows speeds of E l; where these are more than small, as they are
+/// about slender bodies and beside heavy ones, they are solved for again.
+/// </summary>
+internal static class VelocityProjection<V>
+    where V : struct, ILane<V>
+{
+    // A limit this many tolerances away counts as reached.
+    private const double LimitReach = 10;
+
+    // Speed that the compliance may leave a row, by the step: a small share of what gravity gives, m/s^2 and rad/s^2.
+    private const double MostLeft = 3e-3;
+
+    private const int MaxRefinements = 12;
+
+    /// <summary>For the active lanes; needs the rows at the end pose, and their factor where no row has a law.</summary>
+    /// <param name="batch">At the end of its flight.</param>
+    /// <param name="h">Step, s; 0 without a kick.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    public static void Run(Batch<V> batch, double h, double tolerance)
+    {
+        RattleStep<V>.Kick(batch, h / 2);
+        if (batch.Laws != null)
+        {
+            RunWithLaws(batch, h, tolerance, batch.Laws);
+            return;
+        }
+
+        if (batch.Shape.IsInexact)
+        {
+            RattleStep<V>.Factor(batch, false);
+        }
+
+        Impulses<V>.NegativeSpeeds(batch);
+        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+        Copy(batch, batch.Work.Solution, batch.Half);
+        Impulses<V>.Apply(batch, batch.Half);
+        Refine(batch, h);
+    }
+
+    private static void RunWithLaws(Batch<V> batch, double h, double tolerance, Laws<V> laws)
+    {
+        laws.BeginProjection(tolerance * LimitReach);
+        int length = batch.Shape.Pattern.RowCount;
+        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        {
+            Array.Clear(batch.Half, batch.Shape.Pattern.Rows[n], batch.Shape.Nodes[n].RigidRows);
+        }
+
+        for (int pass = 0; ; pass++)
+        {
+            RattleStep<V>.Factor(batch, false);
+            Impulses<V>.NegativeSpeeds(batch);
+            laws.AddTargets();
+            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+            for (int i = 0; i < length; i++)
+            {
+                batch.Half[i] += batch.Work.Solution[i];
+            }
+
+            Impulses<V>.Apply(batch, batch.Work.Solution);
+            if (!laws.UpdateProjection(pass, tolerance * LimitReach))
+            {
+                Refine(batch, h);
+                return;
+            }
+        }
+    }
+
+    // A loop that is not exact has no speeds but those that its rows' compliance leaves.
+    private static void Refine(Batch<V> batch, double h)
+    {
+        if (!batch.Shape.IsRedundant || batch.Shape.Fit != LoopFit.Exact || !IsAnyLeft(batch, h * MostLeft))
+        {
+            return;
+        }
+
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        Lane<V>.Load(batch.Work.Left, 0).Store(batch.Work.Active, 0);
+        for (int i = 0; i < MaxRefinements; i++)
+        {
+            Impulses<V>.NegativeSpeeds(batch);
+            batch.Laws?.AddTargets();
+            double[] error = batch.Work.Error;
+            for (int k = 0; k < error.Length; k += Lane<V>.Width)
+            {
+                (Lane<V>.Splat(0) - Lane<V>.Load(batch.Work.Solution, k)).Store(error, k);
+            }
+
+            if (!IsAnyKept(batch, h * MostLeft))
+            {
+                break;
+            }
+
+            ChordIteration<V>.Correct(batch, 1, i == 0, batch.Half);
+        }
+
+        active.Store(batch.Work.Active, 0);
+    }
+
+    // Of the first solution; marks the lanes.
+    private static bool IsAnyLeft(Batch<V> batch, double limit)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> most = Lane<V>.Splat(0);
+        for (int i = 0; i < batch.Half.Length; i += w)
+        {
+            most = Lane<V>.Max(most, Lane<V>.Abs(Lane<V>.Load(batch.Compliance, i) * Lane<V>.Load(batch.Half, i)));
+        }
+
+        most.Store(batch.Work.Left, 0);
+        for (int lane = 0; lane < w; lane++)
+        {
+            batch.Work.Left[lane] = batch.Work.Left[lane] > limit ? batch.Work.Active[lane] : 0;
+        }
+
+        return IsAny(batch.Work.Left);
+    }
+
+    // Lanes whose rows have no speed left are done.
+    private static bool IsAnyKept(Batch<V> batch, double limit)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> most = Lane<V>.Splat(0);
+        for (int i = 0; i < batch.Work.Error.Length; i += w)
+        {
+            most = Lane<V>.Max(most, Lane<V>.Abs(Lane<V>.Load(batch.Work.Error, i)));
+        }
+
+        most.Store(batch.Work.Left, 0);
+        for (int lane = 0; lane < w; lane++)
+        {
+            batch.Work.Active[lane] = batch.Work.Left[lane] > limit ? batch.Work.Active[lane] : 0;
+        }
+
+        return IsAny(batch.Work.Active);
+    }
+
+    private static bool IsAny(double[] lanes)
+    {
+        foreach (double lane in lanes)
+        {
+            if (lane != 0)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private static void Copy(Batch<V> batch, double[] from, double[] to)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        int length = batch.Shape.Pattern.RowCount * w;
+        for (int i = 0; i < length; i += w)
+        {
+            Lane<V>.Select(active, Lane<V>.Load(from, i), Lane<V>.Load(to, i)).Store(to, i);
+        }
+    }
+}

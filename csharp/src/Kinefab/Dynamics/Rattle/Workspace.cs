@@ -1,0 +1,96 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>Room for a batch's numbers that do not outlive a step; small, so that it stays in the processor's cache.</summary>
+internal sealed class Workspace<V>
+    where V : struct, ILane<V>
+{
+    /// <param name="shape">What the islands look like.</param>
+    public Workspace(Island shape)
+    {
+        int w = Lane<V>.Width;
+        int rows = shape.Pattern.RowCount;
+        int sides = 0;
+        foreach (Node node in shape.Nodes)
+        {
+            sides += node.Rows * node.Bodies.Length;
+        }
+
+        Response = new double[3 * sides * w];
+        Error = new double[rows * w];
+        LastError = new double[rows * w];
+        Solution = new double[rows * w];
+        LastSolution = new double[rows * w];
+        Move = new double[rows * w];
+        First = new double[rows * w];
+        Total = new double[rows * w];
+        Active = new double[w];
+        Moved = new double[w];
+        MaxError = new double[w];
+        MaxChange = new double[w];
+        MaxGap = new double[w];
+        LastMaxError = new double[w];
+        FirstMaxError = new double[w];
+        Fastest = new double[w];
+        Left = new double[w];
+        Reaction = new double[6 * w];
+        Rows = shape.HasPreparedRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
+    }
+
+    /// <summary>Angular J times the inverse inertia, as <see cref="Batch{V}.Angular"/>.</summary>
+    public double[] Response { get; }
+
+    /// <summary>C at the end of the flight, and one iteration before.</summary>
+    public double[] Error { get; }
+
+    public double[] LastError { get; }
+
+    /// <summary>Right-hand side, then impulses.</summary>
+    public double[] Solution { get; }
+
+    /// <summary>Solution one iteration before, and what was made of it.</summary>
+    public double[] LastSolution { get; }
+
+    public double[] Move { get; }
+
+    /// <summary>Impulses of the flight.</summary>
+    public double[] First { get; }
+
+    /// <summary>Impulses of the whole step.</summary>
+    public double[] Total { get; }
+
+    /// <summary>1 in lanes that still iterate, else 0.</summary>
+    public double[] Active { get; }
+
+    /// <summary>Not 0 in lanes of which a pose is not the one that the last step left.</summary>
+    public double[] Moved { get; }
+
+    /// <summary>Largest error, and largest change of an error, of each lane.</summary>
+    public double[] MaxError { get; }
+
+    public double[] MaxChange { get; }
+
+    /// <summary>Largest error one iteration before.</summary>
+    public double[] LastMaxError { get; }
+
+    /// <summary>Largest error of the first flight.</summary>
+    public double[] FirstMaxError { get; }
+
+    /// <summary>Largest error of a row that is not angular alone, m.</summary>
+    public double[] MaxGap { get; }
+
+    /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
+    public double[] Fastest { get; }
+
+    /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
+    public double[] Left { get; }
+
+    /// <summary>Force and torque of one joint.</summary>
+    public double[] Reaction { get; }
+
+    /// <summary>What a joint's Prepare wrote last.</summary>
+    public ConstraintRow[] Rows { get; }
+}

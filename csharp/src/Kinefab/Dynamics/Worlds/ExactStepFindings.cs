@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Joints;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>
+/// Names the steps that the exact solver could not solve and the poses that it closed: each joint once, and no more than
+/// <see cref="Most"/> of either.
+/// </summary>
+internal sealed class ExactStepFindings
+{
+    /// <summary>Findings of a code in a run; more of them say no more.</summary>
+    public const int Most = 10;
+
+    private readonly HashSet<(string Code, string Place)> _places = new();
+
+    /// <summary>What there is to say of the last step that was not said yet.</summary>
+    /// <param name="mechanism">After the step.</param>
+    /// <param name="bodies">The world's.</param>
+    /// <param name="joints">The world's.</param>
+    /// <param name="time">At the start of the step, s.</param>
+    public List<Diagnostic> Of(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, double time)
+    {
+        var found = new List<Diagnostic>();
+        foreach (ClosedPose pose in mechanism.Closed)
+        {
+            (string id, string pointer) = Place(mechanism, bodies, joints, pose.Joint, pose.Body);
+            Add(found, DiagnosticCodes.StartClosed, pointer, ("object", id), ("gap", Length(pose.Error, pose.IsAngular)), ("distance", Length(pose.Distance, false)), ("turn", Length(pose.Angle, true)), ("time", Text(time)));
+        }
+
+        foreach (UnsolvedStep step in mechanism.Unsolved)
+        {
+            (string id, string pointer) = Place(mechanism, bodies, joints, step.Joint, step.Body);
+            Add(found, DiagnosticCodes.StepUnsolved, pointer, ("object", id), ("reason", Reason(step)), ("time", Text(time)));
+        }
+
+        return found;
+    }
+
+    // Behind the scene's joints stand those that freeze positions: there the body is what can be named.
+    private static (string Id, string Pointer) Place(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, JointModel? of, int body)
+    {
+        int joint = of == null ? -1 : Array.IndexOf(mechanism.Joints, of);
+        return joint >= 0 && joint < joints.Count
+            ? (joints[joint].Id, $"/gameObjects/{Text(joints[joint].GameObject)}/components/{Text(joints[joint].Component)}")
+            : (bodies[body].Id, $"/gameObjects/{Text(bodies[body].GameObject)}");
+    }
+
+    private static string Reason(in UnsolvedStep step) =>
+        step.Joint == null ? "its energy would grow from nothing"
+        : double.IsInfinity(step.Error) ? "it comes apart beyond all numbers"
+        : FormattableString.Invariant($"it stays open by {step.Error:0.0e+0} {(step.IsAngular ? "rad" : "m")}");
+
+    private void Add(List<Diagnostic> found, string code, string pointer, params (string Name, string Value)[] values)
+    {
+        int said = _places.Count(place => place.Code == code);
+        if (said < Most && _places.Add((code, pointer)))
+        {
+            DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
+            found.Add(new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), entry.Remedy, pointer, null, null));
+        }
+    }
+
+    private static string Length(double value, bool isAngle) =>
+        isAngle ? FormattableString.Invariant($"{value * 180 / Math.PI:0.###} degrees") : FormattableString.Invariant($"{value:0.0e+0} m");
+
+    private static string Text(double time) => time.ToString("0.######", CultureInfo.InvariantCulture);
+
+    private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);
+}

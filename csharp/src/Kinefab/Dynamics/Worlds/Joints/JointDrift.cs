@@ -1,0 +1,78 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>How far a joint's locked freedoms have come apart.</summary>
+public readonly struct JointDrift
+{
+    // A limit counts as reached this close to it, m or rad.
+    private const double LimitTolerance = 1e-3;
+
+    internal JointDrift(double distance, double angle)
+    {
+        Distance = distance;
+        Angle = angle;
+    }
+
+    /// <summary>Distance of the anchors along the locked axes, metres.</summary>
+    public double Distance { get; }
+
+    /// <summary>Rotation about the locked axes, degrees.</summary>
+    public double Angle { get; }
+
+    internal static JointDrift Of(JointModel joint, in Pose body0, in Pose body1)
+    {
+        if (joint.IsBroken)
+        {
+            return default;
+        }
+
+        Span<ConstraintRow> rows = stackalloc ConstraintRow[JointModel.MaxRows];
+        int count = joint.Prepare(body0, body1, rows);
+        double distance = 0;
+        double angle = 0;
+        for (int i = 0; i < count; i++)
+        {
+            ref ConstraintRow row = ref rows[i];
+            if (row.Hint != SolveHint.Equality)
+            {
+                continue;
+            }
+
+            if (row.Has(RowFlags.Angular))
+            {
+                // The rows' axes are half as long as the angle's where the error is that of a quaternion.
+                double error = row.GeometricError / row.Angular0.Length;
+                angle += error * error;
+            }
+            else
+            {
+                distance += row.GeometricError * row.GeometricError;
+            }
+        }
+
+        return new JointDrift(Math.Sqrt(distance), Math.Sqrt(angle) * (180 / Math.PI));
+    }
+
+    internal static bool IsAtLimit(JointModel joint, in Pose body0, in Pose body1)
+    {
+        if (joint.IsBroken)
+        {
+            return false;
+        }
+
+        Span<ConstraintRow> rows = stackalloc ConstraintRow[JointModel.MaxRows];
+        int count = joint.Prepare(body0, body1, rows);
+        for (int i = 0; i < count; i++)
+        {
+            if (rows[i].Has(RowFlags.Limit) && rows[i].GeometricError <= LimitTolerance)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+}

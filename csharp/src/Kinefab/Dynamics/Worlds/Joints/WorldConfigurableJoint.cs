@@ -1,0 +1,107 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Mechanisms;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A ConfigurableJoint in a <see cref="World"/>.</summary>
+public sealed class WorldConfigurableJoint : WorldJoint
+{
+    private const int Axes = 6;
+
+    private readonly double[] _start = new double[Axes];
+    private readonly double[] _unwrapped = new double[Axes];
+    private readonly double _sign;
+    private ConfigurableJoint _settings;
+
+    internal WorldConfigurableJoint(MultibodySystem mechanism, int index, JointPlace place, ConfigurableJoint settings)
+        : base(mechanism, index, place)
+    {
+        _settings = settings;
+        _sign = UnityJoints.CoordinateSign(settings);
+        for (int i = 0; i < Axes; i++)
+        {
+            _start[i] = Raw(i, 0);
+            _unwrapped[i] = _start[i];
+        }
+    }
+
+    /// <summary>
+    /// Motions, limits, drives, targets, break limits and mass scales. A new value acts from the next step on; the frames and swapBodies stay
+    /// as created.
+    /// </summary>
+    /// <exception cref="ArgumentException">swapBodies differs; or a number is out of its range or none.</exception>
+    public ConfigurableJoint Settings
+    {
+        get => _settings;
+        set
+        {
+            if (value is null)
+            {
+                throw new ArgumentNullException(nameof(value));
+            }
+
+            if (value.SwapBodies != _settings.SwapBodies)
+            {
+                throw new ArgumentException("swapBodies is decided when the joint is created.", nameof(value));
+            }
+
+            SettingsCheck.ThrowIfWrong(value);
+            _settings = value;
+            UnityJoints.Apply(value, (D6Joint)Solved);
+        }
+    }
+
+    /// <inheritdoc/>
+    public override double Coordinate(Coordinate coordinate)
+    {
+        int i = Axis(coordinate);
+        double value = Raw(i, _unwrapped[i]) - _start[i];
+        return IsAngle(i) ? value * Degrees : value;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target)
+    {
+        int i = Axis(coordinate);
+        Finite.OrThrow(target, nameof(target));
+        var joint = (D6Joint)Solved;
+        ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
+        drive = PositionDrive(drive);
+        double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
+        ConfigurableDrives.SetTarget(joint, i, goal);
+    }
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed)
+    {
+        // A damper this stiff holds the speed to one part in a million within a step of 1 ms.
+        const double damping = 1e9;
+        int i = Axis(coordinate);
+        Finite.OrThrow(speed, nameof(speed));
+        var joint = (D6Joint)Solved;
+        ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
+        double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;
+        drive = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = limit, IsAcceleration = true };
+        ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
+    }
+
+    internal override void AfterStep()
+    {
+        for (int i = (int)CoordinateAxis.AngularX; i < Axes; i++)
+        {
+            _unwrapped[i] = Raw(i, _unwrapped[i]);
+        }
+    }
+
+    private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;
+
+    private static int Axis(Coordinate coordinate) => coordinate >= Document.Coordinate.X && coordinate <= Document.Coordinate.AngularZ
+        ? coordinate - Document.Coordinate.X
+        : throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
+
+    private double Raw(int axis, double near) =>
+        new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, near, out _);
+}

@@ -1,0 +1,101 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Mechanisms;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A HingeJoint in a <see cref="World"/>.</summary>
+public sealed class WorldHingeJoint : WorldJoint
+{
+    private HingeJoint _settings;
+    private double _unwrapped;
+
+    internal WorldHingeJoint(MultibodySystem mechanism, int index, JointPlace place, HingeJoint settings)
+        : base(mechanism, index, place) => _settings = settings;
+
+    /// <summary>Limits, motor, spring, break limits and mass scales. A new value acts from the next step on; the frames stay as created.</summary>
+    /// <exception cref="ArgumentException">A number is out of its range or none.</exception>
+    public HingeJoint Settings
+    {
+        get => _settings;
+        set
+        {
+            if (value is null)
+            {
+                throw new ArgumentNullException(nameof(value));
+            }
+
+            SettingsCheck.ThrowIfWrong(value);
+            _settings = value;
+            UnityJoints.Apply(value, (RevoluteJoint)Solved);
+        }
+    }
+
+    /// <summary>HingeJoint.angle: own body against the connected one about the axis, left-hand sense, 0 at start-up; degrees in (-180, 180].</summary>
+    public double Angle => Wrapped() * Degrees;
+
+    /// <summary>The same with its whole turns since start-up, degrees.</summary>
+    public double UnwrappedAngle => Near(Wrapped(), _unwrapped) * Degrees;
+
+    /// <summary>HingeJoint.velocity with the sign of the angle's growth, degrees/s.</summary>
+    public double Velocity
+    {
+        get
+        {
+            Vector3d axis = (Pose0 * Solved.Frame0).Rotation * Vector3d.UnitX;
+            return Vector3d.Dot(AngularVelocityOf(Solved.Body0) - AngularVelocityOf(Solved.Body1), axis) * Degrees;
+        }
+    }
+
+    /// <inheritdoc/>
+    public override double Coordinate(Coordinate coordinate)
+    {
+        Check(coordinate);
+        return UnwrappedAngle;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target)
+    {
+        Check(coordinate);
+        Finite.OrThrow(target, nameof(target));
+        var joint = (RevoluteJoint)Solved;
+        joint.MotorEnabled = false;
+        joint.Spring = PositionDrive(joint.Spring);
+        joint.SpringTarget = -target / Degrees;
+    }
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed)
+    {
+        Check(coordinate);
+        Finite.OrThrow(speed, nameof(speed));
+        var joint = (RevoluteJoint)Solved;
+        joint.MotorEnabled = true;
+        joint.MotorVelocity = -speed / Degrees;
+        joint.MotorForceLimit = _settings.Motor.Force > 0 ? _settings.Motor.Force : double.PositiveInfinity;
+    }
+
+    internal override void AfterStep() => _unwrapped = Near(Wrapped(), _unwrapped);
+
+    private static void Check(Coordinate coordinate)
+    {
+        if (coordinate != Document.Coordinate.Angle)
+        {
+            throw new ArgumentException("A HingeJoint has the coordinate angle alone.", nameof(coordinate));
+        }
+    }
+
+    // phi = -twist of c; minus pi becomes plus pi.
+    private double Wrapped()
+    {
+        double angle = -((RevoluteJoint)Solved).Angle(Pose0, Pose1);
+        return angle - 2 * Math.PI * Math.Ceiling((angle - Math.PI) / (2 * Math.PI));
+    }
+
+    private Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : MultibodySystem.Bodies.AngularVelocities[body];
+
+    private static double Near(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));
+}

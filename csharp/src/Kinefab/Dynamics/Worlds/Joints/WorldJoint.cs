@@ -1,0 +1,132 @@
+using System;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Document = Kinefab.Document;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>A joint component in a <see cref="World"/>.</summary>
+public abstract class WorldJoint
+{
+    private protected const double Degrees = 180 / Math.PI;
+
+    private protected WorldJoint(MultibodySystem mechanism, int index, JointPlace place)
+    {
+        MultibodySystem = mechanism;
+        Index = index;
+        GameObject = place.GameObject;
+        Component = place.Component;
+        Id = place.Id;
+    }
+
+    /// <summary>Index of the GameObject that carries the joint.</summary>
+    public int GameObject { get; }
+
+    /// <summary>Index of the joint in that GameObject's components.</summary>
+    public int Component { get; }
+
+    /// <summary>Id of the GameObject that carries the joint; all joints of an object have it.</summary>
+    public string Id { get; }
+
+    /// <summary>
+    /// What it is called in messages, on the command line and by <see cref="World.Joint"/>: the GameObject's id, Lever/Crank:1;
+    /// with the component's index, Arm:2[3], where one object carries several joints.
+    /// </summary>
+    public string Name { get; internal set; } = "";
+
+    /// <summary>Whether its constraint force or torque has passed a limit; a broken joint holds nothing any more.</summary>
+    public bool IsBroken => Solved.IsBroken;
+
+    /// <summary>
+    /// Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count. In the
+    /// step that breaks the joint the force that broke it, then none.
+    /// </summary>
+    public Vector3d CurrentForce => MultibodySystem.Reactions[Index].Force;
+
+    /// <summary>Torque of the constraint on actor 0 about the connected anchor in the last step, N m; drives do not count.</summary>
+    public Vector3d CurrentTorque => MultibodySystem.Reactions[Index].Torque;
+
+    /// <summary>How far the joint's locked freedoms have come apart.</summary>
+    public JointDrift Drift => JointDrift.Of(Solved, Pose0, Pose1);
+
+    /// <summary>Whether a limit of the joint is reached or passed.</summary>
+    public bool IsAtLimit => JointDrift.IsAtLimit(Solved, Pose0, Pose1);
+
+    internal Kinefab.Joints.JointModel Solved => MultibodySystem.Joints[Index];
+
+    internal int Index { get; }
+
+    /// <summary>Actor 1's joint frame in actor 0's.</summary>
+    internal Pose Relative => (Pose0 * Solved.Frame0).Inverse() * (Pose1 * Solved.Frame1);
+
+    private protected MultibodySystem MultibodySystem { get; }
+
+    private protected Pose Pose0 => MultibodySystem.Bodies.PoseOf(Solved.Body0);
+
+    private protected Pose Pose1 => MultibodySystem.Bodies.PoseOf(Solved.Body1);
+
+    /// <summary>A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres.</summary>
+    /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
+    public abstract double Coordinate(Coordinate coordinate);
+
+    /// <summary>
+    /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, firmly: the gap
+    /// closes with a time constant of 0.1 s whatever loads the joint. Stands until Settings is set.
+    /// </summary>
+    /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
+    /// <param name="target">Degrees or metres.</param>
+    /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
+    public abstract void DriveTo(Coordinate coordinate, double target);
+
+    /// <summary>Drives a coordinate at a speed, with the component's force limit if it has one. Stands until Settings is set.</summary>
+    /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
+    /// <param name="speed">Degrees/s or metres/s.</param>
+    /// <exception cref="ArgumentException">The joint has no such coordinate, or the speed is no number.</exception>
+    public abstract void DriveAt(Coordinate coordinate, double speed);
+
+    // Overdamped: time constant Damping/Stiffness = 0.1 s; yields by 1e-6 of the acceleration that the load would give.
+    private protected static Kinefab.Joints.DriveModel PositionDrive(in Kinefab.Joints.DriveModel given) => given.Stiffness > 0
+        ? given
+        : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, ForceLimit = double.PositiveInfinity, IsAcceleration = true };
+
+    /// <summary>Called when the joint has been moved by a step.</summary>
+    internal virtual void AfterStep()
+    {
+    }
+}
+
+/// <summary>A FixedJoint in a <see cref="World"/>.</summary>
+public sealed class WorldFixedJoint : WorldJoint
+{
+    internal WorldFixedJoint(MultibodySystem mechanism, int index, JointPlace place)
+        : base(mechanism, index, place)
+    {
+    }
+
+    /// <inheritdoc/>
+    public override double Coordinate(Coordinate coordinate) => throw NoCoordinates();
+
+    /// <inheritdoc/>
+    public override void DriveTo(Coordinate coordinate, double target) => throw NoCoordinates();
+
+    /// <inheritdoc/>
+    public override void DriveAt(Coordinate coordinate, double speed) => throw NoCoordinates();
+
+    private static ArgumentException NoCoordinates() => new("A FixedJoint has no coordinates.");
+}
+
+/// <summary>Where a joint component stands in its scene.</summary>
+internal readonly struct JointPlace
+{
+    public readonly int GameObject;
+    public readonly int Component;
+    public readonly string Id;
+
+    public JointPlace(int gameObject, int component, string id)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Id = id;
+    }
+}

@@ -1,0 +1,170 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Diagnostics;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Dynamics.Pgs;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>
+/// The bodies and joints of a scene in motion, as Unity makes them at start-up. There are no contacts: colliders are not
+/// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks.
+/// </summary>
+public sealed class World
+{
+    private readonly MultibodySystem _mechanism;
+    private readonly ISolver _solver;
+    private readonly bool[] _broken;
+    private readonly ExactStepFindings _exact = new();
+    private readonly WorldNames _names;
+
+    private World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, WorldNames names, Report findings)
+    {
+        _mechanism = mechanism;
+        _solver = solver;
+        _broken = new bool[joints.Length];
+        Bodies = bodies;
+        Joints = joints;
+        _names = names;
+        Findings = findings;
+    }
+
+    /// <summary>Raised after a step for every joint that broke in it.</summary>
+    public event EventHandler<JointBrokenEventArgs>? JointBroken;
+
+    /// <summary>In the order of their GameObjects.</summary>
+    public IReadOnlyList<WorldBody> Bodies { get; }
+
+    /// <summary>In the order of their GameObjects and components.</summary>
+    public IReadOnlyList<WorldJoint> Joints { get; }
+
+    /// <summary>
+    /// What of the scene this world's solver does not follow; none is an error. Steps that the exact solver could not solve,
+    /// and poses that it closed before a step, are added as they occur: each joint once, ten findings of a kind at most.
+    /// </summary>
+    public Report Findings { get; private set; }
+
+    /// <summary>Seconds simulated.</summary>
+    public double Time { get; private set; }
+
+    /// <summary>m/s^2.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
+    public Vector3d Gravity
+    {
+        get => _mechanism.Gravity;
+        set => _mechanism.Gravity = Finite.OrThrow(value, nameof(value));
+    }
+
+    /// <summary>
+    /// Number of times that motion was stopped where it stood: a body's that left the range of numbers, or a mechanism's in a
+    /// part of a step that the exact solver could not solve (see <see cref="Findings"/>). 0 unless the solver cannot follow
+    /// the scene.
+    /// </summary>
+    public int Stops => _mechanism.Stops;
+
+    /// <summary>Kinetic energy of all bodies, J.</summary>
+    public double KineticEnergy
+    {
+        get
+        {
+            double energy = 0;
+            for (int i = 0; i < _mechanism.Bodies.Count; i++)
+            {
+                energy += _mechanism.Bodies.KineticEnergy(i);
+            }
+
+            return energy;
+        }
+    }
+
+    /// <summary>Energy of all bodies under gravity, J, 0 at the world's origin.</summary>
+    public double PotentialEnergy
+    {
+        get
+        {
+            double energy = 0;
+            for (int i = 0; i < _mechanism.Bodies.Count; i++)
+            {
+                energy += _mechanism.Bodies.PotentialEnergy(i, _mechanism.Gravity);
+            }
+
+            return energy;
+        }
+    }
+
+    /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
+    public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
+    {
+        if (scene is null)
+        {
+            throw new ArgumentNullException(nameof(scene));
+        }
+
+        var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
+        List<InexactLoop> loops = LoopProbe.Find(builder.MultibodySystem);
+        ISolver chosen = solver switch
+        {
+            SolverKind.Unity => new PgsSolver(builder.MultibodySystem),
+            SolverKind.Exact => new RattleSolver(builder.MultibodySystem, loops),
+            _ => throw new ArgumentOutOfRangeException(nameof(solver)),
+        };
+        List<Diagnostic> findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : new List<Diagnostic>();
+        findings.AddRange(InexactLoopCheck.Of(loops, builder.Joints));
+        var names = new WorldNames(scene.Document.GameObjects, builder.Bodies, builder.Joints);
+        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, names, new Report(findings));
+    }
+
+    /// <summary>The body of the GameObject with an id, or with a name that no other has.</summary>
+    /// <param name="idOrName">Such as Lever/Crank:1.</param>
+    /// <exception cref="ArgumentException">There is no such body; the message says which there are.</exception>
+    public WorldBody Body(string idOrName) => _names.Body(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
+
+    /// <summary>
+    /// The joint with a <see cref="WorldJoint.Name"/>; the id or name of its GameObject does where no other joint answers to it,
+    /// and [COMPONENT] may stand behind either.
+    /// </summary>
+    /// <param name="name">Such as Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
+    /// <exception cref="ArgumentException">None or several joints answer to it; the message says which there are.</exception>
+    public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
+
+    /// <summary>Moves the world forward.</summary>
+    /// <param name="dt">Seconds; Unity's fixed time step is in the scene's physics settings.</param>
+    /// <exception cref="ArgumentOutOfRangeException">dt is not a positive number.</exception>
+    public void Step(double dt)
+    {
+        if (!(dt > 0 && dt < double.PositiveInfinity))
+        {
+            throw new ArgumentOutOfRangeException(nameof(dt));
+        }
+
+        // A broken joint is in no island any more, so that nobody writes its reaction.
+        for (int i = 0; i < _broken.Length; i++)
+        {
+            if (_broken[i])
+            {
+                _mechanism.ClearReaction(i);
+            }
+        }
+
+        _solver.Step(dt);
+        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0)
+        {
+            List<Diagnostic> found = _exact.Of(_mechanism, Bodies, Joints, Time);
+            Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;
+        }
+
+        Time += dt;
+        for (int i = 0; i < Joints.Count; i++)
+        {
+            WorldJoint joint = Joints[i];
+            joint.AfterStep();
+            if (joint.IsBroken && !_broken[i])
+            {
+                _broken[i] = true;
+                JointBroken?.Invoke(this, new JointBrokenEventArgs(joint));
+            }
+        }
+    }
+}

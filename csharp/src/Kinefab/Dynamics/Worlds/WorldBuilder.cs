@@ -1,0 +1,161 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Mechanisms;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using Document = Kinefab.Document;
+
+namespace Kinefab.Dynamics;
+
+/// <summary>Makes a world's bodies and joints from a scene.</summary>
+internal sealed class WorldBuilder
+{
+    private const double Radians = Math.PI / 180;
+
+    private readonly ValidScene _scene;
+
+    private readonly MechanismDefinition _definition;
+    private readonly List<Kinefab.Joints.JointModel> _joints;
+
+    /// <summary>Bodies and joints of a scene.</summary>
+    /// <param name="scene">What to make them from.</param>
+    /// <param name="locksAsJoints">Frozen positions are held by joints to the world, for a solver that knows no locks.</param>
+    public WorldBuilder(ValidScene scene, bool locksAsJoints)
+    {
+        _scene = scene;
+        _definition = MechanismDefinition.From(scene);
+        int[] objects = _definition.GameObjects;
+        var bodies = new Bodies(Array.ConvertAll(objects, i => Define(scene.Body(i)!, scene.WorldTransform(i).Pose)));
+        _joints = new List<Kinefab.Joints.JointModel>(_definition.MakeJoints(scene, bodies.Poses));
+        if (locksAsJoints)
+        {
+            MakeLocks(bodies);
+        }
+
+        MultibodySystem = new MultibodySystem(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
+        Bodies = new WorldBody[objects.Length];
+        for (int i = 0; i < Bodies.Length; i++)
+        {
+            int gameObject = objects[i];
+            Rigidbody body = scene.Body(gameObject)!;
+            Bodies[i] = new WorldBody(bodies, i, gameObject, scene.Document.GameObjects[gameObject], body, MassFrame(body));
+        }
+
+        Joints = new WorldJoint[_definition.Joints.Count];
+        for (int i = 0; i < Joints.Length; i++)
+        {
+            JointDefinition joint = _definition.Joints[i];
+            var place = new JointPlace(joint.GameObject, joint.Component, scene.Document.GameObjects[joint.GameObject].Id);
+            Joints[i] = joint.Source switch
+            {
+                HingeJoint hinge => new WorldHingeJoint(MultibodySystem, i, place, hinge),
+                ConfigurableJoint configurable => new WorldConfigurableJoint(MultibodySystem, i, place, configurable),
+                _ => new WorldFixedJoint(MultibodySystem, i, place),
+            };
+        }
+    }
+
+    public MultibodySystem MultibodySystem { get; }
+
+    public WorldBody[] Bodies { get; }
+
+    public WorldJoint[] Joints { get; }
+
+    // The centre of mass is given in metres along the object's axes, whatever its scale (ScriptReference, Rigidbody.centerOfMass).
+    private static Pose MassFrame(Rigidbody body) => new(body.CenterOfMass, body.InertiaTensorRotation.Normalized());
+
+    private BodyDefinition Define(Rigidbody body, in Pose pose)
+    {
+        Document.Physics physics = _scene.Document.Physics;
+        RigidbodyConstraints frozen = body.Constraints;
+        return new BodyDefinition
+        {
+            Pose = pose * MassFrame(body),
+            Mass = body.Mass,
+            Inertia = new Vector3d(
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationX) ? 0 : body.InertiaTensor.X,
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationY) ? 0 : body.InertiaTensor.Y,
+                Frozen(frozen, RigidbodyConstraints.FreezeRotationZ) ? 0 : body.InertiaTensor.Z),
+            LinearDamping = body.LinearDamping,
+            AngularDamping = body.AngularDamping,
+            MaxAngularSpeed = body.MaxAngularVelocity ?? physics.DefaultMaxAngularSpeed,
+            UseGravity = body.UseGravity,
+            IsKinematic = body.IsKinematic,
+            Locks = Locks(frozen),
+            PositionIterations = body.SolverIterations ?? physics.SolverIterations,
+            VelocityIterations = body.SolverVelocityIterations ?? physics.SolverVelocityIterations,
+        };
+    }
+
+    // Positions are frozen in the world's axes, by PhysX's locks; rotations by setting the inertia tensor's components to zero, which
+    // stands for infinite (ScriptReference, Rigidbody.constraints and Rigidbody.inertiaTensor): about the principal axes, also
+    // where inertiaTensorRotation turns these.
+    private static BodyLocks Locks(RigidbodyConstraints frozen) =>
+        (Frozen(frozen, RigidbodyConstraints.FreezePositionX) ? BodyLocks.LinearX : 0)
+        | (Frozen(frozen, RigidbodyConstraints.FreezePositionY) ? BodyLocks.LinearY : 0)
+        | (Frozen(frozen, RigidbodyConstraints.FreezePositionZ) ? BodyLocks.LinearZ : 0);
+
+    private static bool Frozen(RigidbodyConstraints constraints, RigidbodyConstraints one) => (constraints & one) != 0;
+
+    // They stand behind the scene's joints, so that those keep their indices. Actor 0 is the world: its axes do not turn.
+    private void MakeLocks(Bodies bodies)
+    {
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            BodyLocks locks = bodies.Locks[i];
+            if (locks != BodyLocks.None && !bodies.IsKinematic[i])
+            {
+                _joints.Add(new D6Joint
+                {
+                    Body1 = i,
+                    Frame0 = new Pose(bodies.Poses[i].Position, Quaterniond.Identity),
+                    X = Locked(locks, BodyLocks.LinearX),
+                    Y = Locked(locks, BodyLocks.LinearY),
+                    Z = Locked(locks, BodyLocks.LinearZ),
+                    Twist = AxisMotion.Free,
+                    Swing1 = AxisMotion.Free,
+                    Swing2 = AxisMotion.Free,
+                });
+            }
+        }
+    }
+
+    private static AxisMotion Locked(BodyLocks locks, BodyLocks one) => (locks & one) != 0 ? AxisMotion.Locked : AxisMotion.Free;
+
+    private Kinefab.Joints.CoordinateCoupling[] MakeCouplings(Bodies bodies)
+    {
+        var couplings = new List<Kinefab.Joints.CoordinateCoupling>();
+        foreach (Document.Coupling coupling in _scene.Document.Couplings)
+        {
+            if (Find(coupling.A) is Kinefab.Joints.CoordinateAxisMap a && Find(coupling.B) is Kinefab.Joints.CoordinateAxisMap b)
+            {
+                // In radians, and with the coordinates' values at the start in the offset: the file counts from there.
+                double unitA = a.IsAngle ? Radians : 1;
+                double unitB = b.IsAngle ? Radians : 1;
+                double ratio = coupling.Ratio * unitB / unitA;
+                double startA = a.Evaluate(bodies.PoseOf(a.Joint.Body0), bodies.PoseOf(a.Joint.Body1), 0, out _);
+                double startB = b.Evaluate(bodies.PoseOf(b.Joint.Body0), bodies.PoseOf(b.Joint.Body1), 0, out _);
+                couplings.Add(new Kinefab.Joints.CoordinateCoupling(a, b, ratio, coupling.Offset * unitB + startB - ratio * startA));
+            }
+        }
+
+        return couplings.ToArray();
+    }
+
+    /// <summary>Null when the joint's object is inactive.</summary>
+    private Kinefab.Joints.CoordinateAxisMap? Find(Document.JointCoordinate coordinate)
+    {
+        int index = _definition.IndexOf(coordinate.GameObject, coordinate.Component);
+        if (index < 0)
+        {
+            return null;
+        }
+
+        CoordinateAxis axis = coordinate.Coordinate == Coordinate.Angle
+            ? CoordinateAxis.AngularX
+            : (CoordinateAxis)(coordinate.Coordinate - Coordinate.X);
+        return new Kinefab.Joints.CoordinateAxisMap(_joints[index], axis, UnityJoints.CoordinateSign(_definition.Joints[index].Source));
+    }
+}

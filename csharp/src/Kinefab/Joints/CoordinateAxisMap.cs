@@ -1,0 +1,70 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>Axis of a joint frame along or about which a coordinate is measured.</summary>
+internal enum CoordinateAxis : byte
+{
+    X,
+    Y,
+    Z,
+    AngularX,
+    AngularY,
+    AngularZ,
+}
+
+/// <summary>
+/// A scalar coordinate of a joint: Sign times frame 1's offset along, or angle about, an axis of frame 0, metres or
+/// radians. An angle is exact while the joint turns about that axis alone.
+/// </summary>
+internal readonly struct CoordinateAxisMap
+{
+    public readonly JointModel Joint;
+    public readonly CoordinateAxis Axis;
+
+    /// <summary>1, or -1 when the coordinate is that of actor 0 against actor 1.</summary>
+    public readonly double Sign;
+
+    public CoordinateAxisMap(JointModel joint, CoordinateAxis axis, double sign)
+    {
+        Joint = joint;
+        Axis = axis;
+        Sign = sign;
+    }
+
+    public bool IsAngle => Axis >= CoordinateAxis.AngularX;
+
+    /// <summary>
+    /// q and the row of its rate: qdot = row.Velocity(v0, w0, v1, w1).
+    /// Linear: q = s c.p_i, J = -s (a, r0 x a; a, r1 x a). Angular: q = 2 s atan2(c.q_i, c.q_w), J = -s (0, a; 0, a).
+    /// </summary>
+    /// <param name="body0">Pose of the joint's body 0.</param>
+    /// <param name="body1">Pose of the joint's body 1.</param>
+    /// <param name="near">Of the angles that differ by whole turns the one nearest to this is taken.</param>
+    /// <param name="row">Only its J and GeometricError (= q) hold.</param>
+    public double Evaluate(in Pose body0, in Pose body1, double near, out ConstraintRow row)
+    {
+        var f = new JointFrames(Joint, body0, body1);
+        row = default;
+        if (!IsAngle)
+        {
+            int i = (int)Axis;
+            Vector3d a = f.Axis0(i) * -Sign;
+            row.Linear0 = a;
+            row.Angular0 = Vector3d.Cross(f.P1 - body0.Position, a);
+            row.Angular1 = Vector3d.Cross(f.P1 - body1.Position, a);
+            row.GeometricError = Sign * f.Relative.Position[i];
+            return row.GeometricError;
+        }
+
+        int axis = Axis - CoordinateAxis.AngularX;
+        row.Angular0 = f.Axis0(axis) * -Sign;
+        row.Angular1 = row.Angular0;
+        row.Flags = RowFlags.Angular;
+        Quaterniond q = f.Relative.Rotation;
+        double angle = Sign * 2 * Math.Atan2(q.Vector[axis], q.W);
+        row.GeometricError = angle + 2 * Math.PI * Math.Round((near - angle) / (2 * Math.PI));
+        return row.GeometricError;
+    }
+}

@@ -1,0 +1,84 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Joints;
+
+/// <summary>
+/// A joint in PhysX's terms. Frames are given in the frames of the bodies' centres of mass and principal axes.
+/// Angles are those of actor 1 seen from actor 0: c = F0^-1 * F1. Nothing here knows Unity's signs.
+/// </summary>
+internal abstract class JointModel
+{
+    /// <summary>No joint emits more rows than this (PhysX: MAX_CONSTRAINT_ROWS).</summary>
+    public const int MaxRows = 20;
+
+    /// <summary>Stands for the world, which never moves.</summary>
+    public const int World = -1;
+
+    /// <summary>Index of actor 0, or World.</summary>
+    public int Body0 = World;
+
+    /// <summary>Index of actor 1, or World.</summary>
+    public int Body1 = World;
+
+    /// <summary>Joint frame in body 0's frame (in the world for World).</summary>
+    public Pose Frame0 = Pose.Identity;
+
+    /// <summary>Joint frame in body 1's frame (in the world for World).</summary>
+    public Pose Frame1 = Pose.Identity;
+
+    /// <summary>Largest constraint force before the joint breaks, N.</summary>
+    public double BreakForce = double.PositiveInfinity;
+
+    /// <summary>Largest constraint torque at actor 1's anchor before the joint breaks, N m.</summary>
+    public double BreakTorque = double.PositiveInfinity;
+
+    /// <summary>Whether either limit is a finite one.</summary>
+    public bool CanBreak => BreakForce < double.PositiveInfinity || BreakTorque < double.PositiveInfinity;
+
+    /// <summary>Factors on the inverse masses as this joint sees them.</summary>
+    public double InverseMassScale0 = 1;
+    public double InverseMassScale1 = 1;
+
+    /// <summary>Factors on the inverse inertias as this joint sees them.</summary>
+    public double InverseInertiaScale0 = 1;
+    public double InverseInertiaScale1 = 1;
+
+    /// <summary>Makes the joint's rigid rows mass-orthogonal to each other before they are solved.</summary>
+    public bool Preprocessing = true;
+
+    /// <summary>Drive limits are forces, not impulses (PhysX: eDRIVE_LIMITS_ARE_FORCES).</summary>
+    public bool DriveLimitsAreForces = true;
+
+    /// <summary>Angles reach from -2 pi to 2 pi (PhysX: eENABLE_EXTENDED_LIMITS).</summary>
+    public bool ExtendedLimits;
+
+    /// <summary>Body poses are snapped back after the step once an error passes a tolerance (PhysX: ePROJECTION).</summary>
+    public bool Projection;
+    public double ProjectionLinearTolerance = 1e10;
+    public double ProjectionAngularTolerance = Math.PI;
+
+    /// <summary>Prepare writes the rows of all limits however far they are, not only within their contact distance.</summary>
+    public bool LimitsFromAfar;
+
+    /// <summary>A broken joint has no rows.</summary>
+    public bool IsBroken;
+
+    /// <summary>A copy of the joint between other bodies.</summary>
+    public JointModel Between(int body0, int body1)
+    {
+        JointModel copy = (JointModel)MemberwiseClone();
+        copy.Body0 = body0;
+        copy.Body1 = body1;
+        return copy;
+    }
+
+    /// <summary>
+    /// Writes the joint's rows at the given poses of its bodies' centres of mass and returns their number; a pure
+    /// function of its arguments and the joint's fields. Rows come in PhysX's order of emission. World's pose is the identity.
+    /// </summary>
+    public abstract int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows);
+
+    /// <summary>As <see cref="Prepare"/>, but locked axes may be left out: for a solver that has their rows already.</summary>
+    public virtual int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows);
+}

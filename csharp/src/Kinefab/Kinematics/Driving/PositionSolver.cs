@@ -1,0 +1,150 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Moves a mechanism at position level: drives coordinates, drags points, closes gaps. Holds the working memory of one
+/// thread; after its first calls it allocates nothing. The same state and targets give the same bits.
+/// </summary>
+public sealed class PositionSolver
+{
+    private readonly CoordinateDrive _drive;
+    private readonly NewtonSolver _newton;
+    private readonly Dictionary<int, PointDrag> _drags = new();
+
+    /// <summary>A solver for a mechanism.</summary>
+    public PositionSolver(Mechanism mechanism)
+    {
+        Mechanism = mechanism ?? throw new ArgumentNullException(nameof(mechanism));
+        _newton = new NewtonSolver(mechanism.Linkage);
+        _drive = new CoordinateDrive(mechanism, _newton);
+        MechanismState start = mechanism.NewState();
+        _newton.Close(start);
+        StartError = Math.Max(_newton.Equations.Worst, _newton.Motion.WorstError);
+        // An exported scene may not close better than its numbers were written; the misfit moves with the pose.
+        _newton.Accepted = Math.Max(_newton.Accepted, 4 * StartError);
+    }
+
+    /// <summary>What it solves.</summary>
+    public Mechanism Mechanism { get; }
+
+    /// <summary>Misfit that is left when the exported pose is closed as well as can be, lengths of the mechanism or radians.</summary>
+    internal double StartError { get; }
+
+    internal NewtonSolver Newton => _newton;
+
+    internal RankDeficiency Singular => _drive.Singular;
+
+    /// <summary>
+    /// Moves coordinates to values, all together along straight lines, in steps small enough to stay on the branch, and
+    /// everything else by as little as can be. Stops at the first limit that cannot be dodged and at the last closed pose
+    /// before a dead point.
+    /// </summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="targets">Each coordinate at most once.</param>
+    public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
+    {
+        Check(state);
+        for (int i = 0; i < targets.Length; i++)
+        {
+            if ((uint)targets[i].Coordinate >= (uint)Mechanism.Coordinates.Count)
+                throw new ArgumentOutOfRangeException(nameof(targets), "There is no such coordinate.");
+            if (!Finite.Is(targets[i].Value))
+                throw new ArgumentOutOfRangeException(nameof(targets), "A target is not a finite number.");
+            for (int k = 0; k < i; k++)
+            {
+                if (targets[k].Coordinate == targets[i].Coordinate)
+                    throw new ArgumentException("A coordinate is driven twice.", nameof(targets));
+            }
+        }
+
+        return _drive.Run(state, targets);
+    }
+
+    /// <summary>Moves one coordinate to a value, degrees or metres.</summary>
+    public DriveResult Drive(MechanismState state, int coordinate, double value)
+    {
+        ReadOnlySpan<CoordinateTarget> targets = stackalloc CoordinateTarget[] { new CoordinateTarget(coordinate, value) };
+        return Drive(state, targets);
+    }
+
+    /// <summary>Moves one coordinate to a value, degrees or metres.</summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="coordinate">Its <see cref="MechanismCoordinate.Name"/>, or the GameObject's id where that is enough.</param>
+    /// <param name="value">Degrees or metres.</param>
+    public DriveResult Drive(MechanismState state, string coordinate, double value) =>
+        Drive(state, Mechanism.CoordinateNamed(coordinate), value);
+
+    /// <summary>
+    /// The ways that lead on from a pose when a coordinate is driven. One at most poses, none at a dead centre; several
+    /// where branches of motion meet, as in a parallelogram that lies flat. The straightest stands first, it is the one that
+    /// <see cref="Drive(MechanismState, int, double)"/> takes; copy the state of another one to take that.
+    /// Limits are not looked at. Allocates.
+    /// </summary>
+    /// <param name="state">Closed; not changed.</param>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <param name="isRising">Driven upwards, or downwards.</param>
+    public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true)
+    {
+        Check(state);
+        if ((uint)coordinate >= (uint)Mechanism.Coordinates.Count)
+            throw new ArgumentOutOfRangeException(nameof(coordinate));
+        double unit = Mechanism.Coordinates[coordinate].IsAngle ? 1 : Mechanism.Length;
+        ReadOnlySpan<double> step = stackalloc double[] { (isRising ? 1 : -1) * CoordinateDrive.LeapStep * unit };
+        return _drive.Branches(state, stackalloc int[] { coordinate }, step);
+    }
+
+    /// <summary>
+    /// Pulls a point of a body towards a place in the world as far as joints and limits let it, sliding along the limits.
+    /// The first call for a body allocates.
+    /// </summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="gameObject">A GameObject that a Rigidbody moves.</param>
+    /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
+    /// <param name="target">World, metres.</param>
+    public DriveResult Drag(MechanismState state, int gameObject, Vector3d point, Vector3d target)
+    {
+        Check(state);
+        if (!point.IsFinite || !target.IsFinite)
+            throw new ArgumentException("The point or the target is not finite.", nameof(target));
+        int body = Mechanism.BodyOf(gameObject);
+        if (body < 0)
+            throw new ArgumentException("No Rigidbody moves this GameObject.", nameof(gameObject));
+        if (!_drags.TryGetValue(body, out PointDrag? drag))
+        {
+            drag = new PointDrag(Mechanism, _newton, body);
+            _drags.Add(body, drag);
+        }
+
+        DriveResult result = drag.Run(state, Mechanism.PointInBody(gameObject, point), target);
+        state.ForgetTrail();
+        return result;
+    }
+
+    /// <summary>Pulls a point of a body, named by its GameObject's id or name, towards a place in the world.</summary>
+    public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target) =>
+        Drag(state, Mechanism.GameObjectNamed(gameObject), point, target);
+
+    /// <summary>Closes all joints and couplings from wherever the state stands, moving the joints little; limits are not looked at.</summary>
+    public DriveResult Close(MechanismState state)
+    {
+        Check(state);
+        _newton.Iterations = 0;
+        _newton.ClearDriven();
+        _newton.Limits.Begin(state.Poses);
+        bool closed = _newton.Close(state);
+        state.ForgetTrail();
+        DriveStatus status = closed ? DriveStatus.Reached : DriveStatus.NotClosed;
+        return new DriveResult(status, closed ? 1 : 0, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, 0, null);
+    }
+
+    private void Check(MechanismState state)
+    {
+        if (state is null)
+            throw new ArgumentNullException(nameof(state));
+        if (!ReferenceEquals(state.Mechanism, Mechanism))
+            throw new ArgumentException("The state belongs to another mechanism.", nameof(state));
+    }
+}

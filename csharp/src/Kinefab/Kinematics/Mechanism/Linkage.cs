@@ -1,0 +1,50 @@
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Bodies, joints and couplings at position level and a spanning tree over them: what the equations are made of, by indices
+/// alone. A whole mechanism's, or that of a part of it by itself. Never changes.
+/// </summary>
+internal sealed class Linkage
+{
+    /// <summary>Hangs the bodies on a tree.</summary>
+    /// <param name="isFixed">For each body whether it never moves.</param>
+    /// <param name="joints">Between these bodies and the world.</param>
+    /// <param name="isClosure">For each joint whether it is better left out of the tree.</param>
+    /// <param name="coordinates">Of these joints.</param>
+    /// <param name="couplings">Of these coordinates.</param>
+    /// <param name="origin">See <see cref="Origin"/>.</param>
+    /// <param name="length">See <see cref="Length"/>.</param>
+    public Linkage(bool[] isFixed, JointModel[] joints, bool[] isClosure, MechanismCoordinate[] coordinates, PositionCoupling[] couplings, Vector3d origin, double length)
+    {
+        BodyCount = isFixed.Length;
+        Joints = joints;
+        Coordinates = coordinates;
+        Couplings = couplings;
+        Origin = origin;
+        Length = length;
+        Tree = new KinematicTree(isFixed, joints, isClosure);
+        Rows = new MechanismRows(this);
+    }
+
+    public int BodyCount { get; }
+
+    public JointModel[] Joints { get; }
+
+    public MechanismCoordinate[] Coordinates { get; }
+
+    public PositionCoupling[] Couplings { get; }
+
+    public KinematicTree Tree { get; }
+
+    /// <summary>Which bodies each joint, coupling and coordinate depends on.</summary>
+    public MechanismRows Rows { get; }
+
+    /// <summary>Point that twists are referred to, world.</summary>
+    public Vector3d Origin { get; }
+
+    /// <summary>Typical distance of a body's joints, metres: what a radian weighs against.</summary>
+    public double Length { get; }
+}

@@ -1,0 +1,185 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Mechanisms;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using Joint = Kinefab.Joints.JointModel;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// What of a scene moves and how it hangs together: bodies, joints, couplings, and a spanning tree over them. Never
+/// changes; many states and solvers can share it. Drives, motors and springs do not matter at position level, and every
+/// limit is taken for a hard one.
+/// </summary>
+public sealed class Mechanism
+{
+    private readonly int[] _bodyOf;
+    private readonly Pose[] _locals;
+    private readonly Pose[] _start;
+    private readonly MechanismCoordinate[] _coordinates;
+    private readonly MechanismNames _names;
+
+    private Mechanism(ValidScene scene)
+    {
+        Scene = scene;
+        MechanismDefinition definition = MechanismDefinition.From(scene);
+        _bodyOf = definition.BodyOf;
+        GameObjects = definition.GameObjects;
+        var isFixed = new bool[GameObjects.Length];
+        _start = new Pose[GameObjects.Length];
+        for (int i = 0; i < GameObjects.Length; i++)
+        {
+            isFixed[i] = scene.Body(GameObjects[i])!.IsKinematic;
+            _start[i] = scene.WorldTransform(GameObjects[i]).Pose;
+        }
+
+        int objects = scene.Document.GameObjects.Count;
+        _locals = new Pose[objects];
+        for (int i = 0; i < objects; i++)
+        {
+            Pose world = scene.WorldTransform(i).Pose;
+            _locals[i] = _bodyOf[i] < 0 ? world : _start[_bodyOf[i]].Inverse() * world;
+        }
+
+        var isClosure = new List<bool>();
+        var joints = new List<JointModel>();
+        foreach (JointModel joint in definition.MakeJoints(scene, _start))
+        {
+            isClosure.Add(definition.Joints[joints.Count].Source.Closure);
+            joints.Add(PositionJoint.From(joint));
+        }
+
+        for (int i = 0; i < GameObjects.Length; i++)
+        {
+            if (PositionJoint.Freeze(i, _start[i], scene.Body(GameObjects[i])!.Constraints) is JointModel freeze)
+            {
+                isClosure.Add(false);
+                joints.Add(freeze);
+            }
+        }
+
+        JointPlaces = new (int, int)[definition.Joints.Count];
+        for (int j = 0; j < JointPlaces.Length; j++)
+        {
+            JointPlaces[j] = (definition.Joints[j].GameObject, definition.Joints[j].Component);
+        }
+
+        JointModel[] all = joints.ToArray();
+        _coordinates = MechanismCoordinates.Of(definition, all, scene.Document.Couplings);
+        foreach (MechanismCoordinate coordinate in _coordinates)
+        {
+            JointModel rows = coordinate.JointRows;
+            coordinate.Zero = coordinate.Evaluate(PoseOf(rows.Body0, _start), PoseOf(rows.Body1, _start), 0, out _);
+        }
+
+        _names = new MechanismNames(scene.Document.GameObjects, _coordinates);
+        PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
+        Vector3d origin = MechanismScale.Center(all, _start);
+        double length = MechanismScale.LinkLength(all, _start);
+        Linkage = new Linkage(isFixed, all, isClosure.ToArray(), _coordinates, couplings, origin, length);
+    }
+
+    /// <summary>The scene it was made from.</summary>
+    public ValidScene Scene { get; }
+
+    /// <summary>All unlocked joint coordinates, in order of GameObject, component and axis; then locked ones that couplings name.</summary>
+    public IReadOnlyList<MechanismCoordinate> Coordinates => _coordinates;
+
+    /// <summary>The GameObjects that carry Rigidbodies, by index: what has to be placed to show a state.</summary>
+    public IReadOnlyList<int> Bodies => GameObjects;
+
+    /// <summary>What the solvers work on.</summary>
+    internal Linkage Linkage { get; }
+
+    internal int BodyCount => GameObjects.Length;
+
+    /// <summary>For each body the GameObject with its Rigidbody.</summary>
+    internal int[] GameObjects { get; }
+
+    /// <summary>The components' joints, then those that frozen motions amount to.</summary>
+    internal JointModel[] Joints => Linkage.Joints;
+
+    /// <summary>For each joint of a component where it stands.</summary>
+    internal (int GameObject, int Component)[] JointPlaces { get; }
+
+    internal PositionCoupling[] Couplings => Linkage.Couplings;
+
+    internal KinematicTree Tree => Linkage.Tree;
+
+    internal MechanismRows Rows => Linkage.Rows;
+
+    internal double Length => Linkage.Length;
+
+    /// <summary>The mechanism of a scene.</summary>
+    public static Mechanism Create(ValidScene scene)
+    {
+        if (scene is null)
+            throw new ArgumentNullException(nameof(scene));
+        return new Mechanism(scene);
+    }
+
+    /// <summary>A state at the exported pose.</summary>
+    public MechanismState NewState()
+    {
+        var state = new MechanismState(this, _start.Length, _coordinates.Length);
+        Array.Copy(_start, state.Poses, _start.Length);
+        for (int i = 0; i < _coordinates.Length; i++)
+        {
+            state.Values[i] = _coordinates[i].Zero;
+            state.Trail[i] = _coordinates[i].Zero;
+        }
+
+        return state;
+    }
+
+    /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked, unless a coupling names it, or is not there.</summary>
+    public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
+    {
+        for (int i = 0; i < _coordinates.Length; i++)
+        {
+            MechanismCoordinate c = _coordinates[i];
+            if (c.GameObject == gameObject && c.Component == component && c.Coordinate == coordinate)
+                return i;
+        }
+
+        return -1;
+    }
+
+    /// <summary>Finds a coordinate by its <see cref="MechanismCoordinate.Name"/>, or by the GameObject's id or name alone where that is enough.</summary>
+    /// <param name="name">Such as Lever/Crank:1.angle or Lever/Crank:1.</param>
+    /// <param name="coordinate">Index into <see cref="Coordinates"/>; -1: not found.</param>
+    /// <param name="problem">What is wrong with the name and which there are; empty: nothing.</param>
+    public bool TryFindCoordinate(string name, out int coordinate, out string problem) =>
+        _names.TryFind(name ?? throw new ArgumentNullException(nameof(name)), out coordinate, out problem);
+
+    /// <summary>As <see cref="TryFindCoordinate"/>, for names that are known to be right; else an ArgumentException says which there are.</summary>
+    public int CoordinateNamed(string name) =>
+        TryFindCoordinate(name, out int coordinate, out string problem) ? coordinate : throw new ArgumentException($"{name}: {problem}", nameof(name));
+
+    /// <summary>Index of the GameObject with an id, or with a name that no other has.</summary>
+    public int GameObjectNamed(string idOrName)
+    {
+        int found = _names.GameObject(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
+        return found >= 0 ? found : throw new ArgumentException($"{idOrName}: no GameObject has this id, nor one alone this name.", nameof(idOrName));
+    }
+
+    /// <summary>The body that moves a GameObject, or World.</summary>
+    internal int BodyOf(int gameObject) => _bodyOf[gameObject];
+
+    /// <summary>Where the body that moves a GameObject stands when the GameObject stands at a pose.</summary>
+    internal Pose PoseOfBody(int gameObject, in Pose world) => world * _locals[gameObject].Inverse();
+
+    /// <summary>A point of a GameObject in the frame of the body that moves it.</summary>
+    internal Vector3d PointInBody(int gameObject, Vector3d point) => _locals[gameObject].Point(point);
+
+    internal static Pose PoseOf(int body, Pose[] poses) => body < 0 ? Pose.Identity : poses[body];
+
+    internal Pose PoseOfGameObject(int gameObject, Pose[] poses)
+    {
+        int body = _bodyOf[gameObject];
+        return body < 0 ? _locals[gameObject] : poses[body] * _locals[gameObject];
+    }
+}

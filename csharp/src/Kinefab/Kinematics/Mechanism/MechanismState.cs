@@ -1,0 +1,128 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>Poses of a mechanism's bodies and its joint coordinates, angles unwrapped over turns. Copying allocates nothing.</summary>
+public sealed class MechanismState
+{
+    /// <summary>Of a mechanism, or of a part of it: the latter stays within the library.</summary>
+    internal MechanismState(Mechanism mechanism, int bodies, int coordinates)
+    {
+        Mechanism = mechanism;
+        Poses = new Pose[bodies];
+        Values = new double[coordinates];
+        Trail = new double[coordinates];
+    }
+
+    /// <summary>Whose state this is.</summary>
+    public Mechanism Mechanism { get; }
+
+    /// <summary>World poses of the bodies' own frames.</summary>
+    internal Pose[] Poses { get; }
+
+    /// <summary>Coordinates as the joints' rows have them: radians or metres, not zeroed.</summary>
+    internal double[] Values { get; }
+
+    /// <summary>Values a step earlier on the way here: the direction of travel, which tells the branch where branches cross.</summary>
+    internal double[] Trail { get; }
+
+    /// <summary>Stands, by the way on the trail, at a pose where branches cross.</summary>
+    internal bool IsAtCrossing { get; set; }
+
+    /// <summary>A coordinate, degrees or metres.</summary>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    public double Coordinate(int coordinate) => Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate]);
+
+    /// <summary>A coordinate by its name (<see cref="MechanismCoordinate.Name"/>), degrees or metres.</summary>
+    public double Coordinate(string name) => Coordinate(Mechanism.CoordinateNamed(name));
+
+    /// <summary>World pose of a GameObject in Unity's frame.</summary>
+    /// <param name="gameObject">Index of the GameObject.</param>
+    public Pose Pose(int gameObject) => Mechanism.PoseOfGameObject(gameObject, Poses);
+
+    /// <summary>World pose of the GameObject with an id, or with a name that no other has.</summary>
+    public Pose Pose(string idOrName) => Pose(Mechanism.GameObjectNamed(idOrName));
+
+    /// <summary>
+    /// Puts a body where a GameObject that it moves stands at a pose, and reads the coordinates of the body's joints anew:
+    /// so a state follows a physics engine, or user input. The joints are as open as the poses leave them; see
+    /// <see cref="PositionSolver.Close"/>.
+    /// </summary>
+    /// <param name="gameObject">Index of a GameObject that a Rigidbody moves.</param>
+    /// <param name="world">Metres and a unit quaternion.</param>
+    public void SetPose(int gameObject, in Pose world)
+    {
+        int body = Movable(gameObject, world);
+        Poses[body] = Mechanism.PoseOfBody(gameObject, world);
+        for (int i = 0; i < Values.Length; i++)
+        {
+            Joints.JointModel rows = Mechanism.Coordinates[i].JointRows;
+            if (rows.Body0 == body || rows.Body1 == body)
+                Read(i);
+        }
+
+        ForgetTrail();
+    }
+
+    /// <summary>As <see cref="SetPose"/> for several bodies, all coordinates being read once when they all stand there.</summary>
+    /// <param name="gameObjects">Indices of GameObjects that Rigidbodies move.</param>
+    /// <param name="worlds">A pose for each: metres and a unit quaternion.</param>
+    public void SetPoses(ReadOnlySpan<int> gameObjects, ReadOnlySpan<Pose> worlds)
+    {
+        if (gameObjects.Length != worlds.Length)
+            throw new ArgumentException("Each GameObject needs a pose.", nameof(worlds));
+        for (int i = 0; i < worlds.Length; i++)
+            Movable(gameObjects[i], worlds[i]);
+        for (int i = 0; i < worlds.Length; i++)
+            Poses[Mechanism.BodyOf(gameObjects[i])] = Mechanism.PoseOfBody(gameObjects[i], worlds[i]);
+        for (int i = 0; i < Values.Length; i++)
+            Read(i);
+        ForgetTrail();
+    }
+
+    /// <summary>Takes over another state of the same mechanism.</summary>
+    public void CopyFrom(MechanismState other)
+    {
+        if (other is null)
+            throw new ArgumentNullException(nameof(other));
+        if (!ReferenceEquals(other.Mechanism, Mechanism))
+            throw new ArgumentException("The state belongs to another mechanism.", nameof(other));
+        Array.Copy(other.Poses, Poses, Poses.Length);
+        Array.Copy(other.Values, Values, Values.Length);
+        Array.Copy(other.Trail, Trail, Trail.Length);
+        IsAtCrossing = other.IsAtCrossing;
+    }
+
+    /// <summary>Forgets the way here: after it the state stands as if it had always stood there.</summary>
+    internal void ForgetTrail()
+    {
+        Array.Copy(Values, Trail, Trail.Length);
+        IsAtCrossing = false;
+    }
+
+    /// <summary>A state of its own with the same poses.</summary>
+    public MechanismState Clone()
+    {
+        var copy = new MechanismState(Mechanism, Poses.Length, Values.Length);
+        copy.CopyFrom(this);
+        return copy;
+    }
+
+    private int Movable(int gameObject, in Pose world)
+    {
+        int body = Mechanism.BodyOf(gameObject);
+        if (body < 0)
+            throw new ArgumentException("No Rigidbody moves this GameObject.", nameof(gameObject));
+        if (!world.Position.IsFinite || !(Math.Abs(world.Rotation.LengthSquared - 1) < 1e-4))
+            throw new ArgumentException("The pose is not finite, or its rotation no unit quaternion.", nameof(world));
+        return body;
+    }
+
+    private void Read(int i)
+    {
+        MechanismCoordinate coordinate = Mechanism.Coordinates[i];
+        Joints.JointModel rows = coordinate.JointRows;
+        Values[i] = coordinate.Evaluate(Mechanism.PoseOf(rows.Body0, Poses), Mechanism.PoseOf(rows.Body1, Poses), Values[i], out _);
+    }
+}

@@ -1,0 +1,154 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Freedoms of finite motion of one block, which the velocities at one pose only bound from above: after a walk that leaves singular
+/// poses, every allowed velocity is followed a little way and brought back onto the joints, and only what of it is left
+/// counts. A velocity that no motion has is taken back almost wholly.
+/// </summary>
+internal sealed class FiniteMobility
+{
+    private const int WalkSteps = 3;
+    private const int MaxOtherWalks = 8;
+    private const double WalkLength = 0.2;
+    private const double ProbeLength = 0.01;
+    private const double Survives = 0.05;
+
+    private readonly Linkage _linkage;
+    private readonly NewtonSolver _newton;
+    private readonly FreedomBlocks _blocks;
+
+    /// <summary>Of a linkage all of whose freedoms are one block's.</summary>
+    public FiniteMobility(Linkage linkage, NewtonSolver newton, FreedomBlocks blocks)
+    {
+        _linkage = linkage;
+        _newton = newton;
+        _blocks = blocks;
+    }
+
+    /// <summary>Freedoms of the velocities at poses in general position, the least that Count found.</summary>
+    public int AtGeneralPose { get; private set; }
+
+    /// <summary>The velocities some steps away from the exported pose, where Count looked.</summary>
+    public VelocitySpace? Away { get; private set; }
+
+    /// <summary>The finite freedoms.</summary>
+    public int Count(MechanismState start)
+    {
+        MechanismState state = start.Clone();
+        for (int i = 0; i < WalkSteps; i++)
+        {
+            Walk(state, i);
+        }
+
+        var space = new VelocitySpace(_linkage, _newton, _blocks, state);
+        Away = space;
+        var survivors = new List<double[]>();
+        MechanismState moved = state.Clone();
+        foreach (double[] vector in space.Basis)
+        {
+            survivors.Add(Probe(state, moved, vector));
+        }
+
+        int count = Rank(survivors);
+        LookAround(start, space, count);
+        return count;
+    }
+
+    // The walk may have taken a branch along which part of the mechanism stays folded: then others are tried.
+    private void LookAround(MechanismState start, VelocitySpace space, int finite)
+    {
+        AtGeneralPose = space.Freedoms;
+        for (int i = 0; i < MaxOtherWalks && AtGeneralPose > finite; i++)
+        {
+            MechanismState other = start.Clone();
+            for (int k = 0; k < WalkSteps; k++)
+            {
+                Walk(other, (i + 1) * WalkSteps + k);
+            }
+
+            AtGeneralPose = Math.Min(AtGeneralPose, new VelocitySpace(_linkage, _newton, _blocks, other).Freedoms);
+        }
+    }
+
+    // A step along a mixture of all allowed velocities, the same on every machine; undone when the joints do not close.
+    private void Walk(MechanismState state, int round)
+    {
+        var space = new VelocitySpace(_linkage, _newton, _blocks, state);
+        var step = new double[_newton.Motion.Linear.Length];
+        int k = 0;
+        foreach (double[] vector in space.Basis)
+        {
+            k++;
+            double weight = Math.Sin(12.9898 * k + 4.1414 * round);
+            for (int i = 0; i < step.Length; i++)
+            {
+                step[i] += weight * vector[i];
+            }
+        }
+
+        double largest = 0;
+        foreach (double entry in step)
+        {
+            largest = Math.Max(largest, Math.Abs(entry));
+        }
+
+        for (int i = 0; i < step.Length && largest > 0; i++)
+        {
+            step[i] *= WalkLength / largest;
+        }
+
+        MechanismState before = state.Clone();
+        _newton.Motion.Start(state.Poses);
+        _newton.Motion.Move(state.Poses, step);
+        if (!_newton.Close(state))
+        {
+            state.CopyFrom(before);
+        }
+    }
+
+    // What is left of a velocity, as a share of how far it was followed.
+    private double[] Probe(MechanismState state, MechanismState moved, double[] vector)
+    {
+        moved.CopyFrom(state);
+        var step = new double[vector.Length];
+        for (int i = 0; i < step.Length; i++)
+        {
+            step[i] = ProbeLength * vector[i];
+        }
+
+        _newton.Motion.Start(moved.Poses);
+        _newton.Motion.Move(moved.Poses, step);
+        _newton.Close(moved);
+        var left = new double[step.Length];
+        for (int i = 0; i < left.Length; i++)
+        {
+            left[i] = (step[i] + _newton.Closing[i]) / ProbeLength;
+        }
+
+        return left;
+    }
+
+    private static int Rank(List<double[]> survivors)
+    {
+        if (survivors.Count == 0)
+        {
+            return 0;
+        }
+
+        // One column for each survivor, so that their span is counted, not the freedoms they touch.
+        var matrix = new double[survivors[0].Length, survivors.Count];
+        for (int j = 0; j < survivors.Count; j++)
+        {
+            for (int i = 0; i < survivors[j].Length; i++)
+            {
+                matrix[i, j] = survivors[j][i];
+            }
+        }
+
+        return new SingularValues(matrix).Rank(Survives);
+    }
+}

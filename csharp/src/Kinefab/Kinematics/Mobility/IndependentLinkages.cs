@@ -1,0 +1,198 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>Takes a linkage apart into its blocks, each as large as what it moves: thousands of mechanisms cost what they cost one by one.</summary>
+internal sealed class IndependentLinkages
+{
+    private readonly Linkage _whole;
+    private readonly int[] _blockOf;
+    private readonly List<int>[] _movers;
+    private readonly List<int>[] _joints;
+    private readonly List<int>[] _couplings;
+
+    /// <summary>Of a linkage.</summary>
+    /// <param name="whole">Which.</param>
+    /// <param name="blocks">Its blocks.</param>
+    /// <param name="firsts">For each body the column of its first freedom.</param>
+    public IndependentLinkages(Linkage whole, FreedomBlocks blocks, int[] firsts)
+    {
+        _whole = whole;
+        _blockOf = new int[whole.BodyCount];
+        _movers = Lists(blocks.Columns.Count);
+        _joints = Lists(blocks.Columns.Count);
+        _couplings = Lists(blocks.Columns.Count);
+        Array.Fill(_blockOf, -1);
+        foreach (int body in whole.Tree.Order)
+        {
+            _blockOf[body] = whole.Tree.Freedoms[body] > 0 ? blocks.BlockOf[firsts[body]] : -1;
+            if (_blockOf[body] >= 0)
+            {
+                _movers[_blockOf[body]].Add(body);
+                Add(_joints, _blockOf[body], whole.Tree.TreeJoints[body]);
+            }
+        }
+
+        foreach (int joint in whole.Tree.Closures)
+        {
+            Add(_joints, BlockOf(whole.Rows.Joints[joint]), joint);
+        }
+
+        for (int i = 0; i < whole.Couplings.Length; i++)
+        {
+            int block = BlockOf(whole.Rows.Couplings[i]);
+            Add(_couplings, block, i);
+            Add(_joints, block, whole.Coordinates[whole.Couplings[i].A].Joint);
+            Add(_joints, block, whole.Coordinates[whole.Couplings[i].B].Joint);
+        }
+    }
+
+    public int Count => _movers.Length;
+
+    /// <summary>For each block the bodies that have freedoms in it, parents first.</summary>
+    public IReadOnlyList<int> Movers(int block) => _movers[block];
+
+    /// <summary>The block of a body's freedoms, or -1.</summary>
+    public int BlockOf(int body) => _blockOf[body];
+
+    /// <summary>A block as a linkage of its own, as the bodies stand.</summary>
+    public IndependentLinkage Make(int block, Pose[] poses)
+    {
+        KinematicTree tree = _whole.Tree;
+        var moving = new HashSet<int>(_movers[block]);
+        int top = int.MaxValue;
+        foreach (int body in _movers[block])
+        {
+            top = Math.Min(top, tree.Depths[body]);
+        }
+
+        foreach (int body in _movers[block])
+        {
+            Carry(tree.Parents[body]);
+        }
+
+        var joints = new SortedSet<int>(_joints[block]);
+        foreach (int joint in _joints[block])
+        {
+            Carry(tree.Moving(_whole.Joints[joint].Body0));
+            Carry(tree.Moving(_whole.Joints[joint].Body1));
+        }
+
+        foreach (int body in moving)
+        {
+            joints.Add(tree.TreeJoints[body]); // what moves with others hangs on them
+        }
+
+        var bodies = new SortedSet<int>(moving);
+        foreach (int joint in joints)
+        {
+            bodies.Add(_whole.Joints[joint].Body0);
+            bodies.Add(_whole.Joints[joint].Body1);
+        }
+
+        bodies.Remove(JointModel.World);
+        return Make(block, poses, moving, ToArray(bodies), ToArray(joints));
+
+        // What stands between two bodies of the block, the lower one's parent or a closing joint's end, moves with the upper one.
+        void Carry(int body)
+        {
+            var between = new List<int>();
+            while (body >= 0 && tree.Depths[body] >= top && !moving.Contains(body))
+            {
+                between.Add(body);
+                body = tree.Parents[body];
+            }
+
+            if (body >= 0 && moving.Contains(body))
+            {
+                moving.UnionWith(between);
+            }
+        }
+    }
+
+    private IndependentLinkage Make(int block, Pose[] poses, HashSet<int> moving, int[] bodies, int[] joints)
+    {
+        var isFixed = new bool[bodies.Length];
+        for (int i = 0; i < bodies.Length; i++)
+        {
+            isFixed[i] = !moving.Contains(bodies[i]);
+        }
+
+        var own = new JointModel[joints.Length];
+        var isClosure = new bool[joints.Length];
+        for (int j = 0; j < joints.Length; j++)
+        {
+            JointModel joint = _whole.Joints[joints[j]];
+            int child = _whole.Tree.ChildOf[joints[j]];
+            isClosure[j] = child < 0;
+            bool isHeld = child >= 0 && _whole.Tree.Freedoms[child] > 0 && _blockOf[child] != block;
+            own[j] = (isHeld ? Held(joint, poses) : joint).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+        }
+
+        var coordinates = new List<int>();
+        var ownCoordinates = new List<MechanismCoordinate>();
+        var couplings = new List<PositionCoupling>();
+        foreach (int i in _couplings[block])
+        {
+            PositionCoupling coupling = _whole.Couplings[i];
+            couplings.Add(coupling.Between(Coordinate(coupling.A), Coordinate(coupling.B)));
+        }
+
+        var linkage = new Linkage(isFixed, own, isClosure, ownCoordinates.ToArray(), couplings.ToArray(), _whole.Origin, _whole.Length);
+        return new IndependentLinkage(linkage, bodies, joints, coordinates.ToArray());
+
+        int IndexOf(int body) => body < 0 ? JointModel.World : Array.BinarySearch(bodies, body);
+
+        int Coordinate(int whole)
+        {
+            int known = coordinates.IndexOf(whole);
+            if (known >= 0)
+            {
+                return known;
+            }
+
+            int joint = Array.BinarySearch(joints, _whole.Coordinates[whole].Joint);
+            coordinates.Add(whole);
+            ownCoordinates.Add(_whole.Coordinates[whole].On(joint, own[joint]));
+            return coordinates.Count - 1;
+        }
+    }
+
+    // A freedom of another block, or of none, stands still where it lies between two bodies of this one.
+    private static D6Joint Held(JointModel joint, Pose[] poses)
+    {
+        Pose at = Mechanism.PoseOf(joint.Body1, poses) * joint.Frame1;
+        return new D6Joint { Frame0 = Mechanism.PoseOf(joint.Body0, poses).Inverse() * at, Frame1 = joint.Frame1 };
+    }
+
+    private int BlockOf(RowPath path) => path.Bodies.Length == 0 ? -1 : _blockOf[path.Bodies[0]];
+
+    private static void Add(List<int>[] lists, int block, int item)
+    {
+        if (block >= 0 && item >= 0)
+        {
+            lists[block].Add(item);
+        }
+    }
+
+    private static List<int>[] Lists(int count)
+    {
+        var lists = new List<int>[count];
+        for (int i = 0; i < count; i++)
+        {
+            lists[i] = new List<int>();
+        }
+
+        return lists;
+    }
+
+    private static int[] ToArray(SortedSet<int> set)
+    {
+        var array = new int[set.Count];
+        set.CopyTo(array);
+        return array;
+    }
+}

@@ -1,0 +1,122 @@
+using System;
+using System.Collections.Generic;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>What one block of tied freedoms can do: velocities at the exported pose, finite motions, rows that hold nothing.</summary>
+internal sealed class LoopMobility
+{
+    // Length of a row, of about 1 at the start, that has to be left beside the rows before it for it to count.
+    private const double IndependentRow = 1e-6;
+
+    /// <summary>Of a part, by itself.</summary>
+    /// <param name="part">Which.</param>
+    /// <param name="closed">The mechanism's exported pose, closed as well as it can be.</param>
+    public LoopMobility(IndependentLinkage part, MechanismState closed)
+    {
+        Part = part;
+        var newton = new NewtonSolver(part.Linkage);
+        MechanismState state = part.StateOf(closed);
+        newton.Motion.Start(state.Poses);
+        newton.Assemble(state);
+        newton.Accepted = Math.Max(newton.Accepted, 4 * newton.Equations.Worst);
+        FreedomBlocks blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        Here = new VelocitySpace(part.Linkage, newton, blocks, state);
+        var finite = new FiniteMobility(part.Linkage, newton, blocks);
+        Rank = newton.Motion.Linear.Length - Here.Freedoms;
+        Finite = finite.Count(state);
+        AtGeneralPose = finite.AtGeneralPose;
+        VelocitySpace away = finite.Away ?? Here;
+        Motions = Here.Freedoms == Finite ? Here : away.Freedoms == Finite ? away : null;
+    }
+
+    public IndependentLinkage Part { get; }
+
+    /// <summary>The velocities at the exported pose.</summary>
+    public VelocitySpace Here { get; }
+
+    /// <summary>
+    /// As many velocities as there are finite motions: those at the exported pose, or, where these are more, those some steps away
+    /// if they are not: there no part seems to move alone that cannot. Null where both are more.
+    /// </summary>
+    public VelocitySpace? Motions { get; }
+
+    /// <summary>Freedoms of the velocities at the exported pose.</summary>
+    public int FirstOrder => Here.Freedoms;
+
+    /// <summary>Independent rows at the exported pose.</summary>
+    public int Rank { get; }
+
+    /// <summary>Freedoms of finite motion.</summary>
+    public int Finite { get; }
+
+    /// <summary>Freedoms of the velocities at poses in general position.</summary>
+    public int AtGeneralPose { get; }
+
+    /// <summary>
+    /// Notes for each closing joint, by the mechanism's index, how many rows repeat others: nothing of such a row is left after
+    /// the rows before it are taken out (Gram-Schmidt, twice).
+    /// </summary>
+    public void CountRedundant(int[] redundant)
+    {
+        var kept = new List<double[]>();
+        int row = 0;
+        foreach (int joint in Part.Linkage.Tree.Closures)
+        {
+            int repeated = 0;
+            int rows = MotionSubspace.Rows(Part.Linkage.Joints[joint]);
+            for (int i = 0; i < rows; i++)
+            {
+                double[] left = (double[])Here.Rows.Row(row++).Clone();
+                for (int pass = 0; pass < 2; pass++)
+                {
+                    foreach (double[] other in kept)
+                    {
+                        Subtract(left, other);
+                    }
+                }
+
+                double rest = Length(left);
+                if (rest <= IndependentRow)
+                {
+                    repeated++;
+                    continue;
+                }
+
+                for (int k = 0; k < left.Length; k++)
+                {
+                    left[k] /= rest;
+                }
+
+                kept.Add(left);
+            }
+
+            redundant[Part.Joints[joint]] = repeated;
+        }
+    }
+
+    private static double Length(double[] row)
+    {
+        double sum = 0;
+        foreach (double entry in row)
+        {
+            sum += entry * entry;
+        }
+
+        return Math.Sqrt(sum);
+    }
+
+    private static void Subtract(double[] row, double[] unit)
+    {
+        double dot = 0;
+        for (int i = 0; i < row.Length; i++)
+        {
+            dot += row[i] * unit[i];
+        }
+
+        for (int i = 0; i < row.Length; i++)
+        {
+            row[i] -= dot * unit[i];
+        }
+    }
+}

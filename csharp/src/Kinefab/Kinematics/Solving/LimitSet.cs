@@ -1,0 +1,178 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>Which limit of a joint.</summary>
+internal enum LimitSide : byte
+{
+    /// <summary>Lower swing limit, or the cone.</summary>
+    SwingLower,
+    SwingUpper,
+    TwistLower,
+    TwistUpper,
+    Linear,
+}
+
+/// <summary>Distances of a mechanism's joints from their limits, positive inside, and which limits are held as equations.</summary>
+internal sealed class LimitSet
+{
+    /// <summary>Sides of a joint.</summary>
+    public const int Sides = 5;
+
+    private readonly Linkage _linkage;
+    private readonly int[] _joints;
+    private readonly double[] _slack;
+    private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
+
+    public LimitSet(Linkage linkage)
+    {
+        _linkage = linkage;
+        var joints = new List<int>();
+        for (int j = 0; j < linkage.Joints.Length; j++)
+        {
+            if (IsLimited(linkage.Joints[j]))
+            {
+                joints.Add(j);
+            }
+        }
+
+        _joints = joints.ToArray();
+        Distances = new double[_joints.Length * Sides];
+        _slack = new double[Distances.Length];
+        IsActive = new bool[Distances.Length];
+    }
+
+    /// <summary>Number of limits, Sides for each limited joint.</summary>
+    public int Count => Distances.Length;
+
+    /// <summary>For each limit its distance at the last Measure, lengths of the mechanism or radians; infinite where there is none.</summary>
+    public double[] Distances { get; }
+
+    /// <summary>For each limit whether it is held as an equation.</summary>
+    public bool[] IsActive { get; }
+
+    /// <summary>The joint of a limit.</summary>
+    public int JointOf(int limit) => _joints[limit / Sides];
+
+    /// <summary>Which limit of its joint.</summary>
+    public static LimitSide SideOf(int limit) => (LimitSide)(limit % Sides);
+
+    /// <summary>Frees all limits; those broken at the start may stay as broken as they are.</summary>
+    public void Begin(Pose[] poses)
+    {
+        Array.Clear(IsActive, 0, IsActive.Length);
+        Array.Clear(_slack, 0, _slack.Length);
+        Measure(poses);
+        for (int i = 0; i < Count; i++)
+        {
+            _slack[i] = Math.Min(0, Distances[i]);
+        }
+
+        Measure(poses);
+    }
+
+    /// <summary>Finds all distances.</summary>
+    public void Measure(Pose[] poses)
+    {
+        for (int i = 0; i < _joints.Length; i++)
+        {
+            int count = Prepare(_joints[i], poses);
+            int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[_joints[i]]) ? 2 : 0);
+            for (int side = 0; side < Sides; side++)
+            {
+                Distances[i * Sides + side] = double.PositiveInfinity;
+            }
+
+            int angular = 0;
+            for (int r = 0; r < count; r++)
+            {
+                if (_rows[r].Has(RowFlags.Limit))
+                {
+                    int limit = i * Sides + (int)Side(_rows[r], swings, ref angular);
+                    double distance = _rows[r].Has(RowFlags.Angular) ? _rows[r].GeometricError : _rows[r].GeometricError / _linkage.Length;
+                    Distances[limit] = distance - _slack[limit];
+                }
+            }
+        }
+    }
+
+    /// <summary>The free limit that is broken most by more than the tolerance, or -1.</summary>
+    public int Worst(double tolerance)
+    {
+        int worst = -1;
+        double least = -tolerance;
+        for (int i = 0; i < Count; i++)
+        {
+            if (!IsActive[i] && Distances[i] < least)
+            {
+                least = Distances[i];
+                worst = i;
+            }
+        }
+
+        return worst;
+    }
+
+    /// <summary>The row of a limit and its distance; false when the joint has none there now.</summary>
+    public bool Row(int limit, Pose[] poses, out ConstraintRow row)
+    {
+        int joint = JointOf(limit);
+        int count = Prepare(joint, poses);
+        int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[joint]) ? 2 : 0);
+        int angular = 0;
+        for (int r = 0; r < count; r++)
+        {
+            if (_rows[r].Has(RowFlags.Limit) && Side(_rows[r], swings, ref angular) == SideOf(limit))
+            {
+                row = _rows[r];
+                row.GeometricError -= row.Has(RowFlags.Angular) ? _slack[limit] : _slack[limit] * _linkage.Length;
+                return true;
+            }
+        }
+
+        row = default;
+        return false;
+    }
+
+    private int Prepare(int joint, Pose[] poses)
+    {
+        JointModel rows = _linkage.Joints[joint];
+        return rows.Prepare(Mechanism.PoseOf(rows.Body0, poses), Mechanism.PoseOf(rows.Body1, poses), _rows);
+    }
+
+    private int AngularLimits(int count)
+    {
+        int angular = 0;
+        for (int r = 0; r < count; r++)
+        {
+            angular += _rows[r].Has(RowFlags.Limit | RowFlags.Angular) ? 1 : 0;
+        }
+
+        return angular;
+    }
+
+    // A joint's limit rows come in this order: cone or swing (lower, upper), twist (lower, upper), distance.
+    private static LimitSide Side(in ConstraintRow row, int swings, ref int angular)
+    {
+        if (!row.Has(RowFlags.Angular))
+        {
+            return LimitSide.Linear;
+        }
+
+        int place = angular++;
+        return (LimitSide)(place < swings ? place : (int)LimitSide.TwistLower + place - swings);
+    }
+
+    private static bool HasTwist(JointModel joint) => joint is RevoluteJoint || joint is D6Joint { Twist: AxisMotion.Limited };
+
+    private static bool IsLimited(JointModel joint) => joint switch
+    {
+        RevoluteJoint hinge => hinge.LimitEnabled && hinge.Limit.Lower < hinge.Limit.Upper,
+        D6Joint d6 => d6.X == AxisMotion.Limited || d6.Y == AxisMotion.Limited || d6.Z == AxisMotion.Limited
+            || d6.Twist == AxisMotion.Limited || d6.Swing1 == AxisMotion.Limited || d6.Swing2 == AxisMotion.Limited,
+        _ => false,
+    };
+}

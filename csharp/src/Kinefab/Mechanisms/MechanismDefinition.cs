@@ -1,0 +1,125 @@
+using System.Collections.Generic;
+using Kinefab.Document;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+
+namespace Kinefab.Mechanisms;
+
+/// <summary>
+/// Which bodies and joints Unity makes of a scene when it starts. Kinematics and dynamics are both built from this one walk
+/// over the scene, so that they can differ in no body and in no joint's ends.
+/// </summary>
+internal sealed class MechanismDefinition
+{
+    // For each GameObject the index of its first joint; one more: their number.
+    private readonly int[] _firstJoints;
+
+    private MechanismDefinition(int[] gameObjects, int[] bodyOf, JointDefinition[] joints, int[] firstJoints)
+    {
+        GameObjects = gameObjects;
+        BodyOf = bodyOf;
+        Joints = joints;
+        _firstJoints = firstJoints;
+    }
+
+    /// <summary>For each body the GameObject that carries its Rigidbody.</summary>
+    public int[] GameObjects { get; }
+
+    /// <summary>For each GameObject the body that carries it along, or Joint.World.</summary>
+    public int[] BodyOf { get; }
+
+    /// <summary>In order of GameObject and component.</summary>
+    public IReadOnlyList<JointDefinition> Joints { get; }
+
+    /// <summary>What Unity makes of a scene: inactive objects have neither bodies nor joints.</summary>
+    public static MechanismDefinition From(ValidScene scene)
+    {
+        IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
+        var bodies = new List<int>();
+        var bodyOf = new int[objects.Count];
+        var isActive = new bool[objects.Count];
+        for (int i = 0; i < objects.Count; i++)
+        {
+            isActive[i] = objects[i].Active && (objects[i].Parent is not int above || isActive[above]);
+            bodyOf[i] = objects[i].Parent is int parent ? bodyOf[parent] : Kinefab.Joints.JointModel.World;
+            if (isActive[i] && scene.Body(i) is not null)
+            {
+                bodyOf[i] = bodies.Count;
+                bodies.Add(i);
+            }
+        }
+
+        var joints = new List<JointDefinition>();
+        var firstJoints = new int[objects.Count + 1];
+        for (int i = 0; i < objects.Count; i++)
+        {
+            for (int c = 0; isActive[i] && c < objects[i].Components.Count; c++)
+            {
+                if (objects[i].Components[c] is Document.Joint joint)
+                {
+                    joints.Add(new JointDefinition(i, c, joint, bodyOf[i], Connected(joint)));
+                }
+            }
+
+            firstJoints[i + 1] = joints.Count;
+        }
+
+        return new MechanismDefinition(bodies.ToArray(), bodyOf, joints.ToArray(), firstJoints);
+
+        // An inactive connected body has left the simulation: the joint holds to the world where it stands, also where a body
+        // further up would carry that object along. The connected object has a Rigidbody of its own, or the scene is not valid.
+        int Connected(Document.Joint joint) => joint.ConnectedBody is int other && isActive[other] ? bodyOf[other] : Kinefab.Joints.JointModel.World;
+    }
+
+    /// <summary>The joints, with frames in the bodies' frames.</summary>
+    /// <param name="scene">The one that this was made from.</param>
+    /// <param name="starts">For each body its frame in the world at start-up.</param>
+    public Kinefab.Joints.JointModel[] MakeJoints(ValidScene scene, Pose[] starts)
+    {
+        var joints = new Kinefab.Joints.JointModel[Joints.Count];
+        for (int j = 0; j < joints.Length; j++)
+        {
+            joints[j] = SceneJoint.Make(scene, Joints[j], starts);
+        }
+
+        return joints;
+    }
+
+    /// <summary>Index of a component's joint in <see cref="Joints"/>; -1 when its object is inactive.</summary>
+    public int IndexOf(int gameObject, int component)
+    {
+        for (int j = _firstJoints[gameObject]; j < _firstJoints[gameObject + 1]; j++)
+        {
+            if (Joints[j].Component == component)
+            {
+                return j;
+            }
+        }
+
+        return -1;
+    }
+}
+
+/// <summary>A joint component and the bodies at its two ends.</summary>
+internal readonly struct JointDefinition
+{
+    public readonly int GameObject;
+    public readonly int Component;
+    public readonly Document.Joint Source;
+
+    /// <summary>The body that carries the component.</summary>
+    public readonly int Own;
+
+    /// <summary>The connected body, or Joint.World.</summary>
+    public readonly int Connected;
+
+    public JointDefinition(int gameObject, int component, Document.Joint source, int own, int connected)
+    {
+        GameObject = gameObject;
+        Component = component;
+        Source = source;
+        Own = own;
+        Connected = connected;
+    }
+}

@@ -1,0 +1,112 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>Loops whose axes are a little off are named when the world is made, and no others.</summary>
+internal sealed class LoopProbeTests
+{
+    private static readonly string Fixtures = Path.Combine(Scenario.Folder, "..", "..", "fixtures");
+
+    [TestCase(1e-3)]
+    [TestCase(1e-2)]
+    [TestCase(-2e-2)]
+    public void Find_TiltedAxis_NamesTheLoop(double tilt)
+    {
+        InexactLoop loop = LoopProbe.Find(SolverScenes.FourBars(1, tilt)).Single();
+        Assert.That((loop.Fit, loop.Joints), Is.EqualTo((LoopFit.Inexact, Enumerable.Range(0, 4))));
+    }
+
+    [TestCase(1e-5)]
+    [TestCase(1e-4)]
+    public void Find_LoopThatAFileRounded_IsLoose(double tilt)
+    {
+        Assert.That(LoopProbe.Find(SolverScenes.FourBars(1, tilt)).Single().Fit, Is.EqualTo(LoopFit.Loose));
+    }
+
+    [TestCase(0)]
+    [TestCase(1e-7)]
+    public void Find_ExactLoop_NamesNothing(double tilt)
+    {
+        Assert.That(LoopProbe.Find(SolverScenes.FourBars(1, tilt)), Is.Empty);
+    }
+
+    // Slow velocities far along their way, in loops that are closed to the letter and move.
+    [Test]
+    public void Find_LoopsNearASingularPose_NamesNothing([Values(301, 628, 745, 1192, 1201, 1555)] int seed)
+    {
+        Assert.That(LoopProbe.Find(new RandomLoop(seed).System), Is.Empty);
+    }
+
+    [Test]
+    public void Find_RedundantAndSingularLoops_NamesNothing()
+    {
+        MultibodySystem[] healthy =
+        {
+            SolverScenes.Parallelogram(), SolverScenes.SliderCrank(), SolverScenes.FourBars(10),
+            BenchmarkMechanisms.Windows(8).MultibodySystem, BenchmarkMechanisms.Squeezer().MultibodySystem,
+            BenchmarkMechanisms.Bricard().MultibodySystem, BenchmarkMechanisms.Governor().MultibodySystem,
+            BenchmarkMechanisms.Lever().MultibodySystem,
+        };
+        Assert.That(healthy.SelectMany(LoopProbe.Find), Is.Empty);
+    }
+
+    [Test]
+    public void Create_EveryFixture_NamesNoLoop()
+    {
+        string[] files = Directory.GetFiles(Fixtures, "*.kinefab", SearchOption.AllDirectories);
+        var named = new List<string>();
+        foreach (string file in files)
+        {
+            World world = World.Create(ValidScene.Load(file), SolverKind.Exact);
+            named.AddRange(world.Findings.Diagnostics.Where(d => d.Code == DiagnosticCodes.LoopInconsistent).Select(_ => file));
+        }
+
+        Assert.That(files, Has.Length.GreaterThanOrEqualTo(40));
+        Assert.That(named, Is.Empty);
+    }
+
+    [Test]
+    public void Create_TiltedFourBar_FindingNamesItsJoints([Values] SolverKind solver)
+    {
+        Diagnostic found = World.Create(FourBar(0.01), solver).Findings.Diagnostics.Single();
+
+        Assert.That((found.Code, found.Severity, found.Pointer), Is.EqualTo((DiagnosticCodes.LoopInconsistent, Severity.Warning, "/gameObjects/0/components/1")));
+        Assert.That(found.Message, Does.Contain("crank, coupler, rocker"));
+        Assert.That(World.Create(FourBar(0), solver).Findings.Diagnostics, Is.Empty);
+    }
+
+    // Crank-rocker of 0.4, 0.9 and 0.7 m on a ground of 1 m, the axis between coupler and rocker turned by an angle.
+    private static ValidScene FourBar(double tilt)
+    {
+        var b = new Vector3d(0.4 * Math.Cos(1), 0.4 * Math.Sin(1), 0);
+        var d = new Vector3d(1, 0, 0);
+        Vector3d bd = d - b;
+        double along = (bd.LengthSquared + 0.81 - 0.49) / (2 * bd.Length);
+        Vector3d u = bd * (1 / bd.Length);
+        Vector3d c = b + u * along + new Vector3d(-u.Y, u.X, 0) * Math.Sqrt(0.81 - along * along);
+        return SmallScene.Validate(new SceneDocument
+        {
+            GameObjects =
+            [
+                new() { Id = "crank", Name = "crank", Components = [new Rigidbody(), Hinge(Vector3d.Zero, null, 0), Hinge(b, 1, 0)] },
+                new() { Id = "coupler", Name = "coupler", Transform = new Transform { LocalPosition = b }, Components = [new Rigidbody(), Hinge(c - b, 2, tilt)] },
+                new() { Id = "rocker", Name = "rocker", Transform = new Transform { LocalPosition = d }, Components = [new Rigidbody(), Hinge(Vector3d.Zero, null, 0)] },
+            ],
+        });
+    }
+
+    private static HingeJoint Hinge(Vector3d anchor, int? connected, double tilt) => new()
+    {
+        Anchor = anchor, Axis = new Vector3d(Math.Sin(tilt), 0, Math.Cos(tilt)), ConnectedBody = connected, AutoConfigureConnectedAnchor = true,
+    };
+}

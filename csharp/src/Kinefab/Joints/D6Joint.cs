@@ -1,5 +1,4 @@
 using System;
-using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
@@ -14,7 +13,7 @@ internal sealed class D6Joint : JointModel
     private const double LeastLimitedDistance = 1e-6;
 
     // Half angle of a cone without width, radians, with room for rounding.
-    private const double NoConeAngle = 1.0001 * UnityJoints.LeastConeAngle;
+    private const double NoConeAngle = 1.0001 * ConeLimit.LeastAngle;
 
     /// <summary>Motions in PxD6Axis's order: X, Y, Z, twist, swing about Y, swing about Z. All locked at first.</summary>
     public AxisMotion X, Y, Z, Twist, Swing1, Swing2;

@@ -41,6 +41,9 @@ internal struct AngularLimit
 /// <summary>Half angles of the elliptic cone in which actor1's X axis may swing (PxJointLimitCone), radians.</summary>
 internal struct ConeLimit
 {
+    /// <summary>Half angle of the narrowest cone, radians: one without width has no axis to turn about.</summary>
+    public const double LeastAngle = 1e-4;
+
     /// <summary>About the joint's Y.</summary>
     public double Y;
 

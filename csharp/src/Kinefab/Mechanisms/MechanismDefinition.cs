@@ -100,26 +100,3 @@ internal sealed class MechanismDefinition
         return -1;
     }
 }
-
-/// <summary>A joint component and the bodies at its two ends.</summary>
-internal readonly struct JointDefinition
-{
-    public readonly int GameObject;
-    public readonly int Component;
-    public readonly Document.Joint Source;
-
-    /// <summary>The body that carries the component.</summary>
-    public readonly int Own;
-
-    /// <summary>The connected body, or Joint.World.</summary>
-    public readonly int Connected;
-
-    public JointDefinition(int gameObject, int component, Document.Joint source, int own, int connected)
-    {
-        GameObject = gameObject;
-        Component = component;
-        Source = source;
-        Own = own;
-        Connected = connected;
-    }
-}

@@ -24,9 +24,6 @@ internal static class UnityJoints
     private const double AngularBounceThreshold = 0.5;
     private const double LinearBounceThreshold = 0;
 
-    /// <summary>Half angle of the narrowest cone, radians: one without width has no axis to turn about.</summary>
-    public const double LeastConeAngle = 1e-4;
-
     /// <summary>A PhysX joint for a component, without bodies and frames.</summary>
     public static Kinefab.Joints.JointModel Create(Document.Joint settings)
     {
@@ -142,8 +139,8 @@ internal static class UnityJoints
         SoftJointLimit z = settings.AngularZLimit;
         joint.SwingLimit = new ConeLimit
         {
-            Y = Math.Max(LeastConeAngle, y.Limit * Radians),
-            Z = Math.Max(LeastConeAngle, z.Limit * Radians),
+            Y = Math.Max(ConeLimit.LeastAngle, y.Limit * Radians),
+            Z = Math.Max(ConeLimit.LeastAngle, z.Limit * Radians),
             Response = Response(
                 y, settings.AngularYZLimitSpring, AngularBounceThreshold, AngularContact(y.ContactDistance * Radians, Math.Min(y.Limit, z.Limit) * Radians)),
         };

@@ -12,8 +12,4 @@ internal static class Finite
     /// <exception cref="ArgumentOutOfRangeException">It is NaN or infinite.</exception>
     public static double OrThrow(double value, string name) =>
         Is(value) ? value : throw new ArgumentOutOfRangeException(name, "Not a finite number.");
-
-    /// <inheritdoc cref="OrThrow(double, string)"/>
-    public static Vector3d OrThrow(Vector3d value, string name) =>
-        value.IsFinite ? value : throw new ArgumentOutOfRangeException(name, "Not finite numbers.");
 }

@@ -48,6 +48,10 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     /// <summary>True when no component is NaN or infinite.</summary>
     public bool IsFinite => Finite.Is(X) && Finite.Is(Y) && Finite.Is(Z);
 
+    /// <summary>The vector itself.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A component is NaN or infinite.</exception>
+    internal Vector3d FiniteOrThrow(string name) => IsFinite ? this : throw new ArgumentOutOfRangeException(name, "Not finite numbers.");
+
     /// <summary>The same direction with length 1; zero stays zero.</summary>
     public Vector3d Normalized()
     {

@@ -1,13 +1,12 @@
 using System;
 using System.Collections.Generic;
-using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
 /// <summary>A scene without errors: every reference resolves, every number is one that Unity takes.  Only <c>SceneValidator</c> makes one.</summary>
-public sealed class ValidScene
+public sealed partial class ValidScene
 {
     private readonly WorldTransform[] world;
 
@@ -22,17 +21,6 @@ public sealed class ValidScene
 
     /// <summary>Pose and scale of a GameObject in the world, as exported.</summary>
     public WorldTransform WorldTransform(int gameObject) => world[gameObject];
-
-    /// <summary>Reads and validates a file.</summary>
-    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
-    public static ValidScene Load(string path, SceneReadOptions? options = null)
-    {
-        SceneReading reading = SceneFile.Load(path, options);
-        if (reading.Document is null)
-            throw new SceneFormatException(reading.Report);
-        SceneValidation validation = SceneValidator.Validate(reading.Document, options?.Limits);
-        return validation.Scene ?? throw new SceneFormatException(validation.Report);
-    }
 
     /// <summary>The numbers of a mesh.</summary>
     public MeshData Mesh(int mesh) => new(Document, Document.Meshes[mesh]);

@@ -1,18 +1,13 @@
-using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
-using System.Runtime.CompilerServices;
-using System.Text.RegularExpressions;
-using Kinefab.Mechanisms;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Architecture;
 
-/// <summary>Namespaces only use those below them.</summary>
+/// <summary>The library's rooms: imports point down, no room is a hall, and no file of a room needs a file that needs it.</summary>
 public sealed class FloorTests
 {
-    // Each namespace (a folder of the library) and what it may use.
+    // The halls, from the ground up, and which others each may use.
     private static readonly Dictionary<string, string[]> Below = new()
     {
         ["Numerics"] = [],
@@ -20,70 +15,94 @@ public sealed class FloorTests
         ["Json"] = ["Numerics", "Diagnostics"],
         ["Document"] = ["Json", "Numerics", "Diagnostics"],
         ["Validation"] = ["Document", "Json", "Numerics", "Diagnostics"],
-        ["Joints"] = ["Validation", "Document", "Numerics", "Diagnostics"],
-        ["Dynamics"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
-        ["Kinematics"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
-        ["Advice"] = ["Kinematics", "Dynamics", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
+        ["Joints"] = ["Numerics"],
+        ["Mechanisms"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
+        ["Dynamics"] = ["Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
+        ["Kinematics"] = ["Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
+        ["Advice"] = ["Kinematics", "Dynamics", "Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
     };
 
-    private static string Library([CallerFilePath] string here = "") =>
-        Path.GetFullPath(Path.Combine(Path.GetDirectoryName(here)!, "..", "..", "..", "..", "csharp", "src", "Kinefab"));
+    // The rooms of a hall that has several, from the ground up.
+    private static readonly string[] Rooms =
+    [
+        "Numerics", "Numerics/Lanes", "Numerics/Sparse",
+        "Document", "Document/Joints", "Document/Rendering", "Document/Bodies", "Document/Analysis", "Document/Scene", "Document/Files",
+        "Validation/Places", "Validation/Rules/Joints", "Validation/Rules", "Validation",
+        "Dynamics/Bodies", "Dynamics/Pgs/Projection", "Dynamics/Pgs", "Dynamics/Rattle", "Dynamics/Worlds/Joints", "Dynamics/Worlds",
+        "Kinematics/Mechanism", "Kinematics/Equations", "Kinematics/Solving", "Kinematics/Driving", "Kinematics/Mobility",
+        "Advice/Model", "Advice/Runs", "Advice/Changes", "Advice/Trials", "Advice/Findings", "Advice",
+    ];
+
+    private const int MostFiles = 14;
+
+    private static readonly House Library = House.OfLibrary();
 
     [Test]
-    public void Folders_All_HaveAFloor()
+    public void Rooms_All_HaveAPlace()
     {
-        IEnumerable<string> folders = Directory.GetDirectories(Library()).Select(d => Path.GetFileName(d)!).Where(d => d is not ("bin" or "obj"));
-        Assert.That(folders, Is.SubsetOf(Below.Keys));
+        IEnumerable<string> rooms = Library.Files.Select(House.RoomOf).Where(room => room.Length > 0).Distinct();
+        Assert.That(rooms.Where(room => !Below.ContainsKey(room) && !Rooms.Contains(room)), Is.Empty);
     }
 
     [Test]
-    public void Names_EveryFile_PointDown()
+    public void Rooms_All_HaveFewFiles() => Assert.That(
+        Library.Files.GroupBy(House.RoomOf).Where(room => room.Count() > MostFiles).Select(room => $"{room.Key}: {room.Count()}"), Is.Empty);
+
+    [Test]
+    public void Imports_EveryFile_PointDown()
     {
-        Dictionary<string, HashSet<string>> types = Below.Keys.ToDictionary(layer => layer, layer => new HashSet<string>(Files(layer).SelectMany(f => Declared(File.ReadAllText(f)))));
-        var faults = new List<string>();
-        foreach (string own in Below.Keys)
+        List<string> faults = [];
+        int seen = 0;
+        foreach ((string file, string used) in Library.Imports.Where(import => House.RoomOf(import.File).Length > 0 && House.RoomOf(import.Used).Length > 0))
         {
-            foreach (string file in Files(own))
-                faults.AddRange(Used(File.ReadAllText(file), types).Where(used => used != own && !Below[own].Contains(used)).Select(used => $"{own}/{Path.GetFileName(file)} uses {used}"));
+            seen++;
+            string hall = House.HallOf(file);
+            string other = House.HallOf(used);
+            bool isDown = hall == other
+                ? System.Array.IndexOf(Rooms, House.RoomOf(used)) <= System.Array.IndexOf(Rooms, House.RoomOf(file))
+                : Below[hall].Contains(other);
+            if (!isDown)
+                faults.Add($"{file} uses {used}");
         }
 
-        Assert.That(types.Values, Is.All.Not.Empty);
+        Assert.That(seen, Is.GreaterThan(Library.Files.Count), "imports are read at all");
         Assert.That(faults, Is.Empty);
     }
 
-    [TestCase("using Kinefab.Joints;", "Joints")]
-    [TestCase("using static Kinefab.Mechanisms.UnityFrames;", "Joints")]
-    [TestCase("using Joint = Kinefab.Joints.Joint;", "Joints")]
-    [TestCase("var text = Json.Invariant.Text(1);", "Json")]
-    [TestCase("foreach (Dynamics.WorldJoint joint in all)", "Dynamics")]
-    [TestCase("Kinefab.Joints.Joint joint = null;", "Joints")]
-    [TestCase("return global::Kinefab.Joints.Joint.World;", "Joints")]
-    [TestCase("new List<Joints.Joint>()", "Joints")]
-    [TestCase("if (Joints.Count > Joints.Length)", "")]
-    [TestCase("world.Joints.Joint()", "")]
-    [TestCase("// as Joints.Joint has it", "")]
-    [TestCase("/* Joints.Joint\n Joints.Joint */", "")]
-    [TestCase("    /// <see cref=\"Joints.Joint\"/>", "")]
-    public void Used_InCodeOrUsing_IsSeenAndInCommentsOrMembersNot(string code, string layer)
+    [Test]
+    public void Files_OfALibrary_StandInNoCircle() => Assert.That(Library.Circles().Select(circle => string.Join(", ", circle)), Is.Empty);
+
+    [TestCase("new Kinefab.B.Below();", "B/Below.cs")]
+    [TestCase("B.Below x = null;", "B/Below.cs")]
+    [TestCase("var x = Below.One;", "B/Below.cs")]
+    [TestCase("var x = new List<Below>();", "B/Below.cs")]
+    [TestCase("1.Twice();", "B/Extensions.cs")]
+    [TestCase("int Below = 1; Below++;", "")]
+    [TestCase("string x = \"Below\"; // Below", "")]
+    [TestCase("Whole x = null;", "B/Whole.cs")]
+    public void Imports_OfCode_AreTheTypesThatItNames(string code, string used)
     {
-        var types = new Dictionary<string, HashSet<string>> { ["Json"] = ["Invariant"], ["Dynamics"] = ["WorldJoint"], ["Joints"] = ["Joint", "UnityFrames"] };
-        Assert.That(string.Join(" ", Used(code, types)), Is.EqualTo(layer));
+        var house = House.Of(new Dictionary<string, string>
+        {
+            ["A/Above.cs"] = $"using System.Collections.Generic; using Kinefab.B; namespace Kinefab.A; class Above {{ void M() {{ {code} }} }}",
+            ["B/Below.cs"] = "namespace Kinefab.B; class Below { public const int One = 1; }",
+            ["B/Extensions.cs"] = "namespace Kinefab.B; static class Extensions { public static int Twice(this int n) => 2 * n; }",
+            ["B/Whole.cs"] = "namespace Kinefab.B; partial class Whole { }",
+            ["B/Whole.Loading.cs"] = "namespace Kinefab.B; partial class Whole { }",
+        });
+        Assert.That(house.Imports.Where(import => import.File == "A/Above.cs").Select(import => import.Used), Is.EqualTo(used.Length == 0 ? [] : new[] { used }));
     }
 
-    private static string[] Files(string layer) => Directory.Exists(Path.Combine(Library(), layer))
-        ? Directory.GetFiles(Path.Combine(Library(), layer), "*.cs", SearchOption.AllDirectories)
-        : [];
-
-    private static IEnumerable<string> Declared(string code) =>
-        Regex.Matches(code, @"\b(?:class|struct|interface|enum|record) ([A-Z]\w*)").Select(m => m.Groups[1].Value);
-
-    // A property may bear a layer's name: what follows the dot must be a type that the layer declares.
-    private static IEnumerable<string> Used(string text, Dictionary<string, HashSet<string>> types)
+    [Test]
+    public void Circles_OfFilesThatNameEachOther_AreFound()
     {
-        string code = Regex.Replace(text, @"(?m)//.*$|/\*[\s\S]*?\*/", "");
-        IEnumerable<string> usings = Regex.Matches(code, @"(?m)^using (?:static |\w+ = )?Kinefab\.(\w+)").Select(m => m.Groups[1].Value);
-        IEnumerable<string> names = Regex.Matches(code, $@"(?<![\w.])(?:Kinefab\.)?({string.Join("|", types.Keys)})\.([A-Z]\w*)")
-            .Where(m => types[m.Groups[1].Value].Contains(m.Groups[2].Value)).Select(m => m.Groups[1].Value);
-        return usings.Concat(names).Distinct();
+        var house = House.Of(new Dictionary<string, string>
+        {
+            ["A/One.cs"] = "namespace Kinefab.A; class One { Two two; }",
+            ["A/Two.cs"] = "namespace Kinefab.A; class Two { Three three; }",
+            ["A/Three.cs"] = "namespace Kinefab.A; class Three { One one; }",
+            ["A/Four.cs"] = "namespace Kinefab.A; class Four { One one; }",
+        });
+        Assert.That(house.Circles().Select(circle => string.Join(" ", circle)), Is.EqualTo(["A/One.cs A/Three.cs A/Two.cs"]));
     }
 }

@@ -51,7 +51,7 @@ internal sealed class Examination
         Workbench = new Workbench(scene, Plan, World.Joints.Count, options);
         Mechanism? mechanism = World.Joints.Count <= MostJointsCounted ? Mechanism.Create(scene) : null;
         Mobility = mechanism is null ? null : MobilityAnalysis.Of(mechanism);
-        Remedies = new Remedies(this, mechanism);
+        Remedies = new Remedies(scene, World, Islands, mechanism, Mobility);
     }
 
     public ValidScene Scene { get; }

@@ -1,7 +1,10 @@
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Advice.Changes;
+using Kinefab.Advice.Runs;
+using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.Validation;
 
 namespace Kinefab.Advice.Trials;
 
@@ -11,27 +14,33 @@ internal sealed class Remedies
     private static readonly int[] Divisors = { 2, 4 };
     private static readonly int[] Factors = { 2, 4, 8 };
 
-    public Remedies(Examination e, Mechanism? mechanism)
+    /// <summary>What may be tried.</summary>
+    /// <param name="scene">As it stands.</param>
+    /// <param name="world">Its world at the start.</param>
+    /// <param name="islands">Of that world.</param>
+    /// <param name="mechanism">Null in a scene of too many joints to count rows in, as is its mobility.</param>
+    /// <param name="mobility">The mechanism's.</param>
+    public Remedies(ValidScene scene, World world, IReadOnlyList<RunIsland> islands, Mechanism? mechanism, MobilityReport? mobility)
     {
-        if (mechanism is not null && e.Mobility is MobilityReport counted)
+        if (mechanism is not null && mobility is MobilityReport counted)
         {
-            ClosuresWhole = ClosureRows.Whole(e.Scene, mechanism, counted, out int notLocked);
-            ClosuresMinimal = ClosureRows.Minimal(e.Scene, e.World.Joints.Count, counted, out int notFreed);
+            ClosuresWhole = ClosureRows.Whole(scene, mechanism, counted, out int notLocked);
+            ClosuresMinimal = ClosureRows.Minimal(scene, world.Joints.Count, counted, out int notFreed);
             RowsUntried = notLocked + notFreed;
         }
 
-        PreprocessingOff = JointSettings.PreprocessingOff(e.Scene, e.World);
-        InertiasRaised = BodySettings.RaiseInertias(e.Scene, e.World);
-        MassesRaised = BodySettings.RaiseMasses(e.Scene, e.World);
-        MassesScaled = BodySettings.ScaleMasses(e.Scene, e.World);
-        SmallerSteps = Divisors.Select(n => ProjectSettings.FixedTimestep(e.Scene, n)).ToArray();
-        Change?[] iterations = Factors.Select(n => ProjectSettings.SolverIterations(e.Scene, n)).ToArray();
+        PreprocessingOff = JointSettings.PreprocessingOff(scene, world);
+        InertiasRaised = BodySettings.RaiseInertias(scene, world);
+        MassesRaised = BodySettings.RaiseMasses(scene, world);
+        MassesScaled = BodySettings.ScaleMasses(scene, world);
+        SmallerSteps = Divisors.Select(n => ProjectSettings.FixedTimestep(scene, n)).ToArray();
+        Change?[] iterations = Factors.Select(n => ProjectSettings.SolverIterations(scene, n)).ToArray();
         Change?[][] ladders =
         {
             new[] { ClosuresWhole },
             new[] { ClosuresMinimal },
             new[] { PreprocessingOff },
-            new[] { JointSettings.Projection(e.Scene, e.World, e.Islands) },
+            new[] { JointSettings.Projection(scene, world, islands) },
             iterations,
             SmallerSteps,
             new[] { InertiasRaised },

@@ -124,7 +124,7 @@ public sealed class Constraint : DocumentObject
                     Name = json.Text();
                     break;
                 case "kind":
-                    Kind = json.Word(DocumentWords.ConstraintKinds);
+                    Kind = json.Word(ConstraintKindWords.Table);
                     break;
                 case "rawKind":
                     RawKind = json.Text();
@@ -142,10 +142,10 @@ public sealed class Constraint : DocumentObject
                     Upper = json.Number();
                     break;
                 case "sense":
-                    Sense = json.Word(DocumentWords.ConstraintSenses);
+                    Sense = json.Word(ConstraintSenseWords.Table);
                     break;
                 case "side":
-                    Side = json.Word(DocumentWords.ConstraintSides);
+                    Side = json.Word(ConstraintSideWords.Table);
                     break;
                 case "lockRotation":
                     LockRotation = json.Boolean();
@@ -201,4 +201,49 @@ public sealed class Constraint : DocumentObject
 
     /// <summary>The vendor's meaning where the same words remove different freedoms.</summary>
     public IReadOnlyDictionary<string, string> Reading { get; init; } = new Dictionary<string, string>();
+}
+
+/// <summary>The words of the scene file for <see cref="ConstraintKind"/>.</summary>
+internal static class ConstraintKindWords
+{
+    internal static readonly Words<ConstraintKind> Table = new(
+        ("coincident", ConstraintKind.Coincident),
+        ("concentric", ConstraintKind.Concentric),
+        ("parallel", ConstraintKind.Parallel),
+        ("perpendicular", ConstraintKind.Perpendicular),
+        ("angle", ConstraintKind.Angle),
+        ("distance", ConstraintKind.Distance),
+        ("tangent", ConstraintKind.Tangent),
+        ("insert", ConstraintKind.Insert),
+        ("symmetry", ConstraintKind.Symmetry),
+        ("lock", ConstraintKind.Lock),
+        ("lock_orientation", ConstraintKind.LockOrientation),
+        ("slider", ConstraintKind.Slider),
+        ("pin_slot", ConstraintKind.PinSlot),
+        ("universal", ConstraintKind.Universal),
+        ("screw", ConstraintKind.Screw),
+        ("gear", ConstraintKind.Gear),
+        ("belt", ConstraintKind.Belt),
+        ("rack", ConstraintKind.Rack),
+        ("linear", ConstraintKind.Linear),
+        ("ground", ConstraintKind.Ground),
+        ("other", ConstraintKind.Other));
+}
+
+/// <summary>The words of the scene file for <see cref="ConstraintSense"/>.</summary>
+internal static class ConstraintSenseWords
+{
+    internal static readonly Words<ConstraintSense> Table = new(
+        ("aligned", ConstraintSense.Aligned),
+        ("opposed", ConstraintSense.Opposed),
+        ("either", ConstraintSense.Either));
+}
+
+/// <summary>The words of the scene file for <see cref="ConstraintSide"/>.</summary>
+internal static class ConstraintSideWords
+{
+    internal static readonly Words<ConstraintSide> Table = new(
+        ("inside", ConstraintSide.Inside),
+        ("outside", ConstraintSide.Outside),
+        ("either", ConstraintSide.Either));
 }

@@ -57,7 +57,7 @@ public sealed class Feature : DocumentObject
                     GameObject = json.Int();
                     break;
                 case "kind":
-                    Kind = json.Word(DocumentWords.FeatureKinds);
+                    Kind = json.Word(FeatureKindWords.Table);
                     break;
                 case "point":
                     Point = json.Vector3();
@@ -101,4 +101,19 @@ public sealed class Feature : DocumentObject
 
     /// <summary>Degrees.</summary>
     public double HalfAngle { get; init; }
+}
+
+/// <summary>The words of the scene file for <see cref="FeatureKind"/>.</summary>
+internal static class FeatureKindWords
+{
+    internal static readonly Words<FeatureKind> Table = new(
+        ("point", FeatureKind.Point),
+        ("line", FeatureKind.Line),
+        ("plane", FeatureKind.Plane),
+        ("circle", FeatureKind.Circle),
+        ("cylinder", FeatureKind.Cylinder),
+        ("sphere", FeatureKind.Sphere),
+        ("cone", FeatureKind.Cone),
+        ("frame", FeatureKind.Frame),
+        ("body", FeatureKind.Body));
 }

@@ -35,7 +35,7 @@ public sealed class CapsuleCollider : Collider
                     Height = json.Number();
                     break;
                 case "direction":
-                    Direction = json.Word(DocumentWords.Axes);
+                    Direction = json.Word(AxisWords.Table);
                     break;
                 case "extras":
                     ExtrasJson = json.Extras();

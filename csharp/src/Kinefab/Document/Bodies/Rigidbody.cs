@@ -49,13 +49,13 @@ public sealed class Rigidbody : Component
                     IsKinematic = json.Boolean();
                     break;
                 case "interpolation":
-                    Interpolation = json.Word(DocumentWords.Interpolation);
+                    Interpolation = json.Word(RigidbodyInterpolationWords.Table);
                     break;
                 case "constraints":
                     Constraints = ReadConstraints(ref json);
                     break;
                 case "collisionDetectionMode":
-                    CollisionDetectionMode = json.Word(DocumentWords.CollisionDetection);
+                    CollisionDetectionMode = json.Word(CollisionDetectionModeWords.Table);
                     break;
                 case "maxAngularVelocity":
                     MaxAngularVelocity = json.Number();
@@ -118,7 +118,7 @@ public sealed class Rigidbody : Component
     private static RigidbodyConstraints ReadConstraints(ref JsonCursor json)
     {
         var all = RigidbodyConstraints.None;
-        foreach (RigidbodyConstraints flag in json.WordSet(DocumentWords.RigidbodyConstraint))
+        foreach (RigidbodyConstraints flag in json.WordSet(RigidbodyConstraintsWords.Table))
             all |= flag;
         return all;
     }

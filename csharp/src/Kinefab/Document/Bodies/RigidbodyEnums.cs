@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -55,4 +56,35 @@ public enum CollisionDetectionMode
 
     /// <summary>By speculative contacts.</summary>
     ContinuousSpeculative,
+}
+
+/// <summary>The words of the scene file for <see cref="RigidbodyInterpolation"/>.</summary>
+internal static class RigidbodyInterpolationWords
+{
+    internal static readonly Words<RigidbodyInterpolation> Table = new(
+        ("None", RigidbodyInterpolation.None),
+        ("Interpolate", RigidbodyInterpolation.Interpolate),
+        ("Extrapolate", RigidbodyInterpolation.Extrapolate));
+}
+
+/// <summary>The words of the scene file for <see cref="RigidbodyConstraints"/>.</summary>
+internal static class RigidbodyConstraintsWords
+{
+    internal static readonly Words<RigidbodyConstraints> Table = new(
+        ("FreezePositionX", RigidbodyConstraints.FreezePositionX),
+        ("FreezePositionY", RigidbodyConstraints.FreezePositionY),
+        ("FreezePositionZ", RigidbodyConstraints.FreezePositionZ),
+        ("FreezeRotationX", RigidbodyConstraints.FreezeRotationX),
+        ("FreezeRotationY", RigidbodyConstraints.FreezeRotationY),
+        ("FreezeRotationZ", RigidbodyConstraints.FreezeRotationZ));
+}
+
+/// <summary>The words of the scene file for <see cref="CollisionDetectionMode"/>.</summary>
+internal static class CollisionDetectionModeWords
+{
+    internal static readonly Words<CollisionDetectionMode> Table = new(
+        ("Discrete", CollisionDetectionMode.Discrete),
+        ("Continuous", CollisionDetectionMode.Continuous),
+        ("ContinuousDynamic", CollisionDetectionMode.ContinuousDynamic),
+        ("ContinuousSpeculative", CollisionDetectionMode.ContinuousSpeculative));
 }

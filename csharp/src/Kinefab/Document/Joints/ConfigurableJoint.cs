@@ -37,22 +37,22 @@ public sealed class ConfigurableJoint : AnchoredJoint
                     SecondaryAxis = json.Vector3();
                     break;
                 case "xMotion":
-                    XMotion = json.Word(DocumentWords.Motions);
+                    XMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "yMotion":
-                    YMotion = json.Word(DocumentWords.Motions);
+                    YMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "zMotion":
-                    ZMotion = json.Word(DocumentWords.Motions);
+                    ZMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "angularXMotion":
-                    AngularXMotion = json.Word(DocumentWords.Motions);
+                    AngularXMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "angularYMotion":
-                    AngularYMotion = json.Word(DocumentWords.Motions);
+                    AngularYMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "angularZMotion":
-                    AngularZMotion = json.Word(DocumentWords.Motions);
+                    AngularZMotion = json.Word(ConfigurableJointMotionWords.Table);
                     break;
                 case "linearLimitSpring":
                     LinearLimitSpring = new SoftJointLimitSpring(ref json);
@@ -100,7 +100,7 @@ public sealed class ConfigurableJoint : AnchoredJoint
                     TargetAngularVelocity = json.Vector3();
                     break;
                 case "rotationDriveMode":
-                    RotationDriveMode = json.Word(DocumentWords.RotationDriveModes);
+                    RotationDriveMode = json.Word(RotationDriveModeWords.Table);
                     break;
                 case "angularXDrive":
                     AngularXDrive = new JointDrive(ref json);
@@ -112,7 +112,7 @@ public sealed class ConfigurableJoint : AnchoredJoint
                     SlerpDrive = new JointDrive(ref json);
                     break;
                 case "projectionMode":
-                    ProjectionMode = json.Word(DocumentWords.ProjectionModes);
+                    ProjectionMode = json.Word(JointProjectionModeWords.Table);
                     break;
                 case "projectionDistance":
                     ProjectionDistance = json.Number();

@@ -1,3 +1,5 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 /// <summary>What one freedom of a <see cref="ConfigurableJoint"/> may do; values are Unity's and PhysX's.</summary>
@@ -31,4 +33,29 @@ public enum JointProjectionMode
 
     /// <summary>Past projectionDistance or projectionAngle.</summary>
     PositionAndRotation,
+}
+
+/// <summary>The words of the scene file for <see cref="ConfigurableJointMotion"/>.</summary>
+internal static class ConfigurableJointMotionWords
+{
+    internal static readonly Words<ConfigurableJointMotion> Table = new(
+        ("Locked", ConfigurableJointMotion.Locked),
+        ("Limited", ConfigurableJointMotion.Limited),
+        ("Free", ConfigurableJointMotion.Free));
+}
+
+/// <summary>The words of the scene file for <see cref="RotationDriveMode"/>.</summary>
+internal static class RotationDriveModeWords
+{
+    internal static readonly Words<RotationDriveMode> Table = new(
+        ("XYAndZ", RotationDriveMode.XYAndZ),
+        ("Slerp", RotationDriveMode.Slerp));
+}
+
+/// <summary>The words of the scene file for <see cref="JointProjectionMode"/>.</summary>
+internal static class JointProjectionModeWords
+{
+    internal static readonly Words<JointProjectionMode> Table = new(
+        ("None", JointProjectionMode.None),
+        ("PositionAndRotation", JointProjectionMode.PositionAndRotation));
 }

@@ -42,7 +42,7 @@ public sealed class Coupling : DocumentObject
                     Id = json.Text();
                     break;
                 case "kind":
-                    Kind = json.Word(DocumentWords.CouplingKinds);
+                    Kind = json.Word(CouplingKindWords.Table);
                     break;
                 case "a":
                     A = new JointCoordinate(ref json);
@@ -80,4 +80,15 @@ public sealed class Coupling : DocumentObject
 
     /// <summary>Unit of b.</summary>
     public double Offset { get; init; }
+}
+
+/// <summary>The words of the scene file for <see cref="CouplingKind"/>.</summary>
+internal static class CouplingKindWords
+{
+    internal static readonly Words<CouplingKind> Table = new(
+        ("gear", CouplingKind.Gear),
+        ("belt", CouplingKind.Belt),
+        ("rack", CouplingKind.Rack),
+        ("screw", CouplingKind.Screw),
+        ("linear", CouplingKind.Linear));
 }

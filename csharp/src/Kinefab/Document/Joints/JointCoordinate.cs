@@ -54,7 +54,7 @@ public sealed class JointCoordinate : DocumentObject
                     Component = json.Int();
                     break;
                 case "coordinate":
-                    Coordinate = json.Word(DocumentWords.Coordinates);
+                    Coordinate = json.Word(CoordinateWords.Table);
                     break;
                 case "extras":
                     ExtrasJson = json.Extras();
@@ -71,4 +71,17 @@ public sealed class JointCoordinate : DocumentObject
 
     /// <summary>Which of its coordinates.</summary>
     public Coordinate Coordinate { get; init; }
+}
+
+/// <summary>The words of the scene file for <see cref="Coordinate"/>.</summary>
+internal static class CoordinateWords
+{
+    internal static readonly Words<Coordinate> Table = new(
+        ("angle", Coordinate.Angle),
+        ("x", Coordinate.X),
+        ("y", Coordinate.Y),
+        ("z", Coordinate.Z),
+        ("angularX", Coordinate.AngularX),
+        ("angularY", Coordinate.AngularY),
+        ("angularZ", Coordinate.AngularZ));
 }

@@ -41,7 +41,7 @@ public sealed class AnimationClip : DocumentObject
                     Times = json.List(static (ref JsonCursor at) => at.Number(), least: 1);
                     break;
                 case "wrapMode":
-                    WrapMode = json.Word(DocumentWords.WrapModes);
+                    WrapMode = json.Word(WrapModeWords.Table);
                     break;
                 case "tracks":
                     Tracks = json.List(static (ref JsonCursor at) => new AnimationTrack(ref at));
@@ -64,4 +64,13 @@ public sealed class AnimationClip : DocumentObject
 
     /// <summary>One for each moved GameObject.</summary>
     public IReadOnlyList<AnimationTrack> Tracks { get; init; } = Array.Empty<AnimationTrack>();
+}
+
+/// <summary>The words of the scene file for <see cref="WrapMode"/>.</summary>
+internal static class WrapModeWords
+{
+    internal static readonly Words<WrapMode> Table = new(
+        ("Once", WrapMode.Once),
+        ("Loop", WrapMode.Loop),
+        ("PingPong", WrapMode.PingPong));
 }

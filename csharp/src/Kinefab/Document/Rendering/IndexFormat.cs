@@ -1,3 +1,5 @@
+using Kinefab.Json;
+
 namespace Kinefab.Document;
 
 #pragma warning disable CA1720 // Unity's own names.
@@ -10,4 +12,10 @@ public enum IndexFormat
 
     /// <summary>Four bytes.</summary>
     UInt32,
+}
+
+/// <summary>The words of the scene file for <see cref="IndexFormat"/>.</summary>
+internal static class IndexFormatWords
+{
+    internal static readonly Words<IndexFormat> Table = new(("uint16", IndexFormat.UInt16), ("uint32", IndexFormat.UInt32));
 }

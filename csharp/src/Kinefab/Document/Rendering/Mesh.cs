@@ -42,7 +42,7 @@ public sealed class Mesh : DocumentObject
                     Uv = new Accessor(ref json);
                     break;
                 case "indexFormat":
-                    IndexFormat = json.Word(DocumentWords.IndexFormats);
+                    IndexFormat = json.Word(IndexFormatWords.Table);
                     break;
                 case "indices":
                     Indices = new Accessor(ref json);

@@ -39,10 +39,10 @@ public sealed class ReportEntry : DocumentObject
                     Feature = json.Text();
                     break;
                 case "outcome":
-                    Outcome = json.Word(DocumentWords.Outcomes);
+                    Outcome = json.Word(OutcomeWords.Table);
                     break;
                 case "severity":
-                    Severity = json.Word(DocumentWords.Severities);
+                    Severity = json.Word(SeverityWords.Table);
                     break;
                 case "code":
                     Code = json.Text();
@@ -77,4 +77,22 @@ public sealed class ReportEntry : DocumentObject
 
     /// <summary>Place in the source.</summary>
     public string? Source { get; init; }
+}
+
+/// <summary>The words of the scene file for <see cref="Outcome"/>.</summary>
+internal static class OutcomeWords
+{
+    internal static readonly Words<Outcome> Table = new(
+        ("kept", Outcome.Kept),
+        ("approximated", Outcome.Approximated),
+        ("dropped", Outcome.Dropped));
+}
+
+/// <summary>The words of the scene file for <see cref="Severity"/>.</summary>
+internal static class SeverityWords
+{
+    internal static readonly Words<Severity> Table = new(
+        ("error", Severity.Error),
+        ("warning", Severity.Warning),
+        ("info", Severity.Info));
 }

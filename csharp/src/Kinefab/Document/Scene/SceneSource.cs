@@ -23,7 +23,7 @@ public sealed class SceneSource : DocumentObject
                     Uri = json.Text();
                     break;
                 case "upAxis":
-                    UpAxis = json.Word(DocumentWords.Axes);
+                    UpAxis = json.Word(AxisWords.Table);
                     break;
                 case "metersPerUnit":
                     MetersPerUnit = json.Number();

@@ -10,9 +10,6 @@ namespace Kinefab.Dynamics.Pgs;
 /// </summary>
 internal static class Preprocessing
 {
-    /// <summary>No joint needs more factors than this: at most six equalities, each taken from all rows after it.</summary>
-    public const int MaxFactors = 6 * JointModel.MaxRows;
-
     private const double LeastShare = 1e-12;
 
     /// <summary>Stable insertion sort of row indices by hint: drives and soft limits, slerp, equalities, inequalities.</summary>

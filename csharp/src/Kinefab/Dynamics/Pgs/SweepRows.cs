@@ -6,44 +6,14 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Pgs;
 
 /// <summary>
-/// The vectors of a row. Velocities are changes since the start of the solve, the angular ones in sqrt(I)-space:
-/// w = w_start + I^(-1/2) u, so that one vector per body serves as Jacobian and as response. One linear part does for
-/// both bodies: every joint row has Linear0 = Linear1, and combining rows keeps that. While a row is prepared the fourth
-/// numbers carry what preprocessing combines along with the vectors; the sweeps never read them.
-/// </summary>
-internal struct RowVectors
-{
-    /// <summary>Linear part; C.</summary>
-    public Double4 Linear;
-
-    /// <summary>I^(-1/2) Angular0; the target of Cdot.</summary>
-    public Double4 Sqrt0;
-
-    /// <summary>I^(-1/2) Angular1; Cdot at the start of the solve.</summary>
-    public Double4 Sqrt1;
-}
-
-/// <summary>What only rows that are solved in turn have: springs, motors and limits, and all rows of a joint without preprocessing.</summary>
-internal struct RowBounds
-{
-    public double ImpulseMultiplier;
-    public double Minimum;
-    public double Maximum;
-}
-
-/// <summary>Change of a body's velocity since the start of the solve, the angular part in sqrt(I)-space.</summary>
-internal struct BodyDelta
-{
-    public Double4 Linear;
-    public Double4 Angular;
-}
-
-/// <summary>
 /// The rows of all joints, an array a quantity so that a sweep reads nothing else, and one sweep over those of a joint.
 /// Source: DySolverConstraint1D.h, SolverConstraint1D; DySolverConstraints.cpp, solve1D.
 /// </summary>
 internal sealed class SweepRows
 {
+    /// <summary>No joint needs more factors than this: at most six equalities, each taken from all rows after it.</summary>
+    private const int MaxFactors = 6 * JointModel.MaxRows;
+
     public readonly RowVectors[] Vectors;
 
     /// <summary>Angular0 as the joint gave it, for the reported torque.</summary>
@@ -74,7 +44,7 @@ internal sealed class SweepRows
         int capacity = joints * JointModel.MaxRows;
         Vectors = new RowVectors[capacity];
         Angular0 = new Vector3d[capacity];
-        Factors = new double[joints * Preprocessing.MaxFactors];
+        Factors = new double[joints * MaxFactors];
         Counts = new bool[capacity];
         Bounds = new RowBounds[capacity];
         BiasedConstants = new double[capacity];

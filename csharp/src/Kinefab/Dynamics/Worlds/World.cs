@@ -54,7 +54,7 @@ public sealed class World
     public Vector3d Gravity
     {
         get => _mechanism.Gravity;
-        set => _mechanism.Gravity = Finite.OrThrow(value, nameof(value));
+        set => _mechanism.Gravity = value.FiniteOrThrow(nameof(value));
     }
 
     /// <summary>

@@ -64,7 +64,7 @@ public sealed class WorldBody
     public Vector3d LinearVelocity
     {
         get => _bodies.LinearVelocities[_index];
-        set => _bodies.LinearVelocities[_index] = Finite.OrThrow(value, nameof(value));
+        set => _bodies.LinearVelocities[_index] = value.FiniteOrThrow(nameof(value));
     }
 
     /// <summary>World frame, rad/s.</summary>
@@ -72,7 +72,7 @@ public sealed class WorldBody
     public Vector3d AngularVelocity
     {
         get => _bodies.AngularVelocities[_index];
-        set => _bodies.AngularVelocities[_index] = Finite.OrThrow(value, nameof(value));
+        set => _bodies.AngularVelocities[_index] = value.FiniteOrThrow(nameof(value));
     }
 
     /// <summary>Whether only its target moves the body.</summary>
@@ -83,17 +83,17 @@ public sealed class WorldBody
 
     /// <summary>A force at the centre of mass over the next step, world frame, N.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
-    public void AddForce(Vector3d force) => _bodies.Forces[_index] += Finite.OrThrow(force, nameof(force));
+    public void AddForce(Vector3d force) => _bodies.Forces[_index] += force.FiniteOrThrow(nameof(force));
 
     /// <summary>A torque over the next step, world frame, N m.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
-    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += Finite.OrThrow(torque, nameof(torque));
+    public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += torque.FiniteOrThrow(nameof(torque));
 
     /// <summary>A force over the next step at a point of the world, N.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddForceAtPosition(Vector3d force, Vector3d position)
     {
-        Vector3d torque = Finite.OrThrow(Vector3d.Cross(position - CenterOfMass, force), nameof(position));
+        Vector3d torque = Vector3d.Cross(position - CenterOfMass, force).FiniteOrThrow(nameof(position));
         AddForce(force);
         AddTorque(torque);
     }

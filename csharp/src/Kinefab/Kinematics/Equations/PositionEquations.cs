@@ -57,7 +57,7 @@ internal sealed class PositionEquations
         foreach (int j in _linkage.Tree.Closures)
         {
             JointModel joint = _linkage.Joints[j];
-            int count = joint.Prepare(Mechanism.PoseOf(joint.Body0, poses), Mechanism.PoseOf(joint.Body1, poses), _rows);
+            int count = joint.Prepare(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows);
             for (int i = 0; i < count; i++)
             {
                 if (!_rows[i].Has(RowFlags.Limit))
@@ -172,7 +172,7 @@ internal sealed class PositionEquations
     {
         MechanismCoordinate source = _linkage.Coordinates[coordinate];
         JointModel joint = source.JointRows;
-        values[coordinate] = source.Evaluate(Mechanism.PoseOf(joint.Body0, poses), Mechanism.PoseOf(joint.Body1, poses), values[coordinate], out row);
+        values[coordinate] = source.Evaluate(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), values[coordinate], out row);
         return values[coordinate];
     }
 
@@ -254,7 +254,7 @@ internal sealed class PositionEquations
         moment = row.Angular1 * scale;
         if (!row.Has(RowFlags.Angular))
         {
-            moment += Vector3d.Cross((Mechanism.PoseOf(joint.Body1, poses).Position - _linkage.Origin) * scale, row.Linear1);
+            moment += Vector3d.Cross((Linkage.PoseOf(joint.Body1, poses).Position - _linkage.Origin) * scale, row.Linear1);
         }
     }
 

@@ -137,7 +137,7 @@ internal sealed class TreeMotion
         double previous = double.PositiveInfinity;
         for (int n = 0; ; n++)
         {
-            int count = joint.Prepare(Mechanism.PoseOf(joint.Body0, poses), Mechanism.PoseOf(joint.Body1, poses), _rows);
+            int count = joint.Prepare(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows);
             Vector3d slide = Vector3d.Zero;
             Vector3d turn = Vector3d.Zero;
             double worst = 0;
@@ -171,7 +171,7 @@ internal sealed class TreeMotion
             previous = worst;
             moved = true;
             double sign = _tree.ChildIsBody0[body] ? -1 : 1;
-            Vector3d anchor = Mechanism.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
+            Vector3d anchor = Linkage.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
             Quaterniond rotation = Quaterniond.AxisAngle(turn.Normalized(), sign * turn.Length);
             Pose pose = poses[body];
             poses[body] = new Pose(anchor + rotation * (pose.Position - anchor) + slide * sign, (rotation * pose.Rotation).Normalized());
@@ -187,8 +187,8 @@ internal sealed class TreeMotion
         }
 
         int first = _firsts[body];
-        Pose pose0 = joint is null ? Pose.Identity : Mechanism.PoseOf(joint.Body0, poses);
-        Pose pose1 = joint is null ? poses[body] : Mechanism.PoseOf(joint.Body1, poses);
+        Pose pose0 = joint is null ? Pose.Identity : Linkage.PoseOf(joint.Body0, poses);
+        Pose pose1 = joint is null ? poses[body] : Linkage.PoseOf(joint.Body1, poses);
         int translations = MotionSubspace.Directions(joint, _locked[body], pose0, pose1, _axes, first, out Vector3d anchor);
         _anchors[body] = anchor;
         _translations[body] = translations;

@@ -26,7 +26,7 @@ internal sealed class Linkage
         Origin = origin;
         Length = length;
         Tree = new KinematicTree(isFixed, joints, isClosure);
-        Rows = new MechanismRows(this);
+        Rows = new MechanismRows(Tree, joints, coordinates, couplings);
     }
 
     public int BodyCount { get; }
@@ -47,4 +47,7 @@ internal sealed class Linkage
 
     /// <summary>Typical distance of a body's joints, metres: what a radian weighs against.</summary>
     public double Length { get; }
+
+    /// <summary>A body's pose; the identity for the world.</summary>
+    public static Pose PoseOf(int body, Pose[] poses) => body < 0 ? Pose.Identity : poses[body];
 }

@@ -5,7 +5,6 @@ using Kinefab.Joints;
 using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 using Kinefab.Validation;
-using Joint = Kinefab.Joints.JointModel;
 
 namespace Kinefab.Kinematics;
 
@@ -14,7 +13,7 @@ namespace Kinefab.Kinematics;
 /// changes; many states and solvers can share it. Drives, motors and springs do not matter at position level, and every
 /// limit is taken for a hard one.
 /// </summary>
-public sealed class Mechanism
+public sealed partial class Mechanism
 {
     private readonly int[] _bodyOf;
     private readonly Pose[] _locals;
@@ -72,7 +71,7 @@ public sealed class Mechanism
         foreach (MechanismCoordinate coordinate in _coordinates)
         {
             JointModel rows = coordinate.JointRows;
-            coordinate.Zero = coordinate.Evaluate(PoseOf(rows.Body0, _start), PoseOf(rows.Body1, _start), 0, out _);
+            coordinate.Zero = coordinate.Evaluate(Linkage.PoseOf(rows.Body0, _start), Linkage.PoseOf(rows.Body1, _start), 0, out _);
         }
 
         _names = new MechanismNames(scene.Document.GameObjects, _coordinates);
@@ -121,20 +120,6 @@ public sealed class Mechanism
         return new Mechanism(scene);
     }
 
-    /// <summary>A state at the exported pose.</summary>
-    public MechanismState NewState()
-    {
-        var state = new MechanismState(this, _start.Length, _coordinates.Length);
-        Array.Copy(_start, state.Poses, _start.Length);
-        for (int i = 0; i < _coordinates.Length; i++)
-        {
-            state.Values[i] = _coordinates[i].Zero;
-            state.Trail[i] = _coordinates[i].Zero;
-        }
-
-        return state;
-    }
-
     /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked, unless a coupling names it, or is not there.</summary>
     public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
     {
@@ -174,8 +159,6 @@ public sealed class Mechanism
 
     /// <summary>A point of a GameObject in the frame of the body that moves it.</summary>
     internal Vector3d PointInBody(int gameObject, Vector3d point) => _locals[gameObject].Point(point);
-
-    internal static Pose PoseOf(int body, Pose[] poses) => body < 0 ? Pose.Identity : poses[body];
 
     internal Pose PoseOfGameObject(int gameObject, Pose[] poses)
     {

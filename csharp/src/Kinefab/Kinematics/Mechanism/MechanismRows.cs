@@ -1,25 +1,25 @@
 using System.Collections.Generic;
+using Kinefab.Joints;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>Which tree freedoms each joint, coordinate and coupling of a mechanism depends on.</summary>
 internal sealed class MechanismRows
 {
-    public MechanismRows(Linkage linkage)
+    public MechanismRows(KinematicTree tree, JointModel[] joints, MechanismCoordinate[] coordinates, PositionCoupling[] couplings)
     {
-        KinematicTree tree = linkage.Tree;
-        Joints = new RowPath[linkage.Joints.Length];
+        Joints = new RowPath[joints.Length];
         for (int j = 0; j < Joints.Length; j++)
         {
-            Joints[j] = RowPath.Between(tree, linkage.Joints[j].Body0, linkage.Joints[j].Body1);
+            Joints[j] = RowPath.Between(tree, joints[j].Body0, joints[j].Body1);
         }
 
-        Couplings = new RowPath[linkage.Couplings.Length];
+        Couplings = new RowPath[couplings.Length];
         for (int i = 0; i < Couplings.Length; i++)
         {
-            PositionCoupling coupling = linkage.Couplings[i];
-            RowPath a = Joints[linkage.Coordinates[coupling.A].Joint];
-            RowPath b = Joints[linkage.Coordinates[coupling.B].Joint];
+            PositionCoupling coupling = couplings[i];
+            RowPath a = Joints[coordinates[coupling.A].Joint];
+            RowPath b = Joints[coordinates[coupling.B].Joint];
             Couplings[i] = RowPath.Union(b, a, tree.Freedoms);
         }
 

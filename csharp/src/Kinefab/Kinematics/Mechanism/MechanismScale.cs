@@ -69,5 +69,5 @@ internal static class MechanismScale
     }
 
     private static Vector3d Anchor(JointModel joint, Pose[] poses) =>
-        Mechanism.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
+        Linkage.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
 }

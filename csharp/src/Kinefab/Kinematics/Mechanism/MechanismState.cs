@@ -123,6 +123,6 @@ public sealed class MechanismState
     {
         MechanismCoordinate coordinate = Mechanism.Coordinates[i];
         Joints.JointModel rows = coordinate.JointRows;
-        Values[i] = coordinate.Evaluate(Mechanism.PoseOf(rows.Body0, Poses), Mechanism.PoseOf(rows.Body1, Poses), Values[i], out _);
+        Values[i] = coordinate.Evaluate(Linkage.PoseOf(rows.Body0, Poses), Linkage.PoseOf(rows.Body1, Poses), Values[i], out _);
     }
 }

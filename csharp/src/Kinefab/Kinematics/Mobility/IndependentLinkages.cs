@@ -164,8 +164,8 @@ internal sealed class IndependentLinkages
     // A freedom of another block, or of none, stands still where it lies between two bodies of this one.
     private static D6Joint Held(JointModel joint, Pose[] poses)
     {
-        Pose at = Mechanism.PoseOf(joint.Body1, poses) * joint.Frame1;
-        return new D6Joint { Frame0 = Mechanism.PoseOf(joint.Body0, poses).Inverse() * at, Frame1 = joint.Frame1 };
+        Pose at = Linkage.PoseOf(joint.Body1, poses) * joint.Frame1;
+        return new D6Joint { Frame0 = Linkage.PoseOf(joint.Body0, poses).Inverse() * at, Frame1 = joint.Frame1 };
     }
 
     private int BlockOf(RowPath path) => path.Bodies.Length == 0 ? -1 : _blockOf[path.Bodies[0]];

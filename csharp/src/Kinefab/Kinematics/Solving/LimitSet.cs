@@ -140,7 +140,7 @@ internal sealed class LimitSet
     private int Prepare(int joint, Pose[] poses)
     {
         JointModel rows = _linkage.Joints[joint];
-        return rows.Prepare(Mechanism.PoseOf(rows.Body0, poses), Mechanism.PoseOf(rows.Body1, poses), _rows);
+        return rows.Prepare(Linkage.PoseOf(rows.Body0, poses), Linkage.PoseOf(rows.Body1, poses), _rows);
     }
 
     private int AngularLimits(int count)

@@ -67,5 +67,5 @@ internal static class CouplingRules
         _ => joint.AngularZMotion,
     };
 
-    private static string Word(Coordinate coordinate) => DocumentWords.Coordinates.WordOf(coordinate);
+    private static string Word(Coordinate coordinate) => CoordinateWords.Table.WordOf(coordinate);
 }

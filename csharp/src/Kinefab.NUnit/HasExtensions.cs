@@ -1,0 +1,13 @@
+using NUnit.Framework;
+
+namespace Kinefab.NUnit;
+
+/// <summary><c>Has.Mobility(1)</c>.</summary>
+public static class HasExtensions
+{
+    extension(Has)
+    {
+        /// <summary>Freedoms of finite motion, counted from the joints.</summary>
+        public static MobilityConstraint Mobility(int freedoms) => new(freedoms);
+    }
+}

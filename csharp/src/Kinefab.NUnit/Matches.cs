@@ -1,0 +1,9 @@
+namespace Kinefab.NUnit;
+
+/// <summary>What a motion is held against.</summary>
+public static class Matches
+{
+    /// <summary>A motion that was recorded by <c>dotnet kinefab sweep</c> or <c>simulate</c>, NAME.json.</summary>
+    /// <param name="path">The file (schemas/trajectory.schema.json).</param>
+    public static TrajectoryConstraint Trajectory(string path) => new(path);
+}

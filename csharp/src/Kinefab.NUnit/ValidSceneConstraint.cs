@@ -1,0 +1,43 @@
+using System.IO;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Validation;
+using NUnit.Framework.Constraints;
+using Constraint = NUnit.Framework.Constraints.Constraint;
+
+namespace Kinefab.NUnit;
+
+/// <summary>A scene without errors; a failure lists every finding with its place and remedy.</summary>
+public sealed class ValidSceneConstraint : Constraint
+{
+    internal ValidSceneConstraint()
+    {
+    }
+
+    /// <inheritdoc/>
+    public override string Description => "a scene without errors";
+
+    /// <inheritdoc/>
+    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    {
+        Report report = ReportOf(actual);
+        Diagnostic[] errors = report.Diagnostics.Where(d => d.Severity == Severity.Error).ToArray();
+        string found = errors.Length == 1 ? "1 error" : $"{errors.Length} errors";
+        return new MechanismResult(this, actual, errors.Length == 0, found, [.. errors.Select(Line)]);
+    }
+
+    private static Report ReportOf(object? actual) => actual switch
+    {
+        string path => ReportOf(SceneFile.Load(path)),
+        FileInfo file => ReportOf(SceneFile.Load(file.FullName)),
+        SceneReading { Document: null } reading => reading.Report,
+        SceneReading { Document: SceneDocument document } => SceneValidator.Validate(document).Report,
+        SceneDocument document => SceneValidator.Validate(document).Report,
+        SceneValidation validation => validation.Report,
+        _ => SceneValidator.Validate(Tested.Scene(actual).Document).Report,
+    };
+
+    private static string Line(Diagnostic finding) =>
+        $"{finding.Code} {finding.Pointer}{(finding.Line is int line ? $" line {line}" : "")}: {finding.Message} {finding.Remedy}";
+}

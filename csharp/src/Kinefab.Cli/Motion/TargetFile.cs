@@ -1,7 +1,7 @@
 using System;
 using System.IO;
 using Kinefab.Diagnostics;
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Cli.Motion;
 

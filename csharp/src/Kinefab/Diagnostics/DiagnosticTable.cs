@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Text;
-using System.Text.Json;
+using Kinefab.Json;
 
 namespace Kinefab.Diagnostics;
 
@@ -54,15 +54,13 @@ internal static class DiagnosticTable
     private static Dictionary<string, Entry> Read()
     {
         using Stream stream = typeof(DiagnosticTable).Assembly.GetManifestResourceStream("Kinefab.diagnostics.json")!;
-        using JsonDocument json = JsonDocument.Parse(stream);
+        using var copy = new MemoryStream();
+        stream.CopyTo(copy);
         var entries = new Dictionary<string, Entry>(StringComparer.Ordinal);
-        foreach (JsonProperty code in json.RootElement.GetProperty("codes").EnumerateObject())
+        foreach ((string code, JsonTree line) in JsonTree.Parse(copy.ToArray())["codes"]!.Fields)
         {
-            entries.Add(code.Name, new Entry(
-                code.Value.GetProperty("stage").GetString()!,
-                SeverityNames.Parse(code.Value.GetProperty("severity").GetString()!)!.Value,
-                code.Value.GetProperty("message").GetString()!,
-                code.Value.GetProperty("remedy").GetString()!));
+            Severity severity = SeverityNames.Parse(line["severity"]!.AsString())!.Value;
+            entries.Add(code, new Entry(line["stage"]!.AsString(), severity, line["message"]!.AsString(), line["remedy"]!.AsString()));
         }
 
         return entries;

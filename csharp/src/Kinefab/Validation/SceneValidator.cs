@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Validation;
 

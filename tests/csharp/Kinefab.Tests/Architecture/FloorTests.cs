@@ -11,10 +11,11 @@ public sealed class FloorTests
     private static readonly Dictionary<string, string[]> Below = new()
     {
         ["Numerics"] = [],
-        ["Diagnostics"] = [],
-        ["Json"] = ["Numerics", "Diagnostics"],
-        ["Document"] = ["Json", "Numerics", "Diagnostics"],
-        ["Validation"] = ["Document", "Json", "Numerics", "Diagnostics"],
+        ["Json"] = [],
+        ["Diagnostics"] = ["Json"],
+        ["Reading"] = ["Json", "Numerics", "Diagnostics"],
+        ["Document"] = ["Reading", "Json", "Numerics", "Diagnostics"],
+        ["Validation"] = ["Document", "Reading", "Json", "Numerics", "Diagnostics"],
         ["Joints"] = ["Numerics"],
         ["Mechanisms"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
         ["Dynamics"] = ["Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],

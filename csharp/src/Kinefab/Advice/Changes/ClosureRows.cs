@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Text.Json.Nodes;
 using Kinefab.Document;
+using Kinefab.Json;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -76,7 +76,7 @@ internal static class ClosureRows
 
     private static ChangePart? Freed(ValidScene scene, MobilityReport counted, RedundantRows joint, List<ChangePart> before)
     {
-        if (Locked(scene, joint) is not (MotionField[] locked, JsonObject component))
+        if (Locked(scene, joint) is not (MotionField[] locked, JsonTree component))
             return null;
         var freed = new List<MotionField>();
         foreach (MotionField row in locked)
@@ -92,25 +92,25 @@ internal static class ClosureRows
 
         ChangePart Part(List<MotionField> rows)
         {
-            var changed = (JsonObject)component.DeepClone();
+            var changed = component.Clone();
             foreach (MotionField row in rows)
-                changed[row.Name] = "Free";
-            string kind = (string)component["type"]! == scene.Document.GameObjects[joint.GameObject].Components[joint.Component].GetType().Name
+                changed[row.Name] = JsonTree.String("Free");
+            string kind = component["type"]!.AsString() == scene.Document.GameObjects[joint.GameObject].Components[joint.Component].GetType().Name
                 ? ""
                 : "replace by a ConfigurableJoint of the same frame and locks, with ";
             return new ChangePart(
                 joint.GameObject,
                 $"{kind}{string.Join(", ", rows.Select(r => r.Label))} Free",
                 JointSettings.Place(scene, joint.GameObject, joint.Component),
-                new SceneEdit(EditText.Component(joint.GameObject, joint.Component), changed.ToJsonString()));
+                new SceneEdit(EditText.Component(joint.GameObject, joint.Component), changed.ToString()));
         }
     }
 
     // The locked rows and the component as a ConfigurableJoint; null for what has drives or limits of a hinge that would be lost.
-    private static (MotionField[] Locked, JsonObject Component)? Locked(ValidScene scene, RedundantRows place)
+    private static (MotionField[] Locked, JsonTree Component)? Locked(ValidScene scene, RedundantRows place)
     {
         var joint = (Joint)scene.Document.GameObjects[place.GameObject].Components[place.Component];
-        JsonObject component = EditedScene.Component(scene, place.GameObject, place.Component);
+        JsonTree component = EditedScene.Component(scene, place.GameObject, place.Component);
         if (joint is ConfigurableJoint configurable)
             return (MotionField.All.Where(f => f.In(configurable) == ConfigurableJointMotion.Locked).ToArray(), component);
         MotionField[] all = MotionField.All;
@@ -122,12 +122,12 @@ internal static class ClosureRows
             foreach (string field in HingeFields)
                 component.Remove(field);
             Vector3d across = Vector3d.Perpendicular(hinge.Axis.Normalized());
-            component["secondaryAxis"] = new JsonArray(across.X, across.Y, across.Z);
+            component["secondaryAxis"] = JsonTree.Numbers(across.X, across.Y, across.Z);
         }
 
-        component["type"] = nameof(ConfigurableJoint);
+        component["type"] = JsonTree.String(nameof(ConfigurableJoint));
         foreach (MotionField row in all)
-            component[row.Name] = "Locked";
+            component[row.Name] = JsonTree.String("Locked");
         return (all, component);
     }
 

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using Kinefab.Json;
 using Kinefab.Numerics;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,4 +1,4 @@
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,5 +1,6 @@
 using Kinefab.Json;
 using Kinefab.Numerics;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

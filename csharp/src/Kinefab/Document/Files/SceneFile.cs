@@ -1,8 +1,8 @@
 using System;
 using System.IO;
-using System.Text.Json;
 using Kinefab.Diagnostics;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
@@ -101,17 +101,16 @@ public static class SceneFile
     {
         if (!JsonText.Check(text, findings))
             return null;
-        var cursor = default(JsonCursor);
         try
         {
-            cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict);
+            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict);
             var document = new SceneDocument(ref cursor);
             cursor.End();
             return document;
         }
-        catch (JsonException fault)
+        catch (JsonSyntaxException fault)
         {
-            JsonText.ReportBroken(text, fault, cursor.Depth >= options.Limits.MaxDepth - 1, options.Limits.MaxDepth, findings);
+            JsonText.ReportBroken(fault, options.Limits.MaxDepth, findings);
             return null;
         }
         catch (ReadingEndedException)

@@ -1,5 +1,5 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

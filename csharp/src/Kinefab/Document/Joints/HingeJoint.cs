@@ -1,4 +1,5 @@
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

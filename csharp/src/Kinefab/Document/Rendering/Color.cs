@@ -1,5 +1,5 @@
 using System;
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,5 +1,6 @@
 using System;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,6 +1,6 @@
 using System.Globalization;
 using Kinefab.Diagnostics;
-using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,5 +1,6 @@
 using Kinefab.Diagnostics;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 

@@ -1,13 +1,13 @@
 using System;
 using System.Text;
-using System.Text.Json;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>
 /// Reads one JSON text forward, strictly, without building a tree.  What does not fit is reported and stepped over,
-/// so that one run finds all faults; only broken JSON ends the reading (<see cref="JsonException"/>).
+/// so that one run finds all faults; only broken JSON ends the reading (<see cref="JsonSyntaxException"/>).
 /// Every reading method starts on the first token of a value and ends on its last.
 /// </summary>
 internal ref partial struct JsonCursor
@@ -16,7 +16,7 @@ internal ref partial struct JsonCursor
     private readonly Findings findings;
     private readonly Severity unknownFields;
     private readonly int maxItems;
-    private Utf8JsonReader reader;
+    private Utf8Tokenizer reader;
 
     /// <summary>Start of the object whose <c>type</c> was read ahead of its other fields, or -1.</summary>
     private long typedStart;
@@ -28,7 +28,7 @@ internal ref partial struct JsonCursor
         this.findings = findings;
         unknownFields = strict ? Severity.Error : Severity.Warning;
         this.maxItems = maxItems;
-        reader = new Utf8JsonReader(text, new JsonReaderOptions { MaxDepth = maxDepth });
+        reader = new Utf8Tokenizer(text, maxDepth);
         typedStart = -1;
         reader.Read();
     }
@@ -37,10 +37,7 @@ internal ref partial struct JsonCursor
     internal delegate T ReadItem<out T>(ref JsonCursor json);
 
     /// <summary>Byte offset of the current token.</summary>
-    internal readonly long Offset => reader.TokenStartIndex;
-
-    /// <summary>Containers open around the current token.</summary>
-    internal readonly int Depth => reader.CurrentDepth;
+    internal readonly long Offset => reader.TokenStart;
 
     /// <summary>Nothing but white space may follow the value that was read last.</summary>
     internal void End() => reader.Read();
@@ -55,8 +52,8 @@ internal ref partial struct JsonCursor
             return typed;
         }
 
-        if (reader.TokenType == JsonTokenType.StartObject)
-            return new FieldCursor(names, reader.TokenStartIndex);
+        if (reader.Token == JsonToken.StartObject)
+            return new FieldCursor(names, reader.TokenStart);
         Mismatch("an object");
         return new FieldCursor(null, 0);
     }
@@ -66,9 +63,9 @@ internal ref partial struct JsonCursor
     {
         if (fields.Names is null)
             return false;
-        while (reader.Read() && reader.TokenType == JsonTokenType.PropertyName)
+        while (reader.Read() && reader.Token == JsonToken.PropertyName)
         {
-            int index = reader.ValueIsEscaped ? IndexOfEscaped(fields.Names) : fields.Names.IndexOf(reader.ValueSpan);
+            int index = reader.IsEscaped ? IndexOfEscaped(fields.Names) : fields.Names.IndexOf(reader.Value);
             ulong bit = 1UL << index;
             if (index >= 0 && (fields.Seen & bit) == 0)
             {
@@ -125,32 +122,22 @@ internal ref partial struct JsonCursor
 
     private readonly string TokenText() => Text(reader);
 
-    private static string Kind(in Utf8JsonReader at) => at.TokenType switch
+    private static string Kind(in Utf8Tokenizer at) => at.Token switch
     {
-        JsonTokenType.StartObject => "an object",
-        JsonTokenType.StartArray => "an array",
-        JsonTokenType.String => "a string",
-        JsonTokenType.Number => "the number " + Text(at),
-        JsonTokenType.Null => "null",
+        JsonToken.StartObject => "an object",
+        JsonToken.StartArray => "an array",
+        JsonToken.String => "a string",
+        JsonToken.Number => "the number " + Text(at),
+        JsonToken.Null => "null",
         _ => "a boolean",
     };
 
     /// <summary>A token for a message: shortened, whatever is in it.</summary>
-    private static string Text(in Utf8JsonReader at)
+    private static string Text(in Utf8Tokenizer at)
     {
         const int enough = 60;
-        string whole;
-        try
-        {
-            whole = at.TokenType is JsonTokenType.String or JsonTokenType.PropertyName
-                ? at.GetString()!
-                : Encoding.UTF8.GetString(at.ValueSpan);
-        }
-        catch (InvalidOperationException)
-        {
-            whole = Encoding.UTF8.GetString(at.ValueSpan);
-        }
-
+        if (at.Token is not (JsonToken.String or JsonToken.PropertyName) || !at.TryGetString(out string whole))
+            whole = Encoding.UTF8.GetString(at.Value);
         return whole.Length <= enough ? whole : whole.Remove(enough) + "...";
     }
 }

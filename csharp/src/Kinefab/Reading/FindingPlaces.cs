@@ -3,8 +3,9 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Text;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>Completes findings: pointer from offset, offset from pointer, line and column from offset.</summary>
 internal static class FindingPlaces

@@ -1,8 +1,8 @@
 using System;
-using System.Text.Json;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>What must hold of a text before and while its JSON is read.</summary>
 internal static class JsonText
@@ -11,7 +11,7 @@ internal static class JsonText
     internal static ReadOnlyMemory<byte> WithoutMark(ReadOnlyMemory<byte> text) =>
         text.Span.StartsWith(new byte[] { 0xEF, 0xBB, 0xBF }) ? text.Slice(3) : text;
 
-    /// <summary>Whether there is a text and it is UTF-8; Utf8JsonReader does not look into strings.</summary>
+    /// <summary>Whether there is a text and it is UTF-8; the tokenizer does not look at that.</summary>
     internal static bool Check(ReadOnlySpan<byte> text, Findings findings)
     {
         if (IsBlank(text))
@@ -28,20 +28,12 @@ internal static class JsonText
     }
 
     /// <summary>Reports the one fault that ends the reading of a text.</summary>
-    internal static void ReportBroken(ReadOnlySpan<byte> text, JsonException fault, bool deepest, int maxDepth, Findings findings)
+    internal static void ReportBroken(JsonSyntaxException fault, int maxDepth, Findings findings)
     {
-        long offset = Offset(text, fault.LineNumber ?? 0, fault.BytePositionInLine ?? 0);
-        if (deepest && offset < text.Length && text[(int)offset] is (byte)'{' or (byte)'[')
-        {
-            findings.AddAt(offset, DiagnosticCodes.JsonTooDeep, ("limit", Invariant.Text(maxDepth)));
-            return;
-        }
-
-        string detail = fault.Message;
-        int tail = detail.IndexOf(" LineNumber:", StringComparison.Ordinal);
-        if (tail >= 0)
-            detail = detail.Substring(0, tail);
-        findings.AddAt(offset, DiagnosticCodes.JsonSyntax, ("detail", detail.TrimEnd('.')));
+        if (fault.IsTooDeep)
+            findings.AddAt(fault.Offset, DiagnosticCodes.JsonTooDeep, ("limit", Invariant.Text(maxDepth)));
+        else
+            findings.AddAt(fault.Offset, DiagnosticCodes.JsonSyntax, ("detail", fault.Message));
     }
 
     private static bool IsBlank(ReadOnlySpan<byte> text)
@@ -53,13 +45,5 @@ internal static class JsonText
         }
 
         return true;
-    }
-
-    private static long Offset(ReadOnlySpan<byte> text, long line, long column)
-    {
-        int start = 0;
-        for (; line > 0; line--)
-            start += text.Slice(start).IndexOf((byte)'\n') + 1;
-        return Math.Min(start + column, text.Length);
     }
 }

@@ -2,11 +2,11 @@ using System;
 using System.Buffers;
 using System.Collections.Generic;
 using System.Text;
-using System.Text.Json;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 using Kinefab.Numerics;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>Values: each method reads one, or reports why not and gives a stand-in.</summary>
 internal ref partial struct JsonCursor
@@ -14,17 +14,14 @@ internal ref partial struct JsonCursor
     /// <summary>A finite number that a 32-bit float holds, as Unity's are.</summary>
     internal double Number()
     {
-        if (reader.TokenType != JsonTokenType.Number)
+        if (reader.Token != JsonToken.Number)
         {
             Mismatch("a number");
             return 0;
         }
 
-        // Short decimals end at 2^53 * 1e22, far below the largest 32-bit float.
-        if (ShortDecimal.TryParse(reader.ValueSpan, out double value))
-            return value;
         // .NET reads 1e999 as infinity, older runtimes refuse it.
-        if (reader.TryGetDouble(out value) && !double.IsInfinity(value))
+        if (reader.TryGetDouble(out double value) && !double.IsInfinity(value))
         {
             if (float.IsInfinity((float)value))
                 Report(DiagnosticCodes.NumberBeyondFloat32, ("number", TokenText()));
@@ -38,7 +35,7 @@ internal ref partial struct JsonCursor
     /// <summary>An integer that fits 64 bits; 3.0 counts as one, as in JSON Schema.</summary>
     internal long Integer()
     {
-        if (reader.TokenType == JsonTokenType.Number)
+        if (reader.Token == JsonToken.Number)
         {
             if (reader.TryGetInt64(out long value))
                 return value;
@@ -64,8 +61,8 @@ internal ref partial struct JsonCursor
     /// <summary>True or false.</summary>
     internal bool Boolean()
     {
-        if (reader.TokenType is JsonTokenType.True or JsonTokenType.False)
-            return reader.TokenType == JsonTokenType.True;
+        if (reader.Token is JsonToken.True or JsonToken.False)
+            return reader.Token == JsonToken.True;
         Mismatch("true or false");
         return false;
     }
@@ -73,7 +70,7 @@ internal ref partial struct JsonCursor
     /// <summary>A string.</summary>
     internal string Text()
     {
-        if (reader.TokenType != JsonTokenType.String)
+        if (reader.Token != JsonToken.String)
         {
             Mismatch("a string");
             return "";
@@ -82,32 +79,24 @@ internal ref partial struct JsonCursor
         return TextOf(reader);
     }
 
-    private readonly string TextOf(in Utf8JsonReader at)
+    private readonly string TextOf(in Utf8Tokenizer at)
     {
-        if (!at.ValueIsEscaped)
-            return Encoding.UTF8.GetString(at.ValueSpan);
-        try
-        {
-            return at.GetString()!;
-        }
-        catch (InvalidOperationException)
-        {
+        if (!at.TryGetString(out string value))
             Report(DiagnosticCodes.JsonStringInvalid);
-            return "";
-        }
+        return value;
     }
 
     /// <summary>One of a set of words.</summary>
     internal T Word<T>(Words<T> words)
         where T : struct
     {
-        if (reader.TokenType != JsonTokenType.String)
+        if (reader.Token != JsonToken.String)
         {
             Mismatch("a string");
             return default;
         }
 
-        if (words.TryFind(reader.ValueIsEscaped ? Encoding.UTF8.GetBytes(TokenText()) : reader.ValueSpan, out T value))
+        if (words.TryFind(reader.IsEscaped ? Encoding.UTF8.GetBytes(TokenText()) : reader.Value, out T value))
             return value;
         Report(DiagnosticCodes.ValueNotAllowed, ("value", TokenText()), ("allowed", words.Listing));
         return default;
@@ -118,7 +107,7 @@ internal ref partial struct JsonCursor
         where T : struct
     {
         var set = new List<T>();
-        if (reader.TokenType != JsonTokenType.StartArray)
+        if (reader.Token != JsonToken.StartArray)
             Mismatch("an array");
         else
         {
@@ -153,7 +142,7 @@ internal ref partial struct JsonCursor
     /// <summary>An array of exactly as many numbers as there is room for.</summary>
     internal void Numbers(scoped Span<double> values)
     {
-        if (reader.TokenType != JsonTokenType.StartArray)
+        if (reader.Token != JsonToken.StartArray)
         {
             Mismatch(values.Length == 3 ? "an array of 3 numbers" : "an array of 4 numbers");
             return;
@@ -161,7 +150,7 @@ internal ref partial struct JsonCursor
 
         long start = Offset;
         int count = 0;
-        while (reader.Read() && reader.TokenType != JsonTokenType.EndArray)
+        while (reader.Read() && reader.Token != JsonToken.EndArray)
         {
             double value = Number();
             if (count < values.Length)
@@ -182,7 +171,7 @@ internal ref partial struct JsonCursor
     /// <summary>An array of any length.</summary>
     internal T[] List<T>(ReadItem<T> item, int least = 0)
     {
-        if (reader.TokenType != JsonTokenType.StartArray)
+        if (reader.Token != JsonToken.StartArray)
         {
             Mismatch("an array");
             return Array.Empty<T>();
@@ -199,7 +188,7 @@ internal ref partial struct JsonCursor
         return items;
     }
 
-    private bool NextItem() => reader.Read() && reader.TokenType != JsonTokenType.EndArray;
+    private bool NextItem() => reader.Read() && reader.Token != JsonToken.EndArray;
 
     /// <summary>Most lists have one item; only longer ones need room to grow.</summary>
     private T[] Items<T>(T first, ReadItem<T> item)
@@ -231,13 +220,13 @@ internal ref partial struct JsonCursor
     internal IReadOnlyDictionary<string, string> Dictionary()
     {
         var entries = new Dictionary<string, string>(StringComparer.Ordinal);
-        if (reader.TokenType != JsonTokenType.StartObject)
+        if (reader.Token != JsonToken.StartObject)
         {
             Mismatch("an object");
             return entries;
         }
 
-        while (reader.Read() && reader.TokenType == JsonTokenType.PropertyName)
+        while (reader.Read() && reader.Token == JsonToken.PropertyName)
         {
             string name = TextOf(reader);
             if (entries.ContainsKey(name))
@@ -252,15 +241,15 @@ internal ref partial struct JsonCursor
     /// <summary>An object as raw JSON.</summary>
     internal string? Extras()
     {
-        if (reader.TokenType != JsonTokenType.StartObject)
+        if (reader.Token != JsonToken.StartObject)
         {
             Mismatch("an object");
             return null;
         }
 
-        int start = (int)reader.TokenStartIndex;
+        int start = reader.TokenStart;
         reader.Skip();
-        return Encoding.UTF8.GetString(text.Slice(start, (int)reader.BytesConsumed - start));
+        return Encoding.UTF8.GetString(text.Slice(start, reader.Consumed - start));
     }
 
     private static T[] Grow<T>(T[] full)

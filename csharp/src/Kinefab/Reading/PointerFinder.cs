@@ -3,14 +3,14 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Text;
-using System.Text.Json;
+using Kinefab.Json;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>Walks a text once to tell JSON pointers from byte offsets and the other way round.</summary>
 internal static class PointerFinder
 {
-    private static readonly JsonReaderOptions Options = new() { MaxDepth = 1024 };
+    private const int MaxDepth = 1024;
 
     /// <summary>The pointer of the innermost value or field at each of the rising offsets; broken JSON gives the path up to there.</summary>
     internal static string[] PointersAt(ReadOnlySpan<byte> text, long[] offsets)
@@ -18,29 +18,29 @@ internal static class PointerFinder
         var pointers = new string[offsets.Length];
         var path = new List<(string? Name, int Index)>();
         int next = 0;
-        var reader = new Utf8JsonReader(text, Options);
+        var reader = new Utf8Tokenizer(text, MaxDepth);
         try
         {
             while (next < offsets.Length && reader.Read())
             {
-                bool closes = reader.TokenType is JsonTokenType.EndObject or JsonTokenType.EndArray;
+                bool closes = reader.Token is JsonToken.EndObject or JsonToken.EndArray;
                 if (closes)
                     path.RemoveAt(path.Count - 1);
-                else if (reader.TokenType == JsonTokenType.PropertyName)
+                else if (reader.Token == JsonToken.PropertyName)
                     path[^1] = (Name(ref reader), 0);
                 else if (path.Count > 0 && path[^1].Name is null)
                     path[^1] = (null, path[^1].Index + 1);
 
-                for (; next < offsets.Length && offsets[next] < reader.BytesConsumed; next++)
+                for (; next < offsets.Length && offsets[next] < reader.Consumed; next++)
                     pointers[next] = Text(path);
 
-                if (reader.TokenType == JsonTokenType.StartObject)
+                if (reader.Token == JsonToken.StartObject)
                     path.Add(("", -1));
-                else if (reader.TokenType == JsonTokenType.StartArray)
+                else if (reader.Token == JsonToken.StartArray)
                     path.Add((null, -1));
             }
         }
-        catch (JsonException)
+        catch (JsonSyntaxException)
         {
             // The fault itself is among the findings; its place is where the walk stopped.
         }
@@ -55,7 +55,7 @@ internal static class PointerFinder
     {
         var root = new Node();
         Node[] nodes = pointers.Select(pointer => root.Add(pointer)).ToArray();
-        var reader = new Utf8JsonReader(text, Options);
+        var reader = new Utf8Tokenizer(text, MaxDepth);
         if (reader.Read())
             Walk(ref reader, root);
         return nodes.Select(node => node.NearestOffset).ToArray();
@@ -64,17 +64,17 @@ internal static class PointerFinder
     /// <summary>The pointer's escape for a field name (RFC 6901).</summary>
     internal static string Escape(string name) => name.Replace("~", "~0", StringComparison.Ordinal).Replace("/", "~1", StringComparison.Ordinal);
 
-    private static void Walk(ref Utf8JsonReader reader, Node node)
+    private static void Walk(ref Utf8Tokenizer reader, Node node)
     {
-        node.Offset = reader.TokenStartIndex;
-        bool isObject = reader.TokenType == JsonTokenType.StartObject;
-        if (node.Children is null || (!isObject && reader.TokenType != JsonTokenType.StartArray))
+        node.Offset = reader.TokenStart;
+        bool isObject = reader.Token == JsonToken.StartObject;
+        if (node.Children is null || (!isObject && reader.Token != JsonToken.StartArray))
         {
             reader.Skip();
             return;
         }
 
-        for (int index = 0; reader.Read() && reader.TokenType is not (JsonTokenType.EndObject or JsonTokenType.EndArray); index++)
+        for (int index = 0; reader.Read() && reader.Token is not (JsonToken.EndObject or JsonToken.EndArray); index++)
         {
             string name = isObject ? Escape(Name(ref reader)) : index.ToString(CultureInfo.InvariantCulture);
             if (isObject)
@@ -86,17 +86,7 @@ internal static class PointerFinder
         }
     }
 
-    private static string Name(ref Utf8JsonReader reader)
-    {
-        try
-        {
-            return reader.GetString()!;
-        }
-        catch (InvalidOperationException)
-        {
-            return Encoding.UTF8.GetString(reader.ValueSpan);
-        }
-    }
+    private static string Name(ref Utf8Tokenizer reader) => reader.TryGetString(out string name) ? name : Encoding.UTF8.GetString(reader.Value);
 
     private static string Text(List<(string? Name, int Index)> path)
     {

@@ -1,9 +1,9 @@
 using System;
 using System.Text;
-using System.Text.Json;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
-namespace Kinefab.Json;
+namespace Kinefab.Reading;
 
 /// <summary>Objects whose <c>type</c> field says what they are.</summary>
 internal ref partial struct JsonCursor
@@ -15,17 +15,17 @@ internal ref partial struct JsonCursor
     internal bool TryBeginTyped<T>(Words<T> types, out T? type)
     {
         type = default;
-        if (reader.TokenType != JsonTokenType.StartObject)
+        if (reader.Token != JsonToken.StartObject)
         {
             Mismatch("an object");
             return false;
         }
 
         // Writers put the type first; looking ahead by a copy of the reader costs twice as much.
-        Utf8JsonReader start = reader;
+        Utf8Tokenizer start = reader;
         if (reader.Read() && IsType(reader) && reader.Read() && Find(types, reader, out type))
         {
-            typedStart = start.TokenStartIndex;
+            typedStart = start.TokenStart;
             return true;
         }
 
@@ -40,19 +40,19 @@ internal ref partial struct JsonCursor
         return false;
     }
 
-    private static bool IsType(in Utf8JsonReader at) =>
-        at.TokenType == JsonTokenType.PropertyName && (at.ValueIsEscaped ? Text(at) == "type" : at.ValueSpan.SequenceEqual("type"u8));
+    private static bool IsType(in Utf8Tokenizer at) =>
+        at.Token == JsonToken.PropertyName && (at.IsEscaped ? Text(at) == "type" : at.Value.SequenceEqual("type"u8));
 
-    private static bool Find<T>(Words<T> types, in Utf8JsonReader at, out T? type)
+    private static bool Find<T>(Words<T> types, in Utf8Tokenizer at, out T? type)
     {
         type = default;
-        return at.TokenType == JsonTokenType.String
-            && types.TryFind(at.ValueIsEscaped ? Encoding.UTF8.GetBytes(Text(at)) : at.ValueSpan, out type);
+        return at.Token == JsonToken.String
+            && types.TryFind(at.IsEscaped ? Encoding.UTF8.GetBytes(Text(at)) : at.Value, out type);
     }
 
-    private static bool SeekType(ref Utf8JsonReader ahead)
+    private static bool SeekType(ref Utf8Tokenizer ahead)
     {
-        while (ahead.Read() && ahead.TokenType == JsonTokenType.PropertyName)
+        while (ahead.Read() && ahead.Token == JsonToken.PropertyName)
         {
             if (IsType(ahead))
                 return ahead.Read();
@@ -62,11 +62,11 @@ internal ref partial struct JsonCursor
         return false;
     }
 
-    private readonly void ReportUnknown(in Utf8JsonReader type)
+    private readonly void ReportUnknown(in Utf8Tokenizer type)
     {
-        if (type.TokenType == JsonTokenType.String)
-            findings.AddAt(type.TokenStartIndex, DiagnosticCodes.ComponentTypeUnknown, ("type", Text(type)));
+        if (type.Token == JsonToken.String)
+            findings.AddAt(type.TokenStart, DiagnosticCodes.ComponentTypeUnknown, ("type", Text(type)));
         else
-            findings.AddAt(type.TokenStartIndex, DiagnosticCodes.TypeMismatch, ("expected", "a string"), ("found", Kind(type)));
+            findings.AddAt(type.TokenStart, DiagnosticCodes.TypeMismatch, ("expected", "a string"), ("found", Kind(type)));
     }
 }

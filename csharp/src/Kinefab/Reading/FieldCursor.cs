@@ -1,4 +1,6 @@
-namespace Kinefab.Json;
+using Kinefab.Json;
+
+namespace Kinefab.Reading;
 
 /// <summary>Where a <see cref="JsonCursor"/> stands among the fields of one object.</summary>
 internal struct FieldCursor

@@ -3,7 +3,7 @@ namespace Kinefab.NUnit;
 /// <summary>
 /// Where a sentence about a motion begins. With <c>using static Kinefab.NUnit.MechanismConstraints;</c>
 /// <code>
-/// Assert.That(mechanism, Drives("Lever/Crank:1").From(0).To(360).Moving("Lever/SliderD:1[4].x").By(0.05).Within(1e-6));
+/// Assert.That(mechanism, Drives("Lever/Crank:1").From(0).To(360).Moving("Lever/SliderD:1").By(0.05).Within(1e-6));
 /// Assert.That(mechanism, Closes.Within(1e-9));
 /// Assert.That(scene, Keeps.Energy.Within(0.1).Percent.For(seconds: 10));
 /// Assert.That(scene, Matches.Trajectory("lever.motion.json").Within(1e-6));

@@ -85,7 +85,7 @@ internal ref struct Utf8Tokenizer
         {
             int next = AfterSpace(at + 1);
             if (next >= _text.Length)
-                Fail(at, "The text ends behind a comma");
+                Fail(next == at + 1 ? at : next, "The text ends behind a comma");
             if (_text[next] == (isInObject ? '}' : ']'))
                 Fail(next, "A comma stands behind the last item");
             return isInObject ? ReadName(next) : ReadValue(next);
@@ -299,8 +299,11 @@ internal ref struct Utf8Tokenizer
             i = AfterDigits(AfterDigit(i, "A digit has to follow the e of a number"));
         }
 
-        if (i < text.Length && !(text[i] is (byte)',' or (byte)']' or (byte)'}' || IsSpace(text[i])))
+        // What begins a comment is told as a missing comma, not as part of the number.
+        if (i < text.Length && !(text[i] is (byte)',' or (byte)']' or (byte)'}' or (byte)'/' || IsSpace(text[i])))
             Fail(i, "A number is followed by what cannot follow it");
+        if (i >= text.Length && _depth > 0)
+            Fail(i, "The text ends behind a number");
         _token = JsonToken.Number;
         _start = at;
         _valueStart = at;

@@ -19,10 +19,10 @@ namespace Kinefab.Tests.Constraints;
 public sealed class ConstraintTests
 {
     private const string Crank = "Lever/Crank:1";
-    private const string Slide = "Lever/SliderD:1[4].x";
+    private const string Slide = "Lever/SliderD:1.x";
 
     private static readonly string Root = Path.GetFullPath(Path.Combine(ConformanceCases.Folder, "..", ".."));
-    private static readonly string Lever = Path.Combine(Root, "fixtures", "lever", "lever.kinefab");
+    private static readonly string Lever = Path.Combine(Root, "csharp", "examples", "LeverTests", "lever.kinefab");
     private static readonly string Motion = Path.Combine(Root, "csharp", "examples", "LeverTests", "lever.motion.json");
 
     [Test]
@@ -84,9 +84,9 @@ public sealed class ConstraintTests
     [Test]
     public void Energy_OfAPendulum_IsKeptByTheExactSolverAndNotByUnitys()
     {
-        ValidScene pendulum = SceneValidator.Validate(SceneFile.Parse(Encoding.UTF8.GetBytes(new AdviceScene().Hinged(1).With("angularDamping", 0).Hinged(2).With("angularDamping", 0).Text())).Document!).Scene!;
-        Assert.That(pendulum, Keeps.Energy.Within(0.5).Percent.For(seconds: 2));
-        Assert.That(Failure(pendulum, Keeps.Energy.Within(0.5).Percent.For(seconds: 2).By(SolverKind.Unity)), Does.Contain("J more after").And.Contain("time [s]  energy [J]"));
+        ValidScene pendulum = SceneValidator.Validate(SceneFile.Parse(Encoding.UTF8.GetBytes(new AdviceScene().Hinged(1).With("angularDamping", 0).Text())).Document!).Scene!;
+        Assert.That(pendulum, Keeps.Energy.Within(2).Percent.For(seconds: 2));
+        Assert.That(Failure(pendulum, Keeps.Energy.Within(2).Percent.For(seconds: 2).By(SolverKind.Unity)), Does.Contain("J more after").And.Contain("time [s]  energy [J]"));
         Assert.That(Failure(pendulum, Keeps.Energy.Within(1e-6).For(seconds: 2).By(SolverKind.Unity)), Does.Contain("within 1E-06 J for 2 s"));
     }
 

@@ -1,4 +1,4 @@
-"""The scene that a script fills: joints and couplings between its parts."""
+"""The scene that a script fills: joints and couplings between its parts, beside what ``Constraints`` has."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ..model import Coupling, Joint, JointKind
 from ..spatial import Pose
 from .arguments import Vector, checked_flag, checked_name, checked_positive, checked_vector
 from .axes import joint_axes
+from .constraints import Constraints
 from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .motions import FreedomLike, Range, checked_lead, freedoms_asked, kind_of_word
-from .parts import Parts
 
 
-class Scene(Parts):
+class Scene(Constraints):
     """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
 
     A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without length,

@@ -21,7 +21,7 @@ BEFORE = {
 """Files in each hall on 26 November 2026; below Dynamics stood Exact with 40 and Pgs with 15."""
 ROAD = {"Json": 1, "Reading": 2, "Document": 3, "Validation": 4, "Mechanisms": 5, "Dynamics": 6, "Kinematics": 6, "Advice": 7}
 """The halls that a file passes, in order."""
-WIDTH, LEFT, TOP, ROW = 1100, 20, 86, 44
+WIDTH, LEFT, TOP, ROW = 1290, 20, 86, 44
 STYLE = """
 text { font: 12px system-ui, sans-serif; fill: #1f2933 } .title { font-size: 20px; font-weight: 600 }
 .name { font-weight: 600; font-size: 13px } .small { fill: #52606d; font-size: 11px } .number { fill: #fff; font-weight: 700 }
@@ -65,7 +65,7 @@ def picture() -> str:
     y = TOP
     for hall in reversed(halls()):
         if hall in BEFORE:
-            drawn.append(box(LEFT, y, 40 + 200 * BEFORE[hall] / most, ROW - 10))
+            drawn.append(box(LEFT, y, 72 + 170 * BEFORE[hall] / most, ROW - 10))
             drawn.append(text(LEFT + 8, y + 21, f"{hall} {BEFORE[hall]}", "small"))
         kind = "road" if hall in ROAD else ""
         drawn.append(box(300, y, WIDTH - 300 - LEFT, ROW - 8, kind))

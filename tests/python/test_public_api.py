@@ -11,9 +11,10 @@ import kinefab
 from kinefab.model import FREEDOM_NAMES, UNLOCKED
 
 API = """
-BatchResult Branching Closures Collider ColliderKind ColliderShape Coordinate Coupling Diagnostic Drive ExportOptions ExportResult
-FeatureOutcome Freedom Ground Joint JointKind KinefabError MassProperties Mechanism Motion Outcome PhysicsMaterial Pose Record Report
-Scene Severity Stop Surface Trajectory __version__ batch export motion report view
+BatchResult Branching Closures Collider ColliderKind ColliderShape Constraint ConstraintKind Coordinate Coupling Diagnostic
+Drive ExportOptions ExportResult Feature FeatureOutcome Freedom Ground Joint JointKind KinefabError MassProperties Mechanism
+Motion Outcome PhysicsMaterial Pose Record Report Scene Severity Stop Surface Trajectory __version__ batch export motion
+report view
 """.split()
 """A name that is added or gone changes what scripts may rely on: write it in CHANGELOG.md too."""
 

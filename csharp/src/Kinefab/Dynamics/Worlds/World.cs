@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Diagnostics;
+using Kinefab.Document;
 using Kinefab.Dynamics.Rattle;
 using Kinefab.Dynamics.Pgs;
 using Kinefab.Numerics;
@@ -93,6 +95,22 @@ public sealed class World
             return energy;
         }
     }
+
+    /// <summary>The bodies, joints and couplings of a scene file at its start pose. Inactive objects are left out.</summary>
+    /// <param name="path">A scene file, NAME.kinefab.</param>
+    /// <param name="solver">As Unity moves it, or as it truly moves.</param>
+    /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>A world at rest unless the scene says otherwise; warnings stand in its scene's <see cref="ValidScene.Report"/>.</returns>
+    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// World world = World.Load("lever.kinefab", SolverKind.Exact);
+    /// world.DriveAt("Shaft", 60);
+    /// RunResult run = world.Run(seconds: 6, record: new[] { "Shaft", "Slide" });
+    /// </code></example>
+    public static World Load(string path, SolverKind solver = SolverKind.Unity, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
+        Create(ValidScene.Load(path, options, cancellation), solver);
 
     /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
     public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)

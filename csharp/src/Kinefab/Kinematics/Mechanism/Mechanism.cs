@@ -1,5 +1,7 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
@@ -112,7 +114,23 @@ public sealed partial class Mechanism
 
     internal double Length => Linkage.Length;
 
+    /// <summary>The mechanism of a scene file.</summary>
+    /// <param name="path">A scene file, NAME.kinefab.</param>
+    /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The mechanism; warnings stand in its scene's <see cref="ValidScene.Report"/>.</returns>
+    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// Mechanism mechanism = Mechanism.Load("lever.kinefab");
+    /// SweepResult sweep = mechanism.Sweep("Shaft", 0, 360, 72);
+    /// Console.WriteLine(sweep["Slide"].Max() - sweep["Slide"].Min());
+    /// </code></example>
+    public static Mechanism Load(string path, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
+        Create(ValidScene.Load(path, options, cancellation));
+
     /// <summary>The mechanism of a scene.</summary>
+    /// <param name="scene">A valid one, see <see cref="ValidScene.Load(string, SceneReadOptions?, CancellationToken)"/>.</param>
     public static Mechanism Create(ValidScene scene)
     {
         if (scene is null)

@@ -102,6 +102,17 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector3d InverseRotate(Vector3d v) => Conjugate() * v;
 
+    /// <summary>In words: turned 90 deg about (0, 1, 0), by no more than half a turn; six digits.</summary>
+    internal string Turn()
+    {
+        double length = Vector.Length;
+        if (!(length > 0))
+            return length == 0 ? "unturned" : "no rotation";
+        double half = Math.Atan2(length, Math.Abs(W));
+        Vector3d axis = Vector * ((W < 0 ? -1 : 1) / length);
+        return FormattableString.Invariant($"turned {half * 360 / Math.PI:0.######} deg about ({axis.X:0.######}, {axis.Y:0.######}, {axis.Z:0.######})");
+    }
+
     /// <summary>Exact equality of the components.</summary>
     public static bool operator ==(Quaterniond a, Quaterniond b) => a.Equals(b);
 

@@ -16,4 +16,7 @@ public sealed class SceneValidation
 
     /// <summary>What was found.</summary>
     public Report Report { get; }
+
+    /// <summary>Whether the scene is valid, and the findings.</summary>
+    public override string ToString() => $"{(Scene is null ? "not valid" : "valid")}; {Report}";
 }

@@ -33,4 +33,7 @@ public sealed class AdviceFinding
 
     /// <summary>The one to make: enough at the least work, or else the one that helps most; null: none helps.</summary>
     public TriedChange? Best { get; }
+
+    /// <summary>Severity, code, place, what was found and measured, and the change to make, in one line.</summary>
+    public override string ToString() => $"{Diagnostic.Severity.ToJson()} {Diagnostic.Code} {Diagnostic.Pointer}: {Diagnostic.Message} ({Before}){(Best is null ? "" : $" {Best}")}";
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Diagnostics;
@@ -30,4 +31,7 @@ public sealed class AdviceReport
 
     /// <summary>The findings as diagnostics, and what kept the advice from being complete.</summary>
     public Report Report { get; }
+
+    /// <summary>120 steps of 0.02 s, 2 findings, 14 changes tried; 1 warning.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Steps} steps of {Step} s, {Findings.Count} findings, {Trials} changes tried; {Report}");
 }

@@ -18,4 +18,7 @@ public sealed class SceneEdit
 
     /// <summary>The new value as JSON text.</summary>
     public string Value { get; }
+
+    /// <summary>/physics/fixedTimestep = 0.01.</summary>
+    public override string ToString() => $"{Pointer} = {Value}";
 }

@@ -29,6 +29,9 @@ public sealed class TriedChange
     /// <summary>Work of Unity's solver for a second simulated, in units of the scene's own.</summary>
     public double Work { get; }
 
+    /// <summary>The change in words, and what the finding measures with it.</summary>
+    public override string ToString() => $"{Change}: {After}{Cost}";
+
     /// <summary>What the work comes to in words; empty where it is the same.</summary>
     internal string Cost => Work == 1 ? "" : $", at {AdviceMeasure.Text(Work)} times the work";
 }

@@ -88,6 +88,23 @@ public static class SceneFile
         return reading;
     }
 
+    /// <summary>Reads a stream from where it stands to its end, and the buffers in a folder; the stream stays open.</summary>
+    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="folder">Where the buffers lie.</param>
+    /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="IOException">The stream cannot be read.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static SceneReading Load(Stream json, string folder, SceneReadOptions? options = null, CancellationToken cancellation = default)
+    {
+        if (folder is null)
+            throw new ArgumentNullException(nameof(folder));
+        SceneReading reading = Load(json, (Func<string, ReadOnlyMemory<byte>?>?)null, options, cancellation);
+        if (reading.Document is { Buffers.Count: > 0 } document)
+            BufferFiles.Attach(document, folder, cancellation);
+        return reading;
+    }
+
     /// <summary>As the other <c>Parse</c>, without the copy: the array is kept and must not be changed any more.</summary>
     /// <param name="json">The text, UTF-8.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>

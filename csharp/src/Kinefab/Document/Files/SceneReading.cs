@@ -16,4 +16,7 @@ public sealed class SceneReading
 
     /// <summary>What was found: of the file's shape, not of its meaning.</summary>
     public Report Report { get; }
+
+    /// <summary>Whether there is a document, and the findings.</summary>
+    public override string ToString() => $"{(Document is null ? "not read" : "read")}; {Report}";
 }

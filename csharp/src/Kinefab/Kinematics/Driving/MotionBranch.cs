@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.Linq;
 
 namespace Kinefab.Kinematics;
 
@@ -19,6 +21,10 @@ public sealed class MotionBranch
 
     /// <summary>For each of the mechanism's coordinates its change by unit of the driven one; degrees and metres.</summary>
     public IReadOnlyList<double> Rates { get; }
+
+    /// <summary>The rates of all coordinates by unit of the driven one, in degrees and metres.</summary>
+    public override string ToString() =>
+        string.Join(", ", Rates.Select((rate, i) => FormattableString.Invariant($"{State.Mechanism.Coordinates[i].Name} {rate:+0.###;-0.###;0}")));
 
     /// <summary>How far the second half of twice the step leaves the straight line through the first, as a share of it.</summary>
     internal double Bend { get; }

@@ -9,4 +9,7 @@ public sealed class JointBrokenEventArgs : EventArgs
 
     /// <summary>The joint; its force and torque are those that broke it.</summary>
     public WorldJoint Joint { get; }
+
+    /// <summary>The joint, and what broke it in N and N m.</summary>
+    public override string ToString() => $"{Joint}; {Joint.CurrentForce} N, {Joint.CurrentTorque} N m";
 }

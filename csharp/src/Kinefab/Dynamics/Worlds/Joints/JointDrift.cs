@@ -22,6 +22,9 @@ public readonly struct JointDrift
     /// <summary>Rotation about the locked axes, degrees.</summary>
     public double Angle { get; }
 
+    /// <summary>1.2e-06 m, 0.0e+00 deg.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Distance:0.0e+00} m, {Angle:0.0e+00} deg");
+
     internal static JointDrift Of(JointModel joint, in Pose body0, in Pose body1)
     {
         if (joint.IsBroken)

@@ -1,4 +1,5 @@
 using System.CommandLine;
+using System.Linq;
 
 namespace Kinefab.Cli;
 
@@ -14,6 +15,13 @@ internal sealed class SceneArguments
     private readonly Option<bool> _json = new("--json") { Description = "Print one JSON document on stdout: an object, or of several files an array." };
 
     private readonly Option<string?> _junit = new("--junit") { Description = "Write the outcome of each file into a JUnit report, .xml." };
+
+    /// <summary>What is mistyped for an option is no file.</summary>
+    internal SceneArguments() => _files.Validators.Add(result =>
+    {
+        foreach (string name in result.Tokens.Select(token => token.Value).Where(name => name.Length > 1 && name[0] == '-'))
+            result.AddError($"Unrecognized option '{name}'. A file of this name is given as ./{name}.");
+    });
 
     /// <summary>Adds them to a command, the files first.</summary>
     internal void AddTo(Command command)

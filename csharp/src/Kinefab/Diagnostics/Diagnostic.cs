@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System.Globalization;
 
 namespace Kinefab.Diagnostics;
 
 /// <summary>One finding about the data.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class Diagnostic
 {
     internal Diagnostic(string code, Severity severity, string message, string remedy, string pointer, int? line, int? column)

@@ -1,10 +1,12 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 
 namespace Kinefab.Diagnostics;
 
 /// <summary>What was found, in the order of the places in the file.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class Report
 {
     internal Report(IReadOnlyList<Diagnostic> diagnostics) => Diagnostics = diagnostics;

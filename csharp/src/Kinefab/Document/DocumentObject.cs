@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Document;
@@ -6,6 +7,7 @@ namespace Kinefab.Document;
 /// Anything written as a JSON object in a scene file.  Immutable once made; <c>with</c> gives a copy with some fields changed:
 /// <c>settings with { UseLimits = false }</c>.  Two are equal when all their fields are, lists being the same lists.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public abstract record DocumentObject
 {
     private protected DocumentObject()

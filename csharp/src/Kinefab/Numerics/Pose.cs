@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Numerics;
 
 /// <summary>A rigid pose: a point p of the inner frame is <c>Rotation * p + Position</c> in the outer one.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct Pose : IEquatable<Pose>
 {
     /// <summary>Origin of the inner frame in the outer one, metres.</summary>

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using System.Globalization;
 using System.Runtime.CompilerServices;
@@ -5,6 +6,7 @@ using System.Runtime.CompilerServices;
 namespace Kinefab.Numerics;
 
 /// <summary>A rotation as a quaternion (x, y, z, w) of doubles; formulas are Unity's and PhysX's, component by component.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct Quaterniond : IEquatable<Quaterniond>
 {
     /// <summary>First component of the vector part.</summary>

@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Validation;
 
 /// <summary>What came of validating a scene.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SceneValidation
 {
     internal SceneValidation(ValidScene? scene, Report report)

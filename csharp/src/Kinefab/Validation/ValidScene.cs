@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -7,6 +8,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Validation;
 
 /// <summary>A scene without errors: every reference resolves, every number is one that Unity takes.  Only <c>SceneValidator</c> makes one.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class ValidScene
 {
     private readonly WorldTransform[] world;

@@ -61,7 +61,7 @@ public sealed class CadNameTests
         GameObject[] objects = [Named(document.GameObjects[0], "thigh"), Named(document.GameObjects[1], "hip")];
         ValidScene valid = new(document with { GameObjects = objects });
         Mechanism mechanism = Mechanism.Create(valid);
-        Assert.That(mechanism.Coordinates.Select(c => c.Name), Is.EqualTo(new[] { "hip[1].angle", "thigh[1].angle" }));
+        Assert.That(mechanism.Coordinates.Select(c => c.Name), Is.EqualTo(["hip[1].angle", "thigh[1].angle"]));
         Assert.That(mechanism.CoordinateNamed("hip"), Is.EqualTo(1));
         Assert.That(mechanism.CoordinateNamed("thigh"), Is.EqualTo(0));
         Assert.That(mechanism.CoordinateNamed("hip[1]"), Is.EqualTo(0));
@@ -144,7 +144,7 @@ public sealed class CadNameTests
         MechanismState state = Mechanism.NewState();
         Assert.That(() => solver.Drive(state, 99, 1), Throws.InstanceOf<ArgumentOutOfRangeException>().With.Message.Contains("0 Lever/Crank:1.angle"));
         Assert.That(() => solver.Drive(state, -1, 1), Throws.InstanceOf<ArgumentOutOfRangeException>());
-        Assert.That(() => solver.Drive(state, "Shaft", double.NaN), Throws.ArgumentException.With.Message.Contains("Lever/Crank:1.angle"));
+        Assert.That(() => solver.Drive(state, "Shaft", double.NaN), Throws.InstanceOf<ArgumentException>().With.Message.Contains("Lever/Crank:1.angle"));
         Assert.That(() => state.Coordinate(99), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => state.Pose(9999), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => state.Pose(-1), Throws.InstanceOf<ArgumentOutOfRangeException>());

@@ -33,6 +33,13 @@ public sealed class ToStringTests
     }
 
     [Test]
+    public void EveryTypeWithAToString_IsShownByItInTheDebugger() => Assert.That(
+        typeof(SceneDocument).Assembly.GetExportedTypes()
+            .Where(type => type.GetMethod(nameof(ToString), BindingFlags.Public | BindingFlags.Instance, [])?.DeclaringType?.Assembly == type.Assembly)
+            .Where(type => type.GetCustomAttribute<System.Diagnostics.DebuggerDisplayAttribute>()?.Value != "{ToString(),nq}"),
+        Is.Empty);
+
+    [Test]
     public void OfALever_AreOneLineWithUnits()
     {
         Mechanism mechanism = Mechanism.Load(Lever);
@@ -49,7 +56,7 @@ public sealed class ToStringTests
             (drive, ["Reached", "m,", "deg"]),
             (new Sweep(solver).Range(mechanism.NewState(), 0).High, ["360 (open)"]),
             (mechanism.CountMobility(), ["mobility 1", "rows", "redundant"]),
-            (world, ["Exact world at 0 s"]),
+            (world, ["Exact world at 0.1 s"]),
             (world.Bodies[1], ["kg at (", " m, ", "m/s", "rad/s"]),
             (world.Joints[0], ["HingeJoint Lever/Crank:1 \"Shaft\", Angle 0 deg"]),
             (world.Joints[0].Drift, ["m,", "deg"]),

@@ -52,13 +52,13 @@ public sealed class SceneLoadTests
     public void Load_WarningsOfReadingAndValidating_StayWithTheScene()
     {
         const string text = """
-            {"format": "kinefab", "version": "1.0", "later": 1,
+            {"format": "kinefab.scene", "version": "1.0", "later": 1,
              "gameObjects": [{"id": "a", "name": "a", "components": [
                {"type": "Rigidbody"}, {"type": "HingeJoint", "useMotor": true, "useSpring": true, "motor": {"force": 1, "targetVelocity": 3}}]}]}
             """;
         ValidScene scene = ValidScene.Load(new ReadOnlyMemory<byte>(Encoding.UTF8.GetBytes(text)));
         Assert.That(scene.Report.HasErrors, Is.False);
-        Assert.That(scene.Report.Diagnostics.Select(d => d.Code), Is.EqualTo(new[] { DiagnosticCodes.FieldUnknown, DiagnosticCodes.HingeMotorAndSpring }));
+        Assert.That(scene.Report.Diagnostics.Select(d => d.Code), Is.EqualTo(new[] { DiagnosticCodes.FieldUnknown, DiagnosticCodes.HingeMotorOverridesSpring }));
         Assert.That(SceneValidator.Validate(scene.Document).Scene!.Report.Diagnostics, Has.Count.EqualTo(1));
     }
 
@@ -92,12 +92,13 @@ public sealed class SceneLoadTests
             Assert.That(() => scene.WorldTransform(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
             Assert.That(() => scene.Body(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
             Assert.That(() => scene.BodyOf(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
-            Assert.That(() => scene.Mesh(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
             Assert.That(() => scene.Freedoms(wrong, 0), Throws.InstanceOf<ArgumentOutOfRangeException>());
             Assert.That(() => scene.Freedoms(1, wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
             Assert.That(() => scene.Joint(new JointCoordinate { GameObject = wrong }), Throws.InstanceOf<ArgumentOutOfRangeException>());
         }
 
+        foreach (int wrong in new[] { -1, scene.Document.Meshes.Count })
+            Assert.That(() => scene.Mesh(wrong), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => scene.Freedoms(1, 0), Throws.InstanceOf<ArgumentOutOfRangeException>().With.Message.Contains("is no joint"), "a Rigidbody");
     }
 

@@ -1,9 +1,11 @@
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Advice;
 
 /// <summary>Something about a scene that Unity's solver makes trouble of, or might, and what was tried against it.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class AdviceFinding
 {
     internal AdviceFinding(Diagnostic diagnostic, string id, AdviceMeasure before, double score, IReadOnlyList<TriedChange> tried, TriedChange? best)

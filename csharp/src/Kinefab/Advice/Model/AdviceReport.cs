@@ -1,11 +1,13 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Advice;
 
 /// <summary>The stability advice for a scene.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class AdviceReport
 {
     internal AdviceReport(double step, int steps, int trials, IReadOnlyList<AdviceFinding> findings, Report remarks)

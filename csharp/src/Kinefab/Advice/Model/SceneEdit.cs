@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Advice;
 
 /// <summary>One field of a scene file set to a value: all that a tried change is.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SceneEdit
 {
     internal SceneEdit(string pointer, string value)

@@ -1,8 +1,10 @@
 using System.Collections.Generic;
+using System.Diagnostics;
 
 namespace Kinefab.Advice;
 
 /// <summary>A change of the scene that was made and run, with what it came to.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class TriedChange
 {
     internal TriedChange(string change, IReadOnlyList<SceneEdit> edits, AdviceMeasure after, double score, double work)

@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Document;
 
 /// <summary>What came of reading a scene file.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SceneReading
 {
     internal SceneReading(SceneDocument? document, Report report)

@@ -1,10 +1,12 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Dynamics;
 
 /// <summary>What <see cref="World.Run"/> kept: columns over the times at its start and after each of its steps.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class RunResult
 {
     private readonly string[] _names;

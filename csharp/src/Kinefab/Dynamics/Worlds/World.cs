@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -14,6 +15,7 @@ namespace Kinefab.Dynamics;
 /// The bodies and joints of a scene in motion, as Unity makes them at start-up. There are no contacts: colliders are not
 /// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class World
 {
     private readonly MultibodySystem _mechanism;

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -6,6 +7,7 @@ using Kinefab.Validation;
 namespace Kinefab.Dynamics;
 
 /// <summary>A Rigidbody in a <see cref="World"/>.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class WorldBody
 {
     private readonly MultibodySystem _system;

@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Dynamics;
 
 /// <summary>A state of a <see cref="World"/>, whole: what the solver remembers from step to step is part of it.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class WorldSnapshot
 {
     internal WorldSnapshot(object owner, double time, StateTape tape)

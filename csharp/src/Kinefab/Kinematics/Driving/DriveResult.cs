@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 
@@ -20,6 +21,7 @@ public enum DriveStatus
 }
 
 /// <summary>A limit of a joint.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct ReachedLimit
 {
     internal ReachedLimit(int gameObject, int component, Coordinate coordinate, bool isUpper)
@@ -47,6 +49,7 @@ public readonly struct ReachedLimit
 }
 
 /// <summary>What a drive or drag came to.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct DriveResult
 {
     internal DriveResult(DriveStatus status, double fraction, int iterations, double errorMetres, double errorDegrees, int branches, ReachedLimit? limit)
@@ -98,6 +101,7 @@ public readonly struct DriveResult
 }
 
 /// <summary>A value that a coordinate shall take.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct CoordinateTarget
 {
     /// <summary>From parts.</summary>

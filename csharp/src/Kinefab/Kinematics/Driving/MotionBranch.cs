@@ -1,10 +1,12 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>One of the ways that lead on from a pose, as a small step along it.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MotionBranch
 {
     internal MotionBranch(MechanismState state, IReadOnlyList<double> rates, double bend)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -24,6 +25,7 @@ public enum RangeEnd
 }
 
 /// <summary>One end of a coordinate's true range.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct RangeLimit
 {
     internal RangeLimit(RangeEnd end, double value, ReachedLimit? limit)
@@ -56,6 +58,7 @@ public readonly struct RangeLimit
 }
 
 /// <summary>A swept coordinate: the states on the way, and how far it went.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SweepResult
 {
     internal SweepResult(int coordinate, List<double> values, List<MechanismState> states, List<double> jumps, IReadOnlyList<MotionBranch> branches, RangeLimit? stop, double worstMetres, double worstDegrees)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using System.Threading;
 using Kinefab.Diagnostics;
@@ -16,6 +17,7 @@ namespace Kinefab.Kinematics;
 /// changes; many states and solvers can share it. Drives, motors and springs do not matter at position level, and every
 /// limit is taken for a hard one.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class Mechanism
 {
     private readonly int[] _bodyOf;

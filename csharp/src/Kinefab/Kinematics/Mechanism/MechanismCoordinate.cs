@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -8,6 +9,7 @@ namespace Kinefab.Kinematics;
 /// One coordinate of a joint, read as Unity reads it: the own body against the connected one, by the left-hand
 /// rule about the axis or along it, zero at the exported pose; degrees (over any number of turns) or metres.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MechanismCoordinate
 {
     private readonly Joints.CoordinateAxisMap _coordinate;

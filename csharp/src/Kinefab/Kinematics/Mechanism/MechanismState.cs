@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using System.Text;
 using Kinefab.Numerics;
@@ -5,6 +6,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>Poses of a mechanism's bodies and its joint coordinates, angles unwrapped over turns. Copying allocates nothing.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MechanismState
 {
     /// <summary>Of a mechanism, or of a part of it: the latter stays within the library.</summary>

@@ -1,8 +1,10 @@
 using System.Collections.Generic;
+using System.Diagnostics;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>What one body can still do at the exported pose.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class BodyMobility
 {
     internal BodyMobility(int gameObject, int translations, int rotations)
@@ -26,6 +28,7 @@ public sealed class BodyMobility
 }
 
 /// <summary>Bodies that hang together by joints or couplings, the ground left out.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class IslandMobility
 {
     internal IslandMobility(IReadOnlyList<int> gameObjects, int mobility, int firstOrder, int redundant, int loops)
@@ -57,6 +60,7 @@ public sealed class IslandMobility
 }
 
 /// <summary>Redundant rows of one joint, the rows of a loop being counted from its tree to its closing joints.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class RedundantRows
 {
     internal RedundantRows(int gameObject, int component, int rows, int redundant)
@@ -84,6 +88,7 @@ public sealed class RedundantRows
 }
 
 /// <summary>Freedoms of some bodies that move nothing else, such as a rod's spin between its two balls.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class IdleFreedom
 {
     internal IdleFreedom(IReadOnlyList<int> gameObjects, int count)
@@ -103,6 +108,7 @@ public sealed class IdleFreedom
 }
 
 /// <summary>Mobility of a mechanism, counted from its joints.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MobilityReport
 {
     internal MobilityReport(

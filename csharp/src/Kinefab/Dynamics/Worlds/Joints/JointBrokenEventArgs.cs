@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Dynamics;
 
 /// <summary>A joint broke in the step just done; as Unity's OnJointBreak.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class JointBrokenEventArgs : EventArgs
 {
     internal JointBrokenEventArgs(WorldJoint joint) => Joint = joint;

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -5,6 +6,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics;
 
 /// <summary>How far a joint's locked freedoms have come apart.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct JointDrift
 {
     // A limit counts as reached this close to it, m or rad.

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using Kinefab.Document;
 using Kinefab.Joints;
@@ -9,6 +10,7 @@ using Document = Kinefab.Document;
 namespace Kinefab.Dynamics;
 
 /// <summary>A joint component in a <see cref="World"/>.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public abstract class WorldJoint
 {
     private protected const double Degrees = 180 / Math.PI;

@@ -75,11 +75,20 @@ def count(counts: Counts, result: Path) -> None:
         if case.find("failure") is not None or case.find("error") is not None:
             counts.failed.append(name)
         elif skip is not None:
-            missing.setdefault(str(skip.get("message")), []).append(name)
+            missing.setdefault(reason_of(skip), []).append(name)
         else:
             counts.passed += 1
     for reason, names in missing.items():
         counts.skipped.append(f"{reason}: {names[0]}" + (f" and {len(names) - 1} more" if names[1:] else ""))
+
+
+def reason_of(skip: ElementTree.Element) -> str:
+    """Why a test was left out; of a whole file pytest says it in the text alone: ``('PATH', LINE, 'Skipped: REASON')``."""
+    message = str(skip.get("message"))
+    if message != "collection skipped":
+        return message
+    _, _, told = (skip.text or "").partition("'Skipped: ")
+    return told.rstrip().removesuffix(")").removesuffix("'") or message
 
 
 def run_npm(what: str, *arguments: str) -> None:

@@ -192,7 +192,7 @@ def test_legs_that_only_spin_at_the_pose_move_all_the_same():
             )
         )
         lower, upper = scene.add_part(f"Lower{i}"), scene.add_part(f"Upper{i}")
-        across = np.cross((1, 0, 0), tip - foot)
+        across = np.cross((1, 0, 0), np.cross((1, 0, 0), tip - foot))
         scene.add_joint("universal", base, lower, point=foot, axis=(1, 0, 0), secondary=across)
         scene.add_slider(lower, upper, point=0.5 * (foot + tip), axis=tip - foot)
         scene.add_ball(upper, top, point=tip)

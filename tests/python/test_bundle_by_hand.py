@@ -12,6 +12,7 @@ import kinefab
 import numpy as np
 import pytest
 import trimesh
+from command_line import runner
 from golden import FIXTURES
 from jsonschema import Draft202012Validator
 from kinefab import sources
@@ -142,7 +143,7 @@ def test_init_tells_of_meshes_in_folders_inside(tmp_path):
         (folder / name).mkdir()
     (folder / "Layer 1" / "Pin.STL").write_bytes(b"")
     (folder / ".trash" / "Old.stl").write_bytes(b"")
-    done = run("bundle", "init", folder, "--units", "mm", "--json")
+    done = runner().invoke(app, ["bundle", "init", str(folder), "--units", "mm", "--json"])
     found = json.loads(done.stdout)["diagnostics"]
     assert [(entry["code"], entry["severity"]) for entry in found] == [("BEGINNING_FOLDER", "warning")]
     assert "1 mesh file(s) in the folder Layer 1" in found[0]["message"]

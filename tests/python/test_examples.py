@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "python" / "examples"
-MOBILITY = {"lid": 1, "four_bar": 1, "scissor_lift": 1, "planetary_gear": 1, "six_axis_arm": 6}
+MOBILITY = {"lid": 1, "four_bar": 1, "four_bar_mates": 1, "scissor_lift": 1, "planetary_gear": 1, "six_axis_arm": 6}
 """Of those that write a scene; by theory."""
 
 

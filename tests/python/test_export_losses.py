@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 import kinefab
+import libraries
 import numpy as np
 import pytest
 from kinefab.diagnostics import KinefabError, Outcome, Report
@@ -167,7 +168,7 @@ def test_a_joint_does_not_break_at_nothing(tmp_path, what, value, kept):
     assert told == ([] if kept or value > 1.0 else [Outcome.APPROXIMATED])
 
 
-@pytest.mark.parametrize("ending", ["kinefab", "usda", "glb"])
+@pytest.mark.parametrize("ending", ["kinefab", pytest.param("usda", marks=libraries.usd), "glb"])
 @pytest.mark.parametrize(
     "drive, aims, kept",
     [

@@ -242,7 +242,7 @@ def test_two_axes_of_a_universal_are_the_angles_of_its_rings():
     base = built.add_part("Base", grounded=True)
     shaft = built.add_part("Shaft")
     built.add_joint(
-        JointKind.UNIVERSAL, base, shaft, point=(0, 0, 0), axis=(1, 0, 0), secondary=(0, 1, 0), name="U"
+        JointKind.UNIVERSAL, base, shaft, point=(0, 0, 0), axis=(1, 0, 0), secondary=(0, 0, 1), name="U"
     )
     motion = kinefab.motion(built).follow({"U.rx": [0.0, 20.0, 70.0], "U.rz": [0.0, -30.0, 110.0]})
     x, y, z = np.eye(3)

@@ -18,7 +18,7 @@ from kinefab.views import overview
 pytest.importorskip("playwright", reason="no playwright: the page is not tried in a browser")
 PIL = pytest.importorskip("PIL.Image", reason="no Pillow: the page's picture is not looked at")
 if CHROMIUM is None:
-    pytest.skip("no chromium: the page is not tried in a browser", allow_module_level=True)
+    pytest.skip("no chromium (Debian: apt-get install chromium): the page is not tried in a browser", allow_module_level=True)
 
 ROOT = Path(__file__).parents[2]
 LEVER = ROOT / "fixtures" / "lever" / "lever.kinefab"

@@ -52,9 +52,10 @@ def test_extras_are_asked_for_in_words_that_every_shell_takes():
     assert wrong == {} and sum(map(len, marks.values())) > 12
 
 
-def test_the_house_is_drawn_as_it_stands():
-    """``python python/draw_house.py`` would write the picture that is there."""
-    spec = importlib.util.spec_from_file_location("draw_house", ROOT / "python" / "draw_house.py")
+@pytest.mark.parametrize("half", ["python", "csharp"])
+def test_the_house_is_drawn_as_it_stands(half):
+    """``python HALF/draw_house.py`` would write the picture that is there."""
+    spec = importlib.util.spec_from_file_location("draw_house", ROOT / half / "draw_house.py")
     drawing = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(drawing)
     assert drawing.picture() == drawing.PICTURE.read_text(encoding="utf-8")

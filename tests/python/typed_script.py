@@ -38,6 +38,10 @@ def gripper(width: float) -> kinefab.Scene:
     scene.add_ball(
         None, lock, point=(0, 0, 0), limits={"rx": (-10, 80)}, drive={"rx": {"target": 5, "stiffness": 10}}
     )
+    seat: kinefab.Feature = scene.plane(palm, point=(0, 0, 0), normal=np.array([0, 0, 1]))
+    face = scene.plane(lock, point=[0, 0, 0.005], normal=(0, 0, -1), coordinates="part")
+    mate: kinefab.Constraint = scene.add_constraint("distance", seat, face, limits=(0, 0.005), sense="opposed")
+    scene.add_constraint(kinefab.ConstraintKind.LOCK, palm, lock, name=mate.id)
     coupling: kinefab.Coupling = scene.add_coupling(fingers[0], (fingers[1], "tx"), ratio=-1)
     print(coupling.terms[0].ratio, fingers[0].freedoms[0].upper)
     return scene

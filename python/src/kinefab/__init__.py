@@ -4,7 +4,7 @@ import kinefab
 
 kinefab.export("lever.bundle.json", "lever.kinefab")
 
-A script's own mechanism: ``Scene`` (``add_part``, ``add_hinge`` ...).  ``motion`` drives one, ``view`` and ``report`` write its page,
+A script's own mechanism: ``Scene`` (``add_part``, ``add_hinge``, ``add_constraint`` ...).  ``motion`` drives one, ``view`` and ``report`` write its page,
 ``batch`` exports many files; ``help(kinefab.Scene)`` and so on tell more, ``kinefab.__all__`` names everything.
 """
 
@@ -40,6 +40,9 @@ _HOMES = {
     "Motion": "model",
     "Drive": "model",
     "Coupling": "model",
+    "Constraint": "model",
+    "ConstraintKind": "model",
+    "Feature": "model",
     "MassProperties": "model",
     "Surface": "model",
     "PhysicsMaterial": "model",
@@ -74,8 +77,11 @@ if TYPE_CHECKING:  # "as" tells type checkers that the name is for others too
     from .mechanism import motion as motion
     from .model import Collider as Collider
     from .model import ColliderKind as ColliderKind
+    from .model import Constraint as Constraint
+    from .model import ConstraintKind as ConstraintKind
     from .model import Coupling as Coupling
     from .model import Drive as Drive
+    from .model import Feature as Feature
     from .model import Freedom as Freedom
     from .model import Joint as Joint
     from .model import JointKind as JointKind

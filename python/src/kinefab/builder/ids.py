@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..model import Joint, Node
+from ..model import Constraint, Joint, Node
 
 
 class Ids:
@@ -14,7 +14,7 @@ class Ids:
         self._copies: dict[str, int] = {}
         self._counted = 0
 
-    def free(self, wanted: str, entries: Sequence[Node] | Sequence[Joint]) -> str:
+    def free(self, wanted: str, entries: Sequence[Node] | Sequence[Joint] | Sequence[Constraint]) -> str:
         """The wanted id, with the first number that makes it one that no entry has."""
         if len(entries) < self._counted:
             self._copies, self._counted = {}, 0

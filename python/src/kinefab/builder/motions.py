@@ -153,6 +153,13 @@ def _freedom(name: str, asked: Any) -> Freedom:
 
 def _limited(freedom: Freedom, name: str, limits: Any) -> Freedom:
     """limits: (lower, upper), degrees or metres; an end may be infinite."""
+    lower, upper = checked_range(limits)
+    unit = math.radians(1.0) if angular(name) else 1.0
+    return replace(freedom, motion=Motion.LIMITED, lower=lower * unit, upper=upper * unit)
+
+
+def checked_range(limits: Any) -> tuple[float, float]:
+    """(lower, upper); an end may be infinite."""
     ends = numbers_in(limits)
     if ends is None or ends.shape != (2,):
         raise TypeError(
@@ -165,8 +172,7 @@ def _limited(freedom: Freedom, name: str, limits: Any) -> Freedom:
         )
     if not lower <= upper or lower == math.inf or upper == -math.inf:
         raise ValueError(f"limits are {shown(limits)}; pass (lower, upper) with lower not above upper")
-    unit = math.radians(1.0) if angular(name) else 1.0
-    return replace(freedom, motion=Motion.LIMITED, lower=lower * unit, upper=upper * unit)
+    return lower, upper
 
 
 def _drive(name: str, drive: Any) -> Drive:

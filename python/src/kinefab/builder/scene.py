@@ -1,4 +1,4 @@
-"""The scene that a script fills: joints and couplings between its parts."""
+"""The scene that a script fills: joints and couplings between its parts, beside what ``Constraints`` has."""
 
 from __future__ import annotations
 
@@ -6,15 +6,16 @@ import math
 from typing import Any
 
 from ..model import Coupling, Joint, JointKind
-from ..spatial import Pose, frame_from_axes
-from .arguments import Vector, checked_axes, checked_flag, checked_name, checked_positive, checked_vector
+from ..spatial import Pose
+from .arguments import Vector, checked_flag, checked_name, checked_positive, checked_vector
+from .axes import joint_axes
+from .constraints import Constraints
 from .couplings import JointLike, coupling_between
 from .ids import Ids
 from .motions import FreedomLike, Range, checked_lead, freedoms_asked, kind_of_word
-from .parts import Parts
 
 
-class Scene(Parts):
+class Scene(Constraints):
     """A scene that a script fills.  Every ``add_*`` of a part returns its index, for parents and joints.
 
     A wrong call raises TypeError (a name where an index is wanted) or ValueError (no such index, an axis without length,
@@ -59,8 +60,14 @@ class Scene(Parts):
         """Add a joint between part ``b`` and part ``a`` (None: the world), both where they stand now.
 
         kind: a JointKind or its word (``revolute``); ``hinge``, ``slider`` and ``ball`` too.  ``help(kinefab.JointKind)`` has
-        what each leaves, about which axis of its frame: a pin in a slot has the pin as axis, the slot as secondary.
-        point, axis, secondary: origin, X and (near) Y of the joint's frame in the WORLD; Z is across both.
+        what each leaves, about which axis of its frame.
+        point: origin of the joint's frame, in the WORLD.
+        axis: direction that the joint turns about, slides along or is normal to, in the WORLD: the frame's X.
+        secondary: where the kind has two axes, the second one, square to the first.  A universal joint turns about both:
+        ``axis`` is on b (``rx``), ``secondary`` on a (``rz``); so are the two lines of ``perpendicular``, and the line and
+        the plane's normal of ``line_in_plane``.  A pin in a slot has the pin as axis, the slot on a as secondary (``ty``).
+        Of any other kind the frame's Y is near it.  Without it one is chosen that is square to the axis.
+        A point on a plane has the plane's normal as axis, the frame's Z; X is near secondary.
         lead: of a screw, metres a turn.
         limits: (lower, upper) in degrees or metres from the present pose.
         drive: a dict with ``target``, ``target_velocity`` (degrees or metres, a second), ``stiffness``, ``damping``,
@@ -72,7 +79,7 @@ class Scene(Parts):
         freedoms: ``tx`` .. ``rz``, replacing those that the kind leaves: a range in degrees or metres, True (free), False
         (locked), or a model ``Freedom``, whose angles are radians.
         Raises TypeError for a side that is no index, ValueError for one that no node of this scene has, for an axis without
-        length, for a number that is not finite (but for the ends of a range), for a freedom that the kind does not leave,
+        length, for two axes that have to be square and are not, for a number that is not finite (but for the ends of a range), for a freedom that the kind does not leave,
         for a screw without a lead, and for a part joined to itself.
 
         >>> scene = kinefab.Scene()
@@ -80,6 +87,10 @@ class Scene(Parts):
         >>> screw = scene.add_joint("screw", None, bolt, point=(0, 0, 0), axis=(0, 1, 0), lead=0.002, rx=(-10, 80))
         >>> screw.freedoms[3].motion.value, screw.freedoms[0].motion.value
         ('limited', 'free')
+        >>> yoke = scene.add_part("Yoke")
+        >>> cross = scene.add_joint("universal", None, yoke, point=(0, 1, 0), axis=(0, 0, 1), secondary=(1, 0, 0), name="Cross")
+        >>> [c.name for c in kinefab.motion(scene).coordinates if c.joint == "Cross"]  # about (0, 0, 1), about (1, 0, 0)
+        ['Cross.rx', 'Cross.rz']
         """
         kind = kind_of_word(kind)
         if a is not None:
@@ -87,14 +98,14 @@ class Scene(Parts):
         self._check_index(b, "b")
         if a == b:
             raise ValueError(f"a and b are both {a}; pass two different parts, or None for the world as a")
-        main, near = checked_axes(axis, secondary)
+        axes = joint_axes(kind, axis, secondary)
         pitch = checked_lead(kind, lead)
         checked_name(name)
         checked_flag("collide", collide)
         force = checked_positive("the break_force", break_force, infinite=True)
         torque = checked_positive("the break_torque", break_torque, infinite=True)
         asked = freedoms_asked(kind, freedoms, limits, drive, spring, damping)
-        world = Pose(frame_from_axes(main, near), checked_vector("the point", point))
+        world = Pose(axes, checked_vector("the point", point))
         frame_a, frame_b = (self.pose(side).inverse() @ world for side in (a, b))
         joint = Joint(
             self._joint_ids.free(name or f"{kind.value}:{len(self.joints) + 1}", self.joints),

@@ -10,6 +10,7 @@ import sys
 from typing import Any, NoReturn
 
 import typer
+import typer.core
 
 from .. import __version__
 from . import console
@@ -21,6 +22,11 @@ from .export import export
 from .inspect import inspect
 from .mates import mates
 from .views import draw, report, view
+
+# typer before 0.12 dresses help and errors in rich's boxes wherever rich is there, whatever rich_markup_mode says: sentences
+# end in the middle, and a shell cannot search them.
+if hasattr(typer.core, "rich"):
+    typer.core.rich = None
 
 app = typer.Typer(
     name="kinefab",

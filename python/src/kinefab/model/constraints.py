@@ -31,6 +31,12 @@ class Feature:
     direction: of a line or axis, or a plane's outward normal; unit vector; None for point and sphere.
     secondary: second direction where the geometry is a whole frame (its X), or None.
     radius, half_angle: metres, radians; 0 where they mean nothing.
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> feature = scene.plane(scene.add_part("Table", translation=(0, 0.7, 0)), point=(0, 0.7, 0), normal=(0, 1, 0))
+    >>> feature.kind.value, feature.point.tolist()
+    ('plane', [0.0, 0.0, 0.0])
     """
 
     node: int | None
@@ -43,6 +49,34 @@ class Feature:
 
 
 class ConstraintKind(str, Enum):
+    """What a constraint holds between two features, and how many freedoms that takes (``schemas/SPEC.md``, section 7).
+
+    A sphere counts as its centre, a circle, cylinder or cone as its axis.
+
+    coincident: point on point 3, on line 2, on plane 1; line on line 4, in a plane 2; plane on plane 3; frame on frame 6
+    concentric: axis on axis 4; with ``lock_rotation`` 5
+    parallel, perpendicular: two directions 2, 1; a line with a plane 1, 2
+    angle: between two directions 1
+    distance: of points, point and line, point and plane 1; line and plane 2; planes 3; lines 1 or 3
+    tangent: plane with sphere 1, cylinder 2, cone 2, edge of a circle 1; spheres 1; cylinder and sphere 1; cylinders 1 or 3
+    insert: axis on axis and edge on edge 5; with ``lock_rotation`` 6
+    symmetry: b is the mirror image of a in the plane c: two points or planes 3, two lines 4
+    lock, lock_orientation: everything 6, every turn 3, as they stand now
+    slider: axis on axis without a turn 5
+    pin_slot: b, the pin, in a, the slot 4
+    universal: a point in common, two axes square to each other 4
+    screw: axis on axis, a slide of ``value`` a turn 5
+    gear, belt: b turns ``value`` times as far as a 1
+    rack: b slides ``value`` for each radian of a 1
+    linear: b slides ``value`` times as far as a 1
+    ground: fixed to the world 6
+    other: kept, never interpreted 0
+
+    >>> import kinefab
+    >>> kinefab.ConstraintKind("insert") is kinefab.ConstraintKind.INSERT
+    True
+    """
+
     COINCIDENT = "coincident"
     CONCENTRIC = "concentric"
     PARALLEL = "parallel"
@@ -92,6 +126,14 @@ class Constraint:
     reading: the vendor's meaning where the same words remove different rows, for example
         ``line_line_distance: skew | parallel``; keys and values are listed in ``schemas/SPEC.md``.
     raw_kind: the source's own word for it.
+
+    >>> import kinefab
+    >>> scene = kinefab.Scene()
+    >>> top = scene.plane(None, point=(0, 0.7, 0), normal=(0, 1, 0))
+    >>> foot = scene.plane(scene.add_part("Vase"), point=(0, 0.7, 0), normal=(0, -1, 0))
+    >>> constraint = scene.add_constraint("coincident", top, foot)
+    >>> constraint.kind.value, len(constraint.features)
+    ('coincident', 2)
     """
 
     id: str

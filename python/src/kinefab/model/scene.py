@@ -81,14 +81,30 @@ class Scene:
         return f"<Scene: {', '.join(f'{len(getattr(self, name))} {name}' for name in counts)}>"
 
     def pose(self, node: int | None) -> Pose:
-        """World pose of a node; the identity for ground."""
+        """World pose of a node; the identity for ground.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.pose(scene.add_part("Lid", translation=(0, 0.2, 0))).translation.tolist()
+        [0.0, 0.2, 0.0]
+        """
         return Pose() if node is None else self.nodes[node].pose
 
     def name(self, node: int | None) -> str:
-        """Id of a node, or 'ground'."""
+        """Id of a node, or 'ground'.
+
+        >>> scene = kinefab.Scene()
+        >>> scene.name(scene.add_part("Lid")), scene.name(None)
+        ('Lid', 'ground')
+        """
         return "ground" if node is None else self.nodes[node].id
 
     def with_poses(self, poses: Sequence[Pose]) -> Scene:
-        """The same scene with other node poses (same order as ``nodes``)."""
+        """The same scene with other node poses (same order as ``nodes``).
+
+        >>> scene = kinefab.Scene()
+        >>> lid = scene.add_part("Lid")
+        >>> scene.with_poses([kinefab.Pose()]).name(lid)
+        'Lid'
+        """
         moved = [replace(node, pose=pose) for node, pose in zip(self.nodes, poses, strict=True)]
         return replace(self, nodes=moved)

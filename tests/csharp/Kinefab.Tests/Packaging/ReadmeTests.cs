@@ -6,13 +6,16 @@ using System.Runtime.CompilerServices;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.NUnit;
 using Kinefab.Numerics;
 using Kinefab.Validation;
 using NUnit.Framework;
+using static Kinefab.NUnit.MechanismConstraints;
 
 namespace Kinefab.Tests.Packaging;
 
 /// <summary>The C# of the README, line by line, so that it compiles and runs.</summary>
+[NonParallelizable]
 public sealed class ReadmeTests
 {
     [Test]
@@ -45,6 +48,25 @@ public sealed class ReadmeTests
             Console.WriteLine($"{body}: {state.Pose(body).Position}");   // in Unity: transform.SetPositionAndRotation
         Assert.That(pulled.Status, Is.EqualTo(DriveStatus.OutOfReach), "the slider cannot rise");
         Assert.That(state.Pose("Lever/SliderD:1").Position.X, Is.EqualTo(-0.1).Within(1e-6));
+    }
+
+    [Test]
+    public void Readme_Constraints_Hold()
+    {
+        string before = Directory.GetCurrentDirectory();
+        Directory.SetCurrentDirectory(Path.GetFullPath(Path.Combine(Path.GetDirectoryName(Lever)!, "..", "..", "csharp", "examples", "LeverTests")));
+        try
+        {
+            string lever = "lever.kinefab";
+            Assert.That(lever, Is.ValidScene);
+            Assert.That(lever, Has.Mobility(1));
+            Assert.That(lever, Drives("Lever/Crank:1").From(0).To(360).Moving("Lever/SliderD:1").By(0.05).Within(1e-6));
+            Assert.That(lever, Matches.Trajectory("lever.motion.json").Within(1e-6));
+        }
+        finally
+        {
+            Directory.SetCurrentDirectory(before);
+        }
     }
 
     [Test]

@@ -129,17 +129,32 @@ def driven_blocks(assembly: Assembly, joints: Sequence[Driven], scene: Scene) ->
 
 
 def coordinate_names(joints: Sequence[Driven]) -> dict[tuple[str, int], str]:
-    """A name for each coordinate, by joint id and TX..RZ: the joint's own name, or its id where another has that too;
-    with ``.tx`` to ``.rz`` behind it where the joint has several."""
+    """A name for each coordinate, by joint id and TX..RZ: the joint's own name, or its id where another has that too.
+
+    Where the joint has several, the source's name of the freedom, or its id with ``.tx`` to ``.rz`` behind it, as the source
+    has them, in the joint's own frame where the source has no words of its own.
+    """
     names = [driven.joint.name for driven in joints]
     ids = {driven.joint.id for driven in joints}
+    words = {id(driven): _words(driven) for driven in joints}
+    everywhere = [word for own in words.values() for word in own.values()]
     found: dict[tuple[str, int], str] = {}
     for driven in joints:
         joint = driven.joint
         own = (
             joint.name and names.count(joint.name) == 1 and (joint.name not in ids or joint.name == joint.id)
         )
-        for i in driven.moving:
-            suffix = "" if len(driven.moving) == 1 else f".{FREEDOM_NAMES[i]}"
-            found[joint.id, i] = (joint.name if own else joint.id) + suffix
+        name = joint.name if own else joint.id
+        for i, word in words[id(driven)].items():
+            alone = word and word not in FREEDOM_NAMES and word not in ids and word not in names
+            known = alone and everywhere.count(word) == 1
+            found[joint.id, i] = word if known else f"{name}.{word}" if word else name
     return found
+
+
+def _words(driven: Driven) -> dict[int, str]:
+    """What each of a joint's moving freedoms is called; nothing where there is one only."""
+    if len(driven.moving) == 1:
+        return {driven.moving[0]: ""}
+    words = {i: driven.joint.freedom_name(i) for i in driven.moving}
+    return words if len(set(words.values())) == len(words) else {i: FREEDOM_NAMES[i] for i in driven.moving}

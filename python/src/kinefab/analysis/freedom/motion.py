@@ -26,6 +26,8 @@ own curvature changes it by about STEP)."""
 TRIALS = 2
 DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
+WHOLE = 0.9
+"""Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
 MOST_DIRECTIONS = 12
 """Directions tried at the start pose itself; beyond, the tangent is the one found some steps away."""
 MOST_WORK = 1_000
@@ -37,6 +39,8 @@ LONG_STEP = 3e-2
 """Size of their trial steps: what obstructs a long chain shows at the root of its closing error, far above STEP's."""
 FURTHER = 0.1
 """Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
+MOST_FURTHER = 5
+"""Such steps, while what is left of some velocity is in doubt."""
 WALK = 3
 WALK_STEP = 0.05
 MOVES = 1e-6
@@ -192,14 +196,7 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
-        away, there = _further(solver, part, there[part], away)
-        sampled = _sampled(solver, part, there[part], away)
-        if sampled is None:
-            return FiniteFreedom(there[part].mobility, there[part].basis, True)
-        # What an obstructed velocity left of itself is no motion, and does not go on.
-        if sampled.shape[1] > 1:
-            sampled = _survivors(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
-        return FiniteFreedom(sampled.shape[1], sampled, True)
+        return _found_far_away(solver, part, there, away)
     tangent = _survivors(solver, part, there[part], away)
     if tangent.shape[1] == 0:
         return FiniteFreedom(*_with_bodies_at_rest(solver, first_order, start), True)
@@ -207,6 +204,28 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
         return FiniteFreedom(tangent.shape[1], tangent, True)
     here = _survivors(solver, part, first_order, start)
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
+
+
+def _found_far_away(
+    solver: Solver, part: int, there: list[BlockFreedom], away: State
+) -> FiniteFreedom:
+    """The motions of a part with many velocities, by random ones, some steps further from ``away``.
+
+    A velocity is a motion or none; where one keeps a part of itself, the step fell back to a singular pose, and which
+    rounding decides: so another one is taken from there."""
+    for _ in range(MOST_FURTHER):
+        away, there = _further(solver, part, there[part], away)
+        sampled = _sampled(solver, part, there[part], away)
+        if sampled is None:
+            return FiniteFreedom(there[part].mobility, there[part].basis, True)
+        if sampled.shape[1] < 2:
+            break
+        # What an obstructed velocity left of itself is no motion, and does not go on.
+        ways, share = _kept(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
+        sampled = ways[:, share > DIRECTION]
+        if share.min() > WHOLE:
+            break
+    return FiniteFreedom(sampled.shape[1], sampled, True)
 
 
 def _with_bodies_at_rest(solver: Solver, first_order: BlockFreedom, start: State) -> tuple[int, Array]:
@@ -267,11 +286,19 @@ def _further(
 
 def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float = STEP) -> Array:
     """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
-    kept = [_left_of(solver, part, freedom, state, direction, step) for direction in freedom.basis.T]
-    if not kept:
+    if not freedom.basis.shape[1]:
         return np.zeros((len(freedom.bodies) * 6, 0))
-    u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
-    return u[:, s > DIRECTION]
+    ways, share = _kept(solver, part, freedom, state, step)
+    return ways[:, share > DIRECTION]
+
+
+def _kept(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float
+) -> tuple[Array, Array]:
+    """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), and the share left of each."""
+    left = [_left_of(solver, part, freedom, state, direction, step) for direction in freedom.basis.T]
+    u, s, _ = np.linalg.svd(np.array(left).T, full_matrices=False)
+    return u, s
 
 
 def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array | None:

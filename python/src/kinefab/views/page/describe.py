@@ -15,7 +15,7 @@ from ..extent import ends_in_sight, span_of
 from ..freedoms import counted, world_placements
 from ..seen import shown
 from .blob import Blob
-from .joints import coordinate_label, joint_entry
+from .joints import coordinate_labels, joint_entry
 from .meshes import packed_meshes
 from .parts import material_entry, part_entry, rows
 
@@ -59,10 +59,15 @@ def description(
     joints: list[dict[str, Any]] = []
     place: dict[tuple[int, int], int] = {}
     by_joint: dict[str, int] = {}
+    labels: dict[str, str] = {}
     for (index, i), (joint, ends, world) in motion.joints.items():
         place[index, i] = by_joint[joint.id] = len(joints)
         component = objects[index]["components"][i]
-        joints.append(joint_entry(component, index, joint, ends, world, names, document, placements))
+        entry = joint_entry(component, index, joint, ends, world, names, document, placements)
+        joints.append(entry)
+        carriers = (objects[index]["name"], dict(entry["fields"])["connectedBody"])
+        carriers = carriers if motion.body_of[index] == ends[0] else carriers[::-1]
+        labels |= coordinate_labels(joint, entry["label"], carriers, names)
     notices: list[str] = []
     if kept < total:
         notices.append(f"Thinned out: {kept:,} of {total:,} triangles are shown.")
@@ -82,7 +87,7 @@ def description(
         "bodyCount": motion.bodies,
         "joints": joints,
         "couplings": _couplings(document, place, joints),
-        "coordinates": _coordinates(motion, joints, by_joint, span_of(document)),
+        "coordinates": _coordinates(motion, labels, by_joint, span_of(document)),
         "blocks": [_block(block, blob) for block in motion.blocks],
         "islands": islands,
         "islandOf": island_of,
@@ -104,23 +109,20 @@ def _mobility(document: Entry, motion: Motion) -> Any:
 
 
 def _coordinates(
-    motion: Motion, joints: Sequence[Entry], by_joint: Mapping[str, int], span: float
+    motion: Motion, labels: Mapping[str, str], by_joint: Mapping[str, int], span: float
 ) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, (joint, freedom, value, lower, upper) in motion.coordinates.items():
-        index = by_joint.get(joint)
-        several = index is not None and sum(f["name"] is not None for f in joints[index]["freedoms"]) > 1
         turns = FREEDOM_NAMES[freedom].startswith("r")
         if not turns:
             lower, upper = ends_in_sight(value, lower, upper, span)
-        label = name if index is None else coordinate_label(joints[index]["label"], freedom, several)
         found[name] = {
-            "label": label,
+            "label": labels.get(name, name),
             "unit": "deg" if turns else "m",
             "value": value,
             "lower": lower if math.isfinite(lower) else None,
             "upper": upper if math.isfinite(upper) else None,
-            "joint": index,
+            "joint": by_joint.get(joint),
             "size": 0.5 * span,
         }
     return found

@@ -91,9 +91,22 @@ def shown(value: Any) -> str:
     return str(value)
 
 
-def coordinate_label(joint_label: str, freedom: int, several: bool) -> str:
-    """What a slider is called."""
-    if not several:
-        return joint_label
-    word = "turn" if freedom >= RX else "slide"
-    return f"{joint_label}, {word} {FREEDOM_NAMES[freedom][1].upper()}"
+def coordinate_labels(
+    joint: Joint, label: str, carriers: tuple[str, str], names: Mapping[tuple[str, int], str]
+) -> dict[str, str]:
+    """What the sliders of a joint are called, by the names of its coordinates.
+
+    label: the joint's.  carriers: names of a and b.  Of two turns one is about an axis that b carries and one about one that
+    a carries, as a universal joint has them (``model.JointKind``).
+    """
+    moving = [i for i in joint.unlocked if (joint.id, i) in names]
+    found: dict[str, str] = {}
+    for i in moving:
+        alike = [k for k in joint.unlocked if (k >= RX) == (i >= RX)]
+        word = "turn" if i >= RX else "slide"
+        if i >= RX and len(alike) == 2:
+            word += f" about {carriers[1] if i == alike[0] else carriers[0]}'s axis"
+        elif len(alike) > 1:
+            word += f" {FREEDOM_NAMES[i][1].upper()}"
+        found[names[joint.id, i]] = label if len(moving) == 1 else f"{label}, {word}"
+    return found

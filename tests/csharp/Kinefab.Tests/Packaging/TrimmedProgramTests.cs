@@ -1,0 +1,60 @@
+using System;
+using System.IO;
+using System.Runtime.InteropServices;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Packaging;
+
+/// <summary>A small program that uses most of the library, published without what it does not use, and as machine code alone.</summary>
+public sealed class TrimmedProgramTests
+{
+    private const string Code = """
+        using System;
+        using Kinefab.Dynamics;
+        using Kinefab.Kinematics;
+        using Kinefab.Advice;
+        using Kinefab.Validation;
+
+        ValidScene scene = ValidScene.Load(args[0]);
+        Mechanism mechanism = Mechanism.Create(scene);
+        MechanismState state = mechanism.NewState();
+        DriveResult driven = new PositionSolver(mechanism).Drive(state, "Lever/Crank:1", 60);
+        foreach (SolverKind solver in new[] { SolverKind.Unity, SolverKind.Exact })
+        {
+            World world = World.Create(scene, solver);
+            world.Step(0.02);
+        }
+
+        AdviceReport advice = StabilityAdvice.Of(scene, new AdviceOptions { Seconds = 0.4, MaxTrials = 2 });
+        Console.WriteLine($"{driven.Status} mobility {MobilityAnalysis.Of(mechanism).Mobility} findings {advice.Findings.Count} {ValidScene.Load(args[0]).Document.GameObjects[0].Id}");
+        """;
+
+    [TestCase("PublishTrimmed")]
+    [TestCase("PublishAot")]
+    public void Program_Published_RunsAsItDoesOtherwise(string how)
+    {
+        using var feed = new PackageFeed("Kinefab");
+        File.WriteAllText(Path.Combine(feed.Project, "Program.cs"), Code);
+        File.WriteAllText(Path.Combine(feed.Project, "small.csproj"), $"""
+            <Project Sdk="Microsoft.NET.Sdk">
+              <PropertyGroup>
+                <OutputType>Exe</OutputType>
+                <TargetFramework>net10.0</TargetFramework>
+                <RuntimeIdentifier>{RuntimeInformation.RuntimeIdentifier}</RuntimeIdentifier>
+                <{how}>true</{how}>
+                <SelfContained>true</SelfContained>
+                <InvariantGlobalization>true</InvariantGlobalization>
+                <TreatWarningsAsErrors>true</TreatWarningsAsErrors>
+              </PropertyGroup>
+              <ItemGroup><PackageReference Include="Kinefab" Version="0.1.0" /></ItemGroup>
+            </Project>
+            """);
+        (int exit, string output) = PackageFeed.Run("dotnet", feed.Project, ["publish", "--nologo", "-o", "out", .. feed.Restore]);
+        if (exit != 0 && (output.Contains("NU1101", StringComparison.Ordinal) || output.Contains("NU1102", StringComparison.Ordinal) || output.Contains("NU1301", StringComparison.Ordinal) || output.Contains("Platform linker not found", StringComparison.Ordinal)))
+            Assert.Ignore($"{how}: the runtime's pack or a linker is not to be had");
+        Assert.That(exit, Is.Zero, output);
+        string lever = Path.Combine(PackageFeed.Source("examples/LeverTests"), "lever.kinefab");
+        (int ended, string printed) = PackageFeed.Run(Path.Combine(feed.Project, "out", "small"), feed.Project, lever);
+        Assert.That((ended, printed.Trim()), Is.EqualTo((0, "Reached mobility 1 findings 1 Lever")));
+    }
+}

@@ -9,7 +9,9 @@ namespace Kinefab.Diagnostics;
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed class Report
 {
-    internal Report(IReadOnlyList<Diagnostic> diagnostics) => Diagnostics = diagnostics;
+    /// <summary>Of findings, in the order of their places.</summary>
+    /// <param name="diagnostics">Not changed afterwards.</param>
+    public Report(IReadOnlyList<Diagnostic> diagnostics) => Diagnostics = diagnostics ?? throw new ArgumentNullException(nameof(diagnostics));
 
     /// <summary>Nothing was found.</summary>
     public static Report Empty { get; } = new(Array.Empty<Diagnostic>());

@@ -14,7 +14,9 @@ internal sealed class WorldNames
     private readonly Dictionary<int, WorldBody> _bodyOf;
     private readonly Dictionary<string, WorldJoint> _jointsByName = new(StringComparer.Ordinal);
     private readonly (WorldJoint Joint, Coordinate Coordinate)[] _coordinates;
-    private readonly CoordinateNames _coordinateNames;
+
+    // Most worlds are never asked for one.
+    private readonly Lazy<CoordinateNames> _coordinateNames;
 
     public WorldNames(IReadOnlyList<GameObject> objects, WorldBody[] bodies, WorldJoint[] joints)
     {
@@ -29,7 +31,7 @@ internal sealed class WorldNames
         }
 
         _coordinates = joints.SelectMany(joint => joint.FreeCoordinates, (joint, coordinate) => (joint, coordinate)).ToArray();
-        _coordinateNames = new CoordinateNames(objects, Array.ConvertAll(_coordinates, c => new CoordinatePlace(c.Joint.GameObject, c.Joint.Component, c.Coordinate, isLocked: false)));
+        _coordinateNames = new Lazy<CoordinateNames>(() => new CoordinateNames(objects, Array.ConvertAll(_coordinates, c => new CoordinatePlace(c.Joint.GameObject, c.Joint.Component, c.Coordinate, isLocked: false))));
     }
 
     public WorldBody Body(string name)
@@ -60,7 +62,7 @@ internal sealed class WorldNames
         };
     }
 
-    public (WorldJoint Joint, Coordinate Coordinate) Coordinate(string name) => _coordinateNames.TryFind(name, out int found, out string problem)
+    public (WorldJoint Joint, Coordinate Coordinate) Coordinate(string name) => _coordinateNames.Value.TryFind(name, out int found, out string problem)
         ? _coordinates[found]
         : throw new ArgumentException($"{name}: {problem}", nameof(name));
 

@@ -1,19 +1,43 @@
 using System;
 using System.CommandLine;
+using System.IO;
 using Kinefab.Cli.Commands;
 
 namespace Kinefab.Cli;
 
-/// <summary>dotnet kinefab: exit 0 ok, 1 errors found, 2 wrong usage.</summary>
+/// <summary>dotnet kinefab: exit 0 ok, 1 errors found, 2 wrong usage, 3 what it printed could not be written; of several files the greatest.</summary>
 internal static class Program
 {
+    private const int OutputLost = 3;
+
     internal static int Main(string[] args)
+    {
+        (TextWriter data, TextWriter findings) = (Console.Out, Console.Error);
+        var terminal = new Terminal(data);
+        try
+        {
+            Console.SetOut(terminal);
+            Console.SetError(new Terminal(findings));
+            int exit = Run(args);
+            if (terminal.Fault is null)
+                return exit;
+            Console.Error.WriteLine($"The output could not be written: {terminal.Fault.Message}");
+            return OutputLost;
+        }
+        finally
+        {
+            Console.SetOut(data);
+            Console.SetError(findings);
+        }
+    }
+
+    private static int Run(string[] args)
     {
         ParseResult parsed = Commands().Parse(args);
         if (parsed.Errors.Count == 0)
-            return parsed.Invoke();
+            return parsed.Invoke(new InvocationConfiguration { Output = Console.Out, Error = Console.Error });
         foreach (var error in parsed.Errors)
-            Console.Error.WriteLine(error.Message);
+            Console.Error.WriteLine(Printable.Text(error.Message));
         return WrongUsage.Refuse("Run 'dotnet kinefab --help' for the commands and their options.");
     }
 

@@ -1,7 +1,4 @@
-using System;
 using System.IO;
-using System.Text;
-using System.Text.Encodings.Web;
 using System.Text.Json;
 using Kinefab.Diagnostics;
 
@@ -28,20 +25,6 @@ internal static class ReportWriter
         foreach (Diagnostic found in report.Diagnostics)
             Write(json, found);
         json.WriteEndArray();
-    }
-
-    /// <summary>One JSON object on stdout.</summary>
-    internal static void WriteJson(Action<Utf8JsonWriter> fields)
-    {
-        using var buffer = new MemoryStream();
-        using (var json = new Utf8JsonWriter(buffer, new JsonWriterOptions { Indented = true, NewLine = "\n", Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }))
-        {
-            json.WriteStartObject();
-            fields(json);
-            json.WriteEndObject();
-        }
-
-        Console.Out.WriteLine(Encoding.UTF8.GetString(buffer.ToArray()));
     }
 
     private static void Write(Utf8JsonWriter json, Diagnostic found)

@@ -3,7 +3,7 @@ namespace Kinefab.NUnit;
 /// <summary>
 /// Where a sentence about a motion begins. With <c>using static Kinefab.NUnit.MechanismConstraints;</c>
 /// <code>
-/// Assert.That(mechanism, Drives("Lever/Crank:1").From(0).To(360).Moving("Lever/SliderD:1").By(0.05).Within(1e-6));
+/// Assert.That(mechanism, Drives("Shaft").From(0).To(360).Moving("Slide").By(0.05).Within(1e-6));
 /// Assert.That(mechanism, Closes.Within(1e-9));
 /// Assert.That(scene, Keeps.Energy.Within(0.1).Percent.For(seconds: 10));
 /// Assert.That(scene, Matches.Trajectory("lever.motion.json").Within(1e-6));
@@ -16,6 +16,6 @@ public static class MechanismConstraints
     public static ClosesConstraint Closes => new();
 
     /// <summary>A coordinate can be driven through a range.</summary>
-    /// <param name="coordinate">The joint's name, or its GameObject's id, with the coordinate behind it where it has several: Arm.angularX.</param>
+    /// <param name="coordinate">What the CAD program calls the joint, or its GameObject's id, with the coordinate behind it where it has several: Arm.angularX.</param>
     public static DrivesConstraint Drives(string coordinate) => new(coordinate);
 }

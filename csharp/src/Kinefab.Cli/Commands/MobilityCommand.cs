@@ -9,40 +9,35 @@ using Kinefab.Validation;
 
 namespace Kinefab.Cli.Commands;
 
-/// <summary>dotnet kinefab mobility FILE [--json].</summary>
+/// <summary>dotnet kinefab mobility FILES [--json] [--junit FILE].</summary>
 internal static class MobilityCommand
 {
     internal static Command Create()
     {
-        Argument<string> file = SceneArguments.File();
-        Option<bool> json = SceneArguments.Json();
-        var command = new Command("mobility", "Count what the joints leave free and hold it against the file's own analysis.") { file, json };
-        command.SetAction(parsed => Run(parsed.GetRequiredValue(file), parsed.GetValue(json)));
+        var scenes = new SceneArguments();
+        var command = new Command("mobility", "Count what the joints leave free and hold it against the file's own analysis.");
+        scenes.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            SceneBatch batch = scenes.Of(parsed);
+            return batch.Run(file => Run(file, batch.IsJson));
+        });
         return command;
     }
 
-    private static int Run(string file, bool asJson)
+    private static SceneOutcome Run(string file, bool json)
     {
         LoadedScene loaded = LoadedScene.Load(file, strict: false);
-        MobilityReport? counted = loaded.Scene is null ? null : MobilityAnalysis.Of(Mechanism.Create(loaded.Scene));
+        MobilityReport? counted = loaded.Scene is null ? null : Mechanism.Create(loaded.Scene).CountMobility();
         Report report = counted is null ? loaded.Report : loaded.Report.Concat(MobilityCheck.Compare(loaded.Scene!, counted));
-        if (asJson)
-        {
-            ReportWriter.WriteJson(target =>
-            {
-                ReportWriter.WriteFields(target, file, report);
-                if (counted is not null)
-                    Write(counted, target);
-            });
-        }
-        else
+        if (!json)
         {
             ReportWriter.WriteLines(file, report, Console.Error);
             if (counted is not null)
                 Write(loaded.Scene!, counted, Console.Out);
         }
 
-        return report.HasErrors ? 1 : 0;
+        return new SceneOutcome(report.HasErrors ? 1 : 0, report, Fields: counted is null ? null : target => Write(counted, target));
     }
 
     private static void Write(ValidScene scene, MobilityReport counted, TextWriter target)

@@ -1,7 +1,5 @@
 using System;
 using System.CommandLine;
-using System.Globalization;
-using System.IO;
 using System.Linq;
 using Kinefab.Cli.Motion;
 using Kinefab.Cli.Simulation;
@@ -10,7 +8,7 @@ using Kinefab.Kinematics;
 
 namespace Kinefab.Cli.Commands;
 
-/// <summary>dotnet kinefab sweep FILE --joint ID --from A --to B --steps N [-o traj.json|csv] [--into-animation].</summary>
+/// <summary>dotnet kinefab sweep FILES --joint ID --from A --to B --steps N [-o traj.json|csv] [--into-animation] [--json] [--junit FILE].</summary>
 internal static class SweepCommand
 {
     // The solver walks all of the way, in steps of a fraction of a radian or of the mechanism's length.
@@ -19,62 +17,82 @@ internal static class SweepCommand
 
     internal static Command Create()
     {
-        Argument<string> file = SceneArguments.File();
-        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: id or name of the object with the joint, with [COMPONENT] behind it where one object carries several.", Required = true };
+        var scenes = new SceneArguments();
+        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: what the CAD program calls the joint, or id or name of the object with it, with [COMPONENT] behind it where one object carries several.", Required = true };
         Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
         Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {FarthestDegrees} deg or {FarthestMetres} m either way.");
         Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: TypedOptions.MostSteps, standard: 72);
         Option<string?> output = TypedOptions.Trajectory();
         var animation = new Option<bool>("--into-animation") { Description = "Write the sweep into the scene as an animation clip." };
-        var command = new Command("sweep", "Take a joint through its range; say how far it goes and where it stops.") { file, joint, from, to, steps, output, animation };
-        command.SetAction(parsed => Run(
-            parsed.GetRequiredValue(file),
-            parsed.GetRequiredValue(joint),
-            parsed.GetValue(from),
-            parsed.GetValue(to),
-            parsed.GetValue(steps),
-            parsed.GetValue(output),
-            parsed.GetValue(animation)));
+        var command = new Command("sweep", "Take a joint through its range; say how far it goes and where it stops.") { joint, from, to, steps, output, animation };
+        scenes.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            SceneBatch batch = scenes.Of(parsed);
+            string? target = parsed.GetValue(output);
+            if (batch.FaultOfSingle("--output", target) is string fault)
+                return WrongUsage.Refuse(fault);
+            var run = new Run(parsed.GetRequiredValue(joint), parsed.GetValue(from), parsed.GetValue(to), parsed.GetValue(steps), target, parsed.GetValue(animation), batch.IsJson);
+            return batch.Run(run.Of);
+        });
         return command;
     }
 
-    private static int Run(string file, string joint, double? from, double? to, int steps, string? output, bool intoAnimation)
+    private sealed record Run(string Joint, double? From, double? To, int Steps, string? Output, bool IntoAnimation, bool IsJson)
     {
-        LoadedScene loaded = LoadedScene.Load(file, strict: false);
-        ReportWriter.WriteLines(file, loaded.Report, Console.Error);
-        if (loaded.Scene is null)
-            return loaded.ExitCode;
-        Mechanism mechanism = Mechanism.Create(loaded.Scene);
-        if (!mechanism.TryFindCoordinate(joint, out int coordinate, out string fault))
-            return WrongUsage.Refuse($"--joint {joint}: {fault}");
-
-        bool isAngle = mechanism.Coordinates[coordinate].IsAngle;
-        double farthest = isAngle ? FarthestDegrees : FarthestMetres;
-        if (Math.Max(Math.Abs(from ?? 0), Math.Abs(to ?? 0)) > farthest)
-            return WrongUsage.Refuse($"--from and --to must lie between -{Number(farthest)} and {Number(farthest)} {(isAngle ? "deg" : "m")} for {joint}.");
-
-        if (TrajectorySize.Fault(steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)
-            return WrongUsage.Refuse($"--steps {steps}: {excess} Give fewer steps.");
-
-        Report target = Targets(output, intoAnimation ? file : null);
-        if (target.HasErrors)
+        internal SceneOutcome Of(string file)
         {
-            ReportWriter.WriteLines(file, target, Console.Error);
-            return 1;
+            if (IntoAnimation && file == LoadedScene.StandardInput)
+                return SceneOutcome.Refused(Report.Empty, "--into-animation needs a file: standard input cannot be written into.");
+            LoadedScene loaded = LoadedScene.Load(file, strict: false);
+            Tell(file, loaded.Report);
+            if (loaded.Scene is null)
+                return new SceneOutcome(loaded.ExitCode, loaded.Report);
+            Mechanism mechanism = Mechanism.Create(loaded.Scene);
+            if (!mechanism.TryFindCoordinate(Joint, out int coordinate, out string fault))
+                return SceneOutcome.Refused(loaded.Report, $"--joint {Joint}: {fault}");
+
+            bool isAngle = mechanism.Coordinates[coordinate].IsAngle;
+            double farthest = isAngle ? FarthestDegrees : FarthestMetres;
+            if (Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)) > farthest)
+                return SceneOutcome.Refused(loaded.Report, $"--from and --to must lie between -{SweepText.Number(farthest)} and {SweepText.Number(farthest)} {(isAngle ? "deg" : "m")} for {Joint}.");
+
+            if (TrajectorySize.Fault(Steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)
+                return SceneOutcome.Refused(loaded.Report, $"--steps {Steps}: {excess} Give fewer steps.");
+
+            Report target = Targets(Output, IntoAnimation ? file : null);
+            if (target.HasErrors)
+            {
+                Tell(file, target);
+                return new SceneOutcome(1, loaded.Report.Concat(target));
+            }
+
+            return Move(file, mechanism, coordinate, loaded.Report);
         }
 
-        var sweep = new Sweep(new PositionSolver(mechanism));
-        (RangeLimit low, RangeLimit high) = sweep.Range(mechanism.NewState(), coordinate);
-        (double first, double last) = WholeRange(low, high);
-        var progress = new Progress(steps);
-        SweepResult result = sweep.Run(mechanism.NewState(), coordinate, from ?? first, to ?? last, steps, progress);
-        progress.End();
-        Write(mechanism, result, low, high, Console.Out);
-        Report written = output is null ? Report.Empty : TrajectoryFile.Save(SweepTrajectory.Of(mechanism, result), output);
-        if (intoAnimation)
-            written = written.Concat(SweepAnimation.Write(file, mechanism, result, "sweep " + joint));
-        ReportWriter.WriteLines(file, written, Console.Error);
-        return !written.HasErrors && result.Stop is null && result.Jumps.Count == 0 ? 0 : 1;
+        private SceneOutcome Move(string file, Mechanism mechanism, int coordinate, Report before)
+        {
+            var sweep = new Sweep(new PositionSolver(mechanism));
+            (RangeLimit low, RangeLimit high) = sweep.Range(mechanism.NewState(), coordinate);
+            (double first, double last) = WholeRange(low, high);
+            var progress = new Progress(Steps);
+            SweepResult result = sweep.Run(mechanism.NewState(), coordinate, From ?? first, To ?? last, Steps, progress);
+            progress.End();
+            if (!IsJson)
+                SweepText.Write(mechanism, result, low, high, Console.Out);
+            Report written = Output is null ? Report.Empty : TrajectoryFile.Save(SweepTrajectory.Of(mechanism, result), Output);
+            if (IntoAnimation)
+                written = written.Concat(SweepAnimation.Write(file, mechanism, result, "sweep " + Joint));
+            Tell(file, written);
+            string? fault = result.Stop is not null || result.Jumps.Count > 0 ? result.ToString() : null;
+            return new SceneOutcome(!written.HasErrors && fault is null ? 0 : 1, before.Concat(written), fault, json => SweepJson.Write(mechanism, result, low, high, json));
+        }
+
+        private void Tell(string file, Report report)
+        {
+            if (!IsJson)
+                ReportWriter.WriteLines(file, report, Console.Error);
+        }
     }
 
     private static Report Targets(params string?[] paths) =>
@@ -88,44 +106,4 @@ internal static class SweepCommand
         double inset = margin * (high.Value - first);
         return (first + (low.End is RangeEnd.Open or RangeEnd.Limit ? 0 : inset), high.Value - (high.End is RangeEnd.Open or RangeEnd.Limit ? 0 : inset));
     }
-
-    private static void Write(Mechanism mechanism, SweepResult result, RangeLimit low, RangeLimit high, TextWriter target)
-    {
-        string unit = mechanism.Coordinates[result.Coordinate].IsAngle ? "deg" : "m";
-        target.WriteLine($"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {Counted.Of(result.States.Count - 1, "step", "steps")}");
-        target.WriteLine($"range      {End(mechanism, low)} to {End(mechanism, high)} {unit}");
-        for (int i = 0; i < result.Branches.Count; i++)
-            target.WriteLine($"branch     {(i > 0 ? "not taken" : result.Branches.Count == 1 ? "taken, the only one found" : $"taken, the straightest of {result.Branches.Count}")}: {Rates(mechanism, result.Branches[i])}");
-        if (result.Stop is RangeLimit stop)
-            target.WriteLine($"stopped    {End(mechanism, stop)} {unit}");
-        foreach (double jump in result.Jumps)
-            target.WriteLine($"jumped     to another branch at {Number(jump)} {unit}");
-        target.WriteLine($"worst gap  {result.WorstErrorMetres.ToString("E1", CultureInfo.InvariantCulture)} m, {result.WorstErrorDegrees.ToString("E1", CultureInfo.InvariantCulture)} deg");
-        for (int i = 0; i < mechanism.Coordinates.Count; i++)
-        {
-            int index = i;
-            MechanismCoordinate coordinate = mechanism.Coordinates[i];
-            double least = result.States.Min(s => s.Coordinate(index));
-            double most = result.States.Max(s => s.Coordinate(index));
-            target.WriteLine($"           {Name(mechanism, i)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
-        }
-    }
-
-    // By degree or metre of the driven joint.
-    private static string Rates(Mechanism mechanism, MotionBranch branch) => string.Join(", ", Enumerable.Range(0, branch.Rates.Count)
-        .Select(i => $"{Name(mechanism, i)} {branch.Rates[i].ToString("+0.###;-0.###;0", CultureInfo.InvariantCulture)}"));
-
-    private static string End(Mechanism mechanism, RangeLimit limit) => limit.End switch
-    {
-        RangeEnd.Open => $"{Number(limit.Value)} (open)",
-        RangeEnd.Limit when limit.Limit is ReachedLimit reached => $"{Number(limit.Value)} (limit of {Name(mechanism, mechanism.FindCoordinate(reached.GameObject, reached.Component, reached.Coordinate))})",
-        RangeEnd.Fold => $"{Number(limit.Value)} (dead centre)",
-        RangeEnd.Bifurcation => $"{Number(limit.Value)} (branches cross)",
-        _ => $"{Number(limit.Value)} (no pose found beyond)",
-    };
-
-    private static string Name(Mechanism mechanism, int coordinate) => mechanism.Coordinates[coordinate].Name;
-
-    // As it is written, without the sign that the format gives a negative number that comes to 0.
-    private static string Number(double value) => (Math.Round(value, 6) + 0.0).ToString("0.######", CultureInfo.InvariantCulture);
 }

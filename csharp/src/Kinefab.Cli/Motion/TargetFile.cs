@@ -1,7 +1,6 @@
 using System;
 using System.IO;
 using Kinefab.Diagnostics;
-using Kinefab.Reading;
 
 namespace Kinefab.Cli.Motion;
 
@@ -57,10 +56,6 @@ internal static class TargetFile
     private static string Beside(string target) =>
         Path.Combine(Path.GetDirectoryName(target) ?? "", $".kinefab.{Path.GetRandomFileName()}.part");
 
-    private static Report Unwritable(string path, string detail)
-    {
-        var findings = new Findings(1);
-        findings.Add("", "TARGET_UNWRITABLE", ("path", path), ("detail", detail));
-        return FindingPlaces.Resolve(findings, default, hasText: false);
-    }
+    private static Report Unwritable(string path, string detail) =>
+        new([Diagnostic.Of("TARGET_UNWRITABLE", "", ("path", path), ("detail", detail))]);
 }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text.Json;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Validation;
@@ -17,8 +18,15 @@ internal sealed class RunSummary
     private readonly JointRecord[] joints;
     private readonly double startEnergy;
 
-    internal RunSummary(World world, ValidScene scene)
+    private readonly SolverKind kind;
+    private readonly int steps;
+    private readonly double dt;
+
+    internal RunSummary(World world, ValidScene scene, SolverKind kind, int steps, double dt)
     {
+        this.kind = kind;
+        this.steps = steps;
+        this.dt = dt;
         this.world = world;
         this.scene = scene;
         joints = world.Joints.Select(j => new JointRecord(j)).ToArray();
@@ -33,7 +41,7 @@ internal sealed class RunSummary
             joint.Note(world.Time);
     }
 
-    internal void Write(TextWriter target, SolverKind kind, int steps, double dt)
+    internal void Write(TextWriter target)
     {
         double end = world.KineticEnergy + world.PotentialEnergy;
         target.WriteLine(Text($"{Counted.Of(steps, "step", "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
@@ -42,6 +50,23 @@ internal sealed class RunSummary
             target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Stops, "time", "times")}"));
         foreach (JointRecord joint in joints)
             joint.Write(target, scene.Document.GameObjects[joint.Joint.GameObject].Name);
+    }
+
+    /// <summary>The field "simulation" of schemas/report.schema.json into an open JSON object.</summary>
+    internal void WriteJson(Utf8JsonWriter json)
+    {
+        json.WriteStartObject("simulation");
+        json.WriteString("solver", kind.ToJson());
+        json.WriteNumber("steps", steps);
+        json.WriteNumber("step", dt);
+        json.WriteNumber("startEnergy", startEnergy);
+        json.WriteNumber("endEnergy", world.KineticEnergy + world.PotentialEnergy);
+        json.WriteNumber("stops", world.Stops);
+        json.WriteStartArray("joints");
+        foreach (JointRecord joint in joints)
+            joint.WriteJson(json);
+        json.WriteEndArray();
+        json.WriteEndObject();
     }
 
     private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
@@ -60,7 +85,7 @@ internal sealed class RunSummary
         internal JointRecord(WorldJoint joint)
         {
             Joint = joint;
-            coordinates = FreeCoordinates(joint);
+            coordinates = [.. joint.FreeCoordinates];
             least = coordinates.Select(joint.Coordinate).ToArray();
             greatest = (double[])least.Clone();
         }
@@ -96,29 +121,34 @@ internal sealed class RunSummary
                 $"{Joint.Name} ({gameObject}): drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
 
+        internal void WriteJson(Utf8JsonWriter json)
+        {
+            json.WriteStartObject();
+            json.WriteString("name", Joint.Name);
+            json.WriteString("gameObject", Joint.Id);
+            json.WriteNumber("component", Joint.Component);
+            json.WriteNumber("drift", distance);
+            json.WriteNumber("driftAngle", angle);
+            json.WriteStartArray("coordinates");
+            for (int i = 0; i < coordinates.Length; i++)
+            {
+                json.WriteStartObject();
+                json.WriteString("coordinate", coordinates[i].ToJson());
+                json.WriteString("unit", coordinates[i] is Coordinate.X or Coordinate.Y or Coordinate.Z ? "m" : "deg");
+                json.WriteNumber("least", least[i]);
+                json.WriteNumber("greatest", greatest[i]);
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+            if (limitAt is double at)
+                json.WriteNumber("limitAt", at);
+            if (BrokenAt is double when)
+                json.WriteNumber("brokenAt", when);
+            json.WriteEndObject();
+        }
+
         // As it is written, without the sign that the format gives a negative number that comes to 0.
         private static double Rounded(double value) => Math.Round(value, 5) + 0.0;
-
-        // The coordinates that a joint leaves free or limited.
-        private static Coordinate[] FreeCoordinates(WorldJoint joint) => joint switch
-        {
-            WorldHingeJoint => [Coordinate.Angle],
-            WorldConfigurableJoint configurable => Free(configurable.Settings),
-            _ => [],
-        };
-
-        private static Coordinate[] Free(ConfigurableJoint joint)
-        {
-            (Coordinate Coordinate, ConfigurableJointMotion Motion)[] all =
-            [
-                (Coordinate.X, joint.XMotion),
-                (Coordinate.Y, joint.YMotion),
-                (Coordinate.Z, joint.ZMotion),
-                (Coordinate.AngularX, joint.AngularXMotion),
-                (Coordinate.AngularY, joint.AngularYMotion),
-                (Coordinate.AngularZ, joint.AngularZMotion),
-            ];
-            return all.Where(a => a.Motion != ConfigurableJointMotion.Locked).Select(a => a.Coordinate).ToArray();
-        }
     }
 }

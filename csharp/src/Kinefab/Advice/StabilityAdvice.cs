@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using Kinefab.Advice.Findings;
 using Kinefab.Advice.Trials;
 using Kinefab.Diagnostics;
@@ -18,8 +19,15 @@ public static class StabilityAdvice
     /// <summary>The advice for a scene.</summary>
     /// <param name="scene">A scene that was read from a text: changes are made in it as in the file.</param>
     /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the runs early.</param>
     /// <exception cref="ArgumentException">The scene was not read from a text, or the seconds are no positive finite number.</exception>
-    public static AdviceReport Of(ValidScene scene, AdviceOptions? options = null)
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// AdviceReport advice = StabilityAdvice.Of(ValidScene.Load("lever.kinefab"));
+    /// foreach (AdviceFinding finding in advice.Findings)
+    ///     Console.WriteLine(finding);
+    /// </code></example>
+    public static AdviceReport Of(ValidScene scene, AdviceOptions? options = null, CancellationToken cancellation = default)
     {
         if (scene is null)
             throw new ArgumentNullException(nameof(scene));
@@ -27,7 +35,7 @@ public static class StabilityAdvice
             throw new ArgumentException("Advice needs a scene that was read from a text.", nameof(scene));
         if (options?.Seconds is double seconds && !(seconds > 0 && seconds <= double.MaxValue))
             throw new ArgumentException("The seconds must be a positive finite number.", nameof(options));
-        var examination = new Examination(scene, options ?? new AdviceOptions());
+        var examination = new Examination(scene, options ?? new AdviceOptions(), cancellation);
         AdviceFinding[] findings = examination.Unity.IsSound
             ? Findings(examination)
                 .OrderBy(f => f.Diagnostic.Severity == Severity.Warning ? 0 : 1)

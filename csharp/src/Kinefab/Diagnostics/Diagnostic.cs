@@ -1,8 +1,11 @@
+using System;
+using System.Diagnostics;
 using System.Globalization;
 
 namespace Kinefab.Diagnostics;
 
 /// <summary>One finding about the data.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class Diagnostic
 {
     internal Diagnostic(string code, Severity severity, string message, string remedy, string pointer, int? line, int? column)
@@ -14,6 +17,18 @@ public sealed class Diagnostic
         Pointer = pointer;
         Line = line;
         Column = column;
+    }
+
+    /// <summary>A finding of the shared table, with its severity and words.</summary>
+    /// <param name="code">One of <see cref="DiagnosticCodes"/>.</param>
+    /// <param name="place">JSON pointer (RFC 6901) of the place; empty: the file as a whole.</param>
+    /// <param name="values">What the words leave open, by name.</param>
+    /// <exception cref="ArgumentException">There is no such code.</exception>
+    public static Diagnostic Of(string code, string place, params (string Name, string Value)[] values)
+    {
+        if (code is null || !DiagnosticTable.Entries.TryGetValue(code, out DiagnosticTable.Entry? entry))
+            throw new ArgumentException($"There is no code {code}.", nameof(code));
+        return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), place, null, null);
     }
 
     /// <summary>A code of the shared table, one of <see cref="DiagnosticCodes"/>.</summary>

@@ -1,7 +1,7 @@
 namespace Kinefab.Document;
 
 /// <summary>A Unity component of a <see cref="GameObject"/>.</summary>
-public abstract class Component : DocumentObject
+public abstract record Component : DocumentObject
 {
     private protected Component()
     {

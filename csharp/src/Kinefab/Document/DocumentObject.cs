@@ -1,7 +1,14 @@
+using System.Diagnostics;
+using System;
+
 namespace Kinefab.Document;
 
-/// <summary>Anything written as a JSON object in a scene file.  Immutable once made.</summary>
-public abstract class DocumentObject
+/// <summary>
+/// Anything written as a JSON object in a scene file.  Immutable once made; <c>with</c> gives a copy with some fields changed:
+/// <c>settings with { UseLimits = false }</c>.  Two are equal when all their fields are, lists being the same lists.
+/// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
+public abstract record DocumentObject
 {
     private protected DocumentObject()
     {
@@ -9,4 +16,12 @@ public abstract class DocumentObject
 
     /// <summary>The object's <c>extras</c> as raw JSON text, kept as it stood and never interpreted; null when there are none.</summary>
     public string? ExtrasJson { get; init; }
+
+    /// <summary>What it is, in one line with units.</summary>
+    public sealed override string ToString() => Describe();
+
+    private protected virtual string Describe() => GetType().Name;
+
+    /// <summary>A line with numbers as JSON writes them.</summary>
+    private protected static string Line(FormattableString text) => FormattableString.Invariant(text);
 }

@@ -44,6 +44,22 @@ internal sealed class D6Joint : JointModel
     public Vector3d DriveAngularVelocity;
 
     /// <inheritdoc/>
+    public override void TakeOver(JointModel copy)
+    {
+        base.TakeOver(copy);
+        var d6 = (D6Joint)copy;
+        (X, Y, Z, Twist, Swing1, Swing2) = (d6.X, d6.Y, d6.Z, d6.Twist, d6.Swing1, d6.Swing2);
+        LinearLimit = d6.LinearLimit;
+        TwistLimit = d6.TwistLimit;
+        SwingLimit = d6.SwingLimit;
+        (DriveX, DriveY, DriveZ) = (d6.DriveX, d6.DriveY, d6.DriveZ);
+        (DriveTwist, DriveSwing, DriveSlerp) = (d6.DriveTwist, d6.DriveSwing, d6.DriveSlerp);
+        DrivePose = d6.DrivePose;
+        DriveLinearVelocity = d6.DriveLinearVelocity;
+        DriveAngularVelocity = d6.DriveAngularVelocity;
+    }
+
+    /// <inheritdoc/>
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 
     /// <inheritdoc/>

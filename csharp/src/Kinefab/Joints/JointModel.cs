@@ -73,6 +73,29 @@ internal abstract class JointModel
         return copy;
     }
 
+    /// <summary>Takes over every setting of a copy of this joint.</summary>
+    public virtual void TakeOver(JointModel copy)
+    {
+        Body0 = copy.Body0;
+        Body1 = copy.Body1;
+        Frame0 = copy.Frame0;
+        Frame1 = copy.Frame1;
+        BreakForce = copy.BreakForce;
+        BreakTorque = copy.BreakTorque;
+        InverseMassScale0 = copy.InverseMassScale0;
+        InverseMassScale1 = copy.InverseMassScale1;
+        InverseInertiaScale0 = copy.InverseInertiaScale0;
+        InverseInertiaScale1 = copy.InverseInertiaScale1;
+        Preprocessing = copy.Preprocessing;
+        DriveLimitsAreForces = copy.DriveLimitsAreForces;
+        ExtendedLimits = copy.ExtendedLimits;
+        Projection = copy.Projection;
+        ProjectionLinearTolerance = copy.ProjectionLinearTolerance;
+        ProjectionAngularTolerance = copy.ProjectionAngularTolerance;
+        LimitsFromAfar = copy.LimitsFromAfar;
+        IsBroken = copy.IsBroken;
+    }
+
     /// <summary>
     /// Writes the joint's rows at the given poses of its bodies' centres of mass and returns their number; a pure
     /// function of its arguments and the joint's fields. Rows come in PhysX's order of emission. World's pose is the identity.

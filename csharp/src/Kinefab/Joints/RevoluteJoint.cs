@@ -32,6 +32,21 @@ internal sealed class RevoluteJoint : JointModel
     public double SpringTarget;
 
     /// <inheritdoc/>
+    public override void TakeOver(JointModel copy)
+    {
+        base.TakeOver(copy);
+        var hinge = (RevoluteJoint)copy;
+        LimitEnabled = hinge.LimitEnabled;
+        Limit = hinge.Limit;
+        MotorEnabled = hinge.MotorEnabled;
+        MotorVelocity = hinge.MotorVelocity;
+        MotorForceLimit = hinge.MotorForceLimit;
+        MotorFreeSpin = hinge.MotorFreeSpin;
+        Spring = hinge.Spring;
+        SpringTarget = hinge.SpringTarget;
+    }
+
+    /// <inheritdoc/>
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 
     /// <inheritdoc/>

@@ -1,7 +1,11 @@
+using System.Diagnostics;
+using System;
+
 namespace Kinefab.Numerics;
 
 /// <summary>A rigid pose: a point p of the inner frame is <c>Rotation * p + Position</c> in the outer one.</summary>
-public readonly struct Pose
+[DebuggerDisplay("{ToString(),nq}")]
+public readonly struct Pose : IEquatable<Pose>
 {
     /// <summary>Origin of the inner frame in the outer one, metres.</summary>
     public Vector3d Position { get; }
@@ -34,4 +38,22 @@ public readonly struct Pose
 
     /// <summary>A point of the outer frame in the inner one.</summary>
     public Vector3d InversePoint(Vector3d p) => Rotation.InverseRotate(p - Position);
+
+    /// <summary>Exact equality of all components.</summary>
+    public static bool operator ==(Pose a, Pose b) => a.Equals(b);
+
+    /// <summary>Not exactly equal.</summary>
+    public static bool operator !=(Pose a, Pose b) => !a.Equals(b);
+
+    /// <inheritdoc/>
+    public bool Equals(Pose other) => Position == other.Position && Rotation == other.Rotation;
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is Pose other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => unchecked((Position.GetHashCode() * 397) ^ Rotation.GetHashCode());
+
+    /// <summary>(1, 2, 3) m, turned 90 deg about (0, 1, 0).</summary>
+    public override string ToString() => $"{Position} m, {Rotation.Turn()}";
 }

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using System.Globalization;
 using System.Runtime.CompilerServices;
@@ -5,6 +6,7 @@ using System.Runtime.CompilerServices;
 namespace Kinefab.Numerics;
 
 /// <summary>A rotation as a quaternion (x, y, z, w) of doubles; formulas are Unity's and PhysX's, component by component.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct Quaterniond : IEquatable<Quaterniond>
 {
     /// <summary>First component of the vector part.</summary>
@@ -101,6 +103,17 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     /// <summary>The vector turned by the inverse of a unit quaternion.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector3d InverseRotate(Vector3d v) => Conjugate() * v;
+
+    /// <summary>In words: turned 90 deg about (0, 1, 0), by no more than half a turn; six digits.</summary>
+    internal string Turn()
+    {
+        double length = Vector.Length;
+        if (!(length > 0))
+            return length == 0 ? "unturned" : "no rotation";
+        double half = Math.Atan2(length, Math.Abs(W));
+        Vector3d axis = Vector * ((W < 0 ? -1 : 1) / length);
+        return FormattableString.Invariant($"turned {half * 360 / Math.PI:0.######} deg about ({axis.X:0.######}, {axis.Y:0.######}, {axis.Z:0.######})");
+    }
 
     /// <summary>Exact equality of the components.</summary>
     public static bool operator ==(Quaterniond a, Quaterniond b) => a.Equals(b);

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using System.Globalization;
 using System.Runtime.CompilerServices;
@@ -5,6 +6,7 @@ using System.Runtime.CompilerServices;
 namespace Kinefab.Numerics;
 
 /// <summary>Three doubles: a point, a direction or a rotation vector; the user says in which frame.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct Vector3d : IEquatable<Vector3d>
 {
     /// <summary>First component.</summary>

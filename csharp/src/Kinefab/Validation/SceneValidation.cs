@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Validation;
 
 /// <summary>What came of validating a scene.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SceneValidation
 {
     internal SceneValidation(ValidScene? scene, Report report)
@@ -16,4 +18,7 @@ public sealed class SceneValidation
 
     /// <summary>What was found.</summary>
     public Report Report { get; }
+
+    /// <summary>Whether the scene is valid, and the findings.</summary>
+    public override string ToString() => $"{(Scene is null ? "not valid" : "valid")}; {Report}";
 }

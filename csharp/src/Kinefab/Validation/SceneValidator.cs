@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Reading;
@@ -9,8 +10,14 @@ namespace Kinefab.Validation;
 /// <summary>Holds a document to all rules; changes and repairs nothing.</summary>
 public static class SceneValidator
 {
+    private const int ObjectsBetweenLooks = 1024;
+
     /// <summary>All findings, and the valid scene when none is an error.</summary>
-    public static SceneValidation Validate(SceneDocument document, SceneLimits? limits = null)
+    /// <param name="document">A scene as it was read or made.</param>
+    /// <param name="limits">Of the number of findings; null: the default ones.</param>
+    /// <param name="cancellation">Ends the validation early, with an OperationCanceledException.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static SceneValidation Validate(SceneDocument document, SceneLimits? limits = null, CancellationToken cancellation = default)
     {
         if (document is null)
             throw new ArgumentNullException(nameof(document));
@@ -19,13 +26,21 @@ public static class SceneValidator
         StructureRules.Ids(document, findings);
         var anchored = new List<(int GameObject, int Component)>();
         for (int i = 0; i < document.GameObjectSpan.Length; i++)
+        {
+            if (i % ObjectsBetweenLooks == 0)
+                cancellation.ThrowIfCancellationRequested();
             GameObject(document, i, anchored, findings);
+        }
+
         Lists(document, findings);
-        Buffers(document, findings);
+        Buffers(document, findings, cancellation);
         ValidScene? scene = findings.Errors == 0 ? new ValidScene(document) : null;
         if (scene is not null)
             Placement(scene, anchored, findings);
-        return new SceneValidation(scene, FindingPlaces.Resolve(findings, document.Text.Span, hasText: !document.Text.IsEmpty));
+        Report report = FindingPlaces.Resolve(findings, document.Text.Span, hasText: !document.Text.IsEmpty);
+        if (scene is not null)
+            scene.Report = report;
+        return new SceneValidation(scene, report);
     }
 
     private static void Descriptions(SceneDocument document, Findings findings)
@@ -168,13 +183,20 @@ public static class SceneValidator
             DescriptionRules.Constraint(document.Constraints[i], document.GameObjects.Count, new Place(findings, "constraints", i));
     }
 
-    private static void Buffers(SceneDocument document, Findings findings)
+    private static void Buffers(SceneDocument document, Findings findings, CancellationToken cancellation)
     {
         var usable = new bool[document.Buffers.Count];
         for (int i = 0; i < usable.Length; i++)
+        {
+            cancellation.ThrowIfCancellationRequested();
             usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i));
+        }
+
         for (int i = 0; i < document.Meshes.Count; i++)
+        {
+            cancellation.ThrowIfCancellationRequested();
             Mesh(document, document.Meshes[i], usable, new Place(findings, "meshes", i));
+        }
     }
 
     private static void Mesh(SceneDocument document, Mesh mesh, bool[] usable, in Place at)

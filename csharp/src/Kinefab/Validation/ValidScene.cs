@@ -1,11 +1,14 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
 /// <summary>A scene without errors: every reference resolves, every number is one that Unity takes.  Only <c>SceneValidator</c> makes one.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class ValidScene
 {
     private readonly WorldTransform[] world;
@@ -16,21 +19,33 @@ public sealed partial class ValidScene
         world = Validation.WorldTransform.Of(document);
     }
 
-    /// <summary>The scene.</summary>
+    /// <summary>The scene as it stands in the file.</summary>
     public SceneDocument Document { get; }
 
-    /// <summary>Pose and scale of a GameObject in the world, as exported.</summary>
-    public WorldTransform WorldTransform(int gameObject) => world[gameObject];
+    /// <summary>
+    /// What was found besides errors, of which there are none: after <c>Load</c> the warnings of reading and of validating, after
+    /// <see cref="SceneValidator.Validate"/> those of validating.
+    /// </summary>
+    public Report Report { get; internal set; } = Report.Empty;
+
+    /// <summary>Pose and scale of a GameObject in the world, as exported; metres.</summary>
+    /// <param name="gameObject">Index of the GameObject.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
+    public WorldTransform WorldTransform(int gameObject) => world[Index(gameObject)];
 
     /// <summary>The numbers of a mesh.</summary>
-    public MeshData Mesh(int mesh) => new(Document, Document.Meshes[mesh]);
+    /// <param name="mesh">Index of the mesh.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such mesh.</exception>
+    public MeshData Mesh(int mesh) =>
+        new(Document, (uint)mesh < (uint)Document.Meshes.Count ? Document.Meshes[mesh] : throw new ArgumentOutOfRangeException(nameof(mesh), $"The scene has {Document.Meshes.Count} meshes."));
 
     /// <summary>What a joint leaves to its own body.</summary>
     /// <param name="gameObject">Index of the GameObject that carries the joint.</param>
     /// <param name="component">Index of the joint in its components.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject or component, or it is no joint.</exception>
     public IReadOnlyList<JointFreedom> Freedoms(int gameObject, int component)
     {
-        var joint = (Joint)Document.GameObjects[gameObject].Components[component];
+        Joint joint = JointAt(gameObject, component, nameof(component));
         return JointFreedoms.Of(joint, WorldTransform(gameObject), Connected(joint));
     }
 
@@ -39,9 +54,13 @@ public sealed partial class ValidScene
         joint.ConnectedBody is int body ? WorldTransform(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
 
     /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
-    public Rigidbody? Body(int gameObject) => Document.GameObjects[gameObject].Body;
+    /// <param name="gameObject">Index of the GameObject.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
+    public Rigidbody? Body(int gameObject) => Document.GameObjects[Index(gameObject)].Body;
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
+    /// <param name="gameObject">Index of the GameObject.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public int? BodyOf(int gameObject)
     {
         int? at = gameObject;
@@ -51,10 +70,39 @@ public sealed partial class ValidScene
     }
 
     /// <summary>The joint that a coupling refers to.</summary>
+    /// <param name="coordinate">One end of a coupling.</param>
+    /// <exception cref="ArgumentOutOfRangeException">It names no joint of this scene.</exception>
     public Joint Joint(JointCoordinate coordinate)
     {
         if (coordinate is null)
             throw new ArgumentNullException(nameof(coordinate));
-        return (Joint)Document.GameObjects[coordinate.GameObject].Components[coordinate.Component];
+        return JointAt(coordinate.GameObject, coordinate.Component, nameof(coordinate));
+    }
+
+    /// <summary>How many objects, bodies and joints there are.</summary>
+    public override string ToString()
+    {
+        int bodies = 0;
+        int joints = 0;
+        foreach (GameObject gameObject in Document.GameObjects)
+        {
+            bodies += gameObject.Body is null ? 0 : 1;
+            foreach (Component component in gameObject.Components)
+                joints += component is Joint ? 1 : 0;
+        }
+
+        return $"scene of {Document.GameObjects.Count} objects, {bodies} bodies, {joints} joints, {Document.Couplings.Count} couplings; {Report}";
+    }
+
+    private int Index(int gameObject) => (uint)gameObject < (uint)world.Length
+        ? gameObject
+        : throw new ArgumentOutOfRangeException(nameof(gameObject), $"The scene has {world.Length} objects.");
+
+    private Joint JointAt(int gameObject, int component, string argument)
+    {
+        IReadOnlyList<Component> components = Document.GameObjects[Index(gameObject)].Components;
+        return (uint)component < (uint)components.Count && components[component] is Joint joint
+            ? joint
+            : throw new ArgumentOutOfRangeException(argument, $"Component {component} of {Document.GameObjects[gameObject].Id} is no joint.");
     }
 }

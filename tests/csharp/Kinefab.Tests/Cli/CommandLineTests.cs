@@ -134,7 +134,6 @@ public class CommandLineTests
     }
 
     [TestCase("validate")]
-    [TestCase("validate", "a.kinefab", "b.kinefab")]
     [TestCase("validate", "--nonsense", "a.kinefab")]
     [TestCase("explode")]
     [TestCase]

@@ -15,12 +15,14 @@ namespace Kinefab.Tests.Cli;
 public sealed class JsonOutputTests
 {
     // Of each command that takes --json, its schema and the field that it adds for a valid scene.
-    private static readonly Dictionary<string, (string Schema, string? Field)> Outputs = new()
+    private static readonly Dictionary<string, (string Schema, string? Field, string[] Options)> Outputs = new()
     {
-        ["validate"] = ("report.schema.json", null),
-        ["inspect"] = ("report.schema.json", "summary"),
-        ["mobility"] = ("report.schema.json", "mobility"),
-        ["advise"] = ("advice.schema.json", "advice"),
+        ["validate"] = ("report.schema.json", null, []),
+        ["inspect"] = ("report.schema.json", "summary", []),
+        ["mobility"] = ("report.schema.json", "mobility", []),
+        ["advise"] = ("advice.schema.json", "advice", []),
+        ["simulate"] = ("report.schema.json", "simulation", ["--seconds", "0.1"]),
+        ["sweep"] = ("report.schema.json", "sweep", ["--joint", "Lever/Crank:1", "--steps", "5"]),
     };
 
     private static readonly string[] Commands = [.. Outputs.Keys];
@@ -34,9 +36,9 @@ public sealed class JsonOutputTests
     [TestCaseSource(nameof(Commands))]
     public void Json_ValidScene_FollowsItsSchema(string command)
     {
-        (string schema, string? field) = Outputs[command];
+        (string schema, string? field, string[] options) = Outputs[command];
 
-        string data = CommandLineTests.Run(command, AdviceScene.Lever, "--json").Data;
+        string data = CommandLineTests.Run([command, AdviceScene.Lever, "--json", .. options]).Data;
 
         Assert.That(JsonSchema.Faults(schema, data), Is.Empty);
         if (field is not null)
@@ -48,7 +50,7 @@ public sealed class JsonOutputTests
     {
         string invalid = Path.Combine(ConformanceCases.Folder, "invalid", "hinge", "limits_exchanged.kinefab");
 
-        (int exit, string data, string findings) = CommandLineTests.Run(command, invalid, "--json");
+        (int exit, string data, string findings) = CommandLineTests.Run([command, invalid, "--json", .. Outputs[command].Options]);
 
         Assert.That((exit, findings), Is.EqualTo((1, "")));
         Assert.That(JsonSchema.Faults(Outputs[command].Schema, data), Is.Empty);

@@ -77,7 +77,7 @@ public sealed class WorldNameTests
                 new GameObject { Id = "right/pin", Name = "pin", Components = [new Rigidbody()] },
             ],
         };
-        Assert.That(() => World.Create(SmallScene.Validate(twins)).Body("pin"), Throws.ArgumentException.With.Message.Contains("there are left/pin, right/pin."));
+        Assert.That(() => World.Create(SmallScene.Validate(twins)).Body("pin"), Throws.ArgumentException.With.Message.StartsWith("pin: say which: left/pin, right/pin."));
     }
 
     [Test]

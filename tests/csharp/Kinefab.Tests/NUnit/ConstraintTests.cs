@@ -72,7 +72,7 @@ public sealed class ConstraintTests
 
     [Test]
     public void Drives_AnUnknownName_IsAWrongCallThatNamesWhatThereIs() => Assert.That(
-        () => Drives("Shaft").ApplyTo(Lever), Throws.ArgumentException.With.Message.Contains(Crank));
+        () => Drives("Shift").ApplyTo(Lever), Throws.ArgumentException.With.Message.Contains(Crank));
 
     [Test]
     public void Closes_AtTheExportedPose_Holds()

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using System.Runtime.CompilerServices;
 using Kinefab.Document;
 using Kinefab.Tests.Conformance;
 using NUnit.Framework;
@@ -27,6 +28,7 @@ public class PublicApiTests
     private static IEnumerable<string> Lines(Type type)
     {
         string kind = type.IsEnum ? "enum" : type.IsValueType ? "struct" : type.IsInterface ? "interface" : type.IsAbstract && type.IsSealed ? "static class" : type.IsAbstract ? "abstract class" : "class";
+        kind = type.GetMethod("<Clone>$") is null ? kind : kind.Replace("class", "record", StringComparison.Ordinal);
         yield return $"{kind} {type.FullName}";
         IEnumerable<string> members = type.GetMembers(Own).Where(IsListed).Select(member => "    " + Describe(member));
         foreach (string member in members.Order(StringComparer.Ordinal))
@@ -36,6 +38,8 @@ public class PublicApiTests
     /// <summary>Accessors are listed with their property; an enum's value__ is no one's business.</summary>
     private static bool IsListed(MemberInfo member) => member switch
     {
+        // What every record has is not listed for each.
+        MethodInfo method when method.IsDefined(typeof(CompilerGeneratedAttribute)) => false,
         MethodInfo { IsSpecialName: true } method => method.Name.StartsWith("op_", StringComparison.Ordinal),
         FieldInfo field => !field.IsSpecialName,
         _ => true,

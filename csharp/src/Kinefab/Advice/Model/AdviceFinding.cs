@@ -1,9 +1,11 @@
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Advice;
 
 /// <summary>Something about a scene that Unity's solver makes trouble of, or might, and what was tried against it.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class AdviceFinding
 {
     internal AdviceFinding(Diagnostic diagnostic, string id, AdviceMeasure before, double score, IReadOnlyList<TriedChange> tried, TriedChange? best)
@@ -33,4 +35,7 @@ public sealed class AdviceFinding
 
     /// <summary>The one to make: enough at the least work, or else the one that helps most; null: none helps.</summary>
     public TriedChange? Best { get; }
+
+    /// <summary>Severity, code, place, what was found and measured, and the change to make, in one line.</summary>
+    public override string ToString() => $"{Diagnostic.Severity.ToJson()} {Diagnostic.Code} {Diagnostic.Pointer}: {Diagnostic.Message} ({Before}){(Best is null ? "" : $" {Best}")}";
 }

@@ -1,9 +1,11 @@
+using System.Diagnostics;
 using System;
 using System.Globalization;
 
 namespace Kinefab.Advice;
 
 /// <summary>What a finding measured, before or after a change: a distance, an angle or both.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct AdviceMeasure
 {
     private const double Millimetres = 1000;

@@ -11,6 +11,6 @@ public sealed class AdviceOptions
     /// <summary>Runs to make at most beside the scene's own: of changes, and of poses held to see which drives are weak.</summary>
     public int MaxTrials { get; init; } = 60;
 
-    /// <summary>Told what is being run.</summary>
-    public Action<string>? Progress { get; init; }
+    /// <summary>Told what is being run, before each run; null: nobody is.</summary>
+    public IProgress<string>? Progress { get; init; }
 }

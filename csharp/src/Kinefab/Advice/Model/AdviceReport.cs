@@ -1,10 +1,13 @@
+using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using Kinefab.Diagnostics;
 
 namespace Kinefab.Advice;
 
 /// <summary>The stability advice for a scene.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class AdviceReport
 {
     internal AdviceReport(double step, int steps, int trials, IReadOnlyList<AdviceFinding> findings, Report remarks)
@@ -30,4 +33,7 @@ public sealed class AdviceReport
 
     /// <summary>The findings as diagnostics, and what kept the advice from being complete.</summary>
     public Report Report { get; }
+
+    /// <summary>120 steps of 0.02 s, 2 findings, 14 changes tried; 1 warning.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Steps} steps of {Step} s, {Findings.Count} findings, {Trials} changes tried; {Report}");
 }

@@ -1,8 +1,10 @@
+using System.Diagnostics;
 using System;
 
 namespace Kinefab.Advice;
 
 /// <summary>One field of a scene file set to a value: all that a tried change is.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SceneEdit
 {
     internal SceneEdit(string pointer, string value)
@@ -18,4 +20,7 @@ public sealed class SceneEdit
 
     /// <summary>The new value as JSON text.</summary>
     public string Value { get; }
+
+    /// <summary>/physics/fixedTimestep = 0.01.</summary>
+    public override string ToString() => $"{Pointer} = {Value}";
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -39,8 +40,9 @@ internal sealed class SceneRun
     /// <param name="solver">Who moves it.</param>
     /// <param name="plan">When it is looked at.</param>
     /// <param name="substeps">Steps from one look to the next.</param>
+    /// <param name="cancellation">Ends the run early, with an OperationCanceledException.</param>
     /// <param name="prepare">Done to the world before its first step.</param>
-    public static SceneRun Of(ValidScene scene, SolverKind solver, RunPlan plan, int substeps, Action<World>? prepare = null)
+    public static SceneRun Of(ValidScene scene, SolverKind solver, RunPlan plan, int substeps, CancellationToken cancellation, Action<World>? prepare = null)
     {
         World world = World.Create(scene, solver);
         prepare?.Invoke(world);
@@ -48,6 +50,7 @@ internal sealed class SceneRun
         double dt = plan.Step / substeps;
         for (int k = 0; k < plan.Samples; k++)
         {
+            cancellation.ThrowIfCancellationRequested();
             for (int s = 0; s < substeps; s++)
             {
                 world.Step(dt);

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using Kinefab.Advice.Runs;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
@@ -31,7 +32,7 @@ internal sealed class Examination
     // Fewer samples than these say nothing about a motion.
     private const int FewestForeseen = 10;
 
-    public Examination(ValidScene scene, AdviceOptions options)
+    public Examination(ValidScene scene, AdviceOptions options, CancellationToken cancellation)
     {
         Scene = scene;
         World = World.Create(scene);
@@ -40,17 +41,17 @@ internal sealed class Examination
         double most = (options.Seconds is null ? 1 : Patience) * MostSteps / Math.Max(1, World.Joints.Count + World.Bodies.Count);
         Plan = new RunPlan(step, (int)Math.Max(FewestSamples, Math.Min(wanted, Math.Floor(most))));
         IsShortened = Plan.Samples < wanted;
-        options.Progress?.Invoke("unity");
-        Unity = SceneRun.Of(scene, SolverKind.Unity, Plan, 1);
-        options.Progress?.Invoke("exact");
-        Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1);
-        SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2);
+        options.Progress?.Report("unity");
+        Unity = SceneRun.Of(scene, SolverKind.Unity, Plan, 1, cancellation);
+        options.Progress?.Report("exact");
+        Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1, cancellation);
+        SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2, cancellation);
 
         Islands = RunIsland.Of(World, scene.Document.Couplings);
         Foreseen = Islands.Select(i => Exact.IsSound && half.IsSound ? Horizon(i, half) : 0).ToArray();
-        Workbench = new Workbench(scene, Plan, World.Joints.Count, options);
+        Workbench = new Workbench(scene, Plan, World.Joints.Count, options, cancellation);
         Mechanism? mechanism = World.Joints.Count <= MostJointsCounted ? Mechanism.Create(scene) : null;
-        Mobility = mechanism is null ? null : MobilityAnalysis.Of(mechanism);
+        Mobility = mechanism is null ? null : MobilityAnalysis.Of(mechanism, null, cancellation);
         Remedies = new Remedies(scene, World, Islands, mechanism, Mobility);
     }
 

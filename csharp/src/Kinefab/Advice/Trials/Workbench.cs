@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using Kinefab.Advice.Changes;
 using Kinefab.Advice.Runs;
 using Kinefab.Document;
@@ -19,10 +20,12 @@ internal sealed class Workbench
     private readonly ValidScene _scene;
     private readonly AdviceOptions _options;
     private readonly double _workOfBase;
+    private readonly CancellationToken _cancellation;
     private double _work;
 
-    public Workbench(ValidScene scene, RunPlan plan, int joints, AdviceOptions options)
+    public Workbench(ValidScene scene, RunPlan plan, int joints, AdviceOptions options, CancellationToken cancellation)
     {
+        _cancellation = cancellation;
         _scene = scene;
         _options = options;
         Plan = plan;
@@ -63,7 +66,7 @@ internal sealed class Workbench
     {
         if (Begin(what, parts) is not ValidScene changed)
             return null;
-        SceneRun run = SceneRun.Of(changed, SolverKind.Exact, Plan, 1, world => prepare(changed, world));
+        SceneRun run = SceneRun.Of(changed, SolverKind.Exact, Plan, 1, _cancellation, world => prepare(changed, world));
         return run.IsSound ? run : null;
     }
 
@@ -71,7 +74,7 @@ internal sealed class Workbench
     {
         if (Begin(change.Kind, change.Parts) is not ValidScene changed)
             return null;
-        SceneRun run = SceneRun.Of(changed, SolverKind.Unity, Plan, Substeps(changed));
+        SceneRun run = SceneRun.Of(changed, SolverKind.Unity, Plan, Substeps(changed), _cancellation);
         return run.IsSound ? new Trial(run, WorkPerSecond(changed) / _workOfBase) : null;
     }
 
@@ -85,7 +88,7 @@ internal sealed class Workbench
 
         if (EditedScene.Apply(_scene, parts.SelectMany(p => p.Edits)) is not ValidScene changed)
             return null;
-        _options.Progress?.Invoke(what);
+        _options.Progress?.Report(what);
         Count++;
         _work += Math.Max(1, Joints) * Plan.Seconds * WorkPerSecond(changed);
         return changed;

@@ -6,7 +6,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Mobility of the mechanism, as the exporter found it from the source's constraints.</summary>
-public sealed class Analysis : DocumentObject
+public sealed record Analysis : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["mobility"],
@@ -72,4 +72,6 @@ public sealed class Analysis : DocumentObject
 
     /// <summary>What each body can still do.</summary>
     public IReadOnlyList<BodyFreedom> Bodies { get; init; } = Array.Empty<BodyFreedom>();
+
+    private protected override string Describe() => $"mobility {Mobility}, {Islands.Count} islands, {Bodies.Count} bodies";
 }

@@ -6,7 +6,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Bodies that hang together by joints, the ground left out.</summary>
-public sealed class AnalysisIsland : DocumentObject
+public sealed record AnalysisIsland : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["gameObjects", "mobility"], "redundant", "loops", "extras");
 

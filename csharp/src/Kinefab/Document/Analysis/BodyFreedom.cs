@@ -7,7 +7,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>What one body can still do against the ground.</summary>
-public sealed class BodyFreedom : DocumentObject
+public sealed record BodyFreedom : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["gameObject", "translations", "rotations"],

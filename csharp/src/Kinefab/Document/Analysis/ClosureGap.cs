@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Worst misfit of the exported pose.</summary>
-public sealed class ClosureGap : DocumentObject
+public sealed record ClosureGap : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "position", "angle", "extras");
 

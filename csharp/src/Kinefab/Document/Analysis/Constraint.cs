@@ -99,7 +99,7 @@ public enum ConstraintSide
 }
 
 /// <summary>A geometric constraint of the source, written through for whoever wants it.</summary>
-public sealed class Constraint : DocumentObject
+public sealed record Constraint : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["id", "kind", "features"],
@@ -202,6 +202,8 @@ public sealed class Constraint : DocumentObject
 
     /// <summary>The vendor's meaning where the same words remove different freedoms.</summary>
     public IReadOnlyDictionary<string, string> Reading { get; init; } = new Dictionary<string, string>();
+
+    private protected override string Describe() => Line($"{Kind} \"{Name ?? Id}\" of {Features.Count} features{(Suppressed ? ", suppressed" : "")}");
 }
 
 /// <summary>The words of the scene file for <see cref="ConstraintKind"/>.</summary>

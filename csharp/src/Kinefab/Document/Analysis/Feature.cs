@@ -36,7 +36,7 @@ public enum FeatureKind
 }
 
 /// <summary>Geometry that a constraint refers to, in the local frame of its GameObject, or in the world.</summary>
-public sealed class Feature : DocumentObject
+public sealed record Feature : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["kind"],

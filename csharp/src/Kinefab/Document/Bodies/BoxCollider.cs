@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>BoxCollider.</summary>
-public sealed class BoxCollider : Collider
+public sealed record BoxCollider : Collider
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -47,4 +47,6 @@ public sealed class BoxCollider : Collider
 
     /// <summary>Full size, local, metres.</summary>
     public Vector3d Size { get; init; } = new(1, 1, 1);
+
+    private protected override string Describe() => Line($"BoxCollider {Size} m at {Center} m{(IsTrigger ? ", trigger" : "")}");
 }

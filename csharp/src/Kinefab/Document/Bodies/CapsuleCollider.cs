@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>CapsuleCollider.</summary>
-public sealed class CapsuleCollider : Collider
+public sealed record CapsuleCollider : Collider
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -59,4 +59,6 @@ public sealed class CapsuleCollider : Collider
 
     /// <summary>The local axis that the capsule lies along.</summary>
     public Axis Direction { get; init; } = Axis.Y;
+
+    private protected override string Describe() => Line($"CapsuleCollider of radius {Radius} m and height {Height} m along {Direction} at {Center} m{(IsTrigger ? ", trigger" : "")}");
 }

@@ -3,7 +3,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A collider; it belongs to the nearest Rigidbody on its own GameObject or an ancestor.</summary>
-public abstract class Collider : Component
+public abstract record Collider : Component
 {
     private protected static readonly string[] ColliderFields = ["isTrigger", "enabled"];
 

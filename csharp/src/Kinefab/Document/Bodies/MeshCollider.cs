@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>MeshCollider.</summary>
-public sealed class MeshCollider : Collider
+public sealed record MeshCollider : Collider
 {
     internal static readonly FieldNames Fields = new(
         ["type", "mesh"],
@@ -46,4 +46,6 @@ public sealed class MeshCollider : Collider
 
     /// <summary>Unity takes the mesh's convex hull; needed on a Rigidbody that is not kinematic.</summary>
     public bool Convex { get; init; }
+
+    private protected override string Describe() => $"MeshCollider of mesh {Mesh}{(Convex ? ", convex" : "")}{(IsTrigger ? ", trigger" : "")}";
 }

@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Rigidbody with its own centre of mass and inertia: Unity's automatic ones depend on colliders.</summary>
-public sealed class Rigidbody : Component
+public sealed record Rigidbody : Component
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -123,4 +123,6 @@ public sealed class Rigidbody : Component
             all |= flag;
         return all;
     }
+
+    private protected override string Describe() => Line($"Rigidbody {Mass} kg{(IsKinematic ? ", kinematic" : "")}{(UseGravity ? "" : ", without gravity")}{(Constraints == RigidbodyConstraints.None ? "" : $", {Constraints}")}");
 }

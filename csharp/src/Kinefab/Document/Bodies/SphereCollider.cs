@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>SphereCollider.</summary>
-public sealed class SphereCollider : Collider
+public sealed record SphereCollider : Collider
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -47,4 +47,6 @@ public sealed class SphereCollider : Collider
 
     /// <summary>Metres, times the largest component of the world scale.</summary>
     public double Radius { get; init; } = 0.5;
+
+    private protected override string Describe() => Line($"SphereCollider of radius {Radius} m at {Center} m{(IsTrigger ? ", trigger" : "")}");
 }

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Security;
+using System.Threading;
 
 namespace Kinefab.Document;
 
@@ -10,12 +11,24 @@ internal static class BoundedFile
     /// <summary>The longest array that .NET allows.</summary>
     private const long LongestArray = 0x7FFFFFC7;
 
+    // Between two looks for a cancellation.
+    private const int MostAtOnce = 1 << 26;
+
     /// <summary>The bytes; null when there are more than <paramref name="limit"/>, and then <paramref name="size"/> says at least how many.</summary>
-    internal static byte[]? Read(string path, long limit, out long size)
+    internal static byte[]? Read(string path, long limit, out long size, CancellationToken cancellation)
+    {
+        using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
+
+        // A pipe has no length, which is refused: nobody may ever write into it.
+        size = stream.Length;
+        return Read(stream, limit, out size, cancellation);
+    }
+
+    /// <summary>The bytes from where a stream stands to its end; null when there are more than <paramref name="limit"/>.</summary>
+    internal static byte[]? Read(Stream stream, long limit, out long size, CancellationToken cancellation)
     {
         limit = Math.Min(limit, LongestArray);
-        using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
-        size = stream.Length;
+        size = stream.CanSeek ? Math.Max(0, stream.Length - stream.Position) : 0;
         if (size > limit)
             return null;
 #if NET5_0_OR_GREATER
@@ -42,7 +55,8 @@ internal static class BoundedFile
                 bytes[count++] = (byte)next;
             }
 
-            int read = stream.Read(bytes, count, bytes.Length - count);
+            cancellation.ThrowIfCancellationRequested();
+            int read = stream.Read(bytes, count, Math.Min(bytes.Length - count, MostAtOnce));
             count += read;
             if (read == 0 && count < bytes.Length)
                 break;

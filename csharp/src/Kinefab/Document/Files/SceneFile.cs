@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Json;
 using Kinefab.Reading;
@@ -12,8 +13,17 @@ namespace Kinefab.Document;
 /// </summary>
 public static class SceneFile
 {
+    // What takes long is the reading of files and, of large texts, the parsing.
+    private const double ShareOfFile = 0.2;
+    private const double ShareOfText = 0.6;
+    private const double ShareOfBuffers = 0.9;
+
     /// <summary>Reads a file and the buffers beside it.</summary>
-    public static SceneReading Load(string path, SceneReadOptions? options = null)
+    /// <param name="path">A scene file, NAME.kinefab.</param>
+    /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static SceneReading Load(string path, SceneReadOptions? options = null, CancellationToken cancellation = default)
     {
         if (path is null)
             throw new ArgumentNullException(nameof(path));
@@ -22,7 +32,7 @@ public static class SceneFile
         byte[]? bytes = null;
         try
         {
-            bytes = BoundedFile.Read(path, options.Limits.MaxFileBytes, out long size);
+            bytes = BoundedFile.Read(path, options.Limits.MaxFileBytes, out long size, cancellation);
             if (bytes is null)
                 findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(size)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
         }
@@ -41,9 +51,57 @@ public static class SceneFile
 
         if (bytes is null)
             return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
+        options.Progress?.Report(ShareOfFile);
+        cancellation.ThrowIfCancellationRequested();
         SceneReading reading = Parse(bytes, findings, options);
+        options.Progress?.Report(ShareOfText);
         if (reading.Document is { Buffers.Count: > 0 } document)
-            BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!);
+            BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!, cancellation);
+        options.Progress?.Report(ShareOfBuffers);
+        return reading;
+    }
+
+    /// <summary>Reads a stream from where it stands to its end; it stays open.</summary>
+    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
+    /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="IOException">The stream cannot be read.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static SceneReading Load(Stream json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default)
+    {
+        if (json is null)
+            throw new ArgumentNullException(nameof(json));
+        options ??= SceneReadOptions.Default;
+        byte[]? bytes = BoundedFile.Read(json, options.Limits.MaxFileBytes, out long size, cancellation);
+        if (bytes is null)
+        {
+            var findings = new Findings(options.Limits.MaxFindings);
+            findings.Add("", DiagnosticCodes.SceneTooLarge, ("size", Invariant.Text(size)), ("limit", Invariant.Text(options.Limits.MaxFileBytes)));
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
+        }
+
+        options.Progress?.Report(ShareOfFile);
+        cancellation.ThrowIfCancellationRequested();
+        SceneReading reading = Parse(bytes, buffers, options);
+        options.Progress?.Report(ShareOfBuffers);
+        return reading;
+    }
+
+    /// <summary>Reads a stream from where it stands to its end, and the buffers in a folder; the stream stays open.</summary>
+    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="folder">Where the buffers lie.</param>
+    /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="IOException">The stream cannot be read.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static SceneReading Load(Stream json, string folder, SceneReadOptions? options = null, CancellationToken cancellation = default)
+    {
+        if (folder is null)
+            throw new ArgumentNullException(nameof(folder));
+        SceneReading reading = Load(json, (Func<string, ReadOnlyMemory<byte>?>?)null, options, cancellation);
+        if (reading.Document is { Buffers.Count: > 0 } document)
+            BufferFiles.Attach(document, folder, cancellation);
         return reading;
     }
 

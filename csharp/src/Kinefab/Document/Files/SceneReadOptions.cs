@@ -1,3 +1,5 @@
+using System;
+
 namespace Kinefab.Document;
 
 /// <summary>How a scene file is read.</summary>
@@ -11,4 +13,7 @@ public sealed class SceneReadOptions
 
     /// <summary>How much is read at most.</summary>
     public SceneLimits Limits { get; init; } = SceneLimits.Default;
+
+    /// <summary>Told the share of the loading that is done, 0 to 1 and rising; null: nobody is.</summary>
+    public IProgress<double>? Progress { get; init; }
 }

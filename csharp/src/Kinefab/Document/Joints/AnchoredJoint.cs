@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A joint with an anchor and an axis on each body.</summary>
-public abstract class AnchoredJoint : Joint
+public abstract record AnchoredJoint : Joint
 {
     private protected static readonly string[] AnchoredJointFields =
         [.. JointFields, "anchor", "axis", "autoConfigureConnectedAnchor", "connectedAnchor"];

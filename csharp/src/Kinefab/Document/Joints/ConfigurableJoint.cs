@@ -8,7 +8,7 @@ namespace Kinefab.Document;
 /// ConfigurableJoint with Unity's own senses: X limits, targetPosition, targetVelocity and targetRotation say how
 /// the connected body stands to the own one, so they run against the own body's motion.
 /// </summary>
-public sealed class ConfigurableJoint : AnchoredJoint
+public sealed record ConfigurableJoint : AnchoredJoint
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -229,4 +229,6 @@ public sealed class ConfigurableJoint : AnchoredJoint
 
     /// <summary>As if the component stood on the connected body.</summary>
     public bool SwapBodies { get; init; }
+
+    private protected override string Describe() => $"ConfigurableJoint {Ends}, x {XMotion}, y {YMotion}, z {ZMotion}, angularX {AngularXMotion}, angularY {AngularYMotion}, angularZ {AngularZMotion}";
 }

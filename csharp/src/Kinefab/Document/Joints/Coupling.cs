@@ -23,7 +23,7 @@ public enum CouplingKind
 }
 
 /// <summary>q_b = ratio * q_a + offset between two joint coordinates, degrees and metres.</summary>
-public sealed class Coupling : DocumentObject
+public sealed record Coupling : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["kind", "a", "b", "ratio"], "id", "offset", "extras");
 
@@ -81,6 +81,8 @@ public sealed class Coupling : DocumentObject
 
     /// <summary>Unit of b.</summary>
     public double Offset { get; init; }
+
+    private protected override string Describe() => Line($"{Kind}{(Id is null ? "" : $" \"{Id}\"")}: {B} = {Ratio} * {A}{(Offset == 0 ? "" : $" + {Offset}")}");
 }
 
 /// <summary>The words of the scene file for <see cref="CouplingKind"/>.</summary>

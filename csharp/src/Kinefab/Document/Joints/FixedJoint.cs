@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>FixedJoint: holds the relative pose that the bodies have at start-up; removes six freedoms.</summary>
-public sealed class FixedJoint : Joint
+public sealed record FixedJoint : Joint
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -34,4 +34,6 @@ public sealed class FixedJoint : Joint
             }
         }
     }
+
+    private protected override string Describe() => $"FixedJoint {Ends}";
 }

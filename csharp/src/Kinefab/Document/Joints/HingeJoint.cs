@@ -7,7 +7,7 @@ namespace Kinefab.Document;
 /// HingeJoint: one rotation about <see cref="AnchoredJoint.Axis"/>; removes five freedoms.  The angle is that of
 /// the own body against the connected one, by the left-hand rule about the axis, zero at start-up.
 /// </summary>
-public sealed class HingeJoint : AnchoredJoint
+public sealed record HingeJoint : AnchoredJoint
 {
     internal static readonly FieldNames Fields = new(
         ["type"],
@@ -86,4 +86,6 @@ public sealed class HingeJoint : AnchoredJoint
 
     /// <summary>The spring gives an angular acceleration instead of a torque.</summary>
     public bool UseAcceleration { get; init; }
+
+    private protected override string Describe() => $"HingeJoint {Ends}{(UseLimits ? $", {Limits}" : "")}{(UseMotor ? $", {Motor}" : UseSpring ? $", {Spring}" : "")}";
 }

@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A joint between the Rigidbody of its own GameObject and another one, or the world.</summary>
-public abstract class Joint : Component
+public abstract record Joint : Component
 {
     private protected static readonly string[] JointFields =
     [
@@ -97,6 +97,10 @@ public abstract class Joint : Component
         get => exact;
         init => exact = value;
     }
+
+    /// <summary>What it holds its body to, and what breaks it.</summary>
+    private protected string Ends =>
+        Line($"to {(ConnectedBody is int body ? $"object {body}" : "the world")}{(BreakForce < double.PositiveInfinity ? $", breaks at {BreakForce} N" : "")}{(BreakTorque < double.PositiveInfinity ? $", breaks at {BreakTorque} N m" : "")}{(Closure ? ", closes a loop" : "")}");
 
     private protected void ReadJointField(ref JsonCursor json, string field)
     {

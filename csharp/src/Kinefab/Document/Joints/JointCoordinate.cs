@@ -32,7 +32,7 @@ public enum Coordinate
 /// A coordinate of a joint component: the motion of the own body against the connected one along or about the
 /// joint's axis in Unity's left-handed sense (never the inverted sense of targets and X limits), zero at start-up.
 /// </summary>
-public sealed class JointCoordinate : DocumentObject
+public sealed record JointCoordinate : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["gameObject", "component", "coordinate"], "extras");
 
@@ -72,6 +72,8 @@ public sealed class JointCoordinate : DocumentObject
 
     /// <summary>Which of its coordinates.</summary>
     public Coordinate Coordinate { get; init; }
+
+    private protected override string Describe() => $"{Coordinate} of components[{Component}] of object {GameObject}";
 }
 
 /// <summary>The words of the scene file for <see cref="Coordinate"/>.</summary>

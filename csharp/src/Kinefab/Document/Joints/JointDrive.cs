@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>JointDrive: force = positionSpring * (target - position) + positionDamper * (target velocity - velocity).</summary>
-public sealed class JointDrive : DocumentObject
+public sealed record JointDrive : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         [],
@@ -55,4 +55,6 @@ public sealed class JointDrive : DocumentObject
 
     /// <summary>Spring and damper give accelerations instead of forces.</summary>
     public bool UseAcceleration { get; init; }
+
+    private protected override string Describe() => Line($"drive with spring {PositionSpring}, damper {PositionDamper}, at most {MaximumForce}{(UseAcceleration ? ", as acceleration" : "")}");
 }

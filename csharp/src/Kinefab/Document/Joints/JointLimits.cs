@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>JointLimits of a <see cref="HingeJoint"/>.</summary>
-public sealed class JointLimits : DocumentObject
+public sealed record JointLimits : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         [],
@@ -61,4 +61,6 @@ public sealed class JointLimits : DocumentObject
 
     /// <summary>Distance from the limit within which it is looked at, degrees; 0: PhysX's choice.</summary>
     public double ContactDistance { get; init; }
+
+    private protected override string Describe() => Line($"limits {Min} to {Max} deg{(Bounciness > 0 ? $", bounciness {Bounciness}" : "")}");
 }

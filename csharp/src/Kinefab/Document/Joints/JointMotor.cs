@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>JointMotor of a <see cref="HingeJoint"/>.</summary>
-public sealed class JointMotor : DocumentObject
+public sealed record JointMotor : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "targetVelocity", "force", "freeSpin", "extras");
 
@@ -47,4 +47,6 @@ public sealed class JointMotor : DocumentObject
 
     /// <summary>Only accelerates, never brakes.</summary>
     public bool FreeSpin { get; init; }
+
+    private protected override string Describe() => Line($"motor to {TargetVelocity} deg/s with at most {Force} N m{(FreeSpin ? ", free spin" : "")}");
 }

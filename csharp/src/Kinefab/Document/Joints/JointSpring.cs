@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>JointSpring of a <see cref="HingeJoint"/>.</summary>
-public sealed class JointSpring : DocumentObject
+public sealed record JointSpring : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "spring", "damper", "targetPosition", "extras");
 
@@ -47,4 +47,6 @@ public sealed class JointSpring : DocumentObject
 
     /// <summary>Degrees.</summary>
     public double TargetPosition { get; init; }
+
+    private protected override string Describe() => Line($"spring to {TargetPosition} deg, spring {Spring}, damper {Damper}");
 }

@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>SoftJointLimit of a <see cref="ConfigurableJoint"/>.</summary>
-public sealed class SoftJointLimit : DocumentObject
+public sealed record SoftJointLimit : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "limit", "bounciness", "contactDistance", "extras");
 
@@ -47,4 +47,6 @@ public sealed class SoftJointLimit : DocumentObject
 
     /// <summary>Distance from the limit within which it is looked at, metres or degrees; 0: PhysX's choice.</summary>
     public double ContactDistance { get; init; }
+
+    private protected override string Describe() => Line($"limit {Limit} m or deg{(Bounciness > 0 ? $", bounciness {Bounciness}" : "")}");
 }

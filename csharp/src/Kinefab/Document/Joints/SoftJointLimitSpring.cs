@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>SoftJointLimitSpring; both 0 makes the limit hard.</summary>
-public sealed class SoftJointLimitSpring : DocumentObject
+public sealed record SoftJointLimitSpring : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "spring", "damper", "extras");
 
@@ -41,4 +41,6 @@ public sealed class SoftJointLimitSpring : DocumentObject
 
     /// <summary>N s/m or N m s/rad.</summary>
     public double Damper { get; init; }
+
+    private protected override string Describe() => Line($"limit spring {Spring}, damper {Damper}");
 }

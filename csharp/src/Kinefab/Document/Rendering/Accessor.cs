@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A run of values in a buffer, little-endian, tightly packed.</summary>
-public sealed class Accessor : DocumentObject
+public sealed record Accessor : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["buffer", "offset"], "extras");
 

@@ -19,7 +19,7 @@ public enum WrapMode
 }
 
 /// <summary>An animation, linear between keys.</summary>
-public sealed class AnimationClip : DocumentObject
+public sealed record AnimationClip : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["name", "times", "tracks"], "wrapMode", "extras");
 
@@ -65,6 +65,8 @@ public sealed class AnimationClip : DocumentObject
 
     /// <summary>One for each moved GameObject.</summary>
     public IReadOnlyList<AnimationTrack> Tracks { get; init; } = Array.Empty<AnimationTrack>();
+
+    private protected override string Describe() => $"animation \"{Name}\" of {Tracks.Count} tracks, {Times.Count} keys, {WrapMode}";
 }
 
 /// <summary>The words of the scene file for <see cref="WrapMode"/>.</summary>

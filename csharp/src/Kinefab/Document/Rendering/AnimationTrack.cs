@@ -7,7 +7,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Local transforms of one GameObject at the clip's times.</summary>
-public sealed class AnimationTrack : DocumentObject
+public sealed record AnimationTrack : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["gameObject"], "localPosition", "localRotation", "extras");
 

@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Axis-aligned box.</summary>
-public sealed class Bounds : DocumentObject
+public sealed record Bounds : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["center", "extents"], "extras");
 

@@ -1,9 +1,11 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Linear red, green, blue, alpha, each 0 to 1.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct Color
 {
     /// <summary>From components.</summary>
@@ -36,4 +38,7 @@ public readonly struct Color
         json.Numbers(v);
         return new Color(v[0], v[1], v[2], v[3]);
     }
+
+    /// <summary>(r, g, b, a).</summary>
+    public override string ToString() => FormattableString.Invariant($"({R}, {G}, {B}, {A})");
 }

@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A surface in Unity's Standard and Lit terms.</summary>
-public sealed class Material : DocumentObject
+public sealed record Material : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["name"], "color", "metallic", "smoothness", "extras");
 
@@ -50,4 +50,6 @@ public sealed class Material : DocumentObject
 
     /// <summary>0 to 1.</summary>
     public double Smoothness { get; init; } = 0.5;
+
+    private protected override string Describe() => Line($"material \"{Name}\", metallic {Metallic}, smoothness {Smoothness}");
 }

@@ -6,7 +6,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Triangles, clockwise from outside (Unity's winding), in the frame of the GameObject that uses them, metres.</summary>
-public sealed class Mesh : DocumentObject
+public sealed record Mesh : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["name", "vertexCount", "bounds", "positions", "indexFormat", "indices", "submeshes"],
@@ -84,4 +84,6 @@ public sealed class Mesh : DocumentObject
 
     /// <summary>In the order of MeshRenderer.materials; they cover the indices without a gap.</summary>
     public IReadOnlyList<Submesh> Submeshes { get; init; } = Array.Empty<Submesh>();
+
+    private protected override string Describe() => $"mesh \"{Name}\" of {VertexCount} vertices, {Submeshes.Count} submeshes";
 }

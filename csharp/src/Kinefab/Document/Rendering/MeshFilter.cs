@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>MeshFilter: which mesh a GameObject shows.</summary>
-public sealed class MeshFilter : Component
+public sealed record MeshFilter : Component
 {
     internal static readonly FieldNames Fields = new(["type", "mesh"], "extras");
 
@@ -32,4 +32,6 @@ public sealed class MeshFilter : Component
 
     /// <summary>Index into <see cref="SceneDocument.Meshes"/>.</summary>
     public int Mesh { get; init; }
+
+    private protected override string Describe() => $"MeshFilter of mesh {Mesh}";
 }

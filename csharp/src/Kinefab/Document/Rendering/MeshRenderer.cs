@@ -6,7 +6,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>MeshRenderer: with which materials a GameObject's mesh is drawn.</summary>
-public sealed class MeshRenderer : Component
+public sealed record MeshRenderer : Component
 {
     internal static readonly FieldNames Fields = new(["type", "materials"], "enabled", "extras");
 
@@ -40,4 +40,6 @@ public sealed class MeshRenderer : Component
 
     /// <summary>Indices into <see cref="SceneDocument.Materials"/>, one for each submesh.</summary>
     public IReadOnlyList<int> Materials { get; init; } = Array.Empty<int>();
+
+    private protected override string Describe() => $"MeshRenderer with materials {string.Join(", ", Materials)}";
 }

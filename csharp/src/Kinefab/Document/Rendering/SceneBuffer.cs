@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A file of binary data beside the scene.</summary>
-public sealed class SceneBuffer : DocumentObject
+public sealed record SceneBuffer : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["uri", "byteLength", "sha256"], "extras");
 
@@ -67,4 +67,6 @@ public sealed class SceneBuffer : DocumentObject
         Fault = fault;
         FoundLength = foundLength;
     }
+
+    private protected override string Describe() => $"buffer {Uri} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
 }

@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A range of indices that is drawn with one material.</summary>
-public sealed class Submesh : DocumentObject
+public sealed record Submesh : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["indexStart", "indexCount"], "extras");
 

@@ -7,7 +7,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>A node of the hierarchy.</summary>
-public sealed class GameObject : DocumentObject
+public sealed record GameObject : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["id", "name"],
@@ -83,7 +83,10 @@ public sealed class GameObject : DocumentObject
     private void SetComponents(Component[] value)
     {
         components = value;
+        Body = null;
         foreach (Component component in value)
             Body ??= component as Rigidbody;
     }
+
+    private protected override string Describe() => $"\"{Id}\" ({string.Join(", ", components.Select(component => component.GetType().Name))}){(Active ? "" : ", inactive")}";
 }

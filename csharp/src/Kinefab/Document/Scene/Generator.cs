@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>The program that wrote the file.</summary>
-public sealed class Generator : DocumentObject
+public sealed record Generator : DocumentObject
 {
     internal static readonly FieldNames Fields = new(["name", "version"], "extras");
 
@@ -38,4 +38,6 @@ public sealed class Generator : DocumentObject
 
     /// <summary>Its version.</summary>
     public string Version { get; init; } = "";
+
+    private protected override string Describe() => $"{Name} {Version}";
 }

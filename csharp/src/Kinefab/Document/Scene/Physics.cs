@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Unity project settings that the mechanism was made for.</summary>
-public sealed class Physics : DocumentObject
+public sealed record Physics : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         [],
@@ -69,4 +69,6 @@ public sealed class Physics : DocumentObject
 
     /// <summary>Physics.defaultMaxAngularSpeed, rad/s.</summary>
     public double DefaultMaxAngularSpeed { get; init; } = 7;
+
+    private protected override string Describe() => Line($"gravity {Gravity} m/s^2, step {FixedTimestep} s, {SolverIterations} and {SolverVelocityIterations} iterations");
 }

@@ -18,7 +18,7 @@ public enum Outcome
 }
 
 /// <summary>One line of the exporter's loss report.</summary>
-public sealed class ReportEntry : DocumentObject
+public sealed record ReportEntry : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["feature", "outcome"],
@@ -78,6 +78,8 @@ public sealed class ReportEntry : DocumentObject
 
     /// <summary>Place in the source.</summary>
     public string? Source { get; init; }
+
+    private protected override string Describe() => $"{Outcome} {Feature}{(Code is null ? "" : $" {Code}")}{(Message is null ? "" : $": {Message}")}";
 }
 
 /// <summary>The words of the scene file for <see cref="Outcome"/>.</summary>

@@ -10,7 +10,7 @@ namespace Kinefab.Document;
 /// A scene file as it stands: Unity's terms, left-handed, +Y up, +Z forward, metres, kilograms, seconds.
 /// Nothing has been checked but its shape; <c>SceneValidator</c> checks the rest.
 /// </summary>
-public sealed class SceneDocument : DocumentObject
+public sealed record SceneDocument : DocumentObject
 {
     internal static readonly FieldNames Fields = new(
         ["format", "version", "gameObjects"],
@@ -18,6 +18,7 @@ public sealed class SceneDocument : DocumentObject
         "analysis", "report", "extras");
 
     private GameObject[] gameObjects = Array.Empty<GameObject>();
+    private SourceText? text;
 
     /// <summary>With nothing in it.</summary>
     public SceneDocument()
@@ -126,6 +127,27 @@ public sealed class SceneDocument : DocumentObject
     /// <summary>The exporter's loss report.</summary>
     public IReadOnlyList<ReportEntry> Report { get; init; } = Array.Empty<ReportEntry>();
 
-    /// <summary>The UTF-8 text that the scene was read from, for the places of later findings; empty when there is none.</summary>
-    internal ReadOnlyMemory<byte> Text { get; set; }
+    /// <summary>The UTF-8 text that this very scene was read from, for the places of later findings; empty when there is none, as for a changed copy.</summary>
+    internal ReadOnlyMemory<byte> Text
+    {
+        get => text is not null && ReferenceEquals(text.Of, this) ? text.Bytes : default;
+        set => text = new SourceText(this, value);
+    }
+
+    private protected override string Describe() =>
+        $"scene of {gameObjects.Length} objects, {Couplings.Count} couplings, {Meshes.Count} meshes, {Materials.Count} materials";
+
+    // No record: a document that is compared does not compare its text, which knows the document.
+    private sealed class SourceText
+    {
+        internal SourceText(SceneDocument of, ReadOnlyMemory<byte> bytes)
+        {
+            Of = of;
+            Bytes = bytes;
+        }
+
+        internal SceneDocument Of { get; }
+
+        internal ReadOnlyMemory<byte> Bytes { get; }
+    }
 }

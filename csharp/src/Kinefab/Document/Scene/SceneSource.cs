@@ -4,7 +4,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Where the scene came from.</summary>
-public sealed class SceneSource : DocumentObject
+public sealed record SceneSource : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "uri", "upAxis", "metersPerUnit", "sha256", "extras");
 

@@ -5,7 +5,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>Transform, local to the parent.</summary>
-public sealed class Transform : DocumentObject
+public sealed record Transform : DocumentObject
 {
     internal static readonly FieldNames Fields = new([], "localPosition", "localRotation", "localScale", "extras");
 
@@ -48,4 +48,6 @@ public sealed class Transform : DocumentObject
 
     /// <summary>Along the own axes.</summary>
     public Vector3d LocalScale { get; init; } = new(1, 1, 1);
+
+    private protected override string Describe() => Line($"at {LocalPosition} m, rotation {LocalRotation}, scale {LocalScale}");
 }

@@ -108,7 +108,11 @@ internal sealed class Bodies
         Torques = new Vector3d[Count];
         for (int i = 0; i < Count; i++)
         {
-            Set(i, definitions[i]);
+            Poses[i] = definitions[i].Pose;
+            KinematicTargets[i] = definitions[i].Pose;
+            LinearVelocities[i] = definitions[i].LinearVelocity;
+            AngularVelocities[i] = definitions[i].AngularVelocity;
+            Change(i, definitions[i]);
         }
     }
 
@@ -134,12 +138,28 @@ internal sealed class Bodies
     public double PotentialEnergy(int body, Vector3d gravity) =>
         UseGravity[body] && InverseMasses[body] > 0 ? -Vector3d.Dot(gravity, Poses[body].Position) / InverseMasses[body] : 0;
 
-    private void Set(int i, in BodyDefinition d)
+    /// <summary>All that a program or a step may change.</summary>
+    public void Exchange(StateTape tape)
     {
-        Poses[i] = d.Pose;
-        KinematicTargets[i] = d.Pose;
-        LinearVelocities[i] = d.LinearVelocity;
-        AngularVelocities[i] = d.AngularVelocity;
+        tape.Array(Poses);
+        tape.Array(LinearVelocities);
+        tape.Array(AngularVelocities);
+        tape.Array(KinematicTargets);
+        tape.Array(Forces);
+        tape.Array(Torques);
+        tape.Array(InverseMasses);
+        tape.Array(InverseInertias);
+        tape.Array(LinearDampings);
+        tape.Array(AngularDampings);
+        tape.Array(MaxAngularSpeeds);
+        tape.Array(UseGravity);
+        tape.Array(PositionIterations);
+        tape.Array(VelocityIterations);
+    }
+
+    /// <summary>What a body is made of and how it is solved anew; where it stands and how it moves stays.</summary>
+    public void Change(int i, in BodyDefinition d)
+    {
         InverseMasses[i] = d.IsKinematic ? 0 : 1 / d.Mass;
         InverseInertias[i] = d.IsKinematic ? Vector3d.Zero : new Vector3d(Inverse(d.Inertia.X), Inverse(d.Inertia.Y), Inverse(d.Inertia.Z));
         LinearDampings[i] = d.LinearDamping;

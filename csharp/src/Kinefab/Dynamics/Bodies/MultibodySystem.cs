@@ -50,6 +50,34 @@ internal sealed class MultibodySystem
         }
     }
 
+    /// <summary>Set when what a body is made of has changed, until the solver has taken note of it.</summary>
+    public bool HasChangedBodies;
+
+    /// <summary>All that a program or a step may change, but for what the solver remembers.</summary>
+    public void Exchange(StateTape tape)
+    {
+        JointReaction[] reactions = Reactions;
+        Bodies.Exchange(tape);
+        foreach (JointModel joint in Joints)
+        {
+            JointModel copy = tape.IsPlaying ? joint : joint.Between(joint.Body0, joint.Body1);
+            tape.Value(ref copy);
+            if (tape.IsPlaying)
+                joint.TakeOver(copy);
+        }
+
+        foreach (CoordinateCoupling coupling in Couplings)
+        {
+            tape.Value(ref coupling.LastA);
+            tape.Value(ref coupling.LastB);
+        }
+
+        tape.Array(reactions);
+        tape.Value(ref Gravity);
+        tape.Value(ref Stops);
+        tape.Value(ref HasChangedBodies);
+    }
+
     /// <summary>Before a step that does not write this one any more.</summary>
     public void ClearReaction(int joint) => _reactions[joint] = default;
 }
@@ -101,4 +129,7 @@ internal interface ISolver
 {
     /// <summary>One step of dt seconds; forces and torques are used up by it.</summary>
     void Step(double dt);
+
+    /// <summary>What the next step takes from those before it, beside the mechanism itself, which has been passed already.</summary>
+    void Exchange(StateTape tape);
 }

@@ -63,6 +63,13 @@ internal sealed class PgsSolver : ISolver
     /// <inheritdoc/>
     public void Step(double dt)
     {
+        if (_mechanism.HasChangedBodies)
+        {
+            _mechanism.HasChangedBodies = false;
+            for (int i = 0; i < _bodies.Count; i++)
+                _rootInertia[i] = SqrtInertia.Root(_bodies.InverseInertias[i]);
+        }
+
         int positionIterations = 0;
         int velocityIterations = 0;
         for (int i = 0; i < _bodies.Count; i++)
@@ -112,6 +119,17 @@ internal sealed class PgsSolver : ISolver
         }
 
         _couplings.Finish();
+    }
+
+    /// <inheritdoc/>
+    public void Exchange(StateTape tape)
+    {
+        // Nothing is kept from step to step but what follows from the joints.
+        if (!tape.IsPlaying)
+            return;
+        _mechanism.HasChangedBodies = true;
+        _order.Refresh();
+        _projection.Refresh();
     }
 
     private int Prepare(double dt)

@@ -10,6 +10,9 @@ internal abstract class IslandGroup
     /// <summary>One step of all islands.</summary>
     public abstract void Step(double dt, double tolerance);
 
+    /// <summary>What the next step takes from those before it.</summary>
+    public abstract void Exchange(StateTape tape);
+
     /// <summary>Tells the mechanism what a ladder's last step has to say of an island.</summary>
     /// <param name="mechanism">Takes the notes.</param>
     /// <param name="ladder">The one that made the step.</param>
@@ -106,6 +109,17 @@ internal sealed class IslandGroup<V> : IslandGroup
             Transfer<V>.Store(batch, occupied, _mechanism);
             Reactions<V>.Report(batch, occupied, _mechanism, dt);
         }
+    }
+
+    /// <inheritdoc/>
+    public override void Exchange(StateTape tape)
+    {
+        foreach (Batch<V> batch in _batches)
+        {
+            batch.Exchange(tape);
+        }
+
+        tape.Array(_cuts);
     }
 
     private void Load(Batch<V> batch, int index, double dt)

@@ -67,4 +67,16 @@ internal sealed class PreparedIslands : IslandGroup
             }
         }
     }
+
+    /// <inheritdoc/>
+    public override void Exchange(StateTape tape)
+    {
+        for (int i = 0; i < _batches.Length; i++)
+        {
+            _batches[i].Exchange(tape);
+            _answers[i]?.Exchange(tape);
+        }
+
+        tape.Array(_cuts);
+    }
 }

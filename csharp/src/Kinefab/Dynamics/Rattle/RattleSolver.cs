@@ -59,7 +59,7 @@ internal sealed class RattleSolver : ISolver
     /// <inheritdoc/>
     public void Step(double dt)
     {
-        if (_watch.IsStale())
+        if (IsStale)
         {
             Regroup();
         }
@@ -85,8 +85,31 @@ internal sealed class RattleSolver : ISolver
         Array.Clear(bodies.Torques, 0, bodies.Count);
     }
 
+    /// <inheritdoc/>
+    public void Exchange(StateTape tape)
+    {
+        // Where the groups are to be made anew by the next step, there is nothing to remember.
+        bool isStale = !tape.IsPlaying && IsStale;
+        tape.Value(ref isStale);
+        if (tape.IsPlaying)
+        {
+            Regroup();
+        }
+
+        foreach (IslandGroup group in _groups)
+        {
+            if (!isStale)
+            {
+                group.Exchange(tape);
+            }
+        }
+    }
+
+    private bool IsStale => _mechanism.HasChangedBodies || _watch.IsStale();
+
     private void Regroup()
     {
+        _mechanism.HasChangedBodies = false;
         _groups.Clear();
         List<Island> rest = IslandFinder.Find(_mechanism);
         _watch = new RowWatch(rest);

@@ -18,6 +18,15 @@ internal sealed class ExactStepFindings
 
     private readonly HashSet<(string Code, string Place)> _places = new();
 
+    /// <summary>Which findings were said already.</summary>
+    public void Exchange(StateTape tape)
+    {
+        var places = new HashSet<(string Code, string Place)>(_places);
+        tape.Value(ref places);
+        _places.Clear();
+        _places.UnionWith(places);
+    }
+
     /// <summary>What there is to say of the last step that was not said yet.</summary>
     /// <param name="mechanism">After the step.</param>
     /// <param name="bodies">The world's.</param>

@@ -1,6 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
+using System.Threading;
 using Kinefab.Diagnostics;
+using Kinefab.Document;
 using Kinefab.Dynamics.Rattle;
 using Kinefab.Dynamics.Pgs;
 using Kinefab.Numerics;
@@ -12,7 +15,8 @@ namespace Kinefab.Dynamics;
 /// The bodies and joints of a scene in motion, as Unity makes them at start-up. There are no contacts: colliders are not
 /// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks.
 /// </summary>
-public sealed class World
+[DebuggerDisplay("{ToString(),nq}")]
+public sealed partial class World
 {
     private readonly MultibodySystem _mechanism;
     private readonly ISolver _solver;
@@ -20,8 +24,10 @@ public sealed class World
     private readonly ExactStepFindings _exact = new();
     private readonly WorldNames _names;
 
-    private World(MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, WorldNames names, Report findings)
+    private World(ValidScene scene, SolverKind kind, MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, WorldNames names, Report findings)
     {
+        Scene = scene;
+        Solver = kind;
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
@@ -33,6 +39,12 @@ public sealed class World
 
     /// <summary>Raised after a step for every joint that broke in it.</summary>
     public event EventHandler<JointBrokenEventArgs>? JointBroken;
+
+    /// <summary>The scene that it was made from.</summary>
+    public ValidScene Scene { get; }
+
+    /// <summary>How it moves.</summary>
+    public SolverKind Solver { get; }
 
     /// <summary>In the order of their GameObjects.</summary>
     public IReadOnlyList<WorldBody> Bodies { get; }
@@ -94,6 +106,22 @@ public sealed class World
         }
     }
 
+    /// <summary>The bodies, joints and couplings of a scene file at its start pose. Inactive objects are left out.</summary>
+    /// <param name="path">A scene file, NAME.kinefab.</param>
+    /// <param name="solver">As Unity moves it, or as it truly moves.</param>
+    /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>A world at rest unless the scene says otherwise; warnings stand in its scene's <see cref="ValidScene.Report"/>.</returns>
+    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// World world = World.Load("lever.kinefab", SolverKind.Exact);
+    /// world.DriveAt("Shaft", 60);
+    /// RunResult run = world.Run(seconds: 6, record: new[] { "Shaft", "Slide" });
+    /// </code></example>
+    public static World Load(string path, SolverKind solver = SolverKind.Unity, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
+        Create(ValidScene.Load(path, options, cancellation), solver);
+
     /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
     public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
     {
@@ -113,7 +141,7 @@ public sealed class World
         List<Diagnostic> findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : new List<Diagnostic>();
         findings.AddRange(InexactLoopCheck.Of(loops, builder.Joints));
         var names = new WorldNames(scene.Document.GameObjects, builder.Bodies, builder.Joints);
-        return new World(builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, names, new Report(findings));
+        return new World(scene, solver, builder.MultibodySystem, chosen, builder.Bodies, builder.Joints, names, new Report(findings));
     }
 
     /// <summary>The body of the GameObject with an id, or with a name that no other has.</summary>
@@ -128,6 +156,38 @@ public sealed class World
     /// <param name="name">Such as Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
     /// <exception cref="ArgumentException">None or several joints answer to it; the message says which there are.</exception>
     public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
+
+    /// <summary>A joint coordinate by its name: degrees (over any number of turns) or metres, zero at the start.</summary>
+    /// <param name="name">Such as Shaft, Slide.x or Lever/Crank:1.angle: the CAD program's name for the joint, else its GameObject's id or name, and the coordinate behind it where there are several.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
+    public double this[string name]
+    {
+        get
+        {
+            (WorldJoint joint, Coordinate coordinate) = Named(name);
+            return joint.Coordinate(coordinate);
+        }
+    }
+
+    /// <summary>Drives a joint coordinate towards a value, see <see cref="WorldJoint.DriveTo"/>; drives of other coordinates stay.</summary>
+    /// <param name="name">As in <see cref="this[string]"/>.</param>
+    /// <param name="target">Degrees or metres.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the target is no finite number.</exception>
+    public void DriveTo(string name, double target)
+    {
+        (WorldJoint joint, Coordinate coordinate) = Named(name);
+        joint.DriveTo(coordinate, target);
+    }
+
+    /// <summary>Drives a joint coordinate at a speed, see <see cref="WorldJoint.DriveAt"/>; drives of other coordinates stay.</summary>
+    /// <param name="name">As in <see cref="this[string]"/>.</param>
+    /// <param name="speed">Degrees/s or metres/s.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the speed is no finite number.</exception>
+    public void DriveAt(string name, double speed)
+    {
+        (WorldJoint joint, Coordinate coordinate) = Named(name);
+        joint.DriveAt(coordinate, speed);
+    }
 
     /// <summary>Moves the world forward.</summary>
     /// <param name="dt">Seconds; Unity's fixed time step is in the scene's physics settings.</param>
@@ -167,4 +227,10 @@ public sealed class World
             }
         }
     }
+
+    /// <summary>Solver, time, and how many bodies and joints there are.</summary>
+    public override string ToString() =>
+        FormattableString.Invariant($"{Solver} world at {Time:0.######} s: {Bodies.Count} bodies, {Joints.Count} joints{(Stops > 0 ? $", {Stops} stops" : "")}");
+
+    private (WorldJoint Joint, Coordinate Coordinate) Named(string name) => _names.Coordinate(name ?? throw new ArgumentNullException(nameof(name)));
 }

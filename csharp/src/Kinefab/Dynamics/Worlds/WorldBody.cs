@@ -1,27 +1,35 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
+using Kinefab.Validation;
 
 namespace Kinefab.Dynamics;
 
 /// <summary>A Rigidbody in a <see cref="World"/>.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class WorldBody
 {
+    private readonly MultibodySystem _system;
     private readonly Bodies _bodies;
+    private readonly ValidScene _scene;
     private readonly int _index;
     private readonly Pose _local;
     private readonly Pose _localInverse;
+    private Rigidbody _settings;
 
-    internal WorldBody(Bodies bodies, int index, int gameObject, GameObject source, Rigidbody settings, in Pose local)
+    internal WorldBody(MultibodySystem system, int index, int gameObject, ValidScene scene, Rigidbody settings)
     {
-        _bodies = bodies;
+        _system = system;
+        _bodies = system.Bodies;
         _index = index;
-        _local = local;
-        _localInverse = local.Inverse();
+        _scene = scene;
+        _local = RigidbodyModel.MassFrame(settings);
+        _localInverse = _local.Inverse();
+        _settings = settings;
         GameObject = gameObject;
-        Id = source.Id;
-        Name = source.Name;
-        Settings = settings;
+        Id = scene.Document.GameObjects[gameObject].Id;
+        Name = scene.Document.GameObjects[gameObject].Name;
     }
 
     /// <summary>Index of the GameObject that carries the Rigidbody.</summary>
@@ -33,8 +41,33 @@ public sealed class WorldBody
     /// <summary>Name of the GameObject.</summary>
     public string Name { get; }
 
-    /// <summary>The component as the scene has it.</summary>
-    public Rigidbody Settings { get; }
+    /// <summary>
+    /// Mass, inertiaTensor, dampings, useGravity, maxAngularVelocity and iterations; at first as the scene has them. A new value acts from the
+    /// next step on; the centre of mass, the tensor's rotation, the constraints and isKinematic stay as created.
+    /// </summary>
+    /// <exception cref="ArgumentException">A field that is decided at creation differs, or a number is out of its range or none; the message names it.</exception>
+    /// <example><code>
+    /// body.Settings = body.Settings with { Mass = 2.5 };
+    /// </code></example>
+    public Rigidbody Settings
+    {
+        get => _settings;
+        set
+        {
+            if (value is null)
+                throw new ArgumentNullException(nameof(value));
+            if (value.CenterOfMass != _settings.CenterOfMass || value.InertiaTensorRotation != _settings.InertiaTensorRotation
+                || value.Constraints != _settings.Constraints || value.IsKinematic != _settings.IsKinematic)
+            {
+                throw new ArgumentException("centerOfMass, inertiaTensorRotation, constraints and isKinematic are decided when the body is created.", nameof(value));
+            }
+
+            SettingsCheck.ThrowIfWrong(value);
+            _settings = value;
+            _bodies.Change(_index, RigidbodyModel.Of(value, _scene.Document.Physics, Kinefab.Numerics.Pose.Identity));
+            _system.HasChangedBodies = true;
+        }
+    }
 
     /// <summary>Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities; the rotation is normalised.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
@@ -97,6 +130,12 @@ public sealed class WorldBody
         AddForce(force);
         AddTorque(torque);
     }
+
+    /// <summary>Where it is and how it moves, with units.</summary>
+    public override string ToString() =>
+        FormattableString.Invariant($"{Id}{(IsKinematic ? ", kinematic" : $", {_settings.Mass} kg")} at {Pose}, {LinearVelocity} m/s, {AngularVelocity} rad/s");
+
+    internal void Exchange(StateTape tape) => tape.Value(ref _settings);
 
     private static Pose Checked(Pose value)
     {

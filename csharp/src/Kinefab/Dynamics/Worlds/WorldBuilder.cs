@@ -27,7 +27,7 @@ internal sealed class WorldBuilder
         _scene = scene;
         _definition = MechanismDefinition.From(scene);
         int[] objects = _definition.GameObjects;
-        var bodies = new Bodies(Array.ConvertAll(objects, i => Define(scene.Body(i)!, scene.WorldTransform(i).Pose)));
+        var bodies = new Bodies(Array.ConvertAll(objects, i => RigidbodyModel.Of(scene.Body(i)!, scene.Document.Physics, scene.WorldTransform(i).Pose)));
         _joints = new List<Kinefab.Joints.JointModel>(_definition.MakeJoints(scene, bodies.Poses));
         if (locksAsJoints)
         {
@@ -40,7 +40,7 @@ internal sealed class WorldBuilder
         {
             int gameObject = objects[i];
             Rigidbody body = scene.Body(gameObject)!;
-            Bodies[i] = new WorldBody(bodies, i, gameObject, scene.Document.GameObjects[gameObject], body, MassFrame(body));
+            Bodies[i] = new WorldBody(MultibodySystem, i, gameObject, scene, body);
         }
 
         Joints = new WorldJoint[_definition.Joints.Count];
@@ -62,42 +62,6 @@ internal sealed class WorldBuilder
     public WorldBody[] Bodies { get; }
 
     public WorldJoint[] Joints { get; }
-
-    // The centre of mass is given in metres along the object's axes, whatever its scale (ScriptReference, Rigidbody.centerOfMass).
-    private static Pose MassFrame(Rigidbody body) => new(body.CenterOfMass, body.InertiaTensorRotation.Normalized());
-
-    private BodyDefinition Define(Rigidbody body, in Pose pose)
-    {
-        Document.Physics physics = _scene.Document.Physics;
-        RigidbodyConstraints frozen = body.Constraints;
-        return new BodyDefinition
-        {
-            Pose = pose * MassFrame(body),
-            Mass = body.Mass,
-            Inertia = new Vector3d(
-                Frozen(frozen, RigidbodyConstraints.FreezeRotationX) ? 0 : body.InertiaTensor.X,
-                Frozen(frozen, RigidbodyConstraints.FreezeRotationY) ? 0 : body.InertiaTensor.Y,
-                Frozen(frozen, RigidbodyConstraints.FreezeRotationZ) ? 0 : body.InertiaTensor.Z),
-            LinearDamping = body.LinearDamping,
-            AngularDamping = body.AngularDamping,
-            MaxAngularSpeed = body.MaxAngularVelocity ?? physics.DefaultMaxAngularSpeed,
-            UseGravity = body.UseGravity,
-            IsKinematic = body.IsKinematic,
-            Locks = Locks(frozen),
-            PositionIterations = body.SolverIterations ?? physics.SolverIterations,
-            VelocityIterations = body.SolverVelocityIterations ?? physics.SolverVelocityIterations,
-        };
-    }
-
-    // Positions are frozen in the world's axes, by PhysX's locks; rotations by setting the inertia tensor's components to zero, which
-    // stands for infinite (ScriptReference, Rigidbody.constraints and Rigidbody.inertiaTensor): about the principal axes, also
-    // where inertiaTensorRotation turns these.
-    private static BodyLocks Locks(RigidbodyConstraints frozen) =>
-        (Frozen(frozen, RigidbodyConstraints.FreezePositionX) ? BodyLocks.LinearX : 0)
-        | (Frozen(frozen, RigidbodyConstraints.FreezePositionY) ? BodyLocks.LinearY : 0)
-        | (Frozen(frozen, RigidbodyConstraints.FreezePositionZ) ? BodyLocks.LinearZ : 0);
-
-    private static bool Frozen(RigidbodyConstraints constraints, RigidbodyConstraints one) => (constraints & one) != 0;
 
     // They stand behind the scene's joints, so that those keep their indices. Actor 0 is the world: its axes do not turn.
     private void MakeLocks(Bodies bodies)

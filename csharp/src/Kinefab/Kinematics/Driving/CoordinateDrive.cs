@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 
 namespace Kinefab.Kinematics;
 
@@ -57,7 +58,7 @@ internal sealed class CoordinateDrive
 
     public RankDeficiency Singular { get; }
 
-    public DriveResult Run(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
+    public DriveResult Run(MechanismState state, ReadOnlySpan<CoordinateTarget> targets, CancellationToken cancellation)
     {
         _newton.Iterations = 0;
         _newton.BeginTracks();
@@ -74,6 +75,7 @@ internal sealed class CoordinateDrive
         double left = MaxSteps + StepsOfTheWay * way / LargestStep;
         while (s < 1)
         {
+            cancellation.ThrowIfCancellationRequested();
             if (left-- <= 0)
             {
                 return End(state, s, limit);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -16,6 +17,7 @@ public enum DeadPointKind
 }
 
 /// <summary>A pose that a driven coordinate cannot simply pass.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct DeadPoint
 {
     internal DeadPoint(DeadPointKind kind, double value)
@@ -29,6 +31,9 @@ public readonly struct DeadPoint
 
     /// <summary>Of the driven coordinate, degrees or metres.</summary>
     public double Value { get; }
+
+    /// <summary>Fold at 90, degrees or metres.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Kind} at {Value:0.######}");
 }
 
 /// <summary>

@@ -1,3 +1,5 @@
+using System.Diagnostics;
+using System;
 using Kinefab.Document;
 
 namespace Kinefab.Kinematics;
@@ -19,6 +21,7 @@ public enum DriveStatus
 }
 
 /// <summary>A limit of a joint.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct ReachedLimit
 {
     internal ReachedLimit(int gameObject, int component, Coordinate coordinate, bool isUpper)
@@ -40,9 +43,13 @@ public readonly struct ReachedLimit
 
     /// <summary>The upper end of the coordinate's range.</summary>
     public bool IsUpper { get; }
+
+    /// <summary>upper limit of angle of components[1] of object 3.</summary>
+    public override string ToString() => FormattableString.Invariant($"{(IsUpper ? "upper" : "lower")} limit of {Coordinate} of components[{Component}] of object {GameObject}");
 }
 
 /// <summary>What a drive or drag came to.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct DriveResult
 {
     internal DriveResult(DriveStatus status, double fraction, int iterations, double errorMetres, double errorDegrees, int branches, ReachedLimit? limit)
@@ -82,9 +89,19 @@ public readonly struct DriveResult
 
     /// <summary>The limit that stopped it, or that it rests against; null: none.</summary>
     public ReachedLimit? Limit { get; }
+
+    /// <summary>StoppedByLimit after 62.5 % of the way, by the upper limit; what is left open in metres and degrees.</summary>
+    public override string ToString()
+    {
+        string way = Converged ? "" : FormattableString.Invariant($" after {100 * Fraction:0.###} % of the way");
+        string limit = Limit is ReachedLimit reached ? $", {reached}" : "";
+        string branches = Branches > 1 ? FormattableString.Invariant($", the straightest of {Branches} ways") : "";
+        return FormattableString.Invariant($"{Status}{way}{limit}{branches}; worst gap {ErrorMetres:0.0e+0} m, {ErrorDegrees:0.0e+0} deg; {Iterations} iterations");
+    }
 }
 
 /// <summary>A value that a coordinate shall take.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct CoordinateTarget
 {
     /// <summary>From parts.</summary>
@@ -101,4 +118,7 @@ public readonly struct CoordinateTarget
 
     /// <summary>Degrees or metres.</summary>
     public double Value { get; }
+
+    /// <summary>Coordinate 2 to 90, degrees or metres.</summary>
+    public override string ToString() => FormattableString.Invariant($"coordinate {Coordinate} to {Value}");
 }

@@ -1,5 +1,8 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -44,43 +47,63 @@ public sealed class PositionSolver
     /// </summary>
     /// <param name="state">Where to start from; moved.</param>
     /// <param name="targets">Each coordinate at most once.</param>
-    public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets)
+    /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
+    /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or a target names no coordinate, no finite number, or a coordinate twice; the message says which coordinates there are.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets, CancellationToken cancellation = default)
     {
         Check(state);
         for (int i = 0; i < targets.Length; i++)
         {
-            if ((uint)targets[i].Coordinate >= (uint)Mechanism.Coordinates.Count)
-                throw new ArgumentOutOfRangeException(nameof(targets), "There is no such coordinate.");
+            Check(targets[i].Coordinate, nameof(targets));
             if (!Finite.Is(targets[i].Value))
-                throw new ArgumentOutOfRangeException(nameof(targets), "A target is not a finite number.");
+                throw new ArgumentOutOfRangeException(nameof(targets), $"The target of {Mechanism.Coordinates[targets[i].Coordinate].Name} is not a finite number.");
             for (int k = 0; k < i; k++)
             {
                 if (targets[k].Coordinate == targets[i].Coordinate)
-                    throw new ArgumentException("A coordinate is driven twice.", nameof(targets));
+                    throw new ArgumentException($"{Mechanism.Coordinates[targets[i].Coordinate].Name} is driven twice.", nameof(targets));
             }
         }
 
-        return _drive.Run(state, targets);
+        return _drive.Run(state, targets, cancellation);
     }
 
-    /// <summary>Moves one coordinate to a value, degrees or metres.</summary>
-    public DriveResult Drive(MechanismState state, int coordinate, double value)
+    /// <summary>Moves one coordinate to a value, degrees or metres from the exported pose.</summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <param name="value">Degrees or metres.</param>
+    /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
+    /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
+    /// <exception cref="ArgumentException">The state is another mechanism's, there is no such coordinate, or the value is no finite number.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public DriveResult Drive(MechanismState state, int coordinate, double value, CancellationToken cancellation = default)
     {
         ReadOnlySpan<CoordinateTarget> targets = stackalloc CoordinateTarget[] { new CoordinateTarget(coordinate, value) };
-        return Drive(state, targets);
+        return Drive(state, targets, cancellation);
     }
 
-    /// <summary>Moves one coordinate to a value, degrees or metres.</summary>
+    /// <summary>Moves one coordinate to a value, degrees or metres from the exported pose.</summary>
     /// <param name="state">Where to start from; moved.</param>
-    /// <param name="coordinate">Its <see cref="MechanismCoordinate.Name"/>, or the GameObject's id where that is enough.</param>
+    /// <param name="coordinate">Such as Shaft or Lever/Crank:1.angle, see <see cref="Mechanism.TryFindCoordinate"/>.</param>
     /// <param name="value">Degrees or metres.</param>
-    public DriveResult Drive(MechanismState state, string coordinate, double value) =>
-        Drive(state, Mechanism.CoordinateNamed(coordinate), value);
+    /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
+    /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are; or the value is no finite number.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// var solver = new PositionSolver(mechanism);
+    /// MechanismState state = mechanism.NewState();
+    /// DriveResult result = solver.Drive(state, "Shaft", 90);
+    /// Console.WriteLine($"{result}: {state["Slide"]} m");
+    /// </code></example>
+    public DriveResult Drive(MechanismState state, string coordinate, double value, CancellationToken cancellation = default) =>
+        Drive(state, Mechanism.CoordinateNamed(coordinate), value, cancellation);
 
     /// <summary>
     /// The ways that lead on from a pose when a coordinate is driven. One at most poses, none at a dead centre; several
     /// where branches of motion meet, as in a parallelogram that lies flat. The straightest stands first, it is the one that
-    /// <see cref="Drive(MechanismState, int, double)"/> takes; copy the state of another one to take that.
+    /// <see cref="Drive(MechanismState, int, double, CancellationToken)"/> takes; copy the state of another one to take that.
     /// Limits are not looked at. Allocates.
     /// </summary>
     /// <param name="state">Closed; not changed.</param>
@@ -89,8 +112,7 @@ public sealed class PositionSolver
     public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true)
     {
         Check(state);
-        if ((uint)coordinate >= (uint)Mechanism.Coordinates.Count)
-            throw new ArgumentOutOfRangeException(nameof(coordinate));
+        Check(coordinate, nameof(coordinate));
         double unit = Mechanism.Coordinates[coordinate].IsAngle ? 1 : Mechanism.Length;
         ReadOnlySpan<double> step = stackalloc double[] { (isRising ? 1 : -1) * CoordinateDrive.LeapStep * unit };
         return _drive.Branches(state, stackalloc int[] { coordinate }, step);
@@ -138,6 +160,12 @@ public sealed class PositionSolver
         state.ForgetTrail();
         DriveStatus status = closed ? DriveStatus.Reached : DriveStatus.NotClosed;
         return new DriveResult(status, closed ? 1 : 0, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, 0, null);
+    }
+
+    internal void Check(int coordinate, string argument)
+    {
+        if ((uint)coordinate >= (uint)Mechanism.Coordinates.Count)
+            throw new ArgumentOutOfRangeException(argument, $"There is no coordinate {coordinate}; {SceneNames.There(Mechanism.Coordinates.Select((c, i) => $"{i} {c.Name}").ToArray())}");
     }
 
     private void Check(MechanismState state)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -36,10 +37,17 @@ public sealed class Sweep
     /// <param name="to">Degrees or metres.</param>
     /// <param name="steps">At least 1; one state more is kept.</param>
     /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
-    public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null)
+    /// <param name="cancellation">Ends the sweep early; the state then stands somewhere on the way.</param>
+    /// <exception cref="ArgumentException">The state is another mechanism's, there is no such coordinate, or a value is no finite number.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null, CancellationToken cancellation = default)
     {
         if (state is null)
             throw new ArgumentNullException(nameof(state));
+        if (!Finite.Is(from))
+            throw new ArgumentOutOfRangeException(nameof(from), "Not a finite number.");
+        if (!Finite.Is(to))
+            throw new ArgumentOutOfRangeException(nameof(to), "Not a finite number.");
         if (steps < 1)
             throw new ArgumentOutOfRangeException(nameof(steps));
         var values = new List<double>(steps + 1);
@@ -54,7 +62,7 @@ public sealed class Sweep
         {
             double target = i == steps ? to : from + (to - from) * i / steps;
             double before = last.Coordinate(coordinate);
-            DriveResult result = _solver.Drive(state, coordinate, target);
+            DriveResult result = _solver.Drive(state, coordinate, target, cancellation);
             metres = Math.Max(metres, result.ErrorMetres);
             degrees = Math.Max(degrees, result.ErrorDegrees);
             if (!result.Converged)
@@ -85,16 +93,20 @@ public sealed class Sweep
     /// </summary>
     /// <param name="state">Not changed.</param>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
-    public (RangeLimit Low, RangeLimit High) Range(MechanismState state, int coordinate) =>
-        (End(state, coordinate, -1), End(state, coordinate, 1));
+    /// <param name="cancellation">Ends the search early.</param>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public (RangeLimit Low, RangeLimit High) Range(MechanismState state, int coordinate, CancellationToken cancellation = default) =>
+        (End(state, coordinate, -1, cancellation), End(state, coordinate, 1, cancellation));
 
-    private RangeLimit End(MechanismState state, int coordinate, double direction)
+    private RangeLimit End(MechanismState state, int coordinate, double direction, CancellationToken cancellation)
     {
         if (state is null)
             throw new ArgumentNullException(nameof(state));
+        _solver.Check(coordinate, nameof(coordinate));
         MechanismState moved = state.Clone();
         double far = _mechanism.Coordinates[coordinate].IsAngle ? FarthestAngle : 100 * _mechanism.Length;
-        DriveResult result = _solver.Drive(moved, coordinate, state.Coordinate(coordinate) + direction * far);
+        DriveResult result = _solver.Drive(moved, coordinate, state.Coordinate(coordinate) + direction * far, cancellation);
         return result.Converged
             ? new RangeLimit(RangeEnd.Open, moved.Coordinate(coordinate), null)
             : StopOf(moved, coordinate, direction, result);

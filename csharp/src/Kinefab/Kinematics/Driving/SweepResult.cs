@@ -1,4 +1,7 @@
+using System;
 using System.Collections.Generic;
+using System.Diagnostics;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -22,6 +25,7 @@ public enum RangeEnd
 }
 
 /// <summary>One end of a coordinate's true range.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct RangeLimit
 {
     internal RangeLimit(RangeEnd end, double value, ReachedLimit? limit)
@@ -39,9 +43,22 @@ public readonly struct RangeLimit
 
     /// <summary>The limit, where one ends it.</summary>
     public ReachedLimit? Limit { get; }
+
+    /// <summary>80 (upper limit of angle); the unit is the coordinate's, degrees or metres.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Value:0.######} ({(Limit is ReachedLimit limit ? limit.ToString() : Word)})");
+
+    private string Word => End switch
+    {
+        RangeEnd.Open => "open",
+        RangeEnd.Limit => "limit",
+        RangeEnd.Fold => "dead centre",
+        RangeEnd.Bifurcation => "branches cross",
+        _ => "no pose found beyond",
+    };
 }
 
 /// <summary>A swept coordinate: the states on the way, and how far it went.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class SweepResult
 {
     internal SweepResult(int coordinate, List<double> values, List<MechanismState> states, List<double> jumps, IReadOnlyList<MotionBranch> branches, RangeLimit? stop, double worstMetres, double worstDegrees)
@@ -54,6 +71,21 @@ public sealed class SweepResult
         Stop = stop;
         WorstErrorMetres = worstMetres;
         WorstErrorDegrees = worstDegrees;
+    }
+
+    /// <summary>A coordinate in every state: degrees (over any number of turns) or metres, zero at the exported pose.</summary>
+    /// <param name="coordinate">Such as Slide or Lever/Crank:1.angle, see <see cref="Mechanism.TryFindCoordinate"/>.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
+    public IReadOnlyList<double> this[string coordinate]
+    {
+        get
+        {
+            int index = States[0].Mechanism.CoordinateNamed(coordinate);
+            var column = new double[States.Count];
+            for (int i = 0; i < column.Length; i++)
+                column[i] = States[i].Coordinate(index);
+            return column;
+        }
     }
 
     /// <summary>Index of the driven coordinate.</summary>
@@ -82,4 +114,22 @@ public sealed class SweepResult
 
     /// <summary>Worst angle left in any joint in any state, degrees.</summary>
     public double WorstErrorDegrees { get; }
+
+    /// <summary>Where a GameObject stands in one of the states; Unity's frame, metres.</summary>
+    /// <param name="idOrName">Its id, or a name that no other has: Lever/BarC:1 or BarC:1.</param>
+    /// <param name="state">Index into <see cref="States"/>.</param>
+    /// <exception cref="ArgumentException">None has it, or several have the name: the message says which there are.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such state.</exception>
+    public Pose Pose(string idOrName, int state) => (uint)state < (uint)States.Count
+        ? States[state].Pose(idOrName)
+        : throw new ArgumentOutOfRangeException(nameof(state), $"The sweep has {States.Count} states.");
+
+    /// <summary>Lever/Crank:1.angle 0 to 360 deg in 72 steps; and what stopped it.</summary>
+    public override string ToString()
+    {
+        MechanismCoordinate driven = States[0].Mechanism.Coordinates[Coordinate];
+        string stop = Stop is RangeLimit limit ? FormattableString.Invariant($", stopped at {limit} {driven.Unit}") : "";
+        string jumps = Jumps.Count > 0 ? FormattableString.Invariant($", on another branch from {Jumps[0]:0.######} {driven.Unit} on") : "";
+        return FormattableString.Invariant($"{driven.Name} {Values[0]:0.######} to {Values[Values.Count - 1]:0.######} {driven.Unit} in {States.Count - 1} steps{stop}{jumps}; worst gap {WorstErrorMetres:0.0e+0} m, {WorstErrorDegrees:0.0e+0} deg");
+    }
 }

@@ -1,5 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
+using System.Linq;
+using System.Threading;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
@@ -13,13 +17,14 @@ namespace Kinefab.Kinematics;
 /// changes; many states and solvers can share it. Drives, motors and springs do not matter at position level, and every
 /// limit is taken for a hard one.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class Mechanism
 {
     private readonly int[] _bodyOf;
     private readonly Pose[] _locals;
     private readonly Pose[] _start;
     private readonly MechanismCoordinate[] _coordinates;
-    private readonly MechanismNames _names;
+    private readonly CoordinateNames _names;
 
     private Mechanism(ValidScene scene)
     {
@@ -74,7 +79,13 @@ public sealed partial class Mechanism
             coordinate.Zero = coordinate.Evaluate(Linkage.PoseOf(rows.Body0, _start), Linkage.PoseOf(rows.Body1, _start), 0, out _);
         }
 
-        _names = new MechanismNames(scene.Document.GameObjects, _coordinates);
+        CoordinatePlace[] places = Array.ConvertAll(_coordinates, c => new CoordinatePlace(c.GameObject, c.Component, c.Coordinate, c.IsLocked));
+        _names = new CoordinateNames(scene.Document.GameObjects, places);
+        for (int i = 0; i < _coordinates.Length; i++)
+        {
+            _coordinates[i].Name = _names[i];
+        }
+
         PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
         Vector3d origin = MechanismScale.Center(all, _start);
         double length = MechanismScale.LinkLength(all, _start);
@@ -112,7 +123,23 @@ public sealed partial class Mechanism
 
     internal double Length => Linkage.Length;
 
+    /// <summary>The mechanism of a scene file.</summary>
+    /// <param name="path">A scene file, NAME.kinefab.</param>
+    /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The mechanism; warnings stand in its scene's <see cref="ValidScene.Report"/>.</returns>
+    /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// Mechanism mechanism = Mechanism.Load("lever.kinefab");
+    /// SweepResult sweep = mechanism.Sweep("Shaft", 0, 360, 72);
+    /// Console.WriteLine(sweep["Slide"].Max() - sweep["Slide"].Min());
+    /// </code></example>
+    public static Mechanism Load(string path, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
+        Create(ValidScene.Load(path, options, cancellation));
+
     /// <summary>The mechanism of a scene.</summary>
+    /// <param name="scene">A valid one, see <see cref="ValidScene.Load(string, SceneReadOptions?, CancellationToken)"/>.</param>
     public static Mechanism Create(ValidScene scene)
     {
         if (scene is null)
@@ -133,26 +160,61 @@ public sealed partial class Mechanism
         return -1;
     }
 
-    /// <summary>Finds a coordinate by its <see cref="MechanismCoordinate.Name"/>, or by the GameObject's id or name alone where that is enough.</summary>
-    /// <param name="name">Such as Lever/Crank:1.angle or Lever/Crank:1.</param>
-    /// <param name="coordinate">Index into <see cref="Coordinates"/>; -1: not found.</param>
+    /// <summary>
+    /// Finds a coordinate by what the CAD program calls its joint (Shaft), else by its GameObject's id or name
+    /// (Lever/Crank:1), with [COMPONENT] behind either where the object carries several joints (Arm[3]), and with the coordinate
+    /// behind that where the joint has several (Arm[3].angularX). A <see cref="MechanismCoordinate.Name"/> always finds its own.
+    /// </summary>
+    /// <param name="name">Such as Shaft, Shaft.angle, Lever/Crank:1 or Lever/Crank:1.angle.</param>
+    /// <param name="coordinate">Index into <see cref="Coordinates"/>; -1: none answers, or several do.</param>
     /// <param name="problem">What is wrong with the name and which there are; empty: nothing.</param>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
     public bool TryFindCoordinate(string name, out int coordinate, out string problem) =>
         _names.TryFind(name ?? throw new ArgumentNullException(nameof(name)), out coordinate, out problem);
 
-    /// <summary>As <see cref="TryFindCoordinate"/>, for names that are known to be right; else an ArgumentException says which there are.</summary>
+    /// <summary>As <see cref="TryFindCoordinate"/>, for names that are known to be right.</summary>
+    /// <param name="name">Such as Shaft or Lever/Crank:1.angle.</param>
+    /// <returns>Index into <see cref="Coordinates"/>.</returns>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
     public int CoordinateNamed(string name) =>
         TryFindCoordinate(name, out int coordinate, out string problem) ? coordinate : throw new ArgumentException($"{name}: {problem}", nameof(name));
 
     /// <summary>Index of the GameObject with an id, or with a name that no other has.</summary>
+    /// <param name="idOrName">Such as Lever/Crank:1 or Crank:1.</param>
+    /// <exception cref="ArgumentException">None has it, or several have the name: the message says which.</exception>
     public int GameObjectNamed(string idOrName)
     {
-        int found = _names.GameObject(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
-        return found >= 0 ? found : throw new ArgumentException($"{idOrName}: no GameObject has this id, nor one alone this name.", nameof(idOrName));
+        int found = _names.GameObject(idOrName ?? throw new ArgumentNullException(nameof(idOrName)), out IReadOnlyList<string> several);
+        if (found >= 0)
+            return found;
+        throw new ArgumentException(
+            several.Count > 0
+                ? $"{idOrName}: say which: {SceneNames.List(several)}."
+                : $"{idOrName}: no GameObject has this id, nor one alone this name; bodies: {SceneNames.There(Array.ConvertAll(GameObjects, i => Scene.Document.GameObjects[i].Id))}",
+            nameof(idOrName));
+    }
+
+    /// <summary>The coupling with an id: what the CAD program calls it.</summary>
+    /// <param name="id">A <see cref="Coupling.Id"/>.</param>
+    /// <exception cref="ArgumentException">None has it, or several have: the message says which there are.</exception>
+    public Coupling Coupling(string id)
+    {
+        if (id is null)
+            throw new ArgumentNullException(nameof(id));
+        Coupling[] found = Scene.Document.Couplings.Where(coupling => coupling.Id == id).ToArray();
+        string[] there = Scene.Document.Couplings.Select(coupling => coupling.Id).OfType<string>().Distinct().ToArray();
+        return found.Length switch
+        {
+            1 => found[0],
+            0 => throw new ArgumentException($"{id}: no coupling has this id; {SceneNames.There(there)}", nameof(id)),
+            _ => throw new ArgumentException($"{id}: {found.Length} couplings have this id.", nameof(id)),
+        };
     }
 
     /// <summary>The body that moves a GameObject, or World.</summary>
-    internal int BodyOf(int gameObject) => _bodyOf[gameObject];
+    internal int BodyOf(int gameObject) => (uint)gameObject < (uint)_bodyOf.Length
+        ? _bodyOf[gameObject]
+        : throw new ArgumentOutOfRangeException(nameof(gameObject), $"The scene has {_bodyOf.Length} objects.");
 
     /// <summary>Where the body that moves a GameObject stands when the GameObject stands at a pose.</summary>
     internal Pose PoseOfBody(int gameObject, in Pose world) => world * _locals[gameObject].Inverse();
@@ -162,7 +224,10 @@ public sealed partial class Mechanism
 
     internal Pose PoseOfGameObject(int gameObject, Pose[] poses)
     {
-        int body = _bodyOf[gameObject];
+        int body = BodyOf(gameObject);
         return body < 0 ? _locals[gameObject] : poses[body] * _locals[gameObject];
     }
+
+    /// <summary>How many bodies, joints and couplings it has, and its coordinates.</summary>
+    public override string ToString() => $"mechanism of {GameObjects.Length} bodies, {JointPlaces.Length} joints, {Couplings.Length} couplings; coordinates: {SceneNames.There(Array.ConvertAll(_coordinates, c => c.Name))}";
 }

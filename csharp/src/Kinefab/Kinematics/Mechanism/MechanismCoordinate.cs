@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -8,12 +9,16 @@ namespace Kinefab.Kinematics;
 /// One coordinate of a joint, read as Unity reads it: the own body against the connected one, by the left-hand
 /// rule about the axis or along it, zero at the exported pose; degrees (over any number of turns) or metres.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MechanismCoordinate
 {
     private readonly Joints.CoordinateAxisMap _coordinate;
 
-    internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.CoordinateAxisMap source, bool isLocked)
+    private readonly (double Sign, double Offset) _cad;
+
+    internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.CoordinateAxisMap source, bool isLocked, (double Sign, double Offset) cad)
     {
+        _cad = cad;
         GameObject = gameObject;
         Component = component;
         Coordinate = coordinate;
@@ -43,6 +48,23 @@ public sealed class MechanismCoordinate
     /// <summary>The joint holds it still: it stands here only because a coupling names it.</summary>
     public bool IsLocked { get; }
 
+    /// <summary>Degrees or metres, for messages and headings.</summary>
+    public string Unit => IsAngle ? "deg" : "m";
+
+    /// <summary>
+    /// A value of this coordinate as the CAD program shows it, as far as the file tells: the sense of hinges, of slides and of turns
+    /// about the axis of a slide; a file of format 1.0 tells no offset, so that zero is the exported pose.
+    /// </summary>
+    /// <param name="value">Unity's, degrees or metres.</param>
+    public double ToCad(double value) => _cad.Sign * value + _cad.Offset;
+
+    /// <summary>The value of this coordinate that the CAD program shows as another: the way back from <see cref="ToCad"/>.</summary>
+    /// <param name="shown">The CAD program's, degrees or metres.</param>
+    public double FromCad(double shown) => _cad.Sign * (shown - _cad.Offset);
+
+    /// <summary>Lever/Crank:1.angle [deg].</summary>
+    public override string ToString() => $"{Name} [{Unit}]{(IsLocked ? ", locked" : "")}";
+
     internal int Joint { get; }
 
     /// <summary>Whether it grows with the rows' own coordinate, actor 1 against actor 0.</summary>
@@ -55,7 +77,7 @@ public sealed class MechanismCoordinate
 
     /// <summary>The same coordinate of a copy of its joint in another list of joints.</summary>
     internal MechanismCoordinate On(int joint, Joints.JointModel rows) =>
-        new(GameObject, Component, Coordinate, joint, new Joints.CoordinateAxisMap(rows, _coordinate.Axis, _coordinate.Sign), IsLocked) { Zero = Zero };
+        new(GameObject, Component, Coordinate, joint, new Joints.CoordinateAxisMap(rows, _coordinate.Axis, _coordinate.Sign), IsLocked, _cad) { Zero = Zero };
 
     internal double Evaluate(in Pose body0, in Pose body1, double near, out Joints.ConstraintRow row) =>
         _coordinate.Evaluate(body0, body1, near, out row);

@@ -56,6 +56,6 @@ internal static class MechanismCoordinates
     {
         Coordinate name = source.Source is HingeJoint ? Coordinate.Angle : Coordinate.X + axis;
         CoordinateAxisMap rows = new Joints.CoordinateAxisMap(joint, (CoordinateAxis)axis, UnityJoints.CoordinateSign(source.Source));
-        return new MechanismCoordinate(source.GameObject, source.Component, name, index, rows, isLocked);
+        return new MechanismCoordinate(source.GameObject, source.Component, name, index, rows, isLocked, CadReading.Of(source.Source, name));
     }
 }

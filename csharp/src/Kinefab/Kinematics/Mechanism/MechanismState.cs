@@ -1,9 +1,12 @@
+using System.Diagnostics;
 using System;
+using System.Text;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>Poses of a mechanism's bodies and its joint coordinates, angles unwrapped over turns. Copying allocates nothing.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MechanismState
 {
     /// <summary>Of a mechanism, or of a part of it: the latter stays within the library.</summary>
@@ -30,18 +33,31 @@ public sealed class MechanismState
     /// <summary>Stands, by the way on the trail, at a pose where branches cross.</summary>
     internal bool IsAtCrossing { get; set; }
 
-    /// <summary>A coordinate, degrees or metres.</summary>
+    /// <summary>A coordinate by its name, degrees (over any number of turns) or metres, zero at the exported pose.</summary>
+    /// <param name="name">Such as Slide or Lever/Crank:1.angle, see <see cref="Mechanism.TryFindCoordinate"/>.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
+    public double this[string name] => Coordinate(Mechanism.CoordinateNamed(name));
+
+    /// <summary>A coordinate, degrees (over any number of turns) or metres, zero at the exported pose.</summary>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
-    public double Coordinate(int coordinate) => Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate]);
+    /// <exception cref="ArgumentOutOfRangeException">There is no such coordinate.</exception>
+    public double Coordinate(int coordinate) => (uint)coordinate < (uint)Values.Length
+        ? Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate])
+        : throw new ArgumentOutOfRangeException(nameof(coordinate), $"The mechanism has {Values.Length} coordinates.");
 
-    /// <summary>A coordinate by its name (<see cref="MechanismCoordinate.Name"/>), degrees or metres.</summary>
-    public double Coordinate(string name) => Coordinate(Mechanism.CoordinateNamed(name));
+    /// <summary>The same as <see cref="this[string]"/>.</summary>
+    /// <param name="name">Such as Slide or Lever/Crank:1.angle.</param>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
+    public double Coordinate(string name) => this[name];
 
-    /// <summary>World pose of a GameObject in Unity's frame.</summary>
+    /// <summary>World pose of a GameObject in Unity's frame, metres.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public Pose Pose(int gameObject) => Mechanism.PoseOfGameObject(gameObject, Poses);
 
-    /// <summary>World pose of the GameObject with an id, or with a name that no other has.</summary>
+    /// <summary>World pose of the GameObject with an id, or with a name that no other has; Unity's frame, metres.</summary>
+    /// <param name="idOrName">Such as Lever/BarC:1 or BarC:1.</param>
+    /// <exception cref="ArgumentException">None has it, or several have the name: the message says which there are.</exception>
     public Pose Pose(string idOrName) => Pose(Mechanism.GameObjectNamed(idOrName));
 
     /// <summary>
@@ -107,6 +123,22 @@ public sealed class MechanismState
         var copy = new MechanismState(Mechanism, Poses.Length, Values.Length);
         copy.CopyFrom(this);
         return copy;
+    }
+
+    /// <summary>Every coordinate in one line, with units.</summary>
+    public override string ToString()
+    {
+        const int most = 12;
+        int moving = 0;
+        var text = new StringBuilder();
+        for (int i = 0; i < Values.Length; i++)
+        {
+            MechanismCoordinate coordinate = Mechanism.Coordinates[i];
+            if (!coordinate.IsLocked && moving++ < most)
+                text.Append(FormattableString.Invariant($"{(text.Length > 0 ? ", " : "")}{coordinate.Name} {Coordinate(i):0.######} {coordinate.Unit}"));
+        }
+
+        return moving > most ? $"{text}, and {moving - most} more" : moving > 0 ? text.ToString() : "nothing moves";
     }
 
     private int Movable(int gameObject, in Pose world)

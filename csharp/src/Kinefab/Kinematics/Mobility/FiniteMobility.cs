@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -36,11 +37,12 @@ internal sealed class FiniteMobility
     public VelocitySpace? Away { get; private set; }
 
     /// <summary>The finite freedoms.</summary>
-    public int Count(MechanismState start)
+    public int Count(MechanismState start, CancellationToken cancellation)
     {
         MechanismState state = start.Clone();
         for (int i = 0; i < WalkSteps; i++)
         {
+            cancellation.ThrowIfCancellationRequested();
             Walk(state, i);
         }
 
@@ -50,20 +52,22 @@ internal sealed class FiniteMobility
         MechanismState moved = state.Clone();
         foreach (double[] vector in space.Basis)
         {
+            cancellation.ThrowIfCancellationRequested();
             survivors.Add(Probe(state, moved, vector));
         }
 
         int count = Rank(survivors);
-        LookAround(start, space, count);
+        LookAround(start, space, count, cancellation);
         return count;
     }
 
     // The walk may have taken a branch along which part of the mechanism stays folded: then others are tried.
-    private void LookAround(MechanismState start, VelocitySpace space, int finite)
+    private void LookAround(MechanismState start, VelocitySpace space, int finite, CancellationToken cancellation)
     {
         AtGeneralPose = space.Freedoms;
         for (int i = 0; i < MaxOtherWalks && AtGeneralPose > finite; i++)
         {
+            cancellation.ThrowIfCancellationRequested();
             MechanismState other = start.Clone();
             for (int k = 0; k < WalkSteps; k++)
             {

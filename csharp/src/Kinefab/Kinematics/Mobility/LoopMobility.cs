@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 
 namespace Kinefab.Kinematics;
 
@@ -12,7 +13,8 @@ internal sealed class LoopMobility
     /// <summary>Of a part, by itself.</summary>
     /// <param name="part">Which.</param>
     /// <param name="closed">The mechanism's exported pose, closed as well as it can be.</param>
-    public LoopMobility(IndependentLinkage part, MechanismState closed)
+    /// <param name="cancellation">Ends the counting early, with an OperationCanceledException.</param>
+    public LoopMobility(IndependentLinkage part, MechanismState closed, CancellationToken cancellation)
     {
         Part = part;
         var newton = new NewtonSolver(part.Linkage);
@@ -24,7 +26,7 @@ internal sealed class LoopMobility
         Here = new VelocitySpace(part.Linkage, newton, blocks, state);
         var finite = new FiniteMobility(part.Linkage, newton, blocks);
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
-        Finite = finite.Count(state);
+        Finite = finite.Count(state, cancellation);
         AtGeneralPose = finite.AtGeneralPose;
         VelocitySpace away = finite.Away ?? Here;
         Motions = Here.Freedoms == Finite ? Here : away.Freedoms == Finite ? away : null;

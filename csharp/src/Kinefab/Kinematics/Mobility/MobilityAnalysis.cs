@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -11,7 +12,11 @@ public static class MobilityAnalysis
     /// Analyses a mechanism at its exported pose, closed as well as it can be. Limits are not looked at. Freedoms that no loop and
     /// no coupling ties to others are their own; what is tied is analysed block by block, each alone.
     /// </summary>
-    public static MobilityReport Of(Mechanism mechanism)
+    /// <param name="mechanism">Not changed.</param>
+    /// <param name="progress">Told the share of the blocks that is done, 0 to 1; null: nobody is.</param>
+    /// <param name="cancellation">Ends the analysis early.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static MobilityReport Of(Mechanism mechanism, IProgress<double>? progress = null, CancellationToken cancellation = default)
     {
         if (mechanism is null)
             throw new ArgumentNullException(nameof(mechanism));
@@ -29,13 +34,16 @@ public static class MobilityAnalysis
         int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
         for (int b = 0; b < loops.Length; b++)
         {
-            loops[b] = new LoopMobility(parts.Make(b, state.Poses), state);
+            cancellation.ThrowIfCancellationRequested();
+            progress?.Report((double)b / loops.Length);
+            loops[b] = new LoopMobility(parts.Make(b, state.Poses), state, cancellation);
             loops[b].CountRedundant(redundant);
             idle.AddRange(idleFreedoms.Of(loops[b], parts.Movers(b)));
             gap = Math.Min(gap, loops[b].Here.Gap);
             general += loops[b].AtGeneralPose;
         }
 
+        progress?.Report(1);
         var islands = Islands(mechanism, parts, loops);
         int mobility = 0;
         int firstOrder = 0;

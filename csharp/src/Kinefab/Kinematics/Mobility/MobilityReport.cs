@@ -1,8 +1,10 @@
 using System.Collections.Generic;
+using System.Diagnostics;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>What one body can still do at the exported pose.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class BodyMobility
 {
     internal BodyMobility(int gameObject, int translations, int rotations)
@@ -20,9 +22,13 @@ public sealed class BodyMobility
 
     /// <summary>Independent angular velocities, 0 to 3.</summary>
     public int Rotations { get; }
+
+    /// <summary>object 3: 0 translations, 1 rotations.</summary>
+    public override string ToString() => $"object {GameObject}: {Translations} translations, {Rotations} rotations";
 }
 
 /// <summary>Bodies that hang together by joints or couplings, the ground left out.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class IslandMobility
 {
     internal IslandMobility(IReadOnlyList<int> gameObjects, int mobility, int firstOrder, int redundant, int loops)
@@ -48,9 +54,13 @@ public sealed class IslandMobility
 
     /// <summary>Joints beyond a spanning tree.</summary>
     public int Loops { get; }
+
+    /// <summary>objects 1, 2, 3: mobility 1, 3 redundant rows, 1 loops.</summary>
+    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: mobility {Mobility}, {Redundant} redundant rows, {Loops} loops";
 }
 
 /// <summary>Redundant rows of one joint, the rows of a loop being counted from its tree to its closing joints.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class RedundantRows
 {
     internal RedundantRows(int gameObject, int component, int rows, int redundant)
@@ -72,9 +82,13 @@ public sealed class RedundantRows
 
     /// <summary>How many of its rows the others already hold.</summary>
     public int Redundant { get; }
+
+    /// <summary>components[1] of object 3: 3 of 5 rows redundant.</summary>
+    public override string ToString() => $"components[{Component}] of object {GameObject}: {Redundant} of {Rows} rows redundant";
 }
 
 /// <summary>Freedoms of some bodies that move nothing else, such as a rod's spin between its two balls.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class IdleFreedom
 {
     internal IdleFreedom(IReadOnlyList<int> gameObjects, int count)
@@ -88,9 +102,13 @@ public sealed class IdleFreedom
 
     /// <summary>How many.</summary>
     public int Count { get; }
+
+    /// <summary>objects 4: 1 idle freedoms.</summary>
+    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: {Count} idle freedoms";
 }
 
 /// <summary>Mobility of a mechanism, counted from its joints.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public sealed class MobilityReport
 {
     internal MobilityReport(
@@ -141,4 +159,14 @@ public sealed class MobilityReport
 
     /// <summary>Freedoms that move nothing but a part of a loop's leg.</summary>
     public IReadOnlyList<IdleFreedom> Idle { get; }
+
+    /// <summary>mobility 1 (2 at first order), 10 rows, 3 redundant, 0 idle freedoms, 1 islands.</summary>
+    public override string ToString()
+    {
+        int idle = 0;
+        foreach (IdleFreedom freedom in Idle)
+            idle += freedom.Count;
+        string firstOrder = FirstOrder == Mobility ? "" : $" ({FirstOrder} at first order)";
+        return $"mobility {Mobility}{firstOrder}, {Rows} rows, {Redundant} redundant, {idle} idle freedoms, {Islands.Count} islands";
+    }
 }

@@ -1,3 +1,5 @@
+using System.Diagnostics;
+using System;
 using Kinefab.Document;
 
 namespace Kinefab.Validation;
@@ -6,6 +8,7 @@ namespace Kinefab.Validation;
 /// One coordinate that a joint leaves to its own body, in the sense of <see cref="JointCoordinate"/>: against the
 /// connected body, by Unity's left-hand rule, zero at start-up.
 /// </summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct JointFreedom
 {
     internal JointFreedom(Coordinate coordinate, double lower, double upper)
@@ -29,4 +32,7 @@ public readonly struct JointFreedom
 
     /// <summary>Whether it is a rotation, in degrees; else it is a translation, in metres.</summary>
     public bool IsAngle => Coordinate is Coordinate.Angle or Coordinate.AngularX or Coordinate.AngularY or Coordinate.AngularZ;
+
+    /// <summary>Angle -10 to 80 deg, or Angle free.</summary>
+    public override string ToString() => IsLimited ? FormattableString.Invariant($"{Coordinate} {Lower:0.######} to {Upper:0.######} {(IsAngle ? "deg" : "m")}") : $"{Coordinate} free";
 }

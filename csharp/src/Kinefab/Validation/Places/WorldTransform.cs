@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -5,6 +6,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Validation;
 
 /// <summary>Where a GameObject stands in the world.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct WorldTransform
 {
     /// <summary>From parts.</summary>
@@ -39,4 +41,7 @@ public readonly struct WorldTransform
 
     private WorldTransform Child(Pose local, Vector3d scale) =>
         new(Pose * new Pose(Vector3d.Scale(Scale, local.Position), local.Rotation), Vector3d.Scale(Scale, scale));
+
+    /// <summary>Pose in metres and degrees, and scale.</summary>
+    public override string ToString() => $"{Pose}, scale {Scale}";
 }

@@ -109,6 +109,22 @@ internal sealed class Batch<V>
     /// <summary>Step for which its angles are springs, see <see cref="SoftAngles{V}"/>; 0 where they are rigid.</summary>
     public double SoftStep { get; set; }
 
+    /// <summary>What the next step takes from those before it.</summary>
+    public void Exchange(StateTape tape)
+    {
+        tape.Array(Bodies);
+        tape.Array(Joints);
+        tape.Array(Linear);
+        tape.Array(Angular);
+        tape.Array(Matrix);
+        tape.Array(Half);
+        tape.Array(Compliance);
+        double softStep = SoftStep;
+        tape.Value(ref softStep);
+        SoftStep = softStep;
+        Laws?.Exchange(tape);
+    }
+
     /// <summary>Forgets what earlier steps left behind.</summary>
     public void ClearHistory()
     {

@@ -244,6 +244,13 @@ internal sealed partial class Laws<V>
         }
     }
 
+    /// <summary>What the next step takes from those before it.</summary>
+    public void Exchange(StateTape tape)
+    {
+        tape.Array(_laws);
+        tape.Value(ref _isFactored);
+    }
+
     /// <summary>Keeps, or brings back, impulses, segments and the account of work.</summary>
     public void Save(LawHistory[] to)
     {

@@ -51,6 +51,14 @@ internal sealed class SpringAnswer
         _isGiven = false;
     }
 
+    /// <summary>What the next step takes from those before it.</summary>
+    public void Exchange(StateTape tape)
+    {
+        tape.Array(_linear);
+        tape.Array(_angular);
+        tape.Value(ref _isGiven);
+    }
+
     /// <summary>Where a step ends, with the rows built there.</summary>
     public void Give()
     {

@@ -33,13 +33,48 @@ internal static class ConfigurableDrives
         }
     }
 
-    /// <summary>Goal of one component of c's position, or of c's rotation as a turn about that axis alone.</summary>
-    public static void SetTarget(D6Joint joint, int axis, double goal)
+    /// <summary>Goal of one component of c's position.</summary>
+    public static void SetPosition(D6Joint joint, int axis, double goal)
     {
         Pose pose = joint.DrivePose;
-        joint.DrivePose = axis < (int)CoordinateAxis.AngularX
-            ? new Pose(With(pose.Position, axis, goal), pose.Rotation)
-            : new Pose(pose.Position, Quaterniond.AxisAngle(With(Vector3d.Zero, axis - (int)CoordinateAxis.AngularX, 1), goal));
+        joint.DrivePose = new Pose(With(pose.Position, axis, goal), pose.Rotation);
+    }
+
+    /// <summary>The goals of c's angles about X, Y and Z that a joint has: 2 atan2(q_i, q_w) of its goal's rotation, radians.</summary>
+    public static double[] Goals(D6Joint joint)
+    {
+        Quaterniond q = joint.DrivePose.Rotation;
+        return new[] { 2 * Math.Atan2(q.X, q.W), 2 * Math.Atan2(q.Y, q.W), 2 * Math.Atan2(q.Z, q.W) };
+    }
+
+    /// <summary>
+    /// Goals of c's angles, all at once: the one rotation of which each axis reads its own. About one axis alone it is the turn about
+    /// it; else q_i / q_w = tan(goal_i / 2), with the denominators multiplied out so that half a turn has no pole.
+    /// </summary>
+    public static void SetAngles(D6Joint joint, ReadOnlySpan<double> goals)
+    {
+        int driven = -1;
+        int count = 0;
+        for (int i = 0; i < goals.Length; i++)
+        {
+            if (goals[i] != 0)
+            {
+                driven = i;
+                count++;
+            }
+        }
+
+        joint.DrivePose = new Pose(joint.DrivePose.Position, count <= 1
+            ? Quaterniond.AxisAngle(With(Vector3d.Zero, Math.Max(driven, 0), 1), count == 0 ? 0 : goals[driven])
+            : Together(goals));
+    }
+
+    private static Quaterniond Together(ReadOnlySpan<double> goals)
+    {
+        (double sx, double cx) = (Math.Sin(goals[0] / 2), Math.Cos(goals[0] / 2));
+        (double sy, double cy) = (Math.Sin(goals[1] / 2), Math.Cos(goals[1] / 2));
+        (double sz, double cz) = (Math.Sin(goals[2] / 2), Math.Cos(goals[2] / 2));
+        return new Quaterniond(sx * cy * cz, cx * sy * cz, cx * cy * sz, cx * cy * cz).Normalized();
     }
 
     /// <summary>Goal of the rate of one component of c. Twist and swing drives want it the other way round.</summary>

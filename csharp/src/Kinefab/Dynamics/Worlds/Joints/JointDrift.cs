@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -5,6 +6,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics;
 
 /// <summary>How far a joint's locked freedoms have come apart.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public readonly struct JointDrift
 {
     // A limit counts as reached this close to it, m or rad.
@@ -21,6 +23,9 @@ public readonly struct JointDrift
 
     /// <summary>Rotation about the locked axes, degrees.</summary>
     public double Angle { get; }
+
+    /// <summary>1.2e-06 m, 0.0e+00 deg.</summary>
+    public override string ToString() => FormattableString.Invariant($"{Distance:0.0e+00} m, {Angle:0.0e+00} deg");
 
     internal static JointDrift Of(JointModel joint, in Pose body0, in Pose body1)
     {

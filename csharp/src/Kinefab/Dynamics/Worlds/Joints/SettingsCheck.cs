@@ -26,9 +26,26 @@ internal static class SettingsCheck
             DriveRules.Numbers(configurable, at);
         }
 
-        if (findings.List.Count > 0)
+        ThrowIfAny(findings, nameof(settings));
+    }
+
+    /// <inheritdoc cref="ThrowIfWrong(Document.Joint)"/>
+    public static void ThrowIfWrong(Rigidbody settings)
+    {
+        var findings = new Findings(1);
+        var at = new Place(findings, "settings");
+        BodyRules.Numbers(settings, at);
+        BodyRules.Mass(settings, at);
+        BodyRules.Inertia(settings, at);
+        ThrowIfAny(findings, nameof(settings));
+    }
+
+    // Warnings are for files: a program may do as it likes.
+    private static void ThrowIfAny(Findings findings, string argument)
+    {
+        if (findings.Errors > 0)
         {
-            throw new ArgumentException(findings.List[0].Pointer + ": " + findings.List[0].Message, nameof(settings));
+            throw new ArgumentException(findings.List[0].Pointer + ": " + findings.List[0].Message, argument);
         }
     }
 }

@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
@@ -14,6 +16,9 @@ public sealed class WorldConfigurableJoint : WorldJoint
     private readonly double[] _start = new double[Axes];
     private readonly double[] _unwrapped = new double[Axes];
     private readonly double _sign;
+
+    // Of the angles about X, Y and Z, as the joint's rows count them, radians.
+    private readonly double[] _goals;
     private ConfigurableJoint _settings;
 
     internal WorldConfigurableJoint(MultibodySystem mechanism, int index, JointPlace place, ConfigurableJoint settings)
@@ -21,6 +26,12 @@ public sealed class WorldConfigurableJoint : WorldJoint
     {
         _settings = settings;
         _sign = UnityJoints.CoordinateSign(settings);
+        FreeCoordinates = new[] { settings.XMotion, settings.YMotion, settings.ZMotion, settings.AngularXMotion, settings.AngularYMotion, settings.AngularZMotion }
+            .Select((motion, axis) => (motion, Coordinate: Document.Coordinate.X + axis))
+            .Where(one => one.motion != ConfigurableJointMotion.Locked)
+            .Select(one => one.Coordinate)
+            .ToArray();
+        _goals = ConfigurableDrives.Goals((D6Joint)Solved);
         for (int i = 0; i < Axes; i++)
         {
             _start[i] = Raw(i, 0);
@@ -51,8 +62,12 @@ public sealed class WorldConfigurableJoint : WorldJoint
             SettingsCheck.ThrowIfWrong(value);
             _settings = value;
             UnityJoints.Apply(value, (D6Joint)Solved);
+            ConfigurableDrives.Goals((D6Joint)Solved).CopyTo(_goals, 0);
         }
     }
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<Coordinate> FreeCoordinates { get; }
 
     /// <inheritdoc/>
     public override double Coordinate(Coordinate coordinate)
@@ -71,7 +86,15 @@ public sealed class WorldConfigurableJoint : WorldJoint
         ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
         drive = PositionDrive(drive);
         double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
-        ConfigurableDrives.SetTarget(joint, i, goal);
+        if (IsAngle(i))
+        {
+            _goals[i - (int)CoordinateAxis.AngularX] = goal;
+            ConfigurableDrives.SetAngles(joint, _goals);
+        }
+        else
+        {
+            ConfigurableDrives.SetPosition(joint, i, goal);
+        }
     }
 
     /// <inheritdoc/>
@@ -94,6 +117,13 @@ public sealed class WorldConfigurableJoint : WorldJoint
         {
             _unwrapped[i] = Raw(i, _unwrapped[i]);
         }
+    }
+
+    internal override void Exchange(StateTape tape)
+    {
+        tape.Value(ref _settings);
+        tape.Array(_unwrapped);
+        tape.Array(_goals);
     }
 
     private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
@@ -32,6 +33,9 @@ public sealed class WorldHingeJoint : WorldJoint
             UnityJoints.Apply(value, (RevoluteJoint)Solved);
         }
     }
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<Coordinate> FreeCoordinates { get; } = new[] { Document.Coordinate.Angle };
 
     /// <summary>HingeJoint.angle: own body against the connected one about the axis, left-hand sense, 0 at start-up; degrees in (-180, 180].</summary>
     public double Angle => Wrapped() * Degrees;
@@ -79,6 +83,12 @@ public sealed class WorldHingeJoint : WorldJoint
     }
 
     internal override void AfterStep() => _unwrapped = Near(Wrapped(), _unwrapped);
+
+    internal override void Exchange(StateTape tape)
+    {
+        tape.Value(ref _settings);
+        tape.Value(ref _unwrapped);
+    }
 
     private static void Check(Coordinate coordinate)
     {

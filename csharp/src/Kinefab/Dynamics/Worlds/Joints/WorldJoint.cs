@@ -1,4 +1,7 @@
 using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.Linq;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -7,6 +10,7 @@ using Document = Kinefab.Document;
 namespace Kinefab.Dynamics;
 
 /// <summary>A joint component in a <see cref="World"/>.</summary>
+[DebuggerDisplay("{ToString(),nq}")]
 public abstract class WorldJoint
 {
     private protected const double Degrees = 180 / Math.PI;
@@ -34,6 +38,12 @@ public abstract class WorldJoint
     /// with the component's index, Arm:2[3], where one object carries several joints.
     /// </summary>
     public string Name { get; internal set; } = "";
+
+    /// <summary>The user's own name for it in the CAD program; null: the file does not tell it.</summary>
+    public string? NameInCad { get; internal set; }
+
+    /// <summary>The coordinates that it left free or limited when the world was made.</summary>
+    public abstract IReadOnlyList<Coordinate> FreeCoordinates { get; }
 
     /// <summary>Whether its constraint force or torque has passed a limit; a broken joint holds nothing any more.</summary>
     public bool IsBroken => Solved.IsBroken;
@@ -94,6 +104,18 @@ public abstract class WorldJoint
     internal virtual void AfterStep()
     {
     }
+
+    /// <summary>What it remembers beside the joint that is solved.</summary>
+    internal virtual void Exchange(StateTape tape)
+    {
+    }
+
+    /// <summary>Its coordinates in degrees and metres, and what is wrong with it.</summary>
+    public override string ToString()
+    {
+        string values = string.Concat(FreeCoordinates.Select(c => FormattableString.Invariant($", {c} {Coordinate(c):0.######} {(c is Document.Coordinate.X or Document.Coordinate.Y or Document.Coordinate.Z ? "m" : "deg")}")));
+        return $"{GetType().Name.Substring("World".Length)} {Name}{(NameInCad is null ? "" : $" \"{NameInCad}\"")}{values}{(IsBroken ? ", broken" : IsAtLimit ? ", at a limit" : "")}";
+    }
 }
 
 /// <summary>A FixedJoint in a <see cref="World"/>.</summary>
@@ -103,6 +125,9 @@ public sealed class WorldFixedJoint : WorldJoint
         : base(mechanism, index, place)
     {
     }
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<Coordinate> FreeCoordinates => Array.Empty<Coordinate>();
 
     /// <inheritdoc/>
     public override double Coordinate(Coordinate coordinate) => throw NoCoordinates();

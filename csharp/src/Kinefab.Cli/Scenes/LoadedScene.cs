@@ -1,3 +1,5 @@
+using System;
+using System.IO;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Validation;
@@ -7,6 +9,9 @@ namespace Kinefab.Cli;
 /// <summary>A scene as a command gets it: read and validated, with everything found on the way.</summary>
 internal sealed class LoadedScene
 {
+    /// <summary>The name that stands for standard input.</summary>
+    internal const string StandardInput = "-";
+
     private LoadedScene(ValidScene? scene, Report report)
     {
         Scene = scene;
@@ -22,7 +27,10 @@ internal sealed class LoadedScene
 
     internal static LoadedScene Load(string path, bool strict)
     {
-        SceneReading reading = SceneFile.Load(path, new SceneReadOptions { Strict = strict });
+        var options = new SceneReadOptions { Strict = strict };
+        SceneReading reading = path == StandardInput
+            ? SceneFile.Load(Console.OpenStandardInput(), Directory.GetCurrentDirectory(), options)
+            : SceneFile.Load(path, options);
         if (reading.Document is null)
             return new LoadedScene(null, reading.Report);
         SceneValidation validation = SceneValidator.Validate(reading.Document);

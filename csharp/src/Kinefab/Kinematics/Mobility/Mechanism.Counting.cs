@@ -1,0 +1,18 @@
+using System;
+using System.Threading;
+
+namespace Kinefab.Kinematics;
+
+/// <content>Mobility in one call: apart, since its analysis knows the mechanism.</content>
+public sealed partial class Mechanism
+{
+    /// <summary>Counts what the joints leave free, as <see cref="MobilityAnalysis.Of"/>.</summary>
+    /// <param name="progress">Told the share of the loops that is done, 0 to 1; null: nobody is.</param>
+    /// <param name="cancellation">Ends the analysis early.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    /// <example><code>
+    /// Assert.That(Mechanism.Load("lever.kinefab").CountMobility().Mobility, Is.EqualTo(1));
+    /// </code></example>
+    public MobilityReport CountMobility(IProgress<double>? progress = null, CancellationToken cancellation = default) =>
+        MobilityAnalysis.Of(this, progress, cancellation);
+}

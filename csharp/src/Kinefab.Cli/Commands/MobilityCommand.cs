@@ -122,5 +122,5 @@ internal static class MobilityCommand
         json.WriteEndObject();
     }
 
-    private static string Id(ValidScene scene, int gameObject) => scene.Document.GameObjects[gameObject].Id;
+    private static string Id(ValidScene scene, int gameObject) => Printable.Text(scene.Document.GameObjects[gameObject].Id);
 }

@@ -10,7 +10,7 @@ internal static class WrongUsage
     /// <summary>Says why on stderr and returns the exit code.</summary>
     internal static int Refuse(string reason)
     {
-        Console.Error.WriteLine(reason);
+        Console.Error.WriteLine(Printable.Text(reason));
         return ExitCode;
     }
 }

@@ -12,22 +12,22 @@ internal static class SweepText
     internal static void Write(Mechanism mechanism, SweepResult result, RangeLimit low, RangeLimit high, TextWriter target)
     {
         string unit = mechanism.Coordinates[result.Coordinate].IsAngle ? "deg" : "m";
-        target.WriteLine($"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {Counted.Of(result.States.Count - 1, "step", "steps")}");
-        target.WriteLine($"range      {End(mechanism, low)} to {End(mechanism, high)} {unit}");
+        Line(target, $"swept      {Number(result.Values[0])} to {Number(result.Values[^1])} {unit} in {Counted.Of(result.States.Count - 1, "step", "steps")}");
+        Line(target, $"range      {End(mechanism, low)} to {End(mechanism, high)} {unit}");
         for (int i = 0; i < result.Branches.Count; i++)
-            target.WriteLine($"branch     {(i > 0 ? "not taken" : result.Branches.Count == 1 ? "taken, the only one found" : $"taken, the straightest of {result.Branches.Count}")}: {Rates(mechanism, result.Branches[i])}");
+            Line(target, $"branch     {(i > 0 ? "not taken" : result.Branches.Count == 1 ? "taken, the only one found" : $"taken, the straightest of {result.Branches.Count}")}: {Rates(mechanism, result.Branches[i])}");
         if (result.Stop is RangeLimit stop)
-            target.WriteLine($"stopped    {End(mechanism, stop)} {unit}");
+            Line(target, $"stopped    {End(mechanism, stop)} {unit}");
         foreach (double jump in result.Jumps)
-            target.WriteLine($"jumped     to another branch at {Number(jump)} {unit}");
-        target.WriteLine($"worst gap  {result.WorstErrorMetres.ToString("E1", CultureInfo.InvariantCulture)} m, {result.WorstErrorDegrees.ToString("E1", CultureInfo.InvariantCulture)} deg");
+            Line(target, $"jumped     to another branch at {Number(jump)} {unit}");
+        Line(target, $"worst gap  {result.WorstErrorMetres.ToString("E1", CultureInfo.InvariantCulture)} m, {result.WorstErrorDegrees.ToString("E1", CultureInfo.InvariantCulture)} deg");
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
         {
             int index = i;
             MechanismCoordinate coordinate = mechanism.Coordinates[i];
             double least = result.States.Min(s => s.Coordinate(index));
             double most = result.States.Max(s => s.Coordinate(index));
-            target.WriteLine($"           {Name(mechanism, i)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
+            Line(target, $"           {Name(mechanism, i)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
         }
     }
 
@@ -45,6 +45,8 @@ internal static class SweepText
     };
 
     private static string Name(Mechanism mechanism, int coordinate) => mechanism.Coordinates[coordinate].Name;
+
+    private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));
 
     // As it is written, without the sign that the format gives a negative number that comes to 0.
     internal static string Number(double value) => (Math.Round(value, 6) + 0.0).ToString("0.######", CultureInfo.InvariantCulture);

@@ -71,7 +71,7 @@ internal sealed class RunSummary
 
     private int IndexOf(WorldJoint joint) => Array.FindIndex(joints, j => j.Joint == joint);
 
-    private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
+    private static string Text(FormattableString text) => Printable.Text(text.ToString(CultureInfo.InvariantCulture));
 
     private sealed class JointRecord
     {

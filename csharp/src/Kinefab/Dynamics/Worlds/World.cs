@@ -123,6 +123,8 @@ public sealed partial class World
         Create(ValidScene.Load(path, options, cancellation), solver);
 
     /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
+    /// <param name="scene">A valid one.</param>
+    /// <param name="solver">As Unity moves it, or as it truly moves.</param>
     public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
     {
         if (scene is null)
@@ -150,11 +152,11 @@ public sealed partial class World
     public WorldBody Body(string idOrName) => _names.Body(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
 
     /// <summary>
-    /// The joint with a <see cref="WorldJoint.Name"/>; the id or name of its GameObject does where no other joint answers to it,
-    /// and [COMPONENT] may stand behind either.
+    /// The joint that the CAD program calls so (Shaft), or that stands for a constraint that it calls so; else the one whose GameObject has the
+    /// id or name, with [COMPONENT] behind it where that carries several. A <see cref="WorldJoint.Name"/> always finds its own.
     /// </summary>
-    /// <param name="name">Such as Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
-    /// <exception cref="ArgumentException">None or several joints answer to it; the message says which there are.</exception>
+    /// <param name="name">Such as Shaft, Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
+    /// <exception cref="ArgumentException">None answers to it, or several do; the message says which there are.</exception>
     public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
 
     /// <summary>A joint coordinate by its name: degrees (over any number of turns) or metres, zero at the start.</summary>
@@ -189,7 +191,7 @@ public sealed partial class World
         joint.DriveAt(coordinate, speed);
     }
 
-    /// <summary>Moves the world forward.</summary>
+    /// <summary>Moves the world forward by one step; <see cref="Run"/> makes many.</summary>
     /// <param name="dt">Seconds; Unity's fixed time step is in the scene's physics settings.</param>
     /// <exception cref="ArgumentOutOfRangeException">dt is not a positive number.</exception>
     public void Step(double dt)

@@ -126,6 +126,11 @@ public sealed class PositionSolver
     /// <param name="gameObject">A GameObject that a Rigidbody moves.</param>
     /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
     /// <param name="target">World, metres.</param>
+    /// <returns>Where it rests: a limit or the end of its reach is a result, not an error.</returns>
+    /// <exception cref="ArgumentException">The state is another mechanism's, no Rigidbody moves the GameObject, there is none, or a number is not finite.</exception>
+    /// <example><code>
+    /// solver.Drag(state, "SliderD:1", point: Vector3d.Zero, target: new Vector3d(-0.1, 0.02, 0));
+    /// </code></example>
     public DriveResult Drag(MechanismState state, int gameObject, Vector3d point, Vector3d target)
     {
         Check(state);
@@ -146,6 +151,11 @@ public sealed class PositionSolver
     }
 
     /// <summary>Pulls a point of a body, named by its GameObject's id or name, towards a place in the world.</summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <param name="gameObject">Id, or a name that no other has, of a GameObject that a Rigidbody moves.</param>
+    /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
+    /// <param name="target">World, metres.</param>
+    /// <exception cref="ArgumentException">As for the other one; or none has the id or name, or several have the name: the message says which there are.</exception>
     public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target) =>
         Drag(state, Mechanism.GameObjectNamed(gameObject), point, target);
 

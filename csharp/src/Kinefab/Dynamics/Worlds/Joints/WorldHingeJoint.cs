@@ -17,7 +17,10 @@ public sealed class WorldHingeJoint : WorldJoint
         : base(mechanism, index, place) => _settings = settings;
 
     /// <summary>Limits, motor, spring, break limits and mass scales. A new value acts from the next step on; the frames stay as created.</summary>
-    /// <exception cref="ArgumentException">A number is out of its range or none.</exception>
+    /// <exception cref="ArgumentException">A number is out of its range or none; the message names the field.</exception>
+    /// <example><code>
+    /// hinge.Settings = hinge.Settings with { UseLimits = false };   // all other fields stay
+    /// </code></example>
     public HingeJoint Settings
     {
         get => _settings;

@@ -85,8 +85,13 @@ public abstract class WorldJoint
     /// closes with a time constant of 0.1 s whatever loads the joint. Stands until Settings is set.
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
-    /// <param name="target">Degrees or metres.</param>
+    /// <param name="target">Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation.</param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
+    /// <example><code>
+    /// WorldJoint wrist = world.Joint("Wrist");
+    /// wrist.DriveTo(Coordinate.AngularX, 30);
+    /// wrist.DriveTo(Coordinate.AngularY, 20);   // the first goal stays
+    /// </code></example>
     public abstract void DriveTo(Coordinate coordinate, double target);
 
     /// <summary>Drives a coordinate at a speed, with the component's force limit if it has one. Stands until Settings is set.</summary>

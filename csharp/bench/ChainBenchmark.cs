@@ -42,7 +42,7 @@ internal static class ChainBenchmark
         for (int run = 0; run < Runs; run++)
         {
             MultibodySystem chain = SolverScenes.HangingChain(links);
-            RattleSolver solver = new RattleSolver(chain);
+            var solver = new RattleSolver(chain);
             double sum = 0;
             for (int i = 0; i < Steps; i++)
             {
@@ -65,15 +65,15 @@ internal static class ChainBenchmark
         {
             MultibodySystem chain = SolverScenes.Chain(64);
             Island island = IslandFinder.Find(chain)[0];
-            var batch = new Batch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
-            Transfer<Numerics.ScalarLane>.LoadConstants(batch, 0, island, chain);
-            Transfer<Numerics.ScalarLane>.Load(batch, chain, 1.0 / 60);
-            Transfer<Numerics.ScalarLane>.Start(batch);
-            Flight<Numerics.ScalarLane>.Stay(batch);
+            var batch = new LaneBatch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
+            LaneTransfer<Numerics.ScalarLane>.GatherConstants(batch, 0, island, chain);
+            LaneTransfer<Numerics.ScalarLane>.Gather(batch, chain, 1.0 / 60);
+            LaneTransfer<Numerics.ScalarLane>.BeginStep(batch);
+            FreeMotion<Numerics.ScalarLane>.Stay(batch);
             RattleStep<Numerics.ScalarLane>.Rebuild(batch);
             var floor = new ImplicitEulerStep(batch);
             long before = Stopwatch.GetTimestamp();
-            if (!floor.Fly(1.0 / 60, 1e-9))
+            if (!floor.TrySolve(1.0 / 60, 1e-9))
             {
                 throw new InvalidOperationException("The floor did not hold.");
             }

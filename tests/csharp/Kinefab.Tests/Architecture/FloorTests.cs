@@ -38,7 +38,7 @@ public sealed class FloorTests
     private const int MostFiles = 14;
 
     // The one circle that is left: a batch of lanes holds its scalar rows, which write into the batch.
-    private static readonly string[] Lanes = ["Batch", "Flight", "Impulses", "Laws", "PreparedRows", "ResponseMatrix", "RigidRows", "SoftAngles", "Transfer"];
+    private static readonly string[] Lanes = ["ActiveSet", "AssembledRows", "BilateralRows", "CompliantAngles", "DelassusMatrix", "FreeMotion", "Impulses", "LaneBatch", "LaneTransfer"];
 
     private static readonly House Library = House.OfLibrary();
 

@@ -17,7 +17,7 @@ internal sealed record PhysXComparison(double Position, double Angle, double Ran
     public static PhysXComparison Run(Scenario scenario)
     {
         MultibodySystem mechanism = scenario.Build();
-        PgsSolver solver = new PgsSolver(mechanism);
+        var solver = new PgsSolver(mechanism);
         double position = 0;
         double angle = 0;
         double range = 0;

@@ -15,7 +15,7 @@ public sealed class UnitySolverTests
         for (int seed = 0; seed < 500; seed++)
         {
             MultibodySystem mechanism = RandomMechanism.Make(seed);
-            PgsSolver solver = new PgsSolver(mechanism);
+            var solver = new PgsSolver(mechanism);
             double dt = RandomMechanism.Step(seed);
             for (int step = 0; step < 20; step++)
             {
@@ -53,7 +53,7 @@ public sealed class UnitySolverTests
             BreakForce = i == 1 ? 1 : double.PositiveInfinity,
         })];
         var mechanism = new MultibodySystem(new Bodies(bodies), joints, []);
-        PgsSolver solver = new PgsSolver(mechanism);
+        var solver = new PgsSolver(mechanism);
 
         for (int i = 0; i < 50; i++)
         {

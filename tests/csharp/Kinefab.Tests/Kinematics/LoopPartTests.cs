@@ -103,7 +103,7 @@ public sealed class LoopPartTests
     private static IndependentLinkages PartsOf(Mechanism mechanism)
     {
         var newton = new NewtonSolver(mechanism.Linkage);
-        FreedomBlocks blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         return new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
     }
 }

@@ -21,22 +21,22 @@ internal sealed class RattleSolver : ISolver
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
-    private readonly Dictionary<int, LoopFit> _fits = new();
-    private RowWatch _watch;
+    private readonly Dictionary<int, LoopConsistency> _fits = new();
+    private LayoutWatch _watch;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
     public RattleSolver(MultibodySystem mechanism, int maxWidth = int.MaxValue)
-        : this(mechanism, LoopProbe.Find(mechanism), maxWidth)
+        : this(mechanism, LoopConsistencyProbe.Find(mechanism), maxWidth)
     {
     }
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
-    /// <param name="loops">What <see cref="LoopProbe"/> found in it.</param>
+    /// <param name="loops">What <see cref="LoopConsistencyProbe"/> found in it.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
-    public RattleSolver(MultibodySystem mechanism, List<InexactLoop> loops, int maxWidth = int.MaxValue)
+    public RattleSolver(MultibodySystem mechanism, List<InconsistentLoop> loops, int maxWidth = int.MaxValue)
     {
         _mechanism = mechanism;
         _maxWidth = maxWidth;
@@ -45,11 +45,11 @@ internal sealed class RattleSolver : ISolver
             joint.LimitsFromAfar = true;
         }
 
-        foreach (InexactLoop loop in loops)
+        foreach (InconsistentLoop loop in loops)
         {
             foreach (int joint in loop.Joints)
             {
-                _fits[joint] = loop.Fit;
+                _fits[joint] = loop.Consistency;
             }
         }
 
@@ -112,19 +112,19 @@ internal sealed class RattleSolver : ISolver
         _mechanism.HasChangedBodies = false;
         _groups.Clear();
         List<Island> rest = IslandFinder.Find(_mechanism);
-        _watch = new RowWatch(rest);
+        _watch = new LayoutWatch(rest);
         foreach (Island island in rest)
         {
             // What a break has left of an island that was probed is still as it was found.
-            Node? probed = Array.Find(island.Nodes, node => node.Joint != null && _fits.ContainsKey(node.Index));
-            island.Fit = probed is null ? LoopFit.Exact : _fits[probed.Index];
+            RowBlock? probed = Array.Find(island.Blocks, block => block.Joint != null && _fits.ContainsKey(block.Index));
+            island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
         }
 
-        List<Island> prepared = rest.FindAll(island => island.HasPreparedRows);
-        rest.RemoveAll(island => island.HasPreparedRows);
+        List<Island> prepared = rest.FindAll(island => island.HasAssembledRows);
+        rest.RemoveAll(island => island.HasAssembledRows);
         if (prepared.Count > 0)
         {
-            _groups.Add(new PreparedIslands(_mechanism, prepared));
+            _groups.Add(new ScalarIslandGroup(_mechanism, prepared));
         }
 
         while (rest.Count > 0)
@@ -142,19 +142,19 @@ internal sealed class RattleSolver : ISolver
         if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
         {
             int whole = islands.Count / 8 * 8;
-            _groups.Add(new IslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole)));
+            _groups.Add(new LaneIslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole)));
             islands.RemoveRange(0, whole);
         }
 
         if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
         {
-            _groups.Add(new IslandGroup<Lane4>(_mechanism, islands));
+            _groups.Add(new LaneIslandGroup<Lane4>(_mechanism, islands));
             return;
         }
 #endif
         if (islands.Count > 0)
         {
-            _groups.Add(new IslandGroup<ScalarLane>(_mechanism, islands));
+            _groups.Add(new LaneIslandGroup<ScalarLane>(_mechanism, islands));
         }
     }
 }

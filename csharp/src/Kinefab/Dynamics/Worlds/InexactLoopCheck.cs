@@ -8,13 +8,13 @@ namespace Kinefab.Dynamics;
 /// <summary>Names the loops whose axes are a little off.</summary>
 internal static class InexactLoopCheck
 {
-    /// <param name="loops">See <see cref="LoopProbe"/>.</param>
+    /// <param name="loops">See <see cref="LoopConsistencyProbe"/>.</param>
     /// <param name="joints">The world's.</param>
-    public static IEnumerable<Diagnostic> Of(IEnumerable<InexactLoop> loops, WorldJoint[] joints)
+    public static IEnumerable<Diagnostic> Of(IEnumerable<InconsistentLoop> loops, WorldJoint[] joints)
     {
-        foreach (InexactLoop loop in loops)
+        foreach (InconsistentLoop loop in loops)
         {
-            if (loop.Fit != LoopFit.Inexact)
+            if (loop.Consistency != LoopConsistency.Inconsistent)
             {
                 continue;
             }

@@ -133,7 +133,7 @@ public sealed partial class World
         }
 
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
-        List<InexactLoop> loops = LoopProbe.Find(builder.MultibodySystem);
+        List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem);
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new PgsSolver(builder.MultibodySystem),

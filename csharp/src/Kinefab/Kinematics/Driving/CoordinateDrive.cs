@@ -46,7 +46,7 @@ internal sealed class CoordinateDrive
         _newton = newton;
         _good = mechanism.NewState();
         _before = mechanism.NewState();
-        TreeExtrapolation straight = new TreeExtrapolation(mechanism, newton);
+        var straight = new TreeExtrapolation(mechanism, newton);
         _leap = new BifurcationStep(mechanism, newton, straight);
         _crossing = new BifurcationPoint(mechanism, newton, straight);
         Singular = new RankDeficiency(mechanism, newton);

@@ -22,7 +22,7 @@ internal sealed class LoopMobility
         newton.Motion.Start(state.Poses);
         newton.Assemble(state);
         newton.Accepted = Math.Max(newton.Accepted, 4 * newton.Equations.Worst);
-        FreedomBlocks blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        var blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         Here = new VelocitySpace(part.Linkage, newton, blocks, state);
         var finite = new FiniteMobility(part.Linkage, newton, blocks);
         Rank = newton.Motion.Linear.Length - Here.Freedoms;

@@ -24,8 +24,8 @@ public static class MobilityAnalysis
         MechanismState state = mechanism.NewState();
         newton.Close(state);
         newton.Motion.Start(state.Poses);
-        FreedomBlocks blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
-        IndependentLinkages parts = new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
+        var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        var parts = new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
         var idleFreedoms = new IdleFreedoms(mechanism);
         var loops = new LoopMobility[parts.Count];
         var idle = new List<IdleFreedom>();

@@ -12,42 +12,42 @@ internal sealed class LadderTests
     [Test]
     public void Note_HarderStep_IsKept()
     {
-        var cut = default(StepCut);
-        cut.Note(3, 5);
+        SubstepHistory cut = default(SubstepHistory);
+        cut.Record(3, 5);
         Assert.That(cut.Halvings, Is.EqualTo(3));
-        cut.Note(3, 0.1);
+        cut.Record(3, 0.1);
         Assert.That(cut.Halvings, Is.EqualTo(3));
     }
 
     [Test]
     public void Note_FifteenCalmSteps_OneHalvingLess()
     {
-        var cut = default(StepCut);
-        cut.Note(3, 5);
+        SubstepHistory cut = default(SubstepHistory);
+        cut.Record(3, 5);
         for (int i = 0; i < 14; i++)
         {
-            cut.Note(3, 1);
+            cut.Record(3, 1);
         }
 
         Assert.That(cut.Halvings, Is.EqualTo(3));
-        cut.Note(3, 1);
+        cut.Record(3, 1);
         Assert.That(cut.Halvings, Is.EqualTo(2));
     }
 
     [Test]
     public void Note_DemandAmongCalmSteps_CountsAnew()
     {
-        var cut = default(StepCut);
-        cut.Note(3, 5);
+        SubstepHistory cut = default(SubstepHistory);
+        cut.Record(3, 5);
         for (int i = 0; i < 14; i++)
         {
-            cut.Note(3, 1);
+            cut.Record(3, 1);
         }
 
-        cut.Note(3, 1.5);
+        cut.Record(3, 1.5);
         for (int i = 0; i < 14; i++)
         {
-            cut.Note(3, 1);
+            cut.Record(3, 1);
         }
 
         Assert.That(cut.Halvings, Is.EqualTo(3));
@@ -58,7 +58,7 @@ internal sealed class LadderTests
     [TestCase(10000, 10, 0.1, 10)]
     public void Demand_StiffnessAndSpeed_TheLarger(double stiffness, double speed, double dt, double expected)
     {
-        Assert.That(StepDemand.Of(stiffness, speed, dt), Is.EqualTo(expected).Within(1e-12));
+        Assert.That(StepLimit.Of(stiffness, speed, dt), Is.EqualTo(expected).Within(1e-12));
     }
 
     [Test]
@@ -71,7 +71,7 @@ internal sealed class LadderTests
         RevoluteJoint far = b.Hinge(JointModel.World, bar, Vector3d.UnitX, Vector3d.UnitZ);
         far.Frame0 = new Pose(new Vector3d(1.5, 0, 0), far.Frame0.Rotation);
         MultibodySystem mechanism = b.Build();
-        RattleSolver solver = new RattleSolver(mechanism);
+        var solver = new RattleSolver(mechanism);
         Pose start = mechanism.Bodies.Poses[0];
         for (int i = 0; i < 10; i++)
         {
@@ -138,7 +138,7 @@ internal sealed class LadderTests
         }
 
         MultibodySystem ring = b.Build();
-        RattleSolver solver = new RattleSolver(ring);
+        var solver = new RattleSolver(ring);
         for (int i = 0; i < 60; i++)
         {
             solver.Step(1.0 / 60);
@@ -160,27 +160,27 @@ internal sealed class LadderTests
         }
 
         Island island = IslandFinder.Find(mechanism)[0];
-        var batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
-        Transfer<ScalarLane>.LoadConstants(batch, 0, island, mechanism);
-        var ladder = new Ladder(batch);
-        var cut = default(StepCut);
+        var batch = new LaneBatch<ScalarLane>(island, new Workspace<ScalarLane>(island));
+        LaneTransfer<ScalarLane>.GatherConstants(batch, 0, island, mechanism);
+        var ladder = new StepController(batch);
+        SubstepHistory cut = default(SubstepHistory);
         double most = 0;
         for (int i = 0; i < steps; i++)
         {
-            Transfer<ScalarLane>.Load(batch, mechanism, dt);
-            Transfer<ScalarLane>.Start(batch);
-            Flight<ScalarLane>.Stay(batch);
+            LaneTransfer<ScalarLane>.Gather(batch, mechanism, dt);
+            LaneTransfer<ScalarLane>.BeginStep(batch);
+            FreeMotion<ScalarLane>.Stay(batch);
             RattleStep<ScalarLane>.Rebuild(batch);
             double stiffest = 0;
             for (int body = 0; body < island.MovingBodies; body++)
             {
-                stiffest = System.Math.Max(stiffest, batch.Bodies[Batch<ScalarLane>.Body(body, BodySlot.Stiffness)]);
+                stiffest = System.Math.Max(stiffest, batch.Bodies[LaneBatch<ScalarLane>.Body(body, BodyLanes.Stiffness)]);
             }
 
-            most = System.Math.Max(most, StepDemand.Of(stiffest, batch.Work.Fastest[0], dt));
-            ladder.Step(dt, 1e-9, ref cut, false, false);
-            Transfer<ScalarLane>.Finish(batch);
-            Transfer<ScalarLane>.Store(batch, 1, mechanism);
+            most = System.Math.Max(most, StepLimit.Of(stiffest, batch.Work.Fastest[0], dt));
+            ladder.Advance(dt, 1e-9, ref cut, false, false);
+            LaneTransfer<ScalarLane>.EndStep(batch);
+            LaneTransfer<ScalarLane>.Scatter(batch, 1, mechanism);
         }
 
         return (cut.Halvings, most);

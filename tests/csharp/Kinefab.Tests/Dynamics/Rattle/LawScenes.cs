@@ -32,7 +32,7 @@ internal static class LawScenes
 
     internal static void Run(MultibodySystem m, double seconds, double dt = Dt, Action? before = null)
     {
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
         int steps = (int)Math.Round(seconds / dt);
         for (int i = 0; i < steps; i++)
         {

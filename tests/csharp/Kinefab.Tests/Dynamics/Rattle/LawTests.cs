@@ -54,7 +54,7 @@ internal sealed class LawTests
         MultibodySystem m = Wheel(h => Motor(h, 6, 1000, false));
         var hinge = (RevoluteJoint)m.Joints[0];
         Run(m, 0.1);
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
         solver.Step(Dt);
         hinge.MotorEnabled = false;
         hinge.Spring = new DriveModel { Damping = 3, ForceLimit = double.PositiveInfinity };

@@ -26,7 +26,7 @@ internal sealed class LimitLawTests
     {
         MultibodySystem m = Wheel(h => Limits(h, -10, 80, default), 1);
         var hinge = (RevoluteJoint)m.Joints[0];
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
         for (int i = 0; i < 800; i++)
         {
             if (i == 400)

@@ -22,29 +22,29 @@ internal sealed class LoopProbeTests
     [TestCase(-2e-2)]
     public void Find_TiltedAxis_NamesTheLoop(double tilt)
     {
-        InexactLoop loop = LoopProbe.Find(SolverScenes.FourBars(1, tilt)).Single();
-        Assert.That((loop.Fit, loop.Joints), Is.EqualTo((LoopFit.Inexact, Enumerable.Range(0, 4))));
+        InconsistentLoop loop = LoopConsistencyProbe.Find(SolverScenes.FourBars(1, tilt)).Single();
+        Assert.That((loop.Consistency, loop.Joints), Is.EqualTo((LoopConsistency.Inconsistent, Enumerable.Range(0, 4))));
     }
 
     [TestCase(1e-5)]
     [TestCase(1e-4)]
     public void Find_LoopThatAFileRounded_IsLoose(double tilt)
     {
-        Assert.That(LoopProbe.Find(SolverScenes.FourBars(1, tilt)).Single().Fit, Is.EqualTo(LoopFit.Loose));
+        Assert.That(LoopConsistencyProbe.Find(SolverScenes.FourBars(1, tilt)).Single().Consistency, Is.EqualTo(LoopConsistency.Rounded));
     }
 
     [TestCase(0)]
     [TestCase(1e-7)]
     public void Find_ExactLoop_NamesNothing(double tilt)
     {
-        Assert.That(LoopProbe.Find(SolverScenes.FourBars(1, tilt)), Is.Empty);
+        Assert.That(LoopConsistencyProbe.Find(SolverScenes.FourBars(1, tilt)), Is.Empty);
     }
 
     // Slow velocities far along their way, in loops that are closed to the letter and move.
     [Test]
     public void Find_LoopsNearASingularPose_NamesNothing([Values(301, 628, 745, 1192, 1201, 1555)] int seed)
     {
-        Assert.That(LoopProbe.Find(new RandomLoop(seed).System), Is.Empty);
+        Assert.That(LoopConsistencyProbe.Find(new RandomLoop(seed).System), Is.Empty);
     }
 
     [Test]
@@ -57,7 +57,7 @@ internal sealed class LoopProbeTests
             BenchmarkMechanisms.Bricard().MultibodySystem, BenchmarkMechanisms.Governor().MultibodySystem,
             BenchmarkMechanisms.Lever().MultibodySystem,
         };
-        Assert.That(healthy.SelectMany(LoopProbe.Find), Is.Empty);
+        Assert.That(healthy.SelectMany(LoopConsistencyProbe.Find), Is.Empty);
     }
 
     [Test]

@@ -41,7 +41,7 @@ internal sealed class LoopRobustnessTests
         {
             var loop = new RandomLoop(seed);
             MultibodySystem m = loop.System;
-            RattleSolver solver = new RattleSolver(m);
+            var solver = new RattleSolver(m);
             double start = MechanismMeasures.Energy(m);
             double dt = StepOf(seed);
             for (int i = 1; i <= Steps && m.Stops == 0; i++)
@@ -92,7 +92,7 @@ internal sealed class LoopRobustnessTests
         {
             var loop = new RandomLoop(seed);
             MultibodySystem m = loop.System;
-            PgsSolver solver = new PgsSolver(m);
+            var solver = new PgsSolver(m);
             double start = MechanismMeasures.Energy(m);
             double dt = StepOf(seed);
             for (int i = 1; i <= Steps; i++)
@@ -146,7 +146,7 @@ internal sealed class LoopRobustnessTests
 
             MultibodySystem m = b.Build();
             double start = MechanismMeasures.Energy(m);
-            PgsSolver solver = new PgsSolver(m);
+            var solver = new PgsSolver(m);
             for (int i = 0; i < 100; i++)
             {
                 solver.Step(0.02);
@@ -191,8 +191,8 @@ internal sealed class LoopRobustnessTests
             random.Shuffle(other.Joints);
             random.Shuffle(other.Couplings);
             int[] places = BodyOrder.Shuffle(other, random);
-            RattleSolver solverOne = new RattleSolver(one);
-            RattleSolver solverOther = new RattleSolver(other);
+            var solverOne = new RattleSolver(one);
+            var solverOther = new RattleSolver(other);
             for (int i = 0; i < Steps; i++)
             {
                 solverOne.Step(0.005);

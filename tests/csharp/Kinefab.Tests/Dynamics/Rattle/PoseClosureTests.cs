@@ -20,7 +20,7 @@ internal sealed class PoseClosureTests
         bool isOpen = gap > 0 || degrees > 0;
         Displace(m, gap, degrees);
         Vector3d before = m.Bodies.Poses[m.Bodies.Count / 2].Position;
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
 
         solver.Step(Dt);
 
@@ -43,7 +43,7 @@ internal sealed class PoseClosureTests
     public void Step_TeleportedWhileTurning_GainsNothingButHeight([Values(0.1, 3)] double gap, [Values(0, 90)] double degrees)
     {
         MultibodySystem m = Make("chain");
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
         for (int i = 0; i < 60; i++)
         {
             solver.Step(Dt);

@@ -40,7 +40,7 @@ internal sealed class RobustnessTests
             double height = MechanismMeasures.Potential(m);
 
             // Looking for inexact loops takes most of a small scene's time.
-            RattleSolver solver = seed % 10 == 0 ? new RattleSolver(m) : new RattleSolver(m, new List<InexactLoop>());
+            RattleSolver solver = seed % 10 == 0 ? new RattleSolver(m) : new RattleSolver(m, new List<InconsistentLoop>());
             for (int i = 1; i <= Steps && m.Stops == 0; i++)
             {
                 solver.Step(dt);
@@ -77,7 +77,7 @@ internal sealed class RobustnessTests
         Parallel.For(0, Scenes, seed =>
         {
             MultibodySystem m = new RandomScene(seed).System;
-            PgsSolver solver = new PgsSolver(m);
+            var solver = new PgsSolver(m);
             for (int i = 0; i < Steps; i++)
             {
                 solver.Step(StepOf(seed));
@@ -106,7 +106,7 @@ internal sealed class RobustnessTests
         }
 
         MultibodySystem m = b.Build();
-        RattleSolver solver = new RattleSolver(m);
+        var solver = new RattleSolver(m);
         for (int i = 0; i < 200; i++)
         {
             solver.Step(dt);

@@ -32,7 +32,7 @@ internal sealed class SceneTests
     public void Step_TenSeconds_LeavesNoGapAndMakesNoEnergy(Func<MultibodySystem> make, bool isPassive)
     {
         MultibodySystem mechanism = make();
-        RattleSolver solver = new RattleSolver(mechanism);
+        var solver = new RattleSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
         double drift = 0;
         double most = start;
@@ -69,8 +69,8 @@ internal sealed class SceneTests
     {
         MultibodySystem tilted = SolverScenes.FourBars(1, tilt);
         MultibodySystem exact = SolverScenes.FourBars(1);
-        RattleSolver solver = new RattleSolver(tilted);
-        RattleSolver reference = new RattleSolver(exact);
+        var solver = new RattleSolver(tilted);
+        var reference = new RattleSolver(exact);
         double difference = 0;
         double moved = 0;
         Vector3d start = exact.Bodies.Poses[1].Position;
@@ -91,7 +91,7 @@ internal sealed class SceneTests
     public void Step_SliderCrank_HoldsTheMotorsSpeed()
     {
         MultibodySystem mechanism = SolverScenes.SliderCrank();
-        RattleSolver solver = new RattleSolver(mechanism);
+        var solver = new RattleSolver(mechanism);
         double worst = 0;
         for (int i = 0; i < Steps; i++)
         {
@@ -109,7 +109,7 @@ internal sealed class SceneTests
     public void Step_Parallelogram_TurnsThroughItsChangePoints()
     {
         MultibodySystem mechanism = SolverScenes.Parallelogram();
-        RattleSolver solver = new RattleSolver(mechanism);
+        var solver = new RattleSolver(mechanism);
         double turned = 0;
         Quaterniond last = mechanism.Bodies.Poses[0].Rotation;
         for (int i = 0; i < Steps; i++)
@@ -162,8 +162,8 @@ internal sealed class SceneTests
             var random = new Random(seed);
             random.Shuffle(other.Joints);
             int[] places = BodyOrder.Shuffle(other, random);
-            RattleSolver solverOne = new RattleSolver(first);
-            RattleSolver solverOther = new RattleSolver(other);
+            var solverOne = new RattleSolver(first);
+            var solverOther = new RattleSolver(other);
             for (int i = 0; i < (int)(seconds / Dt); i++)
             {
                 solverOne.Step(Dt);
@@ -182,7 +182,7 @@ internal sealed class SceneTests
     {
         foreach (MultibodySystem mechanism in new[] { SolverScenes.FourBars(9), SolverScenes.SliderCrank(), SolverScenes.Chain(16) })
         {
-            RattleSolver solver = new RattleSolver(mechanism);
+            var solver = new RattleSolver(mechanism);
             for (int i = 0; i < 60; i++)
             {
                 solver.Step(Dt);
@@ -202,7 +202,7 @@ internal sealed class SceneTests
     private static double EnergyError(Func<MultibodySystem> make)
     {
         MultibodySystem mechanism = make();
-        RattleSolver solver = new RattleSolver(mechanism);
+        var solver = new RattleSolver(mechanism);
         double start = MechanismMeasures.Energy(mechanism);
         for (int i = 0; i < Steps; i++)
         {
@@ -231,7 +231,7 @@ internal sealed class SceneTests
 
     private static ulong BitsAfter(MultibodySystem mechanism, int width)
     {
-        RattleSolver solver = new RattleSolver(mechanism, width);
+        var solver = new RattleSolver(mechanism, width);
         for (int i = 0; i < 300; i++)
         {
             solver.Step(Dt);

@@ -28,7 +28,7 @@ internal sealed class SpringAnswerTests
     public void Step_AfterAVelocityWasWritten_StartsWithThatVelocity()
     {
         MultibodySystem wheel = Wheel();
-        RattleSolver solver = new RattleSolver(wheel);
+        var solver = new RattleSolver(wheel);
         Settle(wheel, solver);
         MultibodySystem other = Wheel();
         other.Bodies.Poses[0] = wheel.Bodies.Poses[0];

@@ -78,7 +78,7 @@ internal sealed class SpringLawTests
     {
         var b = new MechanismBuilder { Gravity = Vector3d.Zero };
         int body = b.Body(Vector3d.Zero, Quaterniond.Identity, 1, new Vector3d(0.2, 0.3, 0.4));
-        DriveModel drive = new DriveModel { Stiffness = 40, Damping = 8, ForceLimit = double.PositiveInfinity };
+        var drive = new DriveModel { Stiffness = 40, Damping = 8, ForceLimit = double.PositiveInfinity };
         var goal = Quaterniond.AxisAngle(new Vector3d(0.6, 0, 0.8), 0.5);
         b.Add(
             new D6Joint
@@ -103,7 +103,7 @@ internal sealed class SpringLawTests
         // the same, m g r sin q = share m g r q.
         var b = new MechanismBuilder();
         int bar = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
-        DriveModel drive = new DriveModel { Stiffness = 1e5, ForceLimit = share * 9.81 * 0.5 };
+        var drive = new DriveModel { Stiffness = 1e5, ForceLimit = share * 9.81 * 0.5 };
         b.Add(new D6Joint { Twist = AxisMotion.Free, DriveTwist = drive }, JointModel.World, bar, Vector3d.Zero, Vector3d.UnitZ);
         MultibodySystem m = b.Build();
         double lowest = 0;

@@ -7,7 +7,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>Moving bodies that hang together by joints and couplings, with the fixed bodies they touch, and their matrix's pattern.</summary>
 internal sealed class Island
 {
-    /// <summary>A body couples the rows of two nodes: the block (Later, Earlier) takes J_l M^-1 J_e^T over it.</summary>
+    /// <summary>A body couples the rows of two blocks: the block (Later, Earlier) takes J_l M^-1 J_e^T over it.</summary>
     internal readonly struct Link
     {
         public Link(int later, int laterSide, int earlier, int earlierSide, int body, int block)
@@ -30,34 +30,34 @@ internal sealed class Island
 
     /// <param name="bodies">Index in the mechanism (or Joint.World) of each body, the moving ones first.</param>
     /// <param name="movingBodies">How many move.</param>
-    /// <param name="nodes">Joints and couplings, their bodies as in the first list.</param>
+    /// <param name="blocks">Joints and couplings, their bodies as in the first list.</param>
     /// <param name="inverseInertias">Of the mechanism's bodies, about principal axes, 1/(kg m^2).</param>
-    public Island(int[] bodies, int movingBodies, Node[] nodes, Vector3d[] inverseInertias)
+    public Island(int[] bodies, int movingBodies, RowBlock[] blocks, Vector3d[] inverseInertias)
     {
         Bodies = bodies;
         MovingBodies = movingBodies;
-        Nodes = nodes;
+        Blocks = blocks;
         IsStatic = new bool[bodies.Length];
         for (int b = 0; b < bodies.Length; b++)
         {
             IsStatic[b] = bodies[b] == JointModel.World;
         }
 
-        var sizes = new int[nodes.Length];
+        var sizes = new int[blocks.Length];
         var touching = new List<(int Node, int Side)>[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
             touching[b] = new List<(int Node, int Side)>();
         }
 
-        for (int n = 0; n < nodes.Length; n++)
+        for (int n = 0; n < blocks.Length; n++)
         {
-            sizes[n] = nodes[n].Rows;
-            HasPreparedRows |= nodes[n].IsPrepared;
-            Laws += nodes[n].Laws;
-            for (int side = 0; side < nodes[n].Bodies.Length; side++)
+            sizes[n] = blocks[n].Rows;
+            HasAssembledRows |= blocks[n].IsAssembled;
+            ScalarCount += blocks[n].ScalarCount;
+            for (int side = 0; side < blocks[n].Bodies.Length; side++)
             {
-                int body = nodes[n].Bodies[side];
+                int body = blocks[n].Bodies[side];
                 if (body < movingBodies)
                 {
                     touching[body].Add((n, side));
@@ -66,22 +66,22 @@ internal sealed class Island
         }
 
         IsWorkless = System.Array.IndexOf(IsStatic, false, movingBodies) < 0;
-        Spins = new Spin[movingBodies];
+        RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
-            Spins[b] = new Spin(inverseInertias[bodies[b]]);
+            RotationSplittings[b] = new RotationSplitting(inverseInertias[bodies[b]]);
         }
 
-        FrozenBodies = FindFrozen(bodies, movingBodies, inverseInertias);
-        RatedBodies = FindRated(nodes, movingBodies);
+        LockedInertiaBodies = FindLockedInertia(bodies, movingBodies, inverseInertias);
+        MeanRateBodies = FindMeanRate(blocks, movingBodies);
         Pattern = new BlockPattern(sizes, Couplings(touching));
         Links = MakeLinks(touching, Pattern);
         IsAngular = new bool[Pattern.RowCount];
-        for (int n = 0; n < nodes.Length; n++)
+        for (int n = 0; n < blocks.Length; n++)
         {
-            for (int i = 0; i < nodes[n].Rows; i++)
+            for (int i = 0; i < blocks[n].Rows; i++)
             {
-                IsAngular[Pattern.Rows[n] + i] = nodes[n].IsLockedAngle(i);
+                IsAngular[Pattern.Rows[n] + i] = blocks[n].IsLockedAngle(i);
             }
         }
     }
@@ -95,48 +95,48 @@ internal sealed class Island
     public bool[] IsStatic { get; }
 
     /// <summary>How each moving body's rotation is split.</summary>
-    public Spin[] Spins { get; }
+    public RotationSplitting[] RotationSplittings { get; }
 
-    public Node[] Nodes { get; }
+    public RowBlock[] Blocks { get; }
 
     public BlockPattern Pattern { get; }
 
     public Link[] Links { get; }
 
-    /// <summary>Whether nothing but the bodies' own forces does work on them: no law, no kinematic body.</summary>
+    /// <summary>Whether nothing but the bodies' own forces does work on them: no scalar row, no kinematic body.</summary>
     public bool IsWorkless { get; }
 
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
-    public bool HasLoops => Nodes.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
+    public bool HasLoops => Blocks.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
 
     /// <summary>Whether rows may repeat each other or ask for a turn that a body does not make: by loops or by infinite moments.</summary>
-    public bool IsRedundant => HasLoops || FrozenBodies.Length > 0;
+    public bool IsRedundant => HasLoops || LockedInertiaBodies.Length > 0;
 
     /// <summary>Moving bodies with an infinite moment of inertia.</summary>
-    public int[] FrozenBodies { get; }
+    public int[] LockedInertiaBodies { get; }
 
-    /// <summary>Moving bodies of joints with a law, whose mean rates in the flight the laws ask for.</summary>
-    public int[] RatedBodies { get; }
+    /// <summary>Moving bodies of joints with a scalar row, whose mean rates in the drift the scalar rows ask for.</summary>
+    public int[] MeanRateBodies { get; }
 
-    /// <summary>How well its loops close: see <see cref="LoopProbe"/>.</summary>
-    public LoopFit Fit { get; set; }
+    /// <summary>How well its loops close: see <see cref="LoopConsistencyProbe"/>.</summary>
+    public LoopConsistency Loops { get; set; }
 
-    public bool IsInexact => Fit == LoopFit.Inexact;
+    public bool IsInconsistent => Loops == LoopConsistency.Inconsistent;
 
     /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
     public bool[] IsAngular { get; }
 
-    /// <summary>Rows with a law, of all nodes.</summary>
-    public int Laws { get; }
+    /// <summary>Rows with a scalar row, of all blocks.</summary>
+    public int ScalarCount { get; }
 
     /// <summary>Whether some rows have no closed form in lanes.</summary>
-    public bool HasPreparedRows { get; }
+    public bool HasAssembledRows { get; }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
     public bool HasShapeOf(Island other)
     {
-        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Nodes.Length != other.Nodes.Length
-            || Fit != other.Fit)
+        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Blocks.Length != other.Blocks.Length
+            || Loops != other.Loops)
         {
             return false;
         }
@@ -149,14 +149,14 @@ internal sealed class Island
             }
         }
 
-        if (FrozenBodies.Length != other.FrozenBodies.Length)
+        if (LockedInertiaBodies.Length != other.LockedInertiaBodies.Length)
         {
             return false;
         }
 
-        for (int b = 0; b < FrozenBodies.Length; b++)
+        for (int b = 0; b < LockedInertiaBodies.Length; b++)
         {
-            if (FrozenBodies[b] != other.FrozenBodies[b])
+            if (LockedInertiaBodies[b] != other.LockedInertiaBodies[b])
             {
                 return false;
             }
@@ -164,15 +164,15 @@ internal sealed class Island
 
         for (int b = 0; b < MovingBodies; b++)
         {
-            if (!Spins[b].Equals(other.Spins[b]))
+            if (!RotationSplittings[b].Equals(other.RotationSplittings[b]))
             {
                 return false;
             }
         }
 
-        for (int n = 0; n < Nodes.Length; n++)
+        for (int n = 0; n < Blocks.Length; n++)
         {
-            if (!Nodes[n].HasShapeOf(other.Nodes[n]))
+            if (!Blocks[n].HasShapeOf(other.Blocks[n]))
             {
                 return false;
             }
@@ -181,14 +181,14 @@ internal sealed class Island
         return true;
     }
 
-    private static int[] FindRated(Node[] nodes, int movingBodies)
+    private static int[] FindMeanRate(RowBlock[] blocks, int movingBodies)
     {
         var rated = new SortedSet<int>();
-        foreach (Node node in nodes)
+        foreach (RowBlock block in blocks)
         {
-            if (node.Laws > 0)
+            if (block.ScalarCount > 0)
             {
-                rated.UnionWith(node.Bodies);
+                rated.UnionWith(block.Bodies);
             }
         }
 
@@ -196,7 +196,7 @@ internal sealed class Island
         return new List<int>(rated).ToArray();
     }
 
-    private static int[] FindFrozen(int[] bodies, int movingBodies, Vector3d[] inverseInertias)
+    private static int[] FindLockedInertia(int[] bodies, int movingBodies, Vector3d[] inverseInertias)
     {
         var frozen = new List<int>();
         for (int b = 0; b < movingBodies; b++)
@@ -213,13 +213,13 @@ internal sealed class Island
 
     private static IEnumerable<(int A, int B)> Couplings(List<(int Node, int Side)>[] touching)
     {
-        foreach (List<(int Node, int Side)> nodes in touching)
+        foreach (List<(int Node, int Side)> blocks in touching)
         {
-            for (int i = 0; i < nodes.Count; i++)
+            for (int i = 0; i < blocks.Count; i++)
             {
                 for (int k = 0; k < i; k++)
                 {
-                    yield return (nodes[i].Node, nodes[k].Node);
+                    yield return (blocks[i].Node, blocks[k].Node);
                 }
             }
         }
@@ -230,13 +230,13 @@ internal sealed class Island
         var links = new List<Link>();
         for (int body = 0; body < touching.Length; body++)
         {
-            List<(int Node, int Side)> nodes = touching[body];
-            for (int i = 0; i < nodes.Count; i++)
+            List<(int Node, int Side)> blocks = touching[body];
+            for (int i = 0; i < blocks.Count; i++)
             {
                 for (int k = 0; k < i; k++)
                 {
-                    (int later, int laterSide) = nodes[i];
-                    (int earlier, int earlierSide) = nodes[k];
+                    (int later, int laterSide) = blocks[i];
+                    (int earlier, int earlierSide) = blocks[k];
                     if (pattern.IsBefore(later, earlier))
                     {
                         (later, laterSide, earlier, earlierSide) = (earlier, earlierSide, later, laterSide);

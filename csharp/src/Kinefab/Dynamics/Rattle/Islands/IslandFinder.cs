@@ -111,20 +111,20 @@ internal static class IslandFinder
 
         public Island Build()
         {
-            var nodes = new Node[_items.Count];
-            for (int i = 0; i < nodes.Length; i++)
+            var blocks = new RowBlock[_items.Count];
+            for (int i = 0; i < blocks.Length; i++)
             {
                 (JointModel? joint, CoordinateCoupling? coupling, int index) = _items[i];
-                nodes[i] = joint != null
-                    ? new Node(joint, index, new[] { Slot(joint.Body0), Slot(joint.Body1) })
+                blocks[i] = joint != null
+                    ? new RowBlock(joint, index, new[] { Slot(joint.Body0), Slot(joint.Body1) })
                     : MakeNode(coupling!, index);
             }
 
             _moving.AddRange(_fixed);
-            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, nodes, _bodies.InverseInertias);
+            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, blocks, _bodies.InverseInertias);
         }
 
-        private Node MakeNode(CoordinateCoupling coupling, int index)
+        private RowBlock MakeNode(CoordinateCoupling coupling, int index)
         {
             var bodies = new List<int>();
             var sides = new int[4];
@@ -140,7 +140,7 @@ internal static class IslandFinder
                 }
             }
 
-            return new Node(coupling, index, bodies.ToArray(), sides);
+            return new RowBlock(coupling, index, bodies.ToArray(), sides);
         }
 
         private int Slot(int body)

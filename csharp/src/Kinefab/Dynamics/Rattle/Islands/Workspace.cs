@@ -14,9 +14,9 @@ internal sealed class Workspace<V>
         int w = Lane<V>.Width;
         int rows = shape.Pattern.RowCount;
         int sides = 0;
-        foreach (Node node in shape.Nodes)
+        foreach (RowBlock block in shape.Blocks)
         {
-            sides += node.Rows * node.Bodies.Length;
+            sides += block.Rows * block.Bodies.Length;
         }
 
         Response = new double[3 * sides * w];
@@ -25,8 +25,8 @@ internal sealed class Workspace<V>
         Solution = new double[rows * w];
         LastSolution = new double[rows * w];
         Move = new double[rows * w];
-        First = new double[rows * w];
-        Total = new double[rows * w];
+        PositionImpulses = new double[rows * w];
+        TotalImpulses = new double[rows * w];
         Active = new double[w];
         Moved = new double[w];
         MaxError = new double[w];
@@ -35,15 +35,15 @@ internal sealed class Workspace<V>
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
         Fastest = new double[w];
-        Left = new double[w];
+        Leftover = new double[w];
         Reaction = new double[6 * w];
-        Rows = shape.HasPreparedRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
+        Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
     }
 
-    /// <summary>Angular J times the inverse inertia, as <see cref="Batch{V}.Angular"/>.</summary>
+    /// <summary>Angular J times the inverse inertia, as <see cref="LaneBatch{V}.Angular"/>.</summary>
     public double[] Response { get; }
 
-    /// <summary>C at the end of the flight, and one iteration before.</summary>
+    /// <summary>C at the end of the drift, and one iteration before.</summary>
     public double[] Error { get; }
 
     public double[] LastError { get; }
@@ -56,11 +56,11 @@ internal sealed class Workspace<V>
 
     public double[] Move { get; }
 
-    /// <summary>Impulses of the flight.</summary>
-    public double[] First { get; }
+    /// <summary>Impulses of the drift.</summary>
+    public double[] PositionImpulses { get; }
 
     /// <summary>Impulses of the whole step.</summary>
-    public double[] Total { get; }
+    public double[] TotalImpulses { get; }
 
     /// <summary>1 in lanes that still iterate, else 0.</summary>
     public double[] Active { get; }
@@ -76,7 +76,7 @@ internal sealed class Workspace<V>
     /// <summary>Largest error one iteration before.</summary>
     public double[] LastMaxError { get; }
 
-    /// <summary>Largest error of the first flight.</summary>
+    /// <summary>Largest error of the first drift.</summary>
     public double[] FirstMaxError { get; }
 
     /// <summary>Largest error of a row that is not angular alone, m.</summary>
@@ -86,7 +86,7 @@ internal sealed class Workspace<V>
     public double[] Fastest { get; }
 
     /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
-    public double[] Left { get; }
+    public double[] Leftover { get; }
 
     /// <summary>Force and torque of one joint.</summary>
     public double[] Reaction { get; }

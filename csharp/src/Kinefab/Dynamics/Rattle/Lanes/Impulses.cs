@@ -9,7 +9,7 @@ internal static class Impulses<V>
     where V : struct, ILane<V>
 {
     /// <summary>v += M^-1 J^T l, L += J^T l in the active lanes.</summary>
-    public static void Apply(Batch<V> batch, double[] impulses)
+    public static void Apply(LaneBatch<V> batch, double[] impulses)
     {
         int w = Lane<V>.Width;
         if (w == 1 && batch.Work.Active[0] == 0)
@@ -17,22 +17,22 @@ internal static class Impulses<V>
             return;
         }
 
-        Node[] nodes = batch.Shape.Nodes;
-        for (int n = 0; n < nodes.Length; n++)
+        RowBlock[] blocks = batch.Shape.Blocks;
+        for (int n = 0; n < blocks.Length; n++)
         {
-            Node node = nodes[n];
+            RowBlock block = blocks[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            if (node.IsAnchor)
+            if (block.IsPointJoint)
             {
-                ApplyAnchor(batch, n, node, impulses, row);
+                ApplyPoint(batch, n, block, impulses, row);
                 continue;
             }
 
-            for (int side = 0; side < node.Bodies.Length; side++)
+            for (int side = 0; side < block.Bodies.Length; side++)
             {
-                if (node.Bodies[side] < batch.Shape.MovingBodies)
+                if (block.Bodies[side] < batch.Shape.MovingBodies)
                 {
-                    ApplySide(batch, n, node, side, impulses, row);
+                    ApplySide(batch, n, block, side, impulses, row);
                 }
             }
         }
@@ -40,15 +40,15 @@ internal static class Impulses<V>
 
     // The force l and the torque r x l, both reversed on side 1, and the torques along the turns.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ApplyAnchor(Batch<V> batch, int n, Node node, double[] impulses, int row)
+    private static void ApplyPoint(LaneBatch<V> batch, int n, RowBlock block, double[] impulses, int row)
     {
         double[] rows = batch.Angular;
         int w = Lane<V>.Width;
         int o = batch.Row(n, 0, 0);
         LaneVector<V> force = LaneVector<V>.Load(impulses, row);
-        LaneVector<V> torque0 = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o), force);
-        LaneVector<V> torque1 = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o + 3 * w), force);
-        for (int i = 3; i < node.Rows; i++)
+        LaneVector<V> torque0 = LaneVector<V>.Cross(BilateralRows<V>.BuiltLever(rows, o), force);
+        LaneVector<V> torque1 = LaneVector<V>.Cross(BilateralRows<V>.BuiltLever(rows, o + 3 * w), force);
+        for (int i = 3; i < block.Rows; i++)
         {
             LaneVector<V> turn = Lane<V>.Load(impulses, row + i * w) * LaneVector<V>.Load(rows, o + 6 * i * w);
             torque0 += turn;
@@ -56,36 +56,36 @@ internal static class Impulses<V>
         }
 
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        if (node.Bodies[0] < batch.Shape.MovingBodies)
+        if (block.Bodies[0] < batch.Shape.MovingBodies)
         {
-            Add(batch, node.Bodies[0], active, force, torque0);
+            Add(batch, block.Bodies[0], active, force, torque0);
         }
 
-        if (node.Bodies[1] < batch.Shape.MovingBodies)
+        if (block.Bodies[1] < batch.Shape.MovingBodies)
         {
-            Add(batch, node.Bodies[1], active, -force, torque1);
+            Add(batch, block.Bodies[1], active, -force, torque1);
         }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void Add(Batch<V> batch, int body, Lane<V> active, LaneVector<V> force, LaneVector<V> torque)
+    private static void Add(LaneBatch<V> batch, int body, Lane<V> active, LaneVector<V> force, LaneVector<V> torque)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int at = Batch<V>.Body(body, 0);
-        LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
-        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodySlot.L * w);
-        LaneVector<V> faster = v + Lane<V>.Load(a, at + BodySlot.InverseMass * w) * force;
+        int at = LaneBatch<V>.Body(body, 0);
+        LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
+        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodyLanes.L * w);
+        LaneVector<V> faster = v + Lane<V>.Load(a, at + BodyLanes.InverseMass * w) * force;
         LaneVector<V> turned = momentum + torque;
 
         // The only lane is active, or nothing is applied at all.
-        (w == 1 ? faster : LaneVector<V>.Select(active, faster, v)).Store(a, at + BodySlot.V * w);
-        (w == 1 ? turned : LaneVector<V>.Select(active, turned, momentum)).Store(a, at + BodySlot.L * w);
+        (w == 1 ? faster : LaneVector<V>.Select(active, faster, v)).Store(a, at + BodyLanes.V * w);
+        (w == 1 ? turned : LaneVector<V>.Select(active, turned, momentum)).Store(a, at + BodyLanes.L * w);
     }
 
     // The same of any rows.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ApplySide(Batch<V> batch, int n, Node node, int side, double[] impulses, int row)
+    private static void ApplySide(LaneBatch<V> batch, int n, RowBlock block, int side, double[] impulses, int row)
     {
         double[] rows = batch.Angular;
         int w = Lane<V>.Width;
@@ -93,58 +93,58 @@ internal static class Impulses<V>
         var force = new LaneVector<V>(zero, zero, zero);
         LaneVector<V> torque = force;
         int o = batch.Row(n, 0, side);
-        int stride = 3 * node.Bodies.Length * w;
+        int stride = 3 * block.Bodies.Length * w;
         int i = 0;
-        if (node.LinearMask == 7)
+        if (block.LinearMask == 7)
         {
             LaneVector<V> l = LaneVector<V>.Load(impulses, row);
-            torque = LaneVector<V>.Cross(RigidRows<V>.BuiltLever(rows, o), l);
+            torque = LaneVector<V>.Cross(BilateralRows<V>.BuiltLever(rows, o), l);
             force = side == 0 ? l : force - l;
             i = 3;
             o += 3 * stride;
         }
 
-        for (; i < node.Rows; i++, o += stride)
+        for (; i < block.Rows; i++, o += stride)
         {
             Lane<V> l = Lane<V>.Load(impulses, row + i * w);
             torque += l * LaneVector<V>.Load(rows, o);
-            if (node.Classes[i] == RowClass.General)
+            if (block.Classes[i] == RowClass.General)
             {
                 force += l * LaneVector<V>.Load(batch.Linear, o);
             }
         }
 
-        Add(batch, node.Bodies[side], Lane<V>.Load(batch.Work.Active, 0), force, torque);
+        Add(batch, block.Bodies[side], Lane<V>.Load(batch.Work.Active, 0), force, torque);
     }
 
     /// <summary>Solution = -J v of all rows at the built pose.</summary>
     /// <param name="batch">The rows and bodies.</param>
     /// <param name="areFixedMoving">Whether kinematic bodies count with their velocities.</param>
-    public static void NegativeSpeeds(Batch<V> batch, bool areFixedMoving = true)
+    public static void NegativeSpeeds(LaneBatch<V> batch, bool areFixedMoving = true)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
-        Node[] nodes = batch.Shape.Nodes;
-        for (int n = 0; n < nodes.Length; n++)
+        RowBlock[] blocks = batch.Shape.Blocks;
+        for (int n = 0; n < blocks.Length; n++)
         {
-            Node node = nodes[n];
+            RowBlock block = blocks[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            int stride = 3 * node.Bodies.Length * w;
-            if (node.IsAnchor)
+            int stride = 3 * block.Bodies.Length * w;
+            if (block.IsPointJoint)
             {
-                NegativeAnchorSpeeds(batch, n, node, row, areFixedMoving);
+                NegativePointSpeeds(batch, n, block, row, areFixedMoving);
                 continue;
             }
 
-            for (int i = 0; i < node.Rows; i++)
+            for (int i = 0; i < block.Rows; i++)
             {
                 zero.Store(batch.Work.Solution, row + i * w);
             }
 
-            for (int side = 0; side < node.Bodies.Length; side++)
+            for (int side = 0; side < block.Bodies.Length; side++)
             {
-                int body = node.Bodies[side];
+                int body = block.Bodies[side];
                 if (batch.Shape.IsStatic[body] || (!areFixedMoving && body >= batch.Shape.MovingBodies))
                 {
                     continue;
@@ -152,15 +152,15 @@ internal static class Impulses<V>
 
                 // The turning part is J_w I^-1 L for a moving body, its response being J_w I^-1; J_w w for a kinematic one.
                 bool isMoving = body < batch.Shape.MovingBodies;
-                int at = Batch<V>.Body(body, 0);
-                LaneVector<V> v = LaneVector<V>.Load(a, at + BodySlot.V * w);
-                LaneVector<V> turn = LaneVector<V>.Load(a, at + (isMoving ? BodySlot.L : BodySlot.W) * w);
+                int at = LaneBatch<V>.Body(body, 0);
+                LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
+                LaneVector<V> turn = LaneVector<V>.Load(a, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
                 double[] rows = isMoving ? batch.Work.Response : batch.Angular;
                 int o = batch.Row(n, 0, side);
-                for (int i = 0; i < node.Rows; i++, o += stride)
+                for (int i = 0; i < block.Rows; i++, o += stride)
                 {
                     Lane<V> speed = LaneVector<V>.Dot(LaneVector<V>.Load(rows, o), turn);
-                    switch (node.Classes[i])
+                    switch (block.Classes[i])
                     {
                         case RowClass.Angular:
                             break;
@@ -168,7 +168,7 @@ internal static class Impulses<V>
                             speed += LaneVector<V>.Dot(LaneVector<V>.Load(batch.Linear, o), v);
                             break;
                         default:
-                            Lane<V> component = node.Classes[i] == RowClass.UnitX ? v.X : node.Classes[i] == RowClass.UnitY ? v.Y : v.Z;
+                            Lane<V> component = block.Classes[i] == RowClass.UnitX ? v.X : block.Classes[i] == RowClass.UnitY ? v.Y : v.Z;
                             speed = side == 0 ? speed + component : speed - component;
                             break;
                     }
@@ -182,29 +182,29 @@ internal static class Impulses<V>
 
     // The same with the sums over both sides in registers.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void NegativeAnchorSpeeds(Batch<V> batch, int n, Node node, int row, bool areFixedMoving)
+    private static void NegativePointSpeeds(LaneBatch<V> batch, int n, RowBlock block, int row, bool areFixedMoving)
     {
         int w = Lane<V>.Width;
         double[] solution = batch.Work.Solution;
         Lane<V> zero = Lane<V>.Splat(0);
         var sum = new LaneVector<V>(zero, zero, zero);
-        for (int i = 3; i < node.Rows; i++)
+        for (int i = 3; i < block.Rows; i++)
         {
             zero.Store(solution, row + i * w);
         }
 
         for (int side = 0; side < 2; side++)
         {
-            int body = node.Bodies[side];
+            int body = block.Bodies[side];
             bool isMoving = body < batch.Shape.MovingBodies;
             if (!isMoving && (!areFixedMoving || batch.Shape.IsStatic[body]))
             {
                 continue;
             }
 
-            int at = Batch<V>.Body(body, 0);
-            LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at + BodySlot.V * w);
-            LaneVector<V> turn = LaneVector<V>.Load(batch.Bodies, at + (isMoving ? BodySlot.L : BodySlot.W) * w);
+            int at = LaneBatch<V>.Body(body, 0);
+            LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at + BodyLanes.V * w);
+            LaneVector<V> turn = LaneVector<V>.Load(batch.Bodies, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
             double[] rows = isMoving ? batch.Work.Response : batch.Angular;
             int o = batch.Row(n, 0, side);
             var speed = new LaneVector<V>(
@@ -212,7 +212,7 @@ internal static class Impulses<V>
                 LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 6 * w), turn),
                 LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 12 * w), turn));
             sum -= side == 0 ? speed + v : speed - v;
-            for (int i = 3; i < node.Rows; i++)
+            for (int i = 3; i < block.Rows; i++)
             {
                 Lane<V> turning = LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 6 * i * w), turn);
                 (Lane<V>.Load(solution, row + i * w) - turning).Store(solution, row + i * w);
@@ -223,29 +223,29 @@ internal static class Impulses<V>
     }
 
     /// <summary>The impulse of one row that a joint wrote, on the only lane.</summary>
-    public static void ApplyRow(Batch<V> batch, int node, in ConstraintRow row, double impulse)
+    public static void ApplyRow(LaneBatch<V> batch, int block, in ConstraintRow row, double impulse)
     {
-        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        int[] bodies = batch.Shape.Blocks[block].Bodies;
         ApplySide(batch, bodies[0], row.Linear0, row.Angular0, impulse);
         ApplySide(batch, bodies[1], row.Linear1, row.Angular1, -impulse);
     }
 
-    /// <summary>The linear impulse that a node's rows give one of its bodies, on the only lane.</summary>
-    public static Vector3d Force(Batch<V> batch, int n, int side, double[] impulses)
+    /// <summary>The linear impulse that a block's rows give one of its bodies, on the only lane.</summary>
+    public static Vector3d Force(LaneBatch<V> batch, int n, int side, double[] impulses)
     {
-        Node node = batch.Shape.Nodes[n];
+        RowBlock block = batch.Shape.Blocks[n];
         int row = batch.Shape.Pattern.Rows[n];
         Vector3d force = Vector3d.Zero;
         int i = 0;
-        if (node.LinearMask == 7)
+        if (block.LinearMask == 7)
         {
             force = new Vector3d(impulses[row], impulses[row + 1], impulses[row + 2]) * (side == 0 ? 1 : -1);
             i = 3;
         }
 
-        for (; i < node.Rows; i++)
+        for (; i < block.Rows; i++)
         {
-            if (node.Classes[i] == RowClass.General)
+            if (block.Classes[i] == RowClass.General)
             {
                 int o = batch.Row(n, i, side);
                 force += new Vector3d(batch.Linear[o], batch.Linear[o + 1], batch.Linear[o + 2]) * impulses[row + i];
@@ -256,38 +256,38 @@ internal static class Impulses<V>
     }
 
     /// <summary>Speed of such a row by the momenta and the built inverse inertias.</summary>
-    public static double Speed(Batch<V> batch, int node, in ConstraintRow row)
+    public static double Speed(LaneBatch<V> batch, int block, in ConstraintRow row)
     {
-        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        int[] bodies = batch.Shape.Blocks[block].Bodies;
         return row.Velocity(
-            Vector(batch, bodies[0], BodySlot.V), AngularVelocity(batch, bodies[0]), Vector(batch, bodies[1], BodySlot.V), AngularVelocity(batch, bodies[1]));
+            Vector(batch, bodies[0], BodyLanes.V), AngularVelocity(batch, bodies[0]), Vector(batch, bodies[1], BodyLanes.V), AngularVelocity(batch, bodies[1]));
     }
 
     /// <summary>
-    /// Speed of such a row in the last flight. J turns with the bodies: the mean of the start's and the end's gives the mean
+    /// Speed of such a row in the last drift. J turns with the bodies: the mean of the start's and the end's gives the mean
     /// speed to second order.
     /// </summary>
-    public static double FlightSpeed(Batch<V> batch, int node, in ConstraintRow start, in ConstraintRow end)
+    public static double DriftSpeed(LaneBatch<V> batch, int block, in ConstraintRow start, in ConstraintRow end)
     {
-        int[] bodies = batch.Shape.Nodes[node].Bodies;
-        Vector3d v0 = Vector(batch, bodies[0], BodySlot.V), w0 = Vector(batch, bodies[0], BodySlot.W);
-        Vector3d v1 = Vector(batch, bodies[1], BodySlot.V), w1 = Vector(batch, bodies[1], BodySlot.W);
+        int[] bodies = batch.Shape.Blocks[block].Bodies;
+        Vector3d v0 = Vector(batch, bodies[0], BodyLanes.V), w0 = Vector(batch, bodies[0], BodyLanes.W);
+        Vector3d v1 = Vector(batch, bodies[1], BodyLanes.V), w1 = Vector(batch, bodies[1], BodyLanes.W);
         return (start.Velocity(v0, w0, v1, w1) + end.Velocity(v0, w0, v1, w1)) / 2;
     }
 
     /// <summary>J M^-1 J^T of such a row.</summary>
-    public static double ResponseOf(Batch<V> batch, int node, in ConstraintRow row)
+    public static double ResponseOf(LaneBatch<V> batch, int block, in ConstraintRow row)
     {
-        int[] bodies = batch.Shape.Nodes[node].Bodies;
+        int[] bodies = batch.Shape.Blocks[block].Bodies;
         return ResponseOf(batch, bodies[0], row.Linear0, row.Angular0) + ResponseOf(batch, bodies[1], row.Linear1, row.Angular1);
     }
 
-    private static double ResponseOf(Batch<V> batch, int body, Vector3d linear, Vector3d angular) =>
+    private static double ResponseOf(LaneBatch<V> batch, int body, Vector3d linear, Vector3d angular) =>
         body >= batch.Shape.MovingBodies
             ? 0
-            : batch.Bodies[Batch<V>.Body(body, BodySlot.InverseMass)] * linear.LengthSquared + Vector3d.Dot(angular, Turn(batch, body, angular));
+            : batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.InverseMass)] * linear.LengthSquared + Vector3d.Dot(angular, Turn(batch, body, angular));
 
-    private static void ApplySide(Batch<V> batch, int body, Vector3d linear, Vector3d angular, double impulse)
+    private static void ApplySide(LaneBatch<V> batch, int body, Vector3d linear, Vector3d angular, double impulse)
     {
         if (body >= batch.Shape.MovingBodies)
         {
@@ -295,26 +295,26 @@ internal static class Impulses<V>
         }
 
         double[] a = batch.Bodies;
-        double inverseMass = a[Batch<V>.Body(body, BodySlot.InverseMass)];
-        int v = Batch<V>.Body(body, BodySlot.V);
-        int l = Batch<V>.Body(body, BodySlot.L);
-        Transfer<V>.Put(a, v, Transfer<V>.Vector(a, v) + inverseMass * impulse * linear);
-        Transfer<V>.Put(a, l, Transfer<V>.Vector(a, l) + impulse * angular);
+        double inverseMass = a[LaneBatch<V>.Body(body, BodyLanes.InverseMass)];
+        int v = LaneBatch<V>.Body(body, BodyLanes.V);
+        int l = LaneBatch<V>.Body(body, BodyLanes.L);
+        LaneTransfer<V>.Write(a, v, LaneTransfer<V>.ReadVector(a, v) + inverseMass * impulse * linear);
+        LaneTransfer<V>.Write(a, l, LaneTransfer<V>.ReadVector(a, l) + impulse * angular);
     }
 
     /// <summary>Angular velocity by the momentum and the built inverse inertia, on the only lane.</summary>
-    public static Vector3d AngularVelocity(Batch<V> batch, int body) =>
-        body < batch.Shape.MovingBodies ? Turn(batch, body, Vector(batch, body, BodySlot.L)) : Vector(batch, body, BodySlot.W);
+    public static Vector3d AngularVelocity(LaneBatch<V> batch, int body) =>
+        body < batch.Shape.MovingBodies ? Turn(batch, body, Vector(batch, body, BodyLanes.L)) : Vector(batch, body, BodyLanes.W);
 
-    private static Vector3d Turn(Batch<V> batch, int body, Vector3d v)
+    private static Vector3d Turn(LaneBatch<V> batch, int body, Vector3d v)
     {
         double[] a = batch.Bodies;
-        int o = Batch<V>.Body(body, BodySlot.WorldInverse);
+        int o = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
         return new Vector3d(
             a[o] * v.X + a[o + 3] * v.Y + a[o + 4] * v.Z,
             a[o + 3] * v.X + a[o + 1] * v.Y + a[o + 5] * v.Z,
             a[o + 4] * v.X + a[o + 5] * v.Y + a[o + 2] * v.Z);
     }
 
-    private static Vector3d Vector(Batch<V> batch, int body, int slot) => Transfer<V>.Vector(batch.Bodies, Batch<V>.Body(body, slot));
+    private static Vector3d Vector(LaneBatch<V> batch, int body, int slot) => LaneTransfer<V>.ReadVector(batch.Bodies, LaneBatch<V>.Body(body, slot));
 }

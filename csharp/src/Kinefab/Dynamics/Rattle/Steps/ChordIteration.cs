@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// The iteration by which a flight's impulses are found, with the matrix of its start pose throughout: when it has arrived,
+/// The iteration by which a drift's impulses are found, with the matrix of its start pose throughout: when it has arrived,
 /// when it will not, and its next correction.
 /// </summary>
 internal static class ChordIteration<V>
@@ -23,7 +23,7 @@ internal static class ChordIteration<V>
     // Largest error of an angle that may be left then, radians.
     private const double MostAngle = 1e-3;
 
-    // Growth of the error against the first flight's at which the iteration is given up.
+    // Growth of the error against the first drift's at which the iteration is given up.
     private const double MostGrowth = 4;
 
     // Keeps 0 / 0 out of the mixing.
@@ -35,19 +35,19 @@ internal static class ChordIteration<V>
     /// the turns of slender bodies, on which the chord contracts least. In an island known to be inexact whose angles
     /// are not springs (implicit Euler) the anchors suffice.
     /// </summary>
-    public static bool IsClosed(Batch<V> batch, int lane, double tolerance, bool isRepeated)
+    public static bool IsClosed(LaneBatch<V> batch, int lane, double tolerance, bool isRepeated)
     {
         double error = batch.Work.MaxError[lane];
         bool isStill = error >= StillShare * batch.Work.LastMaxError[lane];
         batch.Work.LastMaxError[lane] = error;
         return error < tolerance
-            || (batch.Shape.IsInexact && batch.SoftStep == 0 && batch.Work.MaxGap[lane] < tolerance)
+            || (batch.Shape.IsInconsistent && batch.CompliantStep == 0 && batch.Work.MaxGap[lane] < tolerance)
             || (isRepeated && batch.Work.MaxChange[lane] < tolerance && batch.Work.MaxGap[lane] < MostGaps * tolerance && error < MostAngle)
             || (isRepeated && isStill && batch.Work.MaxGap[lane] < tolerance && error < MostAngle);
     }
 
     /// <summary>Gives up lanes whose error grows beyond what they started with; true when none is left.</summary>
-    public static bool IsHopeless(Batch<V> batch, bool isFirst)
+    public static bool IsHopeless(LaneBatch<V> batch, bool isFirst)
     {
         bool isAny = false;
         for (int lane = 0; lane < Lane<V>.Width; lane++)
@@ -78,7 +78,7 @@ internal static class ChordIteration<V>
     /// <param name="h">Step, s.</param>
     /// <param name="isFirst">Whether no correction of the same matrix went before.</param>
     /// <param name="impulses">To which the move is added.</param>
-    public static void Correct(Batch<V> batch, double h, bool isFirst, double[] impulses)
+    public static void Correct(LaneBatch<V> batch, double h, bool isFirst, double[] impulses)
     {
         int w = Lane<V>.Width;
         double[] d = batch.Work.Solution;

@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// The safe floor under RATTLE: M (v - v0) = h f + J(x')^T l, C(x') = 0 with x' the flight of v. Newton's method with
+/// The safe floor under RATTLE: M (v - v0) = h f + J(x')^T l, C(x') = 0 with x' the drift of v. Newton's method with
 /// M + h K in place of M, K the geometric stiffness of the bodies under the impulses l, shifted to be positive
 /// semi-definite; it keeps to the bodies' blocks, so that the matrix has its usual pattern. Unconditionally stable and
 /// strongly dissipative. Starts from l = 0, since a warm l carries loads that no motion asks for.
@@ -22,7 +22,7 @@ internal sealed class ImplicitEulerStep
     // One share for all rows: with the larger one for angles the iteration stops converging.
     private const double Share = 1e-6;
 
-    private readonly Batch<ScalarLane> _batch;
+    private readonly LaneBatch<ScalarLane> _batch;
 
     // Of each body velocity and angular momentum: wanted without joints, what they lack, what they are.
     private readonly double[] _aim;
@@ -32,7 +32,7 @@ internal sealed class ImplicitEulerStep
     // h K of each body: xx, yy, zz, xy, xz, yz.
     private readonly double[] _stiffness;
 
-    public ImplicitEulerStep(Batch<ScalarLane> batch)
+    public ImplicitEulerStep(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
         int bodies = batch.Shape.MovingBodies;
@@ -43,30 +43,30 @@ internal sealed class ImplicitEulerStep
     }
 
     /// <summary>From the start pose to a closed end pose; false when that was not reached.</summary>
-    public bool Fly(double h, double tolerance)
+    public bool TrySolve(double h, double tolerance)
     {
-        Batch<ScalarLane> batch = _batch;
-        Laws<ScalarLane>? laws = batch.Laws;
+        LaneBatch<ScalarLane> batch = _batch;
+        ActiveSet<ScalarLane>? scalars = batch.ActiveSet;
         batch.Work.Active[0] = 1;
-        batch.SoftStep = 0;
-        laws?.Begin(h, true);
+        batch.CompliantStep = 0;
+        scalars?.Begin(h, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Read(_aim);
-        Array.Clear(batch.Work.First, 0, batch.Work.First.Length);
-        laws?.StartFromZero();
-        Flight<ScalarLane>.MoveKinematic(batch, h);
+        Array.Clear(batch.Work.PositionImpulses, 0, batch.Work.PositionImpulses.Length);
+        scalars?.ClearFree();
+        FreeMotion<ScalarLane>.DriftKinematic(batch, h);
         int lawPasses = 0;
         double last = 0;
         bool isNear = false;
         for (int iteration = 0; iteration < MaxIterations; iteration++)
         {
-            FrozenAxes<ScalarLane>.Clear(batch);
-            Flight<ScalarLane>.Run(batch, h);
-            RigidRows<ScalarLane>.Evaluate(batch);
-            laws?.Evaluate(h);
-            RigidRows<ScalarLane>.Rate(batch);
-            RigidRows<ScalarLane>.Build(batch);
-            laws?.WriteRows(true);
+            LockedInertiaAxes<ScalarLane>.ClearMomentum(batch);
+            FreeMotion<ScalarLane>.Drift(batch, h);
+            BilateralRows<ScalarLane>.Evaluate(batch);
+            scalars?.Evaluate(h);
+            BilateralRows<ScalarLane>.MeasureErrors(batch);
+            BilateralRows<ScalarLane>.Build(batch);
+            scalars?.WriteRows(true);
             double unbalanced = h * Residual();
             double off = Math.Max(batch.Work.MaxError[0], unbalanced);
             isNear &= off <= MostLeft * last;
@@ -74,7 +74,7 @@ internal sealed class ImplicitEulerStep
             bool isClosed = ChordIteration<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
             if (isClosed && unbalanced < tolerance)
             {
-                if (laws == null || !laws.Update(lawPasses++, tolerance))
+                if (scalars == null || !scalars.UpdatePositions(lawPasses++, tolerance))
                 {
                     return true;
                 }
@@ -87,17 +87,17 @@ internal sealed class ImplicitEulerStep
                 return false;
             }
 
-            if (isClosed && laws != null)
+            if (isClosed && scalars != null)
             {
                 // A row may have come to its bound just now.
-                laws.Evaluate(h);
-                laws.WriteRows(true);
+                scalars.Evaluate(h);
+                scalars.WriteRows(true);
                 Residual();
             }
 
             if (isNear)
             {
-                laws?.WriteRows(false);
+                scalars?.WriteRows(false);
             }
             else
             {
@@ -117,17 +117,17 @@ internal sealed class ImplicitEulerStep
     // r = (v - aim) - M^-1 J^T l for the linear part, L - aim - J^T l for the angular one; the largest as a speed.
     private double Residual()
     {
-        Batch<ScalarLane> batch = _batch;
+        LaneBatch<ScalarLane> batch = _batch;
         Read(_momenta);
         Write(_aim, 1);
-        Impulses<ScalarLane>.Apply(batch, batch.Work.First);
-        FrozenAxes<ScalarLane>.Clear(batch);
+        Impulses<ScalarLane>.Apply(batch, batch.Work.PositionImpulses);
+        LockedInertiaAxes<ScalarLane>.ClearMomentum(batch);
         double[] a = batch.Bodies;
         double most = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
-            double inverse = a[Batch<ScalarLane>.Body(body, BodySlot.MostInverseInertia)];
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
+            double inverse = a[LaneBatch<ScalarLane>.Body(body, BodyLanes.MostInverseInertia)];
             for (int i = 0; i < 6; i++)
             {
                 double r = _momenta[6 * body + i] - a[o + i];
@@ -143,18 +143,18 @@ internal sealed class ImplicitEulerStep
     // J M~^-1 J^T, by the impulses and where the bodies are now.
     private void Factor(double h)
     {
-        ResponseMatrix<ScalarLane>.InverseInertias(_batch);
+        DelassusMatrix<ScalarLane>.InverseInertias(_batch);
         Stiffen(h);
-        _batch.Laws?.WriteRows(false);
-        ResponseMatrix<ScalarLane>.Assemble(_batch, Share);
-        _batch.Laws?.Condition(true);
+        _batch.ActiveSet?.WriteRows(false);
+        DelassusMatrix<ScalarLane>.Assemble(_batch, Share);
+        _batch.ActiveSet?.AddToDiagonal(true);
         BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
     }
 
     // (J M~^-1 J^T) dl = -C / h + J M~^-1 r; dv = M~^-1 (J^T dl - r).
     private void Correct(double h)
     {
-        Batch<ScalarLane> batch = _batch;
+        LaneBatch<ScalarLane> batch = _batch;
         double[] solution = batch.Work.Solution;
         Write(_residual, 1);
         Impulses<ScalarLane>.NegativeSpeeds(batch, false);
@@ -163,11 +163,11 @@ internal sealed class ImplicitEulerStep
             solution[i] = -batch.Work.Error[i] / h - solution[i];
         }
 
-        batch.Laws?.ClearClamped(solution);
+        batch.ActiveSet?.ClearAtBound(solution);
         BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, solution);
         for (int i = 0; i < solution.Length; i++)
         {
-            batch.Work.First[i] += solution[i];
+            batch.Work.PositionImpulses[i] += solution[i];
         }
 
         Write(_residual, -1);
@@ -183,8 +183,8 @@ internal sealed class ImplicitEulerStep
     private void Advance(int body)
     {
         double[] a = _batch.Bodies;
-        int o = Batch<ScalarLane>.Body(body, BodySlot.V);
-        Vector3d turn = Symmetric3.Load(a, Batch<ScalarLane>.Body(body, BodySlot.WorldInverse)).Times(new Vector3d(a[o + 3], a[o + 4], a[o + 5]));
+        int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
+        Vector3d turn = Symmetric3.Load(a, LaneBatch<ScalarLane>.Body(body, BodyLanes.WorldInverse)).Times(new Vector3d(a[o + 3], a[o + 4], a[o + 5]));
         Vector3d held = Symmetric3.Load(_stiffness, 6 * body).Times(turn);
         for (int i = 0; i < 6; i++)
         {
@@ -201,28 +201,28 @@ internal sealed class ImplicitEulerStep
     {
         Array.Clear(_stiffness, 0, _stiffness.Length);
         Island shape = _batch.Shape;
-        for (int n = 0; n < shape.Nodes.Length; n++)
+        for (int n = 0; n < shape.Blocks.Length; n++)
         {
-            Node node = shape.Nodes[n];
-            if (node.Joint == null)
+            RowBlock block = shape.Blocks[n];
+            if (block.Joint == null)
             {
                 continue;
             }
 
             for (int side = 0; side < 2; side++)
             {
-                if (node.Bodies[side] < shape.MovingBodies)
+                if (block.Bodies[side] < shape.MovingBodies)
                 {
-                    Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.Work.First);
-                    int lever = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side));
-                    AddStiffness(6 * node.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
+                    Vector3d force = Impulses<ScalarLane>.Force(_batch, n, side, _batch.Work.PositionImpulses);
+                    int lever = LaneBatch<ScalarLane>.Joint(n, LaneBatch<ScalarLane>.WorldFrame(side));
+                    AddStiffness(6 * block.Bodies[side], force * h, new Vector3d(_batch.Joints[lever], _batch.Joints[lever + 1], _batch.Joints[lever + 2]));
                 }
             }
         }
 
         for (int body = 0; body < shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.WorldInverse);
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.WorldInverse);
             Symmetric3.InverseOfSum(Symmetric3.Load(_batch.Bodies, o), Symmetric3.Load(_stiffness, 6 * body)).Store(_batch.Bodies, o);
         }
     }
@@ -242,7 +242,7 @@ internal sealed class ImplicitEulerStep
     private void Read(double[] momenta)
     {
         double[] a = _batch.Bodies;
-        for (int k = 0, o = BodySlot.V; k < momenta.Length; k += 6, o += BodySlot.Count)
+        for (int k = 0, o = BodyLanes.V; k < momenta.Length; k += 6, o += BodyLanes.Count)
         {
             for (int i = 0; i < 6; i++)
             {
@@ -254,7 +254,7 @@ internal sealed class ImplicitEulerStep
     private void Write(double[] momenta, double factor)
     {
         double[] a = _batch.Bodies;
-        for (int k = 0, o = BodySlot.V; k < momenta.Length; k += 6, o += BodySlot.Count)
+        for (int k = 0, o = BodyLanes.V; k < momenta.Length; k += 6, o += BodyLanes.Count)
         {
             for (int i = 0; i < 6; i++)
             {

@@ -5,7 +5,7 @@ namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
 /// One RATTLE step with a chord Newton iteration. Momenta take half a kick; impulses along the rows of the start pose
-/// then make the pose at the flight's end satisfy C = 0; momenta take the other half, and impulses along the rows of the
+/// then make the pose at the drift's end satisfy C = 0; momenta take the other half, and impulses along the rows of the
 /// end pose make them tangent. One factorisation, at the end pose, serves this projection and the next step's iteration.
 /// Second order and time-reversible to the tolerance.
 /// Source: Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, VII.1.4.
@@ -16,14 +16,14 @@ internal static class RattleStep<V>
     /// <summary>Iterations after which a step counts as failed.</summary>
     public const int MaxIterations = 12;
 
-    /// <summary>Kick, impulses and flight, until the lanes that are active at the call have a closed end pose.</summary>
+    /// <summary>Kick, impulses and drift, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
     /// <param name="h">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="converged">Set for each lane.</param>
-    /// <param name="isEager">Rows with a law keep to their bounds in every iteration instead of at its end alone: dearer, but
-    /// rows that contradict each other give way before the flight is led astray.</param>
-    public static void Fly(Batch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false)
+    /// <param name="isEager">Rows with a scalar row keep to their bounds in every iteration instead of at its end alone: dearer, but
+    /// rows that contradict each other give way before the drift is led astray.</param>
+    public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false)
     {
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
@@ -31,30 +31,30 @@ internal static class RattleStep<V>
             converged[lane] = batch.Work.Active[lane] == 0;
         }
 
-        batch.SoftStep = batch.Shape.IsInexact ? h : 0;
-        batch.Laws?.Begin(h, false);
+        batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
+        batch.ActiveSet?.Begin(h, false);
         Kick(batch, h / 2);
-        Array.Copy(batch.Half, batch.Work.First, batch.Half.Length);
-        Impulses<V>.Apply(batch, batch.Work.First);
-        if (batch.Laws != null)
+        Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
+        Impulses<V>.Apply(batch, batch.Work.PositionImpulses);
+        if (batch.ActiveSet != null)
         {
-            FactorForFlight(batch, batch.Laws);
+            FactorForDrift(batch, batch.ActiveSet);
         }
-        else if (batch.Shape.IsInexact)
+        else if (batch.Shape.IsInconsistent)
         {
             Factor(batch, true);
         }
 
-        Flight<V>.MoveKinematic(batch, h);
+        FreeMotion<V>.DriftKinematic(batch, h);
         int lawPasses = 0;
         int restart = 0;
         for (int iteration = 0; ; iteration++)
         {
-            FrozenAxes<V>.Clear(batch);
-            Flight<V>.Run(batch, h);
-            RigidRows<V>.Evaluate(batch);
-            batch.Laws?.Evaluate(h);
-            RigidRows<V>.Rate(batch);
+            LockedInertiaAxes<V>.ClearMomentum(batch);
+            FreeMotion<V>.Drift(batch, h);
+            BilateralRows<V>.Evaluate(batch);
+            batch.ActiveSet?.Evaluate(h);
+            BilateralRows<V>.MeasureErrors(batch);
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
@@ -67,15 +67,15 @@ internal static class RattleStep<V>
                 isDone &= batch.Work.Active[lane] == 0;
             }
 
-            if (isDone && batch.Laws != null && batch.Laws.Update(lawPasses++, tolerance))
+            if (isDone && batch.ActiveSet != null && batch.ActiveSet.UpdatePositions(lawPasses++, tolerance))
             {
                 batch.Work.Active[0] = 1;
                 converged[0] = false;
                 restart = iteration;
                 Factor(batch, true);
-                batch.Laws.Evaluate(h);
-                LetGo(batch, h, batch.Laws);
-                RigidRows<V>.Rate(batch);
+                batch.ActiveSet.Evaluate(h);
+                ReleaseAtBound(batch, h, batch.ActiveSet);
+                BilateralRows<V>.MeasureErrors(batch);
                 batch.Work.FirstMaxError[0] = batch.Work.MaxError[0];
             }
             else if (isDone)
@@ -87,110 +87,110 @@ internal static class RattleStep<V>
                 return;
             }
 
-            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.First);
-            while (isEager && batch.Laws != null && batch.Laws.ClampOutside())
+            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.PositionImpulses);
+            while (isEager && batch.ActiveSet != null && batch.ActiveSet.ClampToBounds())
             {
                 Array.Clear(batch.Work.Error, 0, batch.Work.Error.Length);
                 Factor(batch, true);
-                LetGo(batch, h, batch.Laws);
-                ChordIteration<V>.Correct(batch, h, true, batch.Work.First);
+                ReleaseAtBound(batch, h, batch.ActiveSet);
+                ChordIteration<V>.Correct(batch, h, true, batch.Work.PositionImpulses);
                 restart = iteration;
             }
         }
     }
 
-    /// <summary>As <see cref="Build"/>, at an end pose that no flight led to.</summary>
-    public static void Rebuild(Batch<V> batch)
+    /// <summary>As <see cref="Build"/>, at an end pose that no drift led to.</summary>
+    public static void Rebuild(LaneBatch<V> batch)
     {
-        RigidRows<V>.Evaluate(batch);
+        BilateralRows<V>.Evaluate(batch);
         Build(batch);
     }
 
-    /// <summary>Builds and factors the rows at the end pose of the last flight, for all lanes.</summary>
-    public static void Build(Batch<V> batch)
+    /// <summary>Builds and factors the rows at the end pose of the last drift, for all lanes.</summary>
+    public static void Build(LaneBatch<V> batch)
     {
-        ResponseMatrix<V>.InverseInertias(batch);
-        RigidRows<V>.Build(batch);
-        if (batch.Laws == null)
+        DelassusMatrix<V>.InverseInertias(batch);
+        BilateralRows<V>.Build(batch);
+        if (batch.ActiveSet == null)
         {
             Factor(batch, true);
         }
         else
         {
-            batch.Laws.Invalidate();
+            batch.ActiveSet.Invalidate();
         }
     }
 
-    /// <summary>Reads the rows with a law again at the pose where all rows were built, since targets and gains may have changed.</summary>
-    public static void Reread(Batch<V> batch)
+    /// <summary>Reads the rows with a scalar row again at the pose where all rows were built, since targets and gains may have changed.</summary>
+    public static void ReloadState(LaneBatch<V> batch)
     {
-        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            if (batch.Shape.Nodes[n].Laws > 0)
+            if (batch.Shape.Blocks[n].ScalarCount > 0)
             {
-                PreparedRows<V>.Read(batch, n);
+                AssembledRows<V>.Read(batch, n);
             }
         }
     }
 
     /// <summary>The end pose becomes the start pose, in all lanes.</summary>
-    public static void Accept(Batch<V> batch)
+    public static void Accept(LaneBatch<V> batch)
     {
         int w = Lane<V>.Width;
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
-            int o = Batch<V>.Body(body, 0);
-            LaneVector<V>.Load(a, o + BodySlot.EndX * w).Store(a, o + BodySlot.X * w);
-            LaneQuaternion<V>.Load(a, o + BodySlot.EndQ * w).Store(a, o + BodySlot.Q * w);
+            int o = LaneBatch<V>.Body(body, 0);
+            LaneVector<V>.Load(a, o + BodyLanes.EndX * w).Store(a, o + BodyLanes.X * w);
+            LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w).Store(a, o + BodyLanes.Q * w);
         }
     }
 
     /// <summary>Total = First + Half in the active lanes.</summary>
-    public static void AddUp(Batch<V> batch)
+    public static void Accumulate(LaneBatch<V> batch)
     {
         int w = Lane<V>.Width;
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        for (int i = 0; i < batch.Work.Total.Length; i += w)
+        for (int i = 0; i < batch.Work.TotalImpulses.Length; i += w)
         {
-            Lane<V> sum = Lane<V>.Load(batch.Work.First, i) + Lane<V>.Load(batch.Half, i);
-            Lane<V>.Select(active, sum, Lane<V>.Load(batch.Work.Total, i)).Store(batch.Work.Total, i);
+            Lane<V> sum = Lane<V>.Load(batch.Work.PositionImpulses, i) + Lane<V>.Load(batch.VelocityImpulses, i);
+            Lane<V>.Select(active, sum, Lane<V>.Load(batch.Work.TotalImpulses, i)).Store(batch.Work.TotalImpulses, i);
         }
     }
 
     /// <summary>v += t a, L += t torque in the active lanes.</summary>
-    public static void Kick(Batch<V> batch, double t)
+    public static void Kick(LaneBatch<V> batch, double t)
     {
         int w = Lane<V>.Width;
         double[] a = batch.Bodies;
         Lane<V> time = Lane<V>.Select(Lane<V>.Load(batch.Work.Active, 0), Lane<V>.Splat(t), Lane<V>.Splat(0));
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<V>.Body(body, 0);
-            (LaneVector<V>.Load(a, o + BodySlot.V * w) + time * LaneVector<V>.Load(a, o + BodySlot.Acceleration * w))
-                .Store(a, o + BodySlot.V * w);
-            (LaneVector<V>.Load(a, o + BodySlot.L * w) + time * LaneVector<V>.Load(a, o + BodySlot.Torque * w))
-                .Store(a, o + BodySlot.L * w);
+            int o = LaneBatch<V>.Body(body, 0);
+            (LaneVector<V>.Load(a, o + BodyLanes.V * w) + time * LaneVector<V>.Load(a, o + BodyLanes.Acceleration * w))
+                .Store(a, o + BodyLanes.V * w);
+            (LaneVector<V>.Load(a, o + BodyLanes.L * w) + time * LaneVector<V>.Load(a, o + BodyLanes.Torque * w))
+                .Store(a, o + BodyLanes.L * w);
         }
     }
 
     /// <summary>Assembles and factors the matrix of the built rows.</summary>
     /// <param name="batch">The rows and bodies.</param>
-    /// <param name="isFlight">See <see cref="Laws{V}.Condition"/>.</param>
-    public static void Factor(Batch<V> batch, bool isFlight)
+    /// <param name="isFlight">See <see cref="ActiveSet{V}.AddToDiagonal"/>.</param>
+    public static void Factor(LaneBatch<V> batch, bool isFlight)
     {
-        batch.Laws?.WriteRows(false);
-        ResponseMatrix<V>.Assemble(batch, batch.Shape.IsInexact && !isFlight ? ResponseMatrix<V>.NoPartShare : batch.AngularShare);
-        batch.Laws?.Condition(isFlight);
+        batch.ActiveSet?.WriteRows(false);
+        DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isFlight ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
+        batch.ActiveSet?.AddToDiagonal(isFlight);
         BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
     }
 
-    // The projection of the last step leaves the flight's matrix behind, unless a law moved or a spring acts.
-    private static void FactorForFlight(Batch<V> batch, Laws<V> laws)
+    // The projection of the last step leaves the drift's matrix behind, unless a scalar row moved or a spring acts.
+    private static void FactorForDrift(LaneBatch<V> batch, ActiveSet<V> scalars)
     {
-        if (!batch.Shape.IsInexact && laws.IsFactoredForFlight())
+        if (!batch.Shape.IsInconsistent && scalars.IsFactoredForDrift())
         {
-            laws.WriteRows(false);
+            scalars.WriteRows(false);
         }
         else
         {
@@ -200,19 +200,19 @@ internal static class RattleStep<V>
 
     // Rows that came to their bounds let go of momentum. What that will open is told to first order and closed by the same
     // correction: alone, it can throw a thin body beyond where the chord finds back from.
-    private static void LetGo(Batch<V> batch, double h, Laws<V> laws)
+    private static void ReleaseAtBound(LaneBatch<V> batch, double h, ActiveSet<V> scalars)
     {
         double[] speeds = batch.Work.Solution;
         double[] before = batch.Work.LastSolution;
         Impulses<V>.NegativeSpeeds(batch);
         Array.Copy(speeds, before, speeds.Length);
-        laws.ApplyJumps();
+        scalars.ApplyPending();
         Impulses<V>.NegativeSpeeds(batch);
         for (int i = 0; i < speeds.Length; i++)
         {
             batch.Work.Error[i] += h * (before[i] - speeds[i]);
         }
 
-        laws.ClearClamped(batch.Work.Error);
+        scalars.ClearAtBound(batch.Work.Error);
     }
 }

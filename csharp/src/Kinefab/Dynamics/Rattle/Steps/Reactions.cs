@@ -13,25 +13,25 @@ internal static class Reactions<V>
     /// <param name="count">Lanes with an island of their own.</param>
     /// <param name="mechanism">Where to.</param>
     /// <param name="dt">Step, s.</param>
-    public static void Report(Batch<V> batch, int count, MultibodySystem mechanism, double dt)
+    public static void Report(LaneBatch<V> batch, int count, MultibodySystem mechanism, double dt)
     {
-        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            Node node = batch.Shape.Nodes[n];
-            if (node.Joint == null)
+            RowBlock block = batch.Shape.Blocks[n];
+            if (block.Joint == null)
             {
                 continue;
             }
 
-            Sum(batch, n, node, 1 / dt);
+            Sum(batch, n, block, 1 / dt);
             for (int lane = 0; lane < count; lane++)
             {
                 int index = batch.JointMembers[n * Lane<V>.Width + lane];
-                Vector3d force = Transfer<V>.Vector(batch.Work.Reaction, lane);
-                Vector3d torque = Transfer<V>.Vector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
-                if (batch.Laws != null)
+                Vector3d force = LaneTransfer<V>.ReadVector(batch.Work.Reaction, lane);
+                Vector3d torque = LaneTransfer<V>.ReadVector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
+                if (batch.ActiveSet != null)
                 {
-                    AddLimits(batch, batch.Laws, n, 1 / dt, ref force, ref torque);
+                    AddLimits(batch, batch.ActiveSet, n, 1 / dt, ref force, ref torque);
                 }
 
                 mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
@@ -46,7 +46,7 @@ internal static class Reactions<V>
 
     // Force and torque about the anchor of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Sum(Batch<V> batch, int n, Node node, double rate)
+    private static void Sum(LaneBatch<V> batch, int n, RowBlock block, double rate)
     {
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
@@ -55,22 +55,22 @@ internal static class Reactions<V>
         LaneVector<V> torque = force;
         int row = batch.Shape.Pattern.Rows[n] * w;
         int i = 0;
-        if (node.LinearMask == 7)
+        if (block.LinearMask == 7)
         {
-            force = LaneVector<V>.Load(batch.Work.Total, row);
+            force = LaneVector<V>.Load(batch.Work.TotalImpulses, row);
             i = 3;
         }
 
-        for (; i < node.RigidRows; i++)
+        for (; i < block.BilateralCount; i++)
         {
-            Lane<V> impulse = Lane<V>.Load(batch.Work.Total, row + i * w);
+            Lane<V> impulse = Lane<V>.Load(batch.Work.TotalImpulses, row + i * w);
             int o = batch.Row(n, i, 0);
             torque += impulse * LaneVector<V>.Load(batch.Angular, o);
-            if (node.Classes[i] == RowClass.General)
+            if (block.Classes[i] == RowClass.General)
             {
                 LaneVector<V> share = impulse * LaneVector<V>.Load(batch.Linear, o);
                 force += share;
-                torque -= LaneVector<V>.Cross(LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), share);
+                torque -= LaneVector<V>.Cross(LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(0))), share);
             }
         }
 
@@ -78,12 +78,12 @@ internal static class Reactions<V>
         (times * torque).Store(batch.Work.Reaction, 3 * w);
     }
 
-    private static void AddLimits(Batch<V> batch, Laws<V> laws, int n, double rate, ref Vector3d force, ref Vector3d torque)
+    private static void AddLimits(LaneBatch<V> batch, ActiveSet<V> scalars, int n, double rate, ref Vector3d force, ref Vector3d torque)
     {
         Vector3d linear = Vector3d.Zero;
         Vector3d angular = Vector3d.Zero;
-        laws.AddLimits(n, ref linear, ref angular);
+        scalars.AddLimits(n, ref linear, ref angular);
         force += linear * rate;
-        torque += (angular - Vector3d.Cross(Transfer<V>.Vector(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(0))), linear)) * rate;
+        torque += (angular - Vector3d.Cross(LaneTransfer<V>.ReadVector(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(0))), linear)) * rate;
     }
 }

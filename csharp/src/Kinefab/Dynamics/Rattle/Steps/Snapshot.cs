@@ -9,30 +9,30 @@ internal sealed class Snapshot
     private readonly double[] _bodies;
     private readonly double[] _half;
     private readonly double[] _total;
-    private readonly LawHistory[] _laws;
+    private readonly WarmStart[] _laws;
 
-    public Snapshot(Batch<ScalarLane> batch)
+    public Snapshot(LaneBatch<ScalarLane> batch)
     {
         _bodies = new double[batch.Bodies.Length];
-        _half = new double[batch.Half.Length];
-        _total = new double[batch.Half.Length];
-        _laws = new LawHistory[batch.Shape.Laws];
+        _half = new double[batch.VelocityImpulses.Length];
+        _total = new double[batch.VelocityImpulses.Length];
+        _laws = new WarmStart[batch.Shape.ScalarCount];
     }
 
-    public void Save(Batch<ScalarLane> batch)
+    public void Save(LaneBatch<ScalarLane> batch)
     {
         Array.Copy(batch.Bodies, _bodies, _bodies.Length);
-        Array.Copy(batch.Half, _half, _half.Length);
-        Array.Copy(batch.Work.Total, _total, _total.Length);
-        batch.Laws?.Save(_laws);
+        Array.Copy(batch.VelocityImpulses, _half, _half.Length);
+        Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
+        batch.ActiveSet?.Save(_laws);
     }
 
-    public void Restore(Batch<ScalarLane> batch)
+    public void Restore(LaneBatch<ScalarLane> batch)
     {
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
-        Array.Copy(_half, batch.Half, _half.Length);
-        Array.Copy(_total, batch.Work.Total, _total.Length);
+        Array.Copy(_half, batch.VelocityImpulses, _half.Length);
+        Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);
         RattleStep<ScalarLane>.Rebuild(batch);
-        batch.Laws?.Restore(_laws);
+        batch.ActiveSet?.Restore(_laws);
     }
 }

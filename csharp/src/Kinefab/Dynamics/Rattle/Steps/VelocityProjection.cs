@@ -19,53 +19,53 @@ internal static class VelocityProjection<V>
 
     private const int MaxRefinements = 12;
 
-    /// <summary>For the active lanes; needs the rows at the end pose, and their factor where no row has a law.</summary>
-    /// <param name="batch">At the end of its flight.</param>
+    /// <summary>For the active lanes; needs the rows at the end pose, and their factor where no row has a scalar row.</summary>
+    /// <param name="batch">At the end of its drift.</param>
     /// <param name="h">Step, s; 0 without a kick.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
-    public static void Run(Batch<V> batch, double h, double tolerance)
+    public static void Run(LaneBatch<V> batch, double h, double tolerance)
     {
         RattleStep<V>.Kick(batch, h / 2);
-        if (batch.Laws != null)
+        if (batch.ActiveSet != null)
         {
-            RunWithLaws(batch, h, tolerance, batch.Laws);
+            RunWithActiveSet(batch, h, tolerance, batch.ActiveSet);
             return;
         }
 
-        if (batch.Shape.IsInexact)
+        if (batch.Shape.IsInconsistent)
         {
             RattleStep<V>.Factor(batch, false);
         }
 
         Impulses<V>.NegativeSpeeds(batch);
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
-        Copy(batch, batch.Work.Solution, batch.Half);
-        Impulses<V>.Apply(batch, batch.Half);
+        Copy(batch, batch.Work.Solution, batch.VelocityImpulses);
+        Impulses<V>.Apply(batch, batch.VelocityImpulses);
         Refine(batch, h);
     }
 
-    private static void RunWithLaws(Batch<V> batch, double h, double tolerance, Laws<V> laws)
+    private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars)
     {
-        laws.BeginProjection(tolerance * LimitReach);
+        scalars.BeginVelocities(tolerance * LimitReach);
         int length = batch.Shape.Pattern.RowCount;
-        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            Array.Clear(batch.Half, batch.Shape.Pattern.Rows[n], batch.Shape.Nodes[n].RigidRows);
+            Array.Clear(batch.VelocityImpulses, batch.Shape.Pattern.Rows[n], batch.Shape.Blocks[n].BilateralCount);
         }
 
         for (int pass = 0; ; pass++)
         {
             RattleStep<V>.Factor(batch, false);
             Impulses<V>.NegativeSpeeds(batch);
-            laws.AddTargets();
+            scalars.AddTargets();
             BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
             for (int i = 0; i < length; i++)
             {
-                batch.Half[i] += batch.Work.Solution[i];
+                batch.VelocityImpulses[i] += batch.Work.Solution[i];
             }
 
             Impulses<V>.Apply(batch, batch.Work.Solution);
-            if (!laws.UpdateProjection(pass, tolerance * LimitReach))
+            if (!scalars.UpdateVelocities(pass, tolerance * LimitReach))
             {
                 Refine(batch, h);
                 return;
@@ -74,19 +74,19 @@ internal static class VelocityProjection<V>
     }
 
     // A loop that is not exact has no speeds but those that its rows' compliance leaves.
-    private static void Refine(Batch<V> batch, double h)
+    private static void Refine(LaneBatch<V> batch, double h)
     {
-        if (!batch.Shape.IsRedundant || batch.Shape.Fit != LoopFit.Exact || !IsAnyLeft(batch, h * MostLeft))
+        if (!batch.Shape.IsRedundant || batch.Shape.Loops != LoopConsistency.Exact || !IsAnyLeft(batch, h * MostLeft))
         {
             return;
         }
 
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        Lane<V>.Load(batch.Work.Left, 0).Store(batch.Work.Active, 0);
+        Lane<V>.Load(batch.Work.Leftover, 0).Store(batch.Work.Active, 0);
         for (int i = 0; i < MaxRefinements; i++)
         {
             Impulses<V>.NegativeSpeeds(batch);
-            batch.Laws?.AddTargets();
+            batch.ActiveSet?.AddTargets();
             double[] error = batch.Work.Error;
             for (int k = 0; k < error.Length; k += Lane<V>.Width)
             {
@@ -98,33 +98,33 @@ internal static class VelocityProjection<V>
                 break;
             }
 
-            ChordIteration<V>.Correct(batch, 1, i == 0, batch.Half);
+            ChordIteration<V>.Correct(batch, 1, i == 0, batch.VelocityImpulses);
         }
 
         active.Store(batch.Work.Active, 0);
     }
 
     // Of the first solution; marks the lanes.
-    private static bool IsAnyLeft(Batch<V> batch, double limit)
+    private static bool IsAnyLeft(LaneBatch<V> batch, double limit)
     {
         int w = Lane<V>.Width;
         Lane<V> most = Lane<V>.Splat(0);
-        for (int i = 0; i < batch.Half.Length; i += w)
+        for (int i = 0; i < batch.VelocityImpulses.Length; i += w)
         {
-            most = Lane<V>.Max(most, Lane<V>.Abs(Lane<V>.Load(batch.Compliance, i) * Lane<V>.Load(batch.Half, i)));
+            most = Lane<V>.Max(most, Lane<V>.Abs(Lane<V>.Load(batch.Compliance, i) * Lane<V>.Load(batch.VelocityImpulses, i)));
         }
 
-        most.Store(batch.Work.Left, 0);
+        most.Store(batch.Work.Leftover, 0);
         for (int lane = 0; lane < w; lane++)
         {
-            batch.Work.Left[lane] = batch.Work.Left[lane] > limit ? batch.Work.Active[lane] : 0;
+            batch.Work.Leftover[lane] = batch.Work.Leftover[lane] > limit ? batch.Work.Active[lane] : 0;
         }
 
-        return IsAny(batch.Work.Left);
+        return IsAny(batch.Work.Leftover);
     }
 
     // Lanes whose rows have no speed left are done.
-    private static bool IsAnyKept(Batch<V> batch, double limit)
+    private static bool IsAnyKept(LaneBatch<V> batch, double limit)
     {
         int w = Lane<V>.Width;
         Lane<V> most = Lane<V>.Splat(0);
@@ -133,10 +133,10 @@ internal static class VelocityProjection<V>
             most = Lane<V>.Max(most, Lane<V>.Abs(Lane<V>.Load(batch.Work.Error, i)));
         }
 
-        most.Store(batch.Work.Left, 0);
+        most.Store(batch.Work.Leftover, 0);
         for (int lane = 0; lane < w; lane++)
         {
-            batch.Work.Active[lane] = batch.Work.Left[lane] > limit ? batch.Work.Active[lane] : 0;
+            batch.Work.Active[lane] = batch.Work.Leftover[lane] > limit ? batch.Work.Active[lane] : 0;
         }
 
         return IsAny(batch.Work.Active);
@@ -155,7 +155,7 @@ internal static class VelocityProjection<V>
         return false;
     }
 
-    private static void Copy(Batch<V> batch, double[] from, double[] to)
+    private static void Copy(LaneBatch<V> batch, double[] from, double[] to)
     {
         int w = Lane<V>.Width;
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);

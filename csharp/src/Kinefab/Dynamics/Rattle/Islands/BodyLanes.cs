@@ -4,7 +4,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// Where a body's numbers stand in its record (each number is Width lanes wide). World frame unless said; the body frame
 /// is that of the centre of mass and principal axes.
 /// </summary>
-internal static class BodySlot
+internal static class BodyLanes
 {
     /// <summary>Position of the centre of mass at the start of the step.</summary>
     public const int X = 0;
@@ -18,14 +18,14 @@ internal static class BodySlot
     /// <summary>Rotation at the start of the step, xyzw.</summary>
     public const int Q = 9;
 
-    /// <summary>Position and rotation at the end of the flight.</summary>
+    /// <summary>Position and rotation at the end of the drift.</summary>
     public const int EndX = 13;
     public const int EndQ = 16;
 
-    /// <summary>Angular velocity: the world's before and after a step; in it the flight's mean, of kinematic bodies and where laws need it.</summary>
+    /// <summary>Angular velocity: the world's before and after a step; in it the drift's mean, of kinematic bodies and where scalar rows need it.</summary>
     public const int W = 20;
 
-    /// <summary>Rotation matrix at the end of the flight, row-major.</summary>
+    /// <summary>Rotation matrix at the end of the drift, row-major.</summary>
     public const int R = 23;
 
     /// <summary>Inverse mass.</summary>
@@ -34,7 +34,7 @@ internal static class BodySlot
     /// <summary>Inverse principal moments.</summary>
     public const int InverseInertia = 33;
 
-    /// <summary>Inverse inertia at the end of the flight: xx, yy, zz, xy, xz, yz.</summary>
+    /// <summary>Inverse inertia at the end of the drift: xx, yy, zz, xy, xz, yz.</summary>
     public const int WorldInverse = 36;
 
     /// <summary>Gravity and forces over the mass; torques.</summary>
@@ -47,17 +47,17 @@ internal static class BodySlot
     /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
     public const int Stiffness = 49;
 
-    /// <summary>Angular momentum in the body's axes while they turn, in the order of its <see cref="Spin"/>.</summary>
-    public const int Local = 50;
+    /// <summary>Angular momentum in the body's axes while they turn, in the order of its <see cref="RotationSplitting"/>.</summary>
+    public const int BodyMomentum = 50;
 
     /// <summary>Principal moments; 0 for an infinite one.</summary>
     public const int Inertia = 53;
 
     /// <summary>What damping leaves of the linear and of the angular velocity in the step.</summary>
-    public const int Kept = 56;
+    public const int DampingFactors = 56;
 
     /// <summary>Largest angular speed, rad/s.</summary>
-    public const int MaxSpeed = 58;
+    public const int MaxAngularSpeed = 58;
 
     /// <summary>Least inverse principal moment but for those of frozen axes; 0 of a body that does not turn.</summary>
     public const int LeastInverseInertia = 59;

@@ -4,30 +4,30 @@ using Kinefab.Joints;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Tells when joints' fields ask for other rows than their nodes were made for. It looks at every joint in every step, with
-/// nothing of the nodes in between: in a large world each further object is one more wait for memory.
+/// Tells when joints' fields ask for other rows than their blocks were made for. It looks at every joint in every step, with
+/// nothing of the blocks in between: in a large world each further object is one more wait for memory.
 /// </summary>
-internal readonly struct RowWatch
+internal readonly struct LayoutWatch
 {
     private readonly JointModel[] _joints;
     private readonly int[] _signatures;
 
-    public RowWatch(List<Island> islands)
+    public LayoutWatch(List<Island> islands)
     {
         var joints = new List<JointModel>();
         foreach (Island island in islands)
         {
-            foreach (Node node in island.Nodes)
+            foreach (RowBlock block in island.Blocks)
             {
-                if (node.Joint != null)
+                if (block.Joint != null)
                 {
-                    joints.Add(node.Joint);
+                    joints.Add(block.Joint);
                 }
             }
         }
 
         _joints = joints.ToArray();
-        _signatures = joints.ConvertAll(Node.Signature).ToArray();
+        _signatures = joints.ConvertAll(RowBlock.Signature).ToArray();
     }
 
     /// <summary>Whether a joint broke or changed since.</summary>
@@ -35,7 +35,7 @@ internal readonly struct RowWatch
     {
         for (int i = 0; i < _joints.Length; i++)
         {
-            if (_joints[i].IsBroken || Node.Signature(_joints[i]) != _signatures[i])
+            if (_joints[i].IsBroken || RowBlock.Signature(_joints[i]) != _signatures[i])
             {
                 return true;
             }

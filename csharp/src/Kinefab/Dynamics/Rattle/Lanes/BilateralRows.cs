@@ -11,103 +11,103 @@ namespace Kinefab.Dynamics.Rattle;
 /// Angular, for two axes a of frame 0 and b of frame 1 that stay at right angles: C = a.b, J = (0, a x b; 0, -(a x b)).
 /// They span the same motions as the rows of <see cref="Joints.RowWriter.Locked"/>.
 /// </summary>
-internal static class RigidRows<V>
+internal static class BilateralRows<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Levers and axes in the world's axes at the end of the flight.</summary>
-    public static void Place(Batch<V> batch)
+    /// <summary>Levers and axes in the world's axes at the end of the drift.</summary>
+    public static void Place(LaneBatch<V> batch)
     {
-        Node[] nodes = batch.Shape.Nodes;
-        for (int n = 0; n < nodes.Length; n++)
+        RowBlock[] blocks = batch.Shape.Blocks;
+        for (int n = 0; n < blocks.Length; n++)
         {
-            if (nodes[n].Joint != null)
+            if (blocks[n].Joint != null)
             {
-                Place(batch, n, nodes[n], 0);
-                Place(batch, n, nodes[n], 1);
+                Place(batch, n, blocks[n], 0);
+                Place(batch, n, blocks[n], 1);
             }
         }
     }
 
-    /// <summary>Places levers and axes and finds C of all rows but those with a law.</summary>
-    public static void Evaluate(Batch<V> batch)
+    /// <summary>Places levers and axes and finds C of all rows but those with a scalar row.</summary>
+    public static void Evaluate(LaneBatch<V> batch)
     {
         Place(batch);
         int w = Lane<V>.Width;
-        Node[] nodes = batch.Shape.Nodes;
-        for (int n = 0; n < nodes.Length; n++)
+        RowBlock[] blocks = batch.Shape.Blocks;
+        for (int n = 0; n < blocks.Length; n++)
         {
-            Node node = nodes[n];
+            RowBlock block = blocks[n];
             int row = batch.Shape.Pattern.Rows[n] * w;
-            if (node.IsPrepared)
+            if (block.IsAssembled)
             {
-                PreparedRows<V>.Evaluate(batch, n);
+                AssembledRows<V>.Evaluate(batch, n);
             }
 
-            if (node.Joint != null)
+            if (block.Joint != null)
             {
-                int linear = EvaluateLinear(batch, n, node, row);
-                EvaluateAngular(batch, n, node, row + linear * w);
+                int linear = EvaluateLinear(batch, n, block, row);
+                EvaluateAngular(batch, n, block, row + linear * w);
             }
         }
 
-        if (batch.SoftStep > 0)
+        if (batch.CompliantStep > 0)
         {
-            SoftAngles<V>.Evaluate(batch);
+            CompliantAngles<V>.Evaluate(batch);
         }
 
     }
 
     /// <summary>J of all rows where levers and axes were last placed.</summary>
-    public static void Build(Batch<V> batch)
+    public static void Build(LaneBatch<V> batch)
     {
-        Node[] nodes = batch.Shape.Nodes;
-        for (int n = 0; n < nodes.Length; n++)
+        RowBlock[] blocks = batch.Shape.Blocks;
+        for (int n = 0; n < blocks.Length; n++)
         {
-            if (nodes[n].Joint != null)
+            if (blocks[n].Joint != null)
             {
                 int row = batch.Row(n, 0, 0);
                 int stride = 6 * Lane<V>.Width;
-                if (nodes[n].LinearMask == 7)
+                if (blocks[n].LinearMask == 7)
                 {
-                    BuildAnchor(batch, n, row);
+                    BuildPoint(batch, n, row);
                     row += 3 * stride;
                 }
                 else
                 {
                     for (int axis = 0; axis < 3; axis++)
                     {
-                        if ((nodes[n].LinearMask & (1 << axis)) != 0)
+                        if ((blocks[n].LinearMask & (1 << axis)) != 0)
                         {
-                            BuildAlong(batch, n, nodes[n], axis, row);
+                            BuildAlong(batch, n, blocks[n], axis, row);
                             row += stride;
                         }
                     }
                 }
 
-                for (int i = 0; i < nodes[n].Turns; i++, row += stride)
+                for (int i = 0; i < blocks[n].LockedRotations; i++, row += stride)
                 {
-                    BuildTurn(batch, n, nodes[n], i, row);
+                    BuildRotation(batch, n, blocks[n], i, row);
                 }
             }
 
-            if (nodes[n].IsPrepared)
+            if (blocks[n].IsAssembled)
             {
-                PreparedRows<V>.Build(batch, n);
+                AssembledRows<V>.Build(batch, n);
             }
         }
     }
 
-    private static void Place(Batch<V> batch, int n, Node node, int side)
+    private static void Place(LaneBatch<V> batch, int n, RowBlock block, int side)
     {
-        int body = node.Bodies[side];
+        int body = block.Bodies[side];
         if (batch.Shape.IsStatic[body])
         {
             return;
         }
 
         ToWorld(
-            batch.Bodies, Batch<V>.Body(body, BodySlot.R), batch.Joints, Batch<V>.Joint(n, Batch<V>.Frame(side)),
-            Batch<V>.Joint(n, Batch<V>.Placed(side)), side == 0 ? node.PlacedMask0 : node.PlacedMask1);
+            batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.R), batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(side)),
+            LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)), side == 0 ? block.WorldLeverMask0 : block.WorldLeverMask1);
     }
 
     // Turns those vectors of a frame that the mask names, by one matrix.
@@ -129,16 +129,16 @@ internal static class RigidRows<V>
     }
 
     // Returns the number of rows.
-    private static int EvaluateLinear(Batch<V> batch, int n, Node node, int row)
+    private static int EvaluateLinear(LaneBatch<V> batch, int n, RowBlock block, int row)
     {
-        if (node.LinearMask == 0)
+        if (block.LinearMask == 0)
         {
             return 0;
         }
 
-        int x0 = Batch<V>.Body(node.Bodies[0], BodySlot.EndX);
-        int x1 = Batch<V>.Body(node.Bodies[1], BodySlot.EndX);
-        if (node.LinearMask == 7)
+        int x0 = LaneBatch<V>.Body(block.Bodies[0], BodyLanes.EndX);
+        int x1 = LaneBatch<V>.Body(block.Bodies[1], BodyLanes.EndX);
+        if (block.LinearMask == 7)
         {
             Gap(batch, n, x0, x1).Store(batch.Work.Error, row);
             return 3;
@@ -147,7 +147,7 @@ internal static class RigidRows<V>
         int rows = 0;
         for (int axis = 0; axis < 3; axis++)
         {
-            if ((node.LinearMask & (1 << axis)) != 0)
+            if ((block.LinearMask & (1 << axis)) != 0)
             {
                 GapAlong(batch, n, x0, x1, axis, row + rows * Lane<V>.Width);
                 rows++;
@@ -158,24 +158,24 @@ internal static class RigidRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void GapAlong(Batch<V> batch, int n, int x0, int x1, int axis, int row) =>
+    private static void GapAlong(LaneBatch<V> batch, int n, int x0, int x1, int axis, int row) =>
         LaneVector<V>.Dot(Axis(batch, n, 0, axis), Gap(batch, n, x0, x1)).Store(batch.Work.Error, row);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Gap(Batch<V> batch, int n, int x0, int x1) =>
+    private static LaneVector<V> Gap(LaneBatch<V> batch, int n, int x0, int x1) =>
         (LaneVector<V>.Load(batch.Bodies, x0) + Lever(batch, n, 0)) - (LaneVector<V>.Load(batch.Bodies, x1) + Lever(batch, n, 1));
 
-    private static void EvaluateAngular(Batch<V> batch, int n, Node node, int row)
+    private static void EvaluateAngular(LaneBatch<V> batch, int n, RowBlock block, int row)
     {
-        for (int i = 0; i < node.Turns; i++, row += Lane<V>.Width)
+        for (int i = 0; i < block.LockedRotations; i++, row += Lane<V>.Width)
         {
-            node.Turn(i, out int axis0, out int axis1);
+            block.RotationPlane(i, out int axis0, out int axis1);
             LaneVector<V>.Dot(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1)).Store(batch.Work.Error, row);
         }
     }
 
     /// <summary>The largest error of all rows, its largest change and the largest gap, of each lane.</summary>
-    public static void Rate(Batch<V> batch)
+    public static void MeasureErrors(LaneBatch<V> batch)
     {
         int w = Lane<V>.Width;
         double[] errors = batch.Work.Error;
@@ -213,7 +213,7 @@ internal static class RigidRows<V>
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildAnchor(Batch<V> batch, int n, int row)
+    private static void BuildPoint(LaneBatch<V> batch, int n, int row)
     {
         double[] rows = batch.Angular;
         int side = 3 * Lane<V>.Width;
@@ -229,10 +229,10 @@ internal static class RigidRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildAlong(Batch<V> batch, int n, Node node, int axis, int row)
+    private static void BuildAlong(LaneBatch<V> batch, int n, RowBlock block, int axis, int row)
     {
         int side = 3 * Lane<V>.Width;
-        LaneVector<V> gap = Gap(batch, n, Batch<V>.Body(node.Bodies[0], BodySlot.EndX), Batch<V>.Body(node.Bodies[1], BodySlot.EndX));
+        LaneVector<V> gap = Gap(batch, n, LaneBatch<V>.Body(block.Bodies[0], BodyLanes.EndX), LaneBatch<V>.Body(block.Bodies[1], BodyLanes.EndX));
         LaneVector<V> a = Axis(batch, n, 0, axis);
         a.Store(batch.Linear, row);
         LaneVector<V>.Cross(Lever(batch, n, 0) - gap, a).Store(batch.Angular, row);
@@ -241,18 +241,18 @@ internal static class RigidRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildTurn(Batch<V> batch, int n, Node node, int i, int row)
+    private static void BuildRotation(LaneBatch<V> batch, int n, RowBlock block, int i, int row)
     {
-        node.Turn(i, out int axis0, out int axis1);
+        block.RotationPlane(i, out int axis0, out int axis1);
         LaneVector<V> turn = LaneVector<V>.Cross(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1));
         turn.Store(batch.Angular, row);
         (-turn).Store(batch.Angular, row + 3 * Lane<V>.Width);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Lever(Batch<V> batch, int n, int side) => LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)));
+    private static LaneVector<V> Lever(LaneBatch<V> batch, int n, int side) => LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Axis(Batch<V> batch, int n, int side, int axis) =>
-        LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side) + 3 * (axis + 1)));
+    private static LaneVector<V> Axis(LaneBatch<V> batch, int n, int side, int axis) =>
+        LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side) + 3 * (axis + 1)));
 }

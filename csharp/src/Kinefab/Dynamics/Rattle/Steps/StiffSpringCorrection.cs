@@ -4,27 +4,27 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// A spring too stiff for the step spends its impulse before the flight (<see cref="Law.Theta"/> above 1/2). The half of the
+/// A spring too stiff for the step spends its impulse before the drift (<see cref="ScalarRow.Theta"/> above 1/2). The half of the
 /// other forces that acts after it meets no answer and leaves a speed of h F / 2 m, even of a body that stands still; the
-/// next flight takes it up. What a step shows has that answer, -Grip (v' - v) against the flight's speed v, with the rows
+/// next drift takes it up. What a step shows has that answer, -Grip (v' - v) against the drift's speed v, with the rows
 /// held; where the next step begins it is taken back, so that motion and account of energy are those of the impulses alone.
 /// </summary>
-internal sealed class SpringAnswer
+internal sealed class StiffSpringCorrection
 {
     // Of the solve, since the matrix's compliance leaves rows speed, see VelocityProjection.
     private const int Passes = 3;
 
-    private readonly Batch<ScalarLane> _batch;
+    private readonly LaneBatch<ScalarLane> _batch;
     private readonly Bodies _bodies;
 
     // Of each moving body, without the answer.
     private readonly Vector3d[] _linear;
     private readonly Vector3d[] _angular;
-    private bool _isGiven;
+    private bool _isApplied;
 
-    /// <param name="batch">Of an island with laws.</param>
+    /// <param name="batch">Of an island with scalar rows.</param>
     /// <param name="bodies">The world's.</param>
-    public SpringAnswer(Batch<ScalarLane> batch, Bodies bodies)
+    public StiffSpringCorrection(LaneBatch<ScalarLane> batch, Bodies bodies)
     {
         _batch = batch;
         _bodies = bodies;
@@ -33,22 +33,22 @@ internal sealed class SpringAnswer
     }
 
     /// <summary>Before a step is loaded. Velocities that were written since are those of the program that wrote them.</summary>
-    public void TakeBack()
+    public void Undo()
     {
         double[] a = _batch.Bodies;
-        for (int body = 0; body < _linear.Length && _isGiven; body++)
+        for (int body = 0; body < _linear.Length && _isApplied; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
             int member = _batch.Members[body];
-            if (_bodies.LinearVelocities[member] == Transfer<ScalarLane>.Vector(a, o + BodySlot.V)
-                && _bodies.AngularVelocities[member] == Transfer<ScalarLane>.Vector(a, o + BodySlot.W))
+            if (_bodies.LinearVelocities[member] == LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.V)
+                && _bodies.AngularVelocities[member] == LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.W))
             {
                 _bodies.LinearVelocities[member] = _linear[body];
                 _bodies.AngularVelocities[member] = _angular[body];
             }
         }
 
-        _isGiven = false;
+        _isApplied = false;
     }
 
     /// <summary>What the next step takes from those before it.</summary>
@@ -56,25 +56,25 @@ internal sealed class SpringAnswer
     {
         tape.Array(_linear);
         tape.Array(_angular);
-        tape.Value(ref _isGiven);
+        tape.Value(ref _isApplied);
     }
 
     /// <summary>Where a step ends, with the rows built there.</summary>
-    public void Give()
+    public void Apply()
     {
-        Laws<ScalarLane> laws = _batch.Laws!;
-        _isGiven = laws.BeginAnswer();
-        if (!_isGiven)
+        ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
+        _isApplied = scalars.BeginCorrection();
+        if (!_isApplied)
         {
             return;
         }
 
-        Transfer<ScalarLane>.Finish(_batch);
+        LaneTransfer<ScalarLane>.EndStep(_batch);
         for (int body = 0; body < _linear.Length; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
-            _linear[body] = Transfer<ScalarLane>.Vector(_batch.Bodies, o + BodySlot.V);
-            _angular[body] = Transfer<ScalarLane>.Vector(_batch.Bodies, o + BodySlot.W);
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            _linear[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.V);
+            _angular[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.W);
         }
 
         double[] solution = _batch.Work.Solution;
@@ -85,8 +85,8 @@ internal sealed class SpringAnswer
         for (int pass = 0; pass < Passes; pass++)
         {
             Impulses<ScalarLane>.NegativeSpeeds(_batch);
-            laws.AddTargets();
-            laws.TakeAnswers(sum);
+            scalars.AddTargets();
+            scalars.SubtractCorrections(sum);
             BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, solution);
             Impulses<ScalarLane>.Apply(_batch, solution);
             for (int i = 0; i < sum.Length; i++)
@@ -95,6 +95,6 @@ internal sealed class SpringAnswer
             }
         }
 
-        laws.EndAnswer();
+        scalars.EndCorrection();
     }
 }

@@ -12,13 +12,13 @@ namespace Kinefab.Dynamics.Rattle;
 /// Only loops that are not exact need that softness. What the rows are solved for is the true residual, so consistent loops still
 /// close to the tolerance. Without loops no row is redundant, and the share would only hide the slow modes of long chains.
 /// </summary>
-internal static class ResponseMatrix<V>
+internal static class DelassusMatrix<V>
     where V : struct, ILane<V>
 {
     /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps: of exact loops, and of loose ones.</summary>
     private const double LinearShare = 1e-6;
     public const double AngularShare = 1e-4;
-    public const double LooseShare = 1e-3;
+    public const double RoundedShare = 1e-3;
 
     private const int HingeRows = 5;
 
@@ -29,13 +29,13 @@ internal static class ResponseMatrix<V>
     private const double LeastPart = 1e-5;
 
     /// <summary>The same in loops whose axes are off: softer than a misalignment, harder than a freedom.</summary>
-    public const double InexactShare = 0.1;
+    public const double InconsistentShare = 0.1;
 
     /// <summary>The same in their projection, in which their angles take no part.</summary>
-    public const double NoPartShare = 1e9;
+    public const double UnconstrainedShare = 1e9;
 
     /// <summary>World inverse inertias from R and the principal moments.</summary>
-    public static void InverseInertias(Batch<V> batch)
+    public static void InverseInertias(LaneBatch<V> batch)
     {
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -48,14 +48,14 @@ internal static class ResponseMatrix<V>
     private static void InverseInertia(double[] a, int body)
     {
         int w = Lane<V>.Width;
-        int r = Batch<V>.Body(body, BodySlot.R);
-        LaneVector<V> inverse = LaneVector<V>.Load(a, Batch<V>.Body(body, BodySlot.InverseInertia));
+        int r = LaneBatch<V>.Body(body, BodyLanes.R);
+        LaneVector<V> inverse = LaneVector<V>.Load(a, LaneBatch<V>.Body(body, BodyLanes.InverseInertia));
         LaneVector<V> x = LaneVector<V>.Load(a, r);
         LaneVector<V> y = LaneVector<V>.Load(a, r + 3 * w);
         LaneVector<V> z = LaneVector<V>.Load(a, r + 6 * w);
         LaneVector<V> sx = LaneVector<V>.Scale(inverse, x);
         LaneVector<V> sy = LaneVector<V>.Scale(inverse, y);
-        int o = Batch<V>.Body(body, BodySlot.WorldInverse);
+        int o = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
         LaneVector<V>.Dot(sx, x).Store(a, o);
         LaneVector<V>.Dot(sy, y).Store(a, o + w);
         LaneVector<V>.Dot(LaneVector<V>.Scale(inverse, z), z).Store(a, o + 2 * w);
@@ -65,22 +65,22 @@ internal static class ResponseMatrix<V>
     }
 
     /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
-    public static void Assemble(Batch<V> batch, double angularShare, double linearShare = LinearShare)
+    public static void Assemble(LaneBatch<V> batch, double angularShare, double linearShare = LinearShare)
     {
         Array.Clear(batch.Matrix, 0, batch.Matrix.Length);
-        for (int n = 0; n < batch.Shape.Nodes.Length; n++)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            Node node = batch.Shape.Nodes[n];
-            for (int side = 0; side < node.Bodies.Length; side++)
+            RowBlock block = batch.Shape.Blocks[n];
+            for (int side = 0; side < block.Bodies.Length; side++)
             {
-                if (node.Bodies[side] < batch.Shape.MovingBodies)
+                if (block.Bodies[side] < batch.Shape.MovingBodies)
                 {
-                    Responses(batch, n, node, side);
-                    AddDiagonal(batch, n, node, side);
+                    Responses(batch, n, block, side);
+                    AddDiagonal(batch, n, block, side);
                 }
             }
 
-            Regularise(batch, n, node, angularShare, linearShare);
+            Regularise(batch, n, block, angularShare, linearShare);
         }
 
         foreach (Island.Link link in batch.Shape.Links)
@@ -103,21 +103,21 @@ internal static class ResponseMatrix<V>
             xz * v.X + yz * v.Y + Lane<V>.Load(bodies, inverse + 2 * w) * v.Z);
     }
 
-    private static void Responses(Batch<V> batch, int n, Node node, int side)
+    private static void Responses(LaneBatch<V> batch, int n, RowBlock block, int side)
     {
         int w = Lane<V>.Width;
-        int inverse = Batch<V>.Body(node.Bodies[side], BodySlot.WorldInverse);
-        int stride = 3 * node.Bodies.Length * w;
+        int inverse = LaneBatch<V>.Body(block.Bodies[side], BodyLanes.WorldInverse);
+        int stride = 3 * block.Bodies.Length * w;
         int o = batch.Row(n, 0, side);
         int i = 0;
-        if (node.IsAnchor)
+        if (block.IsPointJoint)
         {
-            AnchorResponses(batch, inverse, o);
+            PointResponses(batch, inverse, o);
             i = 3;
             o += 3 * stride;
         }
 
-        for (; i < node.Rows; i++, o += stride)
+        for (; i < block.Rows; i++, o += stride)
         {
             Turn(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
         }
@@ -125,12 +125,12 @@ internal static class ResponseMatrix<V>
 
     // I^-1 (r x e) for e = x, y, z, by the columns of I^-1.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AnchorResponses(Batch<V> batch, int inverse, int o)
+    private static void PointResponses(LaneBatch<V> batch, int inverse, int o)
     {
         double[] a = batch.Bodies;
         double[] responses = batch.Work.Response;
         int w = Lane<V>.Width;
-        LaneVector<V> r = RigidRows<V>.BuiltLever(batch.Angular, o);
+        LaneVector<V> r = BilateralRows<V>.BuiltLever(batch.Angular, o);
         Lane<V> xy = Lane<V>.Load(a, inverse + 3 * w), xz = Lane<V>.Load(a, inverse + 4 * w), yz = Lane<V>.Load(a, inverse + 5 * w);
         var x = new LaneVector<V>(Lane<V>.Load(a, inverse), xy, xz);
         var y = new LaneVector<V>(xy, Lane<V>.Load(a, inverse + w), yz);
@@ -140,77 +140,77 @@ internal static class ResponseMatrix<V>
         (r.Y * x - r.X * y).Store(responses, o + 12 * w);
     }
 
-    private static void AddDiagonal(Batch<V> batch, int n, Node node, int side)
+    private static void AddDiagonal(LaneBatch<V> batch, int n, RowBlock block, int side)
     {
         int first = batch.Row(n, 0, side);
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
-        if (node.IsAnchor)
+        if (block.IsPointJoint)
         {
-            AddAnchorTurns(batch, first, node, first, node, cell);
+            AddPointRotations(batch, first, block, first, block, cell);
         }
         else
         {
-            for (int i = 0; i < node.Rows; i++)
+            for (int i = 0; i < block.Rows; i++)
             {
-                AddTurns(batch, first, i, node, first, i + 1, node, cell + i * node.Rows * Lane<V>.Width);
+                AddRotations(batch, first, i, block, first, i + 1, block, cell + i * block.Rows * Lane<V>.Width);
             }
         }
 
-        AddMasses(batch, node.Bodies[side], node, side, first, node, side, first, cell, true);
+        AddInverseMasses(batch, block.Bodies[side], block, side, first, block, side, first, cell, true);
     }
 
-    private static void AddLink(Batch<V> batch, in Island.Link link)
+    private static void AddLink(LaneBatch<V> batch, in Island.Link link)
     {
-        Node later = batch.Shape.Nodes[link.Later];
-        Node earlier = batch.Shape.Nodes[link.Earlier];
+        RowBlock later = batch.Shape.Blocks[link.Later];
+        RowBlock earlier = batch.Shape.Blocks[link.Earlier];
         int firstI = batch.Row(link.Later, 0, link.LaterSide);
         int firstJ = batch.Row(link.Earlier, 0, link.EarlierSide);
         int cell = link.Block * Lane<V>.Width;
-        if (earlier.IsAnchor)
+        if (earlier.IsPointJoint)
         {
-            AddAnchorTurns(batch, firstI, later, firstJ, earlier, cell);
+            AddPointRotations(batch, firstI, later, firstJ, earlier, cell);
         }
         else
         {
             for (int i = 0; i < later.Rows; i++)
             {
-                AddTurns(batch, firstI, i, later, firstJ, earlier.Rows, earlier, cell + i * earlier.Rows * Lane<V>.Width);
+                AddRotations(batch, firstI, i, later, firstJ, earlier.Rows, earlier, cell + i * earlier.Rows * Lane<V>.Width);
             }
         }
 
-        AddMasses(batch, link.Body, later, link.LaterSide, firstI, earlier, link.EarlierSide, firstJ, cell, false);
+        AddInverseMasses(batch, link.Body, later, link.LaterSide, firstI, earlier, link.EarlierSide, firstJ, cell, false);
     }
 
-    // Adds the products of a row's response with the angular parts of the first count rows of a node to neighbouring cells.
+    // Adds the products of a row's response with the angular parts of the first count rows of a block to neighbouring cells.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddTurns(Batch<V> batch, int firstI, int i, Node nodeI, int firstJ, int count, Node nodeJ, int cell)
+    private static void AddRotations(LaneBatch<V> batch, int firstI, int i, RowBlock blockI, int firstJ, int count, RowBlock blockJ, int cell)
     {
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        LaneVector<V> response = LaneVector<V>.Load(batch.Work.Response, firstI + 3 * i * nodeI.Bodies.Length * w);
-        int stride = 3 * nodeJ.Bodies.Length * w;
+        LaneVector<V> response = LaneVector<V>.Load(batch.Work.Response, firstI + 3 * i * blockI.Bodies.Length * w);
+        int stride = 3 * blockJ.Bodies.Length * w;
         for (int end = cell + count * w; cell < end; cell += w, firstJ += stride)
         {
             (Lane<V>.Load(matrix, cell) + LaneVector<V>.Dot(response, LaneVector<V>.Load(rows, firstJ))).Store(matrix, cell);
         }
     }
 
-    // The same for all rows of the first node where the second is an anchor: the products of q with r x e for e = x, y, z are
-    // q x r; the two turns of a hinge stay in registers. Of a node with itself the factor does not read what stands above the
+    // The same for all rows of the first block where the second is an anchor: the products of q with r x e for e = x, y, z are
+    // q x r; the two turns of a hinge stay in registers. Of a block with itself the factor does not read what stands above the
     // triangle.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddAnchorTurns(Batch<V> batch, int firstI, Node nodeI, int firstJ, Node nodeJ, int cell)
+    private static void AddPointRotations(LaneBatch<V> batch, int firstI, RowBlock blockI, int firstJ, RowBlock blockJ, int cell)
     {
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        int strideI = 3 * nodeI.Bodies.Length * w;
-        bool isHinge = nodeJ.Rows >= HingeRows;
-        LaneVector<V> r = RigidRows<V>.BuiltLever(rows, firstJ);
+        int strideI = 3 * blockI.Bodies.Length * w;
+        bool isHinge = blockJ.Rows >= HingeRows;
+        LaneVector<V> r = BilateralRows<V>.BuiltLever(rows, firstJ);
         LaneVector<V> turn3 = isHinge ? LaneVector<V>.Load(rows, firstJ + 18 * w) : r;
         LaneVector<V> turn4 = isHinge ? LaneVector<V>.Load(rows, firstJ + 24 * w) : r;
-        for (int i = 0; i < nodeI.Rows; i++, firstI += strideI, cell += nodeJ.Rows * w)
+        for (int i = 0; i < blockI.Rows; i++, firstI += strideI, cell += blockJ.Rows * w)
         {
             LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
             (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, r)).Store(matrix, cell);
@@ -222,7 +222,7 @@ internal static class ResponseMatrix<V>
                 j = HingeRows;
             }
 
-            for (; j < nodeJ.Rows; j++)
+            for (; j < blockJ.Rows; j++)
             {
                 Lane<V> product = LaneVector<V>.Dot(q, LaneVector<V>.Load(rows, firstJ + 6 * j * w));
                 (Lane<V>.Load(matrix, cell + j * w) + product).Store(matrix, cell + j * w);
@@ -230,38 +230,38 @@ internal static class ResponseMatrix<V>
         }
     }
 
-    // Adds the products of the linear parts over the mass; the lower triangle alone of a node with itself.
-    private static void AddMasses(
-        Batch<V> batch, int body, Node nodeI, int sideI, int firstI, Node nodeJ, int sideJ, int firstJ, int cell, bool isTriangle)
+    // Adds the products of the linear parts over the mass; the lower triangle alone of a block with itself.
+    private static void AddInverseMasses(
+        LaneBatch<V> batch, int body, RowBlock blockI, int sideI, int firstI, RowBlock blockJ, int sideJ, int firstJ, int cell, bool isTriangle)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.InverseMass));
-        if (nodeI.LinearMask == 7 && nodeJ.LinearMask == 7)
+        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.InverseMass));
+        if (blockI.LinearMask == 7 && blockJ.LinearMask == 7)
         {
             Lane<V> share = sideI == sideJ ? inverseMass : Lane<V>.Splat(0) - inverseMass;
             for (int i = 0; i < 3; i++)
             {
-                int at = cell + i * (nodeJ.Rows + 1) * w;
+                int at = cell + i * (blockJ.Rows + 1) * w;
                 (Lane<V>.Load(matrix, at) + share).Store(matrix, at);
             }
         }
 
-        if (!nodeI.HasGeneralRows && !nodeJ.HasGeneralRows)
+        if (!blockI.HasGeneralRows && !blockJ.HasGeneralRows)
         {
             return;
         }
 
-        int strideI = 3 * nodeI.Bodies.Length * w;
-        int strideJ = 3 * nodeJ.Bodies.Length * w;
-        for (int i = 0; i < nodeI.Rows; i++)
+        int strideI = 3 * blockI.Bodies.Length * w;
+        int strideJ = 3 * blockJ.Bodies.Length * w;
+        for (int i = 0; i < blockI.Rows; i++)
         {
-            int end = isTriangle ? i + 1 : nodeJ.Rows;
+            int end = isTriangle ? i + 1 : blockJ.Rows;
             for (int j = 0; j < end; j++)
             {
-                int at = cell + (i * nodeJ.Rows + j) * w;
-                RowClass classI = nodeI.Classes[i];
-                RowClass classJ = nodeJ.Classes[j];
+                int at = cell + (i * blockJ.Rows + j) * w;
+                RowClass classI = blockI.Classes[i];
+                RowClass classJ = blockJ.Classes[j];
                 if (classI == RowClass.General && classJ == RowClass.General)
                 {
                     AddProduct(batch, inverseMass, firstI + i * strideI, firstJ + j * strideJ, at);
@@ -278,66 +278,66 @@ internal static class ResponseMatrix<V>
         }
     }
 
-    private static void AddProduct(Batch<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
+    private static void AddProduct(LaneBatch<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
     {
         Lane<V> product = inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(batch.Linear, oi), LaneVector<V>.Load(batch.Linear, oj));
         (Lane<V>.Load(batch.Matrix, cell) + product).Store(batch.Matrix, cell);
     }
 
     // Of a general row with one along an axis of the world, which is reversed on side 1.
-    private static void AddComponent(Batch<V> batch, Lane<V> inverseMass, int component, int side, int cell)
+    private static void AddComponent(LaneBatch<V> batch, Lane<V> inverseMass, int component, int side, int cell)
     {
         Lane<V> product = inverseMass * Lane<V>.Load(batch.Linear, component);
         Lane<V> sum = Lane<V>.Load(batch.Matrix, cell);
         (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
     }
 
-    private static void Regularise(Batch<V> batch, int n, Node node, double angularShare, double linearShare)
+    private static void Regularise(LaneBatch<V> batch, int n, RowBlock block, double angularShare, double linearShare)
     {
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
         if (batch.Shape.IsRedundant)
         {
             int row = batch.Shape.Pattern.Rows[n] * Lane<V>.Width;
-            Lane<V> least = batch.Shape.Fit == LoopFit.Exact ? LeastResponse(batch, node) : Lane<V>.Splat(double.PositiveInfinity);
-            RegulariseLoop(batch, node, row, cell, least, angularShare, linearShare);
+            Lane<V> least = batch.Shape.Loops == LoopConsistency.Exact ? LeastResponse(batch, block) : Lane<V>.Splat(double.PositiveInfinity);
+            RegulariseLoops(batch, block, row, cell, least, angularShare, linearShare);
         }
         else
         {
-            RegulariseTree(batch.Matrix, node, cell);
+            RegulariseTree(batch.Matrix, block, cell);
         }
     }
 
-    private static void RegulariseTree(double[] matrix, Node node, int cell)
+    private static void RegulariseTree(double[] matrix, RowBlock block, int cell)
     {
         int w = Lane<V>.Width;
         Lane<V> share = Lane<V>.Splat(TreeShare);
-        for (int i = 0; i < node.RigidRows; i++, cell += (node.Rows + 1) * w)
+        for (int i = 0; i < block.BilateralCount; i++, cell += (block.Rows + 1) * w)
         {
             Lane<V> response = Lane<V>.Load(matrix, cell);
             (response + share * response).Store(matrix, cell);
         }
     }
 
-    // What the largest moments of a node's bodies would answer.
-    private static Lane<V> LeastResponse(Batch<V> batch, Node node)
+    // What the largest moments of a block's bodies would answer.
+    private static Lane<V> LeastResponse(LaneBatch<V> batch, RowBlock block)
     {
         Lane<V> least = Lane<V>.Splat(0);
-        foreach (int body in node.Bodies)
+        foreach (int body in block.Bodies)
         {
-            least += Lane<V>.Load(batch.Bodies, Batch<V>.Body(body, BodySlot.LeastInverseInertia));
+            least += Lane<V>.Load(batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.LeastInverseInertia));
         }
 
         return least;
     }
 
     // Least is infinite where angular rows get their share of the whole diagonal.
-    private static void RegulariseLoop(Batch<V> batch, Node node, int row, int cell, Lane<V> least, double angularShare, double linearShare)
+    private static void RegulariseLoops(LaneBatch<V> batch, RowBlock block, int row, int cell, Lane<V> least, double angularShare, double linearShare)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        for (int i = 0; i < node.RigidRows; i++, row += w, cell += (node.Rows + 1) * w)
+        for (int i = 0; i < block.BilateralCount; i++, row += w, cell += (block.Rows + 1) * w)
         {
-            bool isAngular = node.Classes[i] == RowClass.Angular;
+            bool isAngular = block.Classes[i] == RowClass.Angular;
             Lane<V> response = Lane<V>.Load(matrix, cell);
             Lane<V> slow = isAngular ? Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response)) : response;
             Lane<V> compliance = Lane<V>.Splat(isAngular ? angularShare : linearShare) * slow;

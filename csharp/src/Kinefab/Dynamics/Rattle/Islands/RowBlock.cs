@@ -5,7 +5,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>Which closed form gives a joint's locked angular rows.</summary>
-internal enum AngularRows : byte
+internal enum AngularForm : byte
 {
     None,
 
@@ -28,7 +28,7 @@ internal enum AngularRows : byte
 /// <summary>What is known of a row's linear part before any pose is.</summary>
 internal enum RowClass : byte
 {
-    /// <summary>Along the world's X, Y or Z, positive on the node's first body and negative on its second.</summary>
+    /// <summary>Along the world's X, Y or Z, positive on the block's first body and negative on its second.</summary>
     UnitX,
     UnitY,
     UnitZ,
@@ -41,10 +41,10 @@ internal enum RowClass : byte
 }
 
 /// <summary>
-/// The rows of one joint or coupling as one block of the matrix: rigid rows first, then one row for each law (limit, drive,
+/// The rows of one joint or coupling as one block of the matrix: rigid rows first, then one row for each scalar row (limit, drive,
 /// motor, spring) that the joint may ever apply, at work or not, so that the pattern never changes.
 /// </summary>
-internal sealed class Node
+internal sealed class RowBlock
 {
     /// <summary>Joint in the mechanism, or null for a coupling.</summary>
     public readonly JointModel? Joint;
@@ -58,15 +58,15 @@ internal sealed class Node
 
     /// <summary>Locked linear axes of frame 0 as a bit mask; 7 is written in the world's axes instead.</summary>
     public readonly int LinearMask;
-    public readonly AngularRows Angular;
-    public readonly int RigidRows;
+    public readonly AngularForm Angular;
+    public readonly int BilateralCount;
 
     /// <summary>Angular rows in closed form, each of two axes that stay at right angles.</summary>
-    public readonly int Turns;
+    public readonly int LockedRotations;
 
     /// <summary>What of frame 0 and 1 the rigid rows need in the world's axes: bit 0 the lever, bits 1 to 3 the axes.</summary>
-    public readonly int PlacedMask0;
-    public readonly int PlacedMask1;
+    public readonly int WorldLeverMask0;
+    public readonly int WorldLeverMask1;
 
     /// <summary>Slots for drive rows, in Prepare's order, then for limits: cone, angles, distance.</summary>
     public readonly int Drives;
@@ -79,12 +79,12 @@ internal sealed class Node
     public readonly bool HasGeneralRows;
 
     /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>
-    public readonly bool IsAnchor;
+    public readonly bool IsPointJoint;
 
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
-    public Node(JointModel joint, int index, int[] bodies)
+    public RowBlock(JointModel joint, int index, int[] bodies)
     {
         Joint = joint;
         Index = index;
@@ -95,7 +95,7 @@ internal sealed class Node
         {
             LinearMask = 7;
             bool isLocked = hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper;
-            Angular = isLocked ? AngularRows.All : AngularRows.HingeX;
+            Angular = isLocked ? AngularForm.All : AngularForm.HingeX;
             if (!isLocked)
             {
                 Drives = hinge.MotorEnabled || hinge.Spring.IsActive ? 1 : 0;
@@ -108,12 +108,12 @@ internal sealed class Node
             int angular = Locked(d6.Twist, 1) | Locked(d6.Swing(d6.Swing1), 2) | Locked(d6.Swing(d6.Swing2), 4);
             Angular = angular switch
             {
-                0 => AngularRows.None,
-                6 => AngularRows.HingeX,
-                5 => AngularRows.HingeY,
-                3 => AngularRows.HingeZ,
-                7 => AngularRows.All,
-                _ => AngularRows.Prepared,
+                0 => AngularForm.None,
+                6 => AngularForm.HingeX,
+                5 => AngularForm.HingeY,
+                3 => AngularForm.HingeZ,
+                7 => AngularForm.All,
+                _ => AngularForm.Prepared,
             };
             linearDrives = CountLinearDrives(d6);
             Drives = CountDrives(d6);
@@ -137,41 +137,41 @@ internal sealed class Node
             }
         }
 
-        int turns = Angular switch { AngularRows.None => 0, AngularRows.All => 3, AngularRows.Prepared => 1, _ => 2 };
+        int turns = Angular switch { AngularForm.None => 0, AngularForm.All => 3, AngularForm.Prepared => 1, _ => 2 };
         for (int i = 0; i < turns; i++)
         {
             classes.Add(RowClass.Angular);
         }
 
-        RigidRows = classes.Count;
-        Turns = Angular == AngularRows.Prepared ? 0 : turns;
-        PlacedMask0 = 1 | (LinearMask == 7 ? 0 : LinearMask << 1);
-        PlacedMask1 = 1;
-        for (int i = 0; i < Turns; i++)
+        BilateralCount = classes.Count;
+        LockedRotations = Angular == AngularForm.Prepared ? 0 : turns;
+        WorldLeverMask0 = 1 | (LinearMask == 7 ? 0 : LinearMask << 1);
+        WorldLeverMask1 = 1;
+        for (int i = 0; i < LockedRotations; i++)
         {
-            Turn(i, out int axis0, out int axis1);
-            PlacedMask0 |= 2 << axis0;
-            PlacedMask1 |= 2 << axis1;
+            RotationPlane(i, out int axis0, out int axis1);
+            WorldLeverMask0 |= 2 << axis0;
+            WorldLeverMask1 |= 2 << axis1;
         }
 
-        for (int i = 0; i < Laws; i++)
+        for (int i = 0; i < ScalarCount; i++)
         {
-            bool isLinear = i < linearDrives || (HasDistance && i == Laws - 1);
+            bool isLinear = i < linearDrives || (HasDistance && i == ScalarCount - 1);
             classes.Add(isLinear ? RowClass.General : RowClass.Angular);
         }
 
         Classes = classes.ToArray();
         HasGeneralRows = classes.Contains(RowClass.General);
-        IsAnchor = LinearMask == 7 && !HasGeneralRows && Angular != AngularRows.Prepared;
+        IsPointJoint = LinearMask == 7 && !HasGeneralRows && Angular != AngularForm.Prepared;
     }
 
-    public Node(CoordinateCoupling coupling, int index, int[] bodies, int[] sides)
+    public RowBlock(CoordinateCoupling coupling, int index, int[] bodies, int[] sides)
     {
         Coupling = coupling;
         Index = index;
         Bodies = bodies;
         CouplingSides = sides;
-        RigidRows = 1;
+        BilateralCount = 1;
         Classes = new[] { RowClass.General };
         HasGeneralRows = true;
     }
@@ -180,9 +180,9 @@ internal sealed class Node
     /// Which axes of frame 0 and frame 1 an angular row keeps at right angles: the free axis of 1 with the other two of 0, and
     /// for a joint without a free turn also y0 with z1.
     /// </summary>
-    public void Turn(int row, out int axis0, out int axis1)
+    public void RotationPlane(int row, out int axis0, out int axis1)
     {
-        int free = Angular == AngularRows.HingeY ? 1 : Angular == AngularRows.HingeZ ? 2 : 0;
+        int free = Angular == AngularForm.HingeY ? 1 : Angular == AngularForm.HingeZ ? 2 : 0;
         if (row == 2)
         {
             axis0 = 1;
@@ -196,10 +196,10 @@ internal sealed class Node
     }
 
     /// <summary>Whether a row locks an angle.</summary>
-    public bool IsLockedAngle(int row) => row < RigidRows && Classes[row] == RowClass.Angular;
+    public bool IsLockedAngle(int row) => row < BilateralCount && Classes[row] == RowClass.Angular;
 
-    /// <summary>Rows that obey a law.</summary>
-    public int Laws => Drives + Limits;
+    /// <summary>Rows that obey a scalar row.</summary>
+    public int ScalarCount => Drives + Limits;
 
     /// <summary>Of these, the ones of limits.</summary>
     public int Limits => (HasCone ? 1 : 0) + AngleLimits + (HasDistance ? 1 : 0);
@@ -207,16 +207,16 @@ internal sealed class Node
     public int Rows => Classes.Length;
 
     /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
-    public bool IsPrepared => Coupling != null || Laws > 0 || Angular == AngularRows.Prepared;
+    public bool IsAssembled => Coupling != null || ScalarCount > 0 || Angular == AngularForm.Prepared;
 
-    /// <summary>Whether prepared rows are worth a second look at the end of the flight; a hinge's axis on the world stays.</summary>
-    public bool HasMovingRows => Angular == AngularRows.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
+    /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
+    public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
 
-    /// <summary>Whether the other node has the same rows between the same bodies.</summary>
-    public bool HasShapeOf(Node other)
+    /// <summary>Whether the other block has the same rows between the same bodies.</summary>
+    public bool HasShapeOf(RowBlock other)
     {
         if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular
-            || IsPrepared || other.IsPrepared)
+            || IsAssembled || other.IsAssembled)
         {
             return false;
         }

@@ -4,15 +4,15 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Closes a pose that stands open, of a scene as it starts or written from outside, by position alone: the flight would do
+/// Closes a pose that stands open, of a scene as it starts or written from outside, by position alone: the drift would do
 /// it with speeds of gap / h, most of which stay. Gauss-Newton on C in the metric of the masses: x += M^-1 J^T l with
 /// J M^-1 J^T l = -C, the whole of it shortened where a body would turn far. Hard limits that are passed take part.
-/// Locked turns count by their angle, which leads back from anywhere; the sines of <see cref="RigidRows{V}"/> lead to the
+/// Locked turns count by their angle, which leads back from anywhere; the sines of <see cref="BilateralRows{V}"/> lead to the
 /// wrong side beyond a right angle.
 /// </summary>
-internal sealed class PoseClosure
+internal sealed class PositionProjection
 {
-    /// <summary>A pose less open than this is the flight's to close, m or rad.</summary>
+    /// <summary>A pose less open than this is the drift's to close, m or rad.</summary>
     public const double MostOpen = 1e-6;
 
     private const int MaxIterations = 300;
@@ -23,13 +23,13 @@ internal sealed class PoseClosure
     // Largest turn of a body in an iteration, rad.
     private const double MostTurn = 0.5;
 
-    private readonly Batch<ScalarLane> _batch;
+    private readonly LaneBatch<ScalarLane> _batch;
     private readonly double[] _start;
 
     // Velocities and angular momenta, whose place the moves take.
     private readonly double[] _momenta;
 
-    public PoseClosure(Batch<ScalarLane> batch)
+    public PositionProjection(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
         _start = new double[7 * batch.Shape.MovingBodies];
@@ -57,8 +57,8 @@ internal sealed class PoseClosure
     /// <param name="tolerance">Largest C, m or rad.</param>
     public bool TryClose(double tolerance)
     {
-        // Loops that are inexact close only as far as their angles give: in the flight.
-        if (_batch.Shape.IsInexact)
+        // Loops that are inexact close only as far as their angles give: in the drift.
+        if (_batch.Shape.IsInconsistent)
         {
             return false;
         }
@@ -76,7 +76,7 @@ internal sealed class PoseClosure
         }
         else
         {
-            Flight<ScalarLane>.Stay(_batch);
+            FreeMotion<ScalarLane>.Stay(_batch);
         }
 
         RattleStep<ScalarLane>.Rebuild(_batch);
@@ -115,13 +115,13 @@ internal sealed class PoseClosure
     // Largest C of all rows that hold where the bodies are at the end.
     private double Evaluate()
     {
-        ResponseMatrix<ScalarLane>.InverseInertias(_batch);
-        RigidRows<ScalarLane>.Evaluate(_batch);
-        RigidRows<ScalarLane>.Build(_batch);
-        _batch.Laws?.HoldPassedStops();
-        for (int n = 0; n < _batch.Shape.Nodes.Length; n++)
+        DelassusMatrix<ScalarLane>.InverseInertias(_batch);
+        BilateralRows<ScalarLane>.Evaluate(_batch);
+        BilateralRows<ScalarLane>.Build(_batch);
+        _batch.ActiveSet?.ActivateViolated();
+        for (int n = 0; n < _batch.Shape.Blocks.Length; n++)
         {
-            MeasureTurns(n, _batch.Shape.Nodes[n]);
+            MeasureRotations(n, _batch.Shape.Blocks[n]);
         }
 
         double most = 0;
@@ -136,25 +136,25 @@ internal sealed class PoseClosure
 
     // C of locked turns is the turn from frame 1 to frame 0 along axes of frame 0, or the world's where all are locked; of a
     // hinge only that of its axis.
-    private void MeasureTurns(int n, Node node)
+    private void MeasureRotations(int n, RowBlock block)
     {
-        if (node.Turns == 0)
+        if (block.LockedRotations == 0)
         {
             return;
         }
 
-        Quaterniond q0 = FrameOf(n, node, 0);
-        Quaterniond q1 = FrameOf(n, node, 1);
-        node.Turn(0, out int axis, out int free);
-        Vector3d turn = node.Turns == 3 ? Turn(q0 * q1.Conjugate()) : Between(q1 * Unit(free), q0 * Unit(free), q0 * Unit(axis));
-        int first = node.RigidRows - node.Turns;
-        for (int i = 0; i < node.Turns; i++)
+        Quaterniond q0 = FrameOf(n, block, 0);
+        Quaterniond q1 = FrameOf(n, block, 1);
+        block.RotationPlane(0, out int axis, out int free);
+        Vector3d turn = block.LockedRotations == 3 ? RotationVector(q0 * q1.Conjugate()) : RotationBetween(q1 * Unit(free), q0 * Unit(free), q0 * Unit(axis));
+        int first = block.BilateralCount - block.LockedRotations;
+        for (int i = 0; i < block.LockedRotations; i++)
         {
-            node.Turn(i, out axis, out _);
-            Vector3d along = node.Turns == 3 ? Unit(i) : q0 * Unit(axis);
+            block.RotationPlane(i, out axis, out _);
+            Vector3d along = block.LockedRotations == 3 ? Unit(i) : q0 * Unit(axis);
             _batch.Work.Error[_batch.Shape.Pattern.Rows[n] + first + i] = Vector3d.Dot(along, turn);
-            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 0), along);
-            Transfer<ScalarLane>.Put(_batch.Angular, _batch.Row(n, first + i, 1), -1 * along);
+            LaneTransfer<ScalarLane>.Write(_batch.Angular, _batch.Row(n, first + i, 0), along);
+            LaneTransfer<ScalarLane>.Write(_batch.Angular, _batch.Row(n, first + i, 1), -1 * along);
         }
     }
 
@@ -162,8 +162,8 @@ internal sealed class PoseClosure
     {
         Island shape = _batch.Shape;
         double[] solution = _batch.Work.Solution;
-        ResponseMatrix<ScalarLane>.Assemble(_batch, _batch.AngularShare);
-        _batch.Laws?.Condition(false);
+        DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.AngularShare);
+        _batch.ActiveSet?.AddToDiagonal(false);
         BlockCholesky<ScalarLane>.Factor(shape.Pattern, _batch.Matrix);
         for (int i = 0; i < solution.Length; i++)
         {
@@ -174,7 +174,7 @@ internal sealed class PoseClosure
         double[] a = _batch.Bodies;
         for (int body = 0; body < shape.MovingBodies; body++)
         {
-            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
+            Array.Clear(a, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), 6);
         }
 
         _batch.Work.Active[0] = 1;
@@ -189,18 +189,18 @@ internal sealed class PoseClosure
         double share = widest > MostTurn ? MostTurn / widest : 1;
         for (int body = 0; body < shape.MovingBodies && share > 0; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
             Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, body) * share;
             double angle = turn.Length;
-            Quaterniond q = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ);
+            Quaterniond q = LaneTransfer<ScalarLane>.ReadQuaternion(a, o + BodyLanes.EndQ);
             q = angle > 0 ? (Quaterniond.AxisAngle(turn * (1 / angle), angle) * q).Normalized() : q;
             for (int i = 0; i < 3; i++)
             {
-                a[o + BodySlot.EndX + i] += share * a[o + BodySlot.V + i];
+                a[o + BodyLanes.EndX + i] += share * a[o + BodyLanes.V + i];
             }
 
-            Transfer<ScalarLane>.Put(a, o + BodySlot.EndQ, q);
-            LaneQuaternion<ScalarLane>.Load(a, o + BodySlot.EndQ).StoreMatrix(a, o + BodySlot.R);
+            LaneTransfer<ScalarLane>.Write(a, o + BodyLanes.EndQ, q);
+            LaneQuaternion<ScalarLane>.Load(a, o + BodyLanes.EndQ).StoreMatrix(a, o + BodyLanes.R);
         }
 
         return share > 0;
@@ -212,8 +212,8 @@ internal sealed class PoseClosure
         Angle = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            Array.Copy(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.EndX), _start, 7 * body, 7);
-            Array.Copy(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V), _momenta, 6 * body, 6);
+            Array.Copy(_batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.EndX), _start, 7 * body, 7);
+            Array.Copy(_batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), _momenta, 6 * body, 6);
         }
     }
 
@@ -221,26 +221,26 @@ internal sealed class PoseClosure
     private void Finish(int body, bool isClosed)
     {
         double[] a = _batch.Bodies;
-        int o = Batch<ScalarLane>.Body(body, 0);
-        Array.Copy(_momenta, 6 * body, a, o + BodySlot.V, 6);
+        int o = LaneBatch<ScalarLane>.Body(body, 0);
+        Array.Copy(_momenta, 6 * body, a, o + BodyLanes.V, 6);
         if (isClosed)
         {
-            Quaterniond turn = Transfer<ScalarLane>.Quaternion(a, o + BodySlot.EndQ) * Transfer<ScalarLane>.Quaternion(_start, 7 * body + 3).Conjugate();
-            Transfer<ScalarLane>.Put(a, o + BodySlot.L, turn * Transfer<ScalarLane>.Vector(a, o + BodySlot.L));
-            Distance = Math.Max(Distance, (Transfer<ScalarLane>.Vector(a, o + BodySlot.EndX) - Transfer<ScalarLane>.Vector(_start, 7 * body)).Length);
-            Angle = Math.Max(Angle, Turn(turn).Length);
+            Quaterniond turn = LaneTransfer<ScalarLane>.ReadQuaternion(a, o + BodyLanes.EndQ) * LaneTransfer<ScalarLane>.ReadQuaternion(_start, 7 * body + 3).Conjugate();
+            LaneTransfer<ScalarLane>.Write(a, o + BodyLanes.L, turn * LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.L));
+            Distance = Math.Max(Distance, (LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.EndX) - LaneTransfer<ScalarLane>.ReadVector(_start, 7 * body)).Length);
+            Angle = Math.Max(Angle, RotationVector(turn).Length);
         }
     }
 
-    private Quaterniond FrameOf(int n, Node node, int side)
+    private Quaterniond FrameOf(int n, RowBlock block, int side)
     {
         double[] joints = _batch.Joints;
-        int o = Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Frame(side));
-        Quaterniond frame = Quaterniond.FromAxes(Transfer<ScalarLane>.Vector(joints, o + 3), Transfer<ScalarLane>.Vector(joints, o + 6), Transfer<ScalarLane>.Vector(joints, o + 9));
-        return Transfer<ScalarLane>.Quaternion(_batch.Bodies, Batch<ScalarLane>.Body(node.Bodies[side], BodySlot.EndQ)) * frame;
+        int o = LaneBatch<ScalarLane>.Joint(n, LaneBatch<ScalarLane>.Frame(side));
+        Quaterniond frame = Quaterniond.FromAxes(LaneTransfer<ScalarLane>.ReadVector(joints, o + 3), LaneTransfer<ScalarLane>.ReadVector(joints, o + 6), LaneTransfer<ScalarLane>.ReadVector(joints, o + 9));
+        return LaneTransfer<ScalarLane>.ReadQuaternion(_batch.Bodies, LaneBatch<ScalarLane>.Body(block.Bodies[side], BodyLanes.EndQ)) * frame;
     }
 
-    private static Vector3d Turn(Quaterniond q)
+    private static Vector3d RotationVector(Quaterniond q)
     {
         double sine = q.Vector.Length;
         double angle = 2 * Math.Atan2(sine, Math.Abs(q.W));
@@ -248,7 +248,7 @@ internal sealed class PoseClosure
     }
 
     // The turn from one direction to another, and about the third where they are opposite.
-    private static Vector3d Between(Vector3d from, Vector3d to, Vector3d across)
+    private static Vector3d RotationBetween(Vector3d from, Vector3d to, Vector3d across)
     {
         Vector3d normal = Vector3d.Cross(from, to);
         double sine = normal.Length;

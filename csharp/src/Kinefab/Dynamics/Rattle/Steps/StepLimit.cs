@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>How many parts a step is to be cut into up front: where bodies turn far, or where tension makes them stiff.</summary>
-internal static class StepDemand
+internal static class StepLimit
 {
     // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given shorter steps.
     private const double MostStiffness = 1;
@@ -13,24 +13,24 @@ internal static class StepDemand
     private const double MostTurn = 0.5;
 
     /// <summary>Up to 1 a plain RATTLE step of dt will do; above, it takes as many shorter ones.</summary>
-    /// <param name="stiffness">Largest <see cref="BodySlot.Stiffness"/>.</param>
+    /// <param name="stiffness">Largest <see cref="BodyLanes.Stiffness"/>.</param>
     /// <param name="speed">Largest angular speed, rad/s.</param>
     /// <param name="dt">Step, s.</param>
     public static double Of(double stiffness, double speed, double dt) =>
         Math.Max(dt * Math.Sqrt(stiffness / MostStiffness), dt * speed / MostTurn);
 
     /// <summary>That of an island on the only lane, by its momenta and the stiffness that was last measured.</summary>
-    public static double Of(Batch<ScalarLane> batch, double dt)
+    public static double Of(LaneBatch<ScalarLane> batch, double dt)
     {
         double stiffest = 0;
         double fastest = 0;
         double square = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
-            stiffest = Math.Max(stiffest, batch.Bodies[o + BodySlot.Stiffness]);
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            stiffest = Math.Max(stiffest, batch.Bodies[o + BodyLanes.Stiffness]);
             square = Math.Max(square, Impulses<ScalarLane>.AngularVelocity(batch, body).LengthSquared);
-            Flight<ScalarLane>.SphereRate(batch.Bodies, o, batch.Shape.Spins[body]).Store(batch.Work.Fastest, 0);
+            FreeMotion<ScalarLane>.SphericalHalfRate(batch.Bodies, o, batch.Shape.RotationSplittings[body]).Store(batch.Work.Fastest, 0);
             fastest = Math.Max(fastest, batch.Work.Fastest[0]);
         }
 

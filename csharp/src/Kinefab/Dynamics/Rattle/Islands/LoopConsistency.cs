@@ -1,27 +1,27 @@
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>How well an island's loops close along their motion.</summary>
-internal enum LoopFit : byte
+internal enum LoopConsistency : byte
 {
     /// <summary>As far as motion shows, or there is none.</summary>
     Exact,
 
     /// <summary>Axes are off by what files may round: held as hard as an exact loop's they would brake the motion.</summary>
-    Loose,
+    Rounded,
 
     /// <summary>Axes are off by so much that closing the loop to the letter would lock it.</summary>
-    Inexact,
+    Inconsistent,
 }
 
 /// <summary>The joints of an island with a loop that is not exact, as indices into the mechanism's.</summary>
-internal readonly struct InexactLoop
+internal readonly struct InconsistentLoop
 {
     public readonly int[] Joints;
-    public readonly LoopFit Fit;
+    public readonly LoopConsistency Consistency;
 
-    public InexactLoop(int[] joints, LoopFit fit)
+    public InconsistentLoop(int[] joints, LoopConsistency fit)
     {
         Joints = joints;
-        Fit = fit;
+        Consistency = fit;
     }
 }

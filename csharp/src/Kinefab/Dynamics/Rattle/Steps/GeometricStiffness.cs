@@ -7,7 +7,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// pendulum's, F.r / (I + m r^2), with I the moment across r. The sum over the anchors is near the square of the fastest of the
 /// body's swings; times h^2, a leapfrog is stable below 4.
 /// </summary>
-internal static class Stiffness<V>
+internal static class GeometricStiffness<V>
     where V : struct, ILane<V>
 {
     private const double LeastSquare = 1e-300;
@@ -16,7 +16,7 @@ internal static class Stiffness<V>
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="impulses">Impulses of the rows.</param>
     /// <param name="duration">Seconds in which they act.</param>
-    public static void Measure(Batch<V> batch, double[] impulses, double duration)
+    public static void Estimate(LaneBatch<V> batch, double[] impulses, double duration)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
@@ -27,13 +27,13 @@ internal static class Stiffness<V>
         Island shape = batch.Shape;
         for (int body = 0; body < shape.MovingBodies; body++)
         {
-            zero.Store(a, Batch<V>.Body(body, BodySlot.Stiffness));
+            zero.Store(a, LaneBatch<V>.Body(body, BodyLanes.Stiffness));
         }
 
-        for (int n = 0; n < shape.Nodes.Length; n++)
+        for (int n = 0; n < shape.Blocks.Length; n++)
         {
-            Node node = shape.Nodes[n];
-            if (node.LinearMask != 7)
+            RowBlock block = shape.Blocks[n];
+            if (block.LinearMask != 7)
             {
                 continue;
             }
@@ -41,22 +41,22 @@ internal static class Stiffness<V>
             LaneVector<V> impulse = LaneVector<V>.Load(impulses, shape.Pattern.Rows[n] * w);
             for (int side = 0; side < 2; side++)
             {
-                int body = node.Bodies[side];
+                int body = block.Bodies[side];
                 if (body >= shape.MovingBodies)
                 {
                     continue;
                 }
 
-                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)));
-                int inverse = Batch<V>.Body(body, BodySlot.WorldInverse);
+                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)));
+                int inverse = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
                 Lane<V> trace = Lane<V>.Load(a, inverse) + Lane<V>.Load(a, inverse + w) + Lane<V>.Load(a, inverse + 2 * w);
                 Lane<V> square = LaneVector<V>.Dot(lever, lever);
-                Lane<V> light = half * (trace * square - LaneVector<V>.Dot(lever, ResponseMatrix<V>.Turn(a, inverse, lever)));
-                Lane<V> heavy = Lane<V>.Splat(1) / Lane<V>.Load(a, Batch<V>.Body(body, BodySlot.InverseMass));
+                Lane<V> light = half * (trace * square - LaneVector<V>.Dot(lever, DelassusMatrix<V>.Turn(a, inverse, lever)));
+                Lane<V> heavy = Lane<V>.Splat(1) / Lane<V>.Load(a, LaneBatch<V>.Body(body, BodyLanes.InverseMass));
                 Lane<V> pull = LaneVector<V>.Dot(impulse, lever) / (square + least);
                 pull = side == 0 ? pull : zero - pull;
                 Lane<V> stiffness = rate * Lane<V>.Max(pull, zero) * (light / (Lane<V>.Splat(1) + heavy * light));
-                int o = Batch<V>.Body(body, BodySlot.Stiffness);
+                int o = LaneBatch<V>.Body(body, BodyLanes.Stiffness);
                 (Lane<V>.Load(a, o) + stiffness).Store(a, o);
             }
         }

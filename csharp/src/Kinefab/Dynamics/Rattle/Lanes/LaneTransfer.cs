@@ -7,7 +7,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>Copies islands between the world's bodies and the lanes of a batch.</summary>
-internal static class Transfer<V>
+internal static class LaneTransfer<V>
     where V : struct, ILane<V>
 {
     // A kinematic body that is this close to where it was driven has not been moved otherwise, m and half radians.
@@ -20,7 +20,7 @@ internal static class Transfer<V>
     private const double LeastSquare = 1e-300;
 
     /// <summary>Whose bodies a lane holds, and the constants of bodies and joints.</summary>
-    public static void LoadConstants(Batch<V> batch, int lane, Island island, MultibodySystem mechanism)
+    public static void GatherConstants(LaneBatch<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         for (int b = 0; b < island.Bodies.Length; b++)
         {
@@ -28,63 +28,63 @@ internal static class Transfer<V>
             batch.Members[b * Lane<V>.Width + lane] = body;
             bool isMoving = b < island.MovingBodies;
             Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
-            batch.Bodies[Batch<V>.Body(b, BodySlot.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
-            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.InverseInertia) + lane, inverse);
-            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
+            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
+            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.InverseInertia) + lane, inverse);
+            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
-            batch.Bodies[Batch<V>.Body(b, BodySlot.MostInverseInertia) + lane] = most;
-            batch.Bodies[Batch<V>.Body(b, BodySlot.LeastInverseInertia) + lane] = Least(inverse, most);
-            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndQ) + lane, Quaterniond.Identity);
-            Put(batch.Bodies, Batch<V>.Body(b, BodySlot.Q) + lane, Quaterniond.Identity);
+            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.MostInverseInertia) + lane] = most;
+            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.LeastInverseInertia) + lane] = Least(inverse, most);
+            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.EndQ) + lane, Quaterniond.Identity);
+            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.Q) + lane, Quaterniond.Identity);
             if (isMoving)
             {
                 // Nowhere yet: wherever the first step finds the body, it has been moved there.
-                Put(batch.Bodies, Batch<V>.Body(b, BodySlot.EndX) + lane, new Vector3d(double.NaN, double.NaN, double.NaN));
+                Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.EndX) + lane, new Vector3d(double.NaN, double.NaN, double.NaN));
             }
         }
 
-        for (int n = 0; n < island.Nodes.Length; n++)
+        for (int n = 0; n < island.Blocks.Length; n++)
         {
-            JointModel? joint = island.Nodes[n].Joint;
+            JointModel? joint = island.Blocks[n].Joint;
             if (joint != null)
             {
-                batch.JointMembers[n * Lane<V>.Width + lane] = island.Nodes[n].Index;
+                batch.JointMembers[n * Lane<V>.Width + lane] = island.Blocks[n].Index;
                 for (int side = 0; side < 2; side++)
                 {
                     Pose frame = side == 0 ? joint.Frame0 : joint.Frame1;
-                    PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Frame(side)) + lane, frame);
+                    WriteFrame(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(side)) + lane, frame);
 
                     // On the world they are placed once and for all.
-                    PutFrame(batch.Joints, Batch<V>.Joint(n, Batch<V>.Placed(side)) + lane, frame);
+                    WriteFrame(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)) + lane, frame);
                 }
             }
         }
     }
 
-    /// <summary>State, forces and damping of all lanes for a step, before <see cref="Start"/>; fills <see cref="Workspace{V}.Moved"/>.</summary>
+    /// <summary>State, forces and damping of all lanes for a step, before <see cref="BeginStep"/>; fills <see cref="Workspace{V}.Moved"/>.</summary>
     /// <param name="batch">Where to.</param>
     /// <param name="mechanism">Where from.</param>
     /// <param name="dt">Step, s.</param>
     /// <returns>Whether a pose of any lane is not the one that the last step left.</returns>
-    public static bool Load(Batch<V> batch, MultibodySystem mechanism, double dt)
+    public static bool Gather(LaneBatch<V> batch, MultibodySystem mechanism, double dt)
     {
         Lane<V>.Splat(0).Store(batch.Work.Moved, 0);
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
-            LoadState(batch, b, mechanism.Bodies);
-            LoadForces(batch, b, mechanism, dt);
+            GatherState(batch, b, mechanism.Bodies);
+            GatherForces(batch, b, mechanism, dt);
         }
 
-        foreach (int body in batch.Shape.FrozenBodies)
+        foreach (int body in batch.Shape.LockedInertiaBodies)
         {
-            KeepFrozen(batch, body, mechanism.Bodies);
+            ClearLockedTorque(batch, body, mechanism.Bodies);
         }
 
         for (int b = batch.Shape.MovingBodies; b < batch.Shape.Bodies.Length; b++)
         {
             for (int lane = 0; lane < Lane<V>.Width && !batch.Shape.IsStatic[b]; lane++)
             {
-                LoadKinematic(batch, b, lane, mechanism.Bodies, dt);
+                GatherKinematic(batch, b, lane, mechanism.Bodies, dt);
             }
         }
 
@@ -97,16 +97,16 @@ internal static class Transfer<V>
         return isMoved;
     }
 
-    /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Load"/>.</summary>
-    public static void Start(Batch<V> batch)
+    /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Gather"/>.</summary>
+    public static void BeginStep(LaneBatch<V> batch)
     {
         Lane<V>.Splat(0).Store(batch.Work.Fastest, 0);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<V>.Body(body, 0);
+            int o = LaneBatch<V>.Body(body, 0);
             Dampen(batch, o);
             TakeMomentum(batch.Bodies, o);
-            Lane<V> turn = Flight<V>.SphereRate(batch.Bodies, o, batch.Shape.Spins[body]);
+            Lane<V> turn = FreeMotion<V>.SphericalHalfRate(batch.Bodies, o, batch.Shape.RotationSplittings[body]);
             Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), turn * turn).Store(batch.Work.Fastest, 0);
         }
 
@@ -114,19 +114,19 @@ internal static class Transfer<V>
     }
 
     /// <summary>Angular velocities in all lanes, by the matrix of the end pose.</summary>
-    public static void Finish(Batch<V> batch)
+    public static void EndStep(LaneBatch<V> batch)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<V>.Body(body, 0);
-            ResponseMatrix<V>.Turn(a, o + BodySlot.WorldInverse * w, LaneVector<V>.Load(a, o + BodySlot.L * w)).Store(a, o + BodySlot.W * w);
+            int o = LaneBatch<V>.Body(body, 0);
+            DelassusMatrix<V>.Turn(a, o + BodyLanes.WorldInverse * w, LaneVector<V>.Load(a, o + BodyLanes.L * w)).Store(a, o + BodyLanes.W * w);
         }
     }
 
-    /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="Finish"/>.</summary>
-    public static void Store(Batch<V> batch, int lanes, MultibodySystem mechanism)
+    /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="EndStep"/>.</summary>
+    public static void Scatter(LaneBatch<V> batch, int lanes, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;
@@ -136,131 +136,131 @@ internal static class Transfer<V>
             for (int lane = 0; lane < lanes; lane++)
             {
                 int body = batch.Members[b * w + lane];
-                int o = Batch<V>.Body(b, 0) + lane;
-                bodies.Poses[body] = new Pose(Vector(a, o + BodySlot.EndX * w), Quaternion(a, o + BodySlot.EndQ * w));
-                bodies.LinearVelocities[body] = Vector(a, o + BodySlot.V * w);
-                bodies.AngularVelocities[body] = Vector(a, o + BodySlot.W * w);
+                int o = LaneBatch<V>.Body(b, 0) + lane;
+                bodies.Poses[body] = new Pose(ReadVector(a, o + BodyLanes.EndX * w), ReadQuaternion(a, o + BodyLanes.EndQ * w));
+                bodies.LinearVelocities[body] = ReadVector(a, o + BodyLanes.V * w);
+                bodies.AngularVelocities[body] = ReadVector(a, o + BodyLanes.W * w);
             }
         }
     }
 
     /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
-    public static void CopyFrom(Batch<V> batch, int lane, Batch<ScalarLane> from)
+    public static void CopyLane(LaneBatch<V> batch, int lane, LaneBatch<ScalarLane> from)
     {
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
-            int to = Batch<V>.Body(b, 0) + lane;
-            int source = Batch<ScalarLane>.Body(b, 0);
-            for (int i = 0; i < BodySlot.InverseMass; i++)
+            int to = LaneBatch<V>.Body(b, 0) + lane;
+            int source = LaneBatch<ScalarLane>.Body(b, 0);
+            for (int i = 0; i < BodyLanes.InverseMass; i++)
             {
                 batch.Bodies[to + i * Lane<V>.Width] = from.Bodies[source + i];
             }
         }
 
-        for (int i = 0; i < from.Half.Length; i++)
+        for (int i = 0; i < from.VelocityImpulses.Length; i++)
         {
-            batch.Half[i * Lane<V>.Width + lane] = from.Half[i];
-            batch.Work.Total[i * Lane<V>.Width + lane] = from.Work.Total[i];
+            batch.VelocityImpulses[i * Lane<V>.Width + lane] = from.VelocityImpulses[i];
+            batch.Work.TotalImpulses[i * Lane<V>.Width + lane] = from.Work.TotalImpulses[i];
         }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void LoadState(Batch<V> batch, int b, Bodies bodies)
+    private static void GatherState(LaneBatch<V> batch, int b, Bodies bodies)
     {
         ReadOnlySpan<double> poses = MemoryMarshal.Cast<Pose, double>(bodies.Poses);
         ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = Batch<V>.Body(b, 0);
+        int o = LaneBatch<V>.Body(b, 0);
         Lane<V> moved = Lane<V>.Load(batch.Work.Moved, 0);
         for (int i = 0; i < PoseCount; i++)
         {
             // EndX and EndQ stand as a pose's numbers do, Q apart from X.
             Lane<V> now = Lane<V>.Gather(poses, members, PoseCount, i);
-            int x = i < 3 ? BodySlot.X + i : BodySlot.Q - 3 + i;
+            int x = i < 3 ? BodyLanes.X + i : BodyLanes.Q - 3 + i;
             now.Store(a, o + x * w);
-            moved += Lane<V>.Abs(now - Lane<V>.Load(a, o + (BodySlot.EndX + i) * w));
+            moved += Lane<V>.Abs(now - Lane<V>.Load(a, o + (BodyLanes.EndX + i) * w));
         }
 
         moved.Store(batch.Work.Moved, 0);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o + BodySlot.V * w);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o + BodySlot.W * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o + BodyLanes.V * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o + BodyLanes.W * w);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void LoadForces(Batch<V> batch, int b, MultibodySystem mechanism, double dt)
+    private static void GatherForces(LaneBatch<V> batch, int b, MultibodySystem mechanism, double dt)
     {
         Bodies bodies = mechanism.Bodies;
         ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = Batch<V>.Body(b, 0);
+        int o = LaneBatch<V>.Body(b, 0);
         Lane<V> zero = Lane<V>.Splat(0);
         Lane<V> one = Lane<V>.Splat(1);
         Lane<V> time = Lane<V>.Splat(dt);
-        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o + BodySlot.Kept * w);
-        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o + (BodySlot.Kept + 1) * w);
-        Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o + BodySlot.MaxSpeed * w);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o + BodyLanes.DampingFactors * w);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o + (BodyLanes.DampingFactors + 1) * w);
+        Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o + BodyLanes.MaxAngularSpeed * w);
         LaneVector<V> force = LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Forces), members, 3, 0);
-        LaneVector<V> acceleration = Lane<V>.Load(a, o + BodySlot.InverseMass * w) * force;
-        acceleration.Store(a, o + BodySlot.Acceleration * w);
+        LaneVector<V> acceleration = Lane<V>.Load(a, o + BodyLanes.InverseMass * w) * force;
+        acceleration.Store(a, o + BodyLanes.Acceleration * w);
         for (int lane = 0; lane < w; lane++)
         {
             if (bodies.UseGravity[members[lane]])
             {
-                int at = o + BodySlot.Acceleration * w + lane;
-                Put(a, at, mechanism.Gravity + Vector(a, at));
+                int at = o + BodyLanes.Acceleration * w + lane;
+                Write(a, at, mechanism.Gravity + ReadVector(a, at));
             }
         }
 
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o + BodySlot.Torque * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o + BodyLanes.Torque * w);
     }
 
     // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
-    private static void KeepFrozen(Batch<V> batch, int b, Bodies bodies)
+    private static void ClearLockedTorque(LaneBatch<V> batch, int b, Bodies bodies)
     {
         int w = Lane<V>.Width;
-        int o = Batch<V>.Body(b, BodySlot.Torque);
+        int o = LaneBatch<V>.Body(b, BodyLanes.Torque);
         for (int lane = 0; lane < w; lane++)
         {
             int body = batch.Members[b * w + lane];
             Quaterniond q = bodies.Poses[body].Rotation;
             Vector3d inverse = bodies.InverseInertias[body];
             Vector3d inBody = q.InverseRotate(bodies.Torques[body]);
-            Put(batch.Bodies, o + lane, q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0));
+            Write(batch.Bodies, o + lane, q * new Vector3d(inverse.X > 0 ? inBody.X : 0, inverse.Y > 0 ? inBody.Y : 0, inverse.Z > 0 ? inBody.Z : 0));
         }
     }
 
     // It goes to its target at constant velocity.
-    private static void LoadKinematic(Batch<V> batch, int b, int lane, Bodies bodies, double dt)
+    private static void GatherKinematic(LaneBatch<V> batch, int b, int lane, Bodies bodies, double dt)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = Batch<V>.Body(b, 0) + lane;
+        int o = LaneBatch<V>.Body(b, 0) + lane;
         int body = batch.Members[b * w + lane];
         Pose pose = bodies.Poses[body];
-        bool isMoved = (pose.Position - Vector(a, o + BodySlot.EndX * w)).LengthSquared > Near * Near
-            || Distance(pose.Rotation, Quaternion(a, o + BodySlot.EndQ * w)) > Near;
+        bool isMoved = (pose.Position - ReadVector(a, o + BodyLanes.EndX * w)).LengthSquared > Near * Near
+            || Distance(pose.Rotation, ReadQuaternion(a, o + BodyLanes.EndQ * w)) > Near;
         batch.Work.Moved[lane] += isMoved ? 1 : 0;
         BodyMotion.PredictVelocity(bodies, body, Vector3d.Zero, dt);
-        Put(a, o + BodySlot.X * w, pose.Position);
-        Put(a, o + BodySlot.Q * w, pose.Rotation);
-        Put(a, o + BodySlot.V * w, bodies.LinearVelocities[body]);
-        Put(a, o + BodySlot.W * w, bodies.AngularVelocities[body]);
+        Write(a, o + BodyLanes.X * w, pose.Position);
+        Write(a, o + BodyLanes.Q * w, pose.Rotation);
+        Write(a, o + BodyLanes.V * w, bodies.LinearVelocities[body]);
+        Write(a, o + BodyLanes.W * w, bodies.AngularVelocities[body]);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Dampen(Batch<V> batch, int o)
+    private static void Dampen(LaneBatch<V> batch, int o)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        (Lane<V>.Load(a, o + BodySlot.Kept * w) * LaneVector<V>.Load(a, o + BodySlot.V * w)).Store(a, o + BodySlot.V * w);
-        LaneVector<V> rate = Lane<V>.Load(a, o + (BodySlot.Kept + 1) * w) * LaneVector<V>.Load(a, o + BodySlot.W * w);
+        (Lane<V>.Load(a, o + BodyLanes.DampingFactors * w) * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.V * w);
+        LaneVector<V> rate = Lane<V>.Load(a, o + (BodyLanes.DampingFactors + 1) * w) * LaneVector<V>.Load(a, o + BodyLanes.W * w);
         Lane<V> square = LaneVector<V>.Dot(rate, rate);
-        Lane<V> most = Lane<V>.Load(a, o + BodySlot.MaxSpeed * w);
+        Lane<V> most = Lane<V>.Load(a, o + BodyLanes.MaxAngularSpeed * w);
         Lane<V> speed = Lane<V>.Sqrt(square + Lane<V>.Splat(LeastSquare));
         Lane<V> share = Lane<V>.Min(most / speed, Lane<V>.Splat(1));
-        (share * rate).Store(a, o + BodySlot.W * w);
+        (share * rate).Store(a, o + BodyLanes.W * w);
         Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), share * share * square).Store(batch.Work.Fastest, 0);
     }
 
@@ -269,9 +269,9 @@ internal static class Transfer<V>
     private static void TakeMomentum(double[] a, int o)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
-        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodySlot.W * w));
-        q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodySlot.Inertia * w), inBody)).Store(a, o + BodySlot.L * w);
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.W * w));
+        q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodyLanes.Inertia * w), inBody)).Store(a, o + BodyLanes.L * w);
     }
 
     private static double Least(Vector3d inverse, double most)
@@ -289,34 +289,34 @@ internal static class Transfer<V>
 
     private static double Distance(Quaterniond a, Quaterniond b) => (a * b.Conjugate()).Vector.Length;
 
-    private static void PutFrame(double[] a, int index, Pose frame)
+    private static void WriteFrame(double[] a, int index, Pose frame)
     {
-        Put(a, index, frame.Position);
-        Put(a, index + 3 * Lane<V>.Width, frame.Rotation * Vector3d.UnitX);
-        Put(a, index + 6 * Lane<V>.Width, frame.Rotation * Vector3d.UnitY);
-        Put(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
+        Write(a, index, frame.Position);
+        Write(a, index + 3 * Lane<V>.Width, frame.Rotation * Vector3d.UnitX);
+        Write(a, index + 6 * Lane<V>.Width, frame.Rotation * Vector3d.UnitY);
+        Write(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
     }
 
     /// <summary>Writes a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Put(double[] a, int index, Vector3d v)
+    public static void Write(double[] a, int index, Vector3d v)
     {
         a[index] = v.X;
         a[index + Lane<V>.Width] = v.Y;
         a[index + 2 * Lane<V>.Width] = v.Z;
     }
 
-    public static void Put(double[] a, int index, Quaterniond q)
+    public static void Write(double[] a, int index, Quaterniond q)
     {
-        Put(a, index, q.Vector);
+        Write(a, index, q.Vector);
         a[index + 3 * Lane<V>.Width] = q.W;
     }
 
     /// <summary>Reads a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Vector3d Vector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
+    public static Vector3d ReadVector(double[] a, int index) => new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width]);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Quaterniond Quaternion(double[] a, int index) =>
+    public static Quaterniond ReadQuaternion(double[] a, int index) =>
         new(a[index], a[index + Lane<V>.Width], a[index + 2 * Lane<V>.Width], a[index + 3 * Lane<V>.Width]);
 }

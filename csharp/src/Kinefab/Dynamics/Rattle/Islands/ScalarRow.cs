@@ -3,7 +3,7 @@ using Kinefab.Joints;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>What ties a row's impulse to its speed.</summary>
-internal enum LawKind : byte
+internal enum RowKind : byte
 {
     /// <summary>Nothing: the row is not there.</summary>
     None,
@@ -12,27 +12,27 @@ internal enum LawKind : byte
     Spring,
 
     /// <summary>A speed held within force limits.</summary>
-    Motor,
+    SpeedMotor,
 
     /// <summary>C stays positive by an impulse that is not negative.</summary>
-    HardLimit,
+    Limit,
 }
 
-/// <summary>Where on its piecewise-linear law a row stands.</summary>
-internal enum Segment : byte
+/// <summary>Where on its piecewise-linear scalar row a row stands.</summary>
+internal enum RowState : byte
 {
     /// <summary>The impulse is fixed, at a bound or at 0.</summary>
-    Clamped,
+    AtBound,
 
     /// <summary>The impulse follows from the speed.</summary>
-    Sloped,
+    Free,
 }
 
-/// <summary>What a law is in the matrix.</summary>
-internal enum Hold : byte
+/// <summary>What a scalar row is in the matrix.</summary>
+internal enum ProjectedAs : byte
 {
     /// <summary>An identity row.</summary>
-    None,
+    Inactive,
 
     /// <summary>A row like a locked axis's.</summary>
     Rigid,
@@ -42,130 +42,130 @@ internal enum Hold : byte
 }
 
 /// <summary>
-/// One row with a monotone piecewise-linear law. Impulse p is what the flight gets of it.
+/// One row with a monotone piecewise-linear scalar row. Impulse p is what the drift gets of it.
 /// Spring: the force -k C + d (vT - v) is taken at the share Theta of the step, C = C0 + Theta h v, and its impulse
-/// l = h (d vT - k C0) - Gamma v, Gamma = h (d + Theta h k), is given by Theta before the flight and the rest after it:
+/// l = h (d vT - k C0) - Gamma v, Gamma = h (d + Theta h k), is given by Theta before the drift and the rest after it:
 /// Theta = 1/2 is the implicit midpoint rule, second order and without numerical damping; Theta = 1 is implicit Euler.
 /// </summary>
-internal struct Law
+internal struct ScalarRow
 {
-    public LawKind Kind;
-    public Segment Segment;
+    public RowKind Kind;
+    public RowState State;
 
     /// <summary>J, and C at the pose of the last Build.</summary>
-    public ConstraintRow Row;
+    public ConstraintRow Built;
 
     /// <summary>Whether Prepare wrote the row at that pose.</summary>
-    public bool IsWritten;
+    public bool IsActive;
 
-    /// <summary>J and C at the end of the flight.</summary>
+    /// <summary>J and C at the end of the drift.</summary>
     public ConstraintRow End;
 
     /// <summary>Whether Prepare wrote that row where it was last asked.</summary>
     public bool HasEnd;
 
     /// <summary>What the factored matrix has of it.</summary>
-    public Hold Hold;
+    public ProjectedAs ProjectedAs;
 
     /// <summary>C at the start of the step.</summary>
-    public double C0;
+    public double StartError;
 
     /// <summary>Speed of the row at the start of the step.</summary>
     public double StartSpeed;
 
     public double Theta;
-    public double Gamma;
+    public double ImplicitDamping;
 
     /// <summary>Impulse of a spring at v = 0.</summary>
-    public double Rest;
+    public double RestImpulse;
 
-    /// <summary>By how much a spring that the step is too long to follow holds its speed at the flight's, see <see cref="SpringAnswer"/>.</summary>
-    public double Grip;
+    /// <summary>By how much a spring that the step is too long to follow holds its speed at the drift's, see <see cref="StiffSpringCorrection"/>.</summary>
+    public double CorrectionGain;
 
     /// <summary>That speed, by the impulse that the spring gave at it; NaN of one at its limit.</summary>
-    public double Held;
+    public double CorrectionSpeed;
 
     /// <summary>Bounds of the whole step's impulse.</summary>
     public double Low;
     public double High;
 
-    /// <summary>Impulse before the flight, and after it.</summary>
-    public double First;
-    public double Second;
+    /// <summary>Impulse before the drift, and after it.</summary>
+    public double ImpulseFirstHalf;
+    public double ImpulseSecondHalf;
 
     /// <summary>Change of First when it came to its bound, until the momenta have it.</summary>
-    public double Jump;
+    public double PendingImpulse;
 
     /// <summary>Work of a spring without potential since the account was opened, J.</summary>
     public double Work;
 
-    /// <summary>Node, row in the node and row in the vectors.</summary>
-    public int Node;
-    public int NodeRow;
+    /// <summary>Block, row in the block and row in the vectors.</summary>
+    public int Block;
+    public int BlockRow;
     public int Index;
 
     /// <summary>What the row is to the step that begins at the pose where it was written.</summary>
-    public readonly LawKind FindKind()
+    public readonly RowKind FindKind()
     {
-        if (!IsWritten)
+        if (!IsActive)
         {
-            return LawKind.None;
+            return RowKind.None;
         }
 
-        if (Row.Has(RowFlags.Spring))
+        if (Built.Has(RowFlags.Spring))
         {
-            bool isIdle = Row.Stiffness == 0 && Row.Damping == 0;
-            return isIdle || (Row.Has(RowFlags.Limit) && C0 >= 0) ? LawKind.None : LawKind.Spring;
+            bool isIdle = Built.Stiffness == 0 && Built.Damping == 0;
+            return isIdle || (Built.Has(RowFlags.Limit) && StartError >= 0) ? RowKind.None : RowKind.Spring;
         }
 
-        return Row.Has(RowFlags.Limit) ? LawKind.HardLimit : LawKind.Motor;
+        return Built.Has(RowFlags.Limit) ? RowKind.Limit : RowKind.SpeedMotor;
     }
 
     /// <summary>What the matrix is to have of it.</summary>
-    public readonly Hold FindHold() =>
-        Segment == Segment.Clamped || !IsWritten ? Hold.None
-        : Kind == LawKind.Spring ? Hold.Compliant
-        : Hold.Rigid;
+    public readonly ProjectedAs FindProjectedAs() =>
+        State == RowState.AtBound || !IsActive ? ProjectedAs.Inactive
+        : Kind == RowKind.Spring ? ProjectedAs.Compliant
+        : ProjectedAs.Rigid;
 
     /// <param name="h">Step, s.</param>
     /// <param name="areForces">Whether the bounds of the joint's drives are forces, not impulses.</param>
     public void SetBounds(double h, bool areForces)
     {
-        bool isForce = areForces && Row.Has(RowFlags.HasDriveLimit);
-        Low = Row.Minimum * (isForce ? h : 1);
-        High = Row.Maximum * (isForce ? h : 1);
+        bool isForce = areForces && Built.Has(RowFlags.HasDriveLimit);
+        Low = Built.Minimum * (isForce ? h : 1);
+        High = Built.Maximum * (isForce ? h : 1);
     }
 
     /// <param name="h">Step, s.</param>
     /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
-    /// <param name="isImplicit">Whether the whole impulse acts before the flight (implicit Euler).</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
     public void SetSpring(double h, double response, bool isImplicit)
     {
-        double perMass = Row.Has(RowFlags.AccelerationSpring) && response > 0 ? 1 / response : 1;
-        double k = Row.Stiffness * perMass;
-        double d = Row.Damping * perMass;
+        double perMass = Built.Has(RowFlags.AccelerationSpring) && response > 0 ? 1 / response : 1;
+        double k = Built.Stiffness * perMass;
+        double d = Built.Damping * perMass;
 
         // Half the step's stiffness and damping against the inertia that they move, at most: where the step is too long to
         // follow the spring, its share goes from the midpoint's towards implicit Euler's, so that it decays and does not ring.
         double z = h * (d + h * k) * response;
         Theta = isImplicit ? 1 : z < 1 ? 0.5 : 1 - 0.5 / z;
-        Grip = isImplicit || z <= 1 ? 0 : (z * z - 1) / response;
-        Gamma = h * (d + Theta * h * k);
-        Rest = h * (d * Row.VelocityTarget - k * C0);
+        CorrectionGain = isImplicit || z <= 1 ? 0 : (z * z - 1) / response;
+        ImplicitDamping = h * (d + Theta * h * k);
+        RestImpulse = h * (d * Built.VelocityTarget - k * StartError);
     }
 }
 
-/// <summary>What a law brings into a step from the one before: all else follows from the rows that are built at its start.</summary>
-internal readonly struct LawHistory
+/// <summary>What a scalar row brings into a step from the one before: all else follows from the rows that are built at its start.</summary>
+internal readonly struct WarmStart
 {
-    public readonly double First;
-    public readonly Segment Segment;
+    public readonly double ImpulseFirstHalf;
+    public readonly RowState State;
     public readonly double Work;
 
-    public LawHistory(in Law law)
+    public WarmStart(in ScalarRow scalar)
     {
-        First = law.First;
-        Segment = law.Segment;
-        Work = law.Work;
+        ImpulseFirstHalf = scalar.ImpulseFirstHalf;
+        State = scalar.State;
+        Work = scalar.Work;
     }
 }

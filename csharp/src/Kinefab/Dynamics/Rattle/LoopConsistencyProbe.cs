@@ -13,7 +13,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// of a stiff frame it is of the order of the motion.
 /// Masses play no part: each body has unit moments, and a mass that weighs the levers' mean length as one radian.
 /// </summary>
-internal sealed class LoopProbe
+internal sealed class LoopConsistencyProbe
 {
     // Deterministic mixtures of all allowed velocities that are tried.
     private const int Mixtures = 2;
@@ -47,59 +47,59 @@ internal sealed class LoopProbe
     // Gap of the anchors there, against the levers' length.
     private const double MostGap = 1e-6;
 
-    private readonly Batch<ScalarLane> _batch;
+    private readonly LaneBatch<ScalarLane> _batch;
     private readonly double _length;
 
-    private LoopProbe(Island island, MultibodySystem mechanism)
+    private LoopConsistencyProbe(Island island, MultibodySystem mechanism)
     {
-        _batch = new Batch<ScalarLane>(island, new Workspace<ScalarLane>(island));
-        Transfer<ScalarLane>.LoadConstants(_batch, 0, island, mechanism);
-        Transfer<ScalarLane>.Load(_batch, mechanism, 1);
+        _batch = new LaneBatch<ScalarLane>(island, new Workspace<ScalarLane>(island));
+        LaneTransfer<ScalarLane>.GatherConstants(_batch, 0, island, mechanism);
+        LaneTransfer<ScalarLane>.Gather(_batch, mechanism, 1);
         _length = Length(island);
         double[] a = _batch.Bodies;
         for (int body = 0; body < island.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
-            a[o + BodySlot.InverseMass] = _length * _length;
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            a[o + BodyLanes.InverseMass] = _length * _length;
             for (int i = 0; i < 3; i++)
             {
-                a[o + BodySlot.InverseInertia + i] = a[o + BodySlot.InverseInertia + i] > 0 ? 1 : 0;
+                a[o + BodyLanes.InverseInertia + i] = a[o + BodyLanes.InverseInertia + i] > 0 ? 1 : 0;
             }
 
-            a[o + BodySlot.LeastInverseInertia] = a[o + BodySlot.LeastInverseInertia] > 0 ? 1 : 0;
+            a[o + BodyLanes.LeastInverseInertia] = a[o + BodyLanes.LeastInverseInertia] > 0 ? 1 : 0;
         }
 
         for (int body = island.MovingBodies; body < island.Bodies.Length; body++)
         {
-            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.V), 6);
-            Array.Clear(a, Batch<ScalarLane>.Body(body, BodySlot.W), 3);
+            Array.Clear(a, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), 6);
+            Array.Clear(a, LaneBatch<ScalarLane>.Body(body, BodyLanes.W), 3);
         }
 
         _batch.Work.Active[0] = 1;
     }
 
     /// <summary>Each island with such a loop.</summary>
-    public static List<InexactLoop> Find(MultibodySystem mechanism)
+    public static List<InconsistentLoop> Find(MultibodySystem mechanism)
     {
-        var found = new List<InexactLoop>();
+        var found = new List<InconsistentLoop>();
         foreach (Island island in IslandFinder.Find(mechanism))
         {
-            island.Fit = LoopFit.Inexact;
-            LoopFit fit = island.HasLoops && Array.Exists(island.Nodes, node => node.Angular != AngularRows.None)
-                ? new LoopProbe(island, mechanism).Fit()
-                : LoopFit.Exact;
-            if (fit != LoopFit.Exact)
+            island.Loops = LoopConsistency.Inconsistent;
+            LoopConsistency fit = island.HasLoops && Array.Exists(island.Blocks, block => block.Angular != AngularForm.None)
+                ? new LoopConsistencyProbe(island, mechanism).Fit()
+                : LoopConsistency.Exact;
+            if (fit != LoopConsistency.Exact)
             {
                 var joints = new List<int>();
-                foreach (Node node in island.Nodes)
+                foreach (RowBlock block in island.Blocks)
                 {
-                    if (node.Joint != null)
+                    if (block.Joint != null)
                     {
-                        joints.Add(node.Index);
+                        joints.Add(block.Index);
                     }
                 }
 
-                found.Add(new InexactLoop(joints.ToArray(), fit));
+                found.Add(new InconsistentLoop(joints.ToArray(), fit));
             }
         }
 
@@ -110,13 +110,13 @@ internal sealed class LoopProbe
     {
         double sum = 0;
         int count = 0;
-        foreach (Node node in island.Nodes)
+        foreach (RowBlock block in island.Blocks)
         {
-            for (int side = 0; side < 2 && node.Joint != null; side++)
+            for (int side = 0; side < 2 && block.Joint != null; side++)
             {
-                if (node.Bodies[side] < island.MovingBodies)
+                if (block.Bodies[side] < island.MovingBodies)
                 {
-                    sum += (side == 0 ? node.Joint.Frame0 : node.Joint.Frame1).Position.Length;
+                    sum += (side == 0 ? block.Joint.Frame0 : block.Joint.Frame1).Position.Length;
                     count++;
                 }
             }
@@ -125,17 +125,17 @@ internal sealed class LoopProbe
         return sum > 0 ? sum / count : 1;
     }
 
-    private LoopFit Fit()
+    private LoopConsistency Fit()
     {
-        var fit = LoopFit.Exact;
-        for (int mixture = 1; mixture <= Mixtures && fit != LoopFit.Inexact; mixture++)
+        LoopConsistency fit = LoopConsistency.Exact;
+        for (int mixture = 1; mixture <= Mixtures && fit != LoopConsistency.Inconsistent; mixture++)
         {
             Restart(mixture);
             if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first
                 && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
             {
                 bool isNamed = Math.Min(first, Math.Min(speed, last)) >= LeastNamedSpeed;
-                fit = isNamed && IsHeld(mixture) ? LoopFit.Inexact : isNamed ? fit : LoopFit.Loose;
+                fit = isNamed && IsHeld(mixture) ? LoopConsistency.Inconsistent : isNamed ? fit : LoopConsistency.Rounded;
             }
         }
 
@@ -144,7 +144,7 @@ internal sealed class LoopProbe
 
     private void Restart(int mixture)
     {
-        Flight<ScalarLane>.Stay(_batch);
+        FreeMotion<ScalarLane>.Stay(_batch);
         Rebuild();
         Start(mixture);
     }
@@ -157,8 +157,8 @@ internal sealed class LoopProbe
         Allowed();
         Allowed();
         double[] before = Rates();
-        ResponseMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
-        _batch.Laws?.Condition(true);
+        DelassusMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
+        _batch.ActiveSet?.AddToDiagonal(true);
         BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
         for (int i = 0; i < LetterProjections; i++)
         {
@@ -182,13 +182,13 @@ internal sealed class LoopProbe
     // Speed of each joint: of its bodies' turn and of its anchors, against the levers' length.
     private double[] Rates()
     {
-        var rates = new double[_batch.Shape.Nodes.Length];
+        var rates = new double[_batch.Shape.Blocks.Length];
         for (int n = 0; n < rates.Length; n++)
         {
-            Node node = _batch.Shape.Nodes[n];
-            if (node.Joint != null)
+            RowBlock block = _batch.Shape.Blocks[n];
+            if (block.Joint != null)
             {
-                Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[1]) - Impulses<ScalarLane>.AngularVelocity(_batch, node.Bodies[0]);
+                Vector3d turn = Impulses<ScalarLane>.AngularVelocity(_batch, block.Bodies[1]) - Impulses<ScalarLane>.AngularVelocity(_batch, block.Bodies[0]);
                 rates[n] = Math.Max(turn.Length, (AnchorSpeed(n, 1) - AnchorSpeed(n, 0)).Length / _length);
             }
         }
@@ -198,9 +198,9 @@ internal sealed class LoopProbe
 
     private Vector3d AnchorSpeed(int n, int side)
     {
-        int body = _batch.Shape.Nodes[n].Bodies[side];
-        Vector3d speed = Transfer<ScalarLane>.Vector(_batch.Bodies, Batch<ScalarLane>.Body(body, BodySlot.V));
-        Vector3d lever = Transfer<ScalarLane>.Vector(_batch.Joints, Batch<ScalarLane>.Joint(n, Batch<ScalarLane>.Placed(side)));
+        int body = _batch.Shape.Blocks[n].Bodies[side];
+        Vector3d speed = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.V));
+        Vector3d lever = LaneTransfer<ScalarLane>.ReadVector(_batch.Joints, LaneBatch<ScalarLane>.Joint(n, LaneBatch<ScalarLane>.WorldFrame(side)));
         return speed + Vector3d.Cross(Impulses<ScalarLane>.AngularVelocity(_batch, body), lever);
     }
 
@@ -216,12 +216,12 @@ internal sealed class LoopProbe
         uint state = (uint)mixture * 2654435761;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
             for (int i = 0; i < 6; i++)
             {
                 state = 1664525 * state + 1013904223;
                 double number = state / (double)uint.MaxValue - 0.5;
-                _batch.Bodies[o + BodySlot.V + i] = i < 3 ? number * _length : number;
+                _batch.Bodies[o + BodyLanes.V + i] = i < 3 ? number * _length : number;
             }
         }
     }
@@ -257,8 +257,8 @@ internal sealed class LoopProbe
         Scale(way);
         for (int i = 0; ; i++)
         {
-            Flight<ScalarLane>.Run(_batch, 1);
-            RigidRows<ScalarLane>.Evaluate(_batch);
+            FreeMotion<ScalarLane>.Drift(_batch, 1);
+            BilateralRows<ScalarLane>.Evaluate(_batch);
             Rebuild();
             if (i == Closings)
             {
@@ -280,7 +280,7 @@ internal sealed class LoopProbe
     private void Rebuild()
     {
         RattleStep<ScalarLane>.Rebuild(_batch);
-        if (_batch.Laws != null)
+        if (_batch.ActiveSet != null)
         {
             RattleStep<ScalarLane>.Factor(_batch, true);
         }
@@ -302,7 +302,7 @@ internal sealed class LoopProbe
         double most = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
             for (int i = 0; i < 6; i++)
             {
                 most = Math.Max(most, Math.Abs(_batch.Bodies[o + i]) / (i < 3 ? _length : 1));
@@ -316,7 +316,7 @@ internal sealed class LoopProbe
     {
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
             for (int i = 0; i < 6; i++)
             {
                 _batch.Bodies[o + i] *= factor;

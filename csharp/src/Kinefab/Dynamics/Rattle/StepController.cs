@@ -10,7 +10,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// also cut up front where bodies turn far or where tension makes them stiff. Even parts from the start, and kept for a
 /// while, since RATTLE keeps energy over long times at a constant step and pays for a change amid a violent motion.
 /// </summary>
-internal sealed class Ladder
+internal sealed class StepController
 {
     /// <summary>Halvings into even parts, and, below these, of a part alone.</summary>
     public const int MaxHalvings = 10;
@@ -20,7 +20,7 @@ internal sealed class Ladder
     private const int MaxFailures = 48;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
-    private const int MaxStops = 8;
+    private const int MaxDampedSteps = 8;
 
     // Largest error of a quaternion's square.
     private const double MostStretch = 1e-3;
@@ -28,39 +28,39 @@ internal sealed class Ladder
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
 
-    // Largest growth of the energy in a step, springs included, where laws may take any amount.
+    // Largest growth of the energy in a step, springs included, where scalar rows may take any amount.
     private const double MostEnergyGain = 0.005;
 
-    private readonly Batch<ScalarLane> _batch;
-    private readonly ImplicitEulerStep _floor;
-    private readonly PoseClosure _closure;
+    private readonly LaneBatch<ScalarLane> _batch;
+    private readonly ImplicitEulerStep _fallback;
+    private readonly PositionProjection _closure;
     private readonly Snapshot _start;
-    private readonly Snapshot[] _parts = new Snapshot[MaxDepth - MaxHalvings + 1];
+    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth - MaxHalvings + 1];
     private readonly bool[] _converged = new bool[1];
-    private double _part;
+    private double _substep;
     private int _failures;
-    private int _stops;
+    private int _dampedInStep;
     private int _worst;
     private double _worstError;
-    private bool _isEager;
+    private bool _refinesAfterFailure;
     private bool _isAudited;
-    private Energy _energy;
+    private EnergyAudit _energy;
     private double _dt;
 
-    public Ladder(Batch<ScalarLane> batch)
+    public StepController(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
-        _floor = new ImplicitEulerStep(batch);
-        _closure = new PoseClosure(batch);
+        _fallback = new ImplicitEulerStep(batch);
+        _closure = new PositionProjection(batch);
         _start = new Snapshot(batch);
-        for (int i = 0; i < _parts.Length; i++)
+        for (int i = 0; i < _substepStarts.Length; i++)
         {
-            _parts[i] = new Snapshot(batch);
+            _substepStarts[i] = new Snapshot(batch);
         }
     }
 
     /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
-    public int Stops { get; private set; }
+    public int DampedSteps { get; private set; }
 
     /// <summary>What was farthest from closed in the last step that had a stop.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
@@ -92,23 +92,23 @@ internal sealed class Ladder
     /// <param name="cut">The island's cut; takes note of the step.</param>
     /// <param name="hasFailed">Whether the plain step was tried already.</param>
     /// <param name="isMoved">Whether the start pose is not the one that the last step left.</param>
-    public void Step(double dt, double tolerance, ref StepCut cut, bool hasFailed, bool isMoved)
+    public void Advance(double dt, double tolerance, ref SubstepHistory cut, bool hasFailed, bool isMoved)
     {
-        Array.Clear(_batch.Work.Total, 0, _batch.Work.Total.Length);
-        _batch.Laws?.ClearWork();
-        _part = dt;
+        Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
+        _batch.ActiveSet?.ClearWork();
+        _substep = dt;
         _failures = 0;
-        _stops = 0;
-        _isEager = false;
-        _isAudited = Energy.IsKnown(_batch);
+        _dampedInStep = 0;
+        _refinesAfterFailure = false;
+        _isAudited = EnergyAudit.IsKnown(_batch);
         HasClosed = isMoved && _closure.TryClose(tolerance);
         bool hasSettled = hasFailed || HasClosed;
         if (hasSettled)
         {
-            Settle();
+            CloseInitialState();
         }
 
-        double demand = StepDemand.Of(_batch, dt);
+        double demand = StepLimit.Of(_batch, dt);
         int halvings = Math.Max(cut.Halvings, hasFailed ? 1 : 0);
         while (halvings < MaxHalvings && demand > 1 << halvings)
         {
@@ -118,56 +118,56 @@ internal sealed class Ladder
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        while (!TryParts(dt, halvings, tolerance) || !IsEnergyKept(halvings))
+        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
-            _part = dt;
+            _substep = dt;
             if (!hasSettled)
             {
                 hasSettled = true;
-                _isEager = true;
-                Settle();
+                _refinesAfterFailure = true;
+                CloseInitialState();
                 _start.Save(_batch);
                 Audit(dt);
             }
 
             if (halvings == MaxHalvings)
             {
-                ForceParts(dt, tolerance);
+                SubstepUntilSolved(dt, tolerance);
                 break;
             }
 
             halvings++;
         }
 
-        cut.Note(halvings, demand);
-        SetPart(dt);
+        cut.Record(halvings, demand);
+        SetSubstep(dt);
     }
 
     // Closing what stands open does work on springs.
-    private void Settle()
+    private void CloseInitialState()
     {
         _isAudited &= !_closure.IsOpen();
         RattleStep<ScalarLane>.Rebuild(_batch);
-        ForbiddenSpeeds.TakeOff(_batch);
+        InitialVelocityProjection.Apply(_batch);
     }
 
     private void Audit(double dt)
     {
         if (_isAudited)
         {
-            _energy = new Energy(_batch, dt);
+            _energy = new EnergyAudit(_batch, dt);
         }
     }
 
     private static JointModel? JointOf(Island island, int row)
     {
         int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
-        return island.Nodes[n].Joint ?? island.Nodes[n].Coupling!.B.Joint;
+        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.B.Joint;
     }
 
     // Of the first part that no method could take.
-    private void Blame(double tolerance)
+    private void MeasureWorstResidual(double tolerance)
     {
         _worst = -1;
         _worstError = tolerance;
@@ -183,17 +183,17 @@ internal sealed class Ladder
         }
     }
 
-    // At the finest even parts a violent motion without laws may lose energy: nothing below these is better.
+    // At the finest even parts a violent motion without scalar rows may lose energy: nothing below these is better.
     private bool IsEnergyKept(int halvings)
     {
-        bool mayLose = _batch.Laws != null || halvings >= MaxHalvings;
-        return !_isAudited || new Energy(_batch, _dt).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
+        bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
+        return !_isAudited || new EnergyAudit(_batch, _dt).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
-    private bool TryParts(double dt, int halvings, double tolerance)
+    private bool TrySubsteps(double dt, int halvings, double tolerance)
     {
         double h = dt / (1 << halvings);
-        SetPart(h);
+        SetSubstep(h);
         for (int i = 1 << halvings; i > 0; i--)
         {
             if (!TryRattle(h, tolerance))
@@ -205,24 +205,24 @@ internal sealed class Ladder
         return true;
     }
 
-    private void ForceParts(double dt, double tolerance)
+    private void SubstepUntilSolved(double dt, double tolerance)
     {
         for (int i = 1 << MaxHalvings; i > 0; i--)
         {
-            Force(dt / (1 << MaxHalvings), MaxHalvings, tolerance);
+            Halve(dt / (1 << MaxHalvings), MaxHalvings, tolerance);
         }
     }
 
-    private void Force(double h, int depth, double tolerance)
+    private void Halve(double h, int depth, double tolerance)
     {
-        if (_stops == MaxStops)
+        if (_dampedInStep == MaxDampedSteps)
         {
-            Stop();
+            Damp();
             return;
         }
 
-        Snapshot start = _parts[depth - MaxHalvings];
-        SetPart(h);
+        Snapshot start = _substepStarts[depth - MaxHalvings];
+        SetSubstep(h);
         start.Save(_batch);
         if (TryRattle(h, tolerance) && IsEnergyKept(depth))
         {
@@ -232,96 +232,96 @@ internal sealed class Ladder
         start.Restore(_batch);
         if (depth < MaxDepth && _failures++ < MaxFailures)
         {
-            Force(h / 2, depth + 1, tolerance);
-            Force(h / 2, depth + 1, tolerance);
-            SetPart(h);
+            Halve(h / 2, depth + 1, tolerance);
+            Halve(h / 2, depth + 1, tolerance);
+            SetSubstep(h);
             return;
         }
 
-        if (TryFloor(h, tolerance) && IsEnergyKept(depth))
+        if (TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
 
-        if (_stops == 0)
+        if (_dampedInStep == 0)
         {
-            Blame(tolerance);
+            MeasureWorstResidual(tolerance);
         }
 
         start.Restore(_batch);
-        _stops++;
-        Stop();
+        _dampedInStep++;
+        Damp();
     }
 
     private bool TryRattle(double h, double tolerance)
     {
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.Fly(_batch, h, tolerance, _converged, _isEager);
-        if (!_converged[0] || (_batch.Laws != null && _batch.Laws.HasPassedUnseen(tolerance)))
+        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, _refinesAfterFailure);
+        if (!_converged[0] || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)))
         {
             return false;
         }
 
-        _batch.Laws?.AddWork();
+        _batch.ActiveSet?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
         VelocityProjection<ScalarLane>.Run(_batch, h, tolerance);
         Finish();
-        Stiffness<ScalarLane>.Measure(_batch, _batch.Half, h / 2);
+        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.VelocityImpulses, h / 2);
         return IsFinite();
     }
 
-    private bool TryFloor(double h, double tolerance)
+    private bool TryImplicitEuler(double h, double tolerance)
     {
-        if (!_floor.Fly(h, tolerance))
+        if (!_fallback.TrySolve(h, tolerance))
         {
             return false;
         }
 
-        _batch.Laws?.AddWork();
+        _batch.ActiveSet?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
-        Stiffness<ScalarLane>.Measure(_batch, _batch.Work.First, h);
+        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
         _batch.Work.Active[0] = 1;
         VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance);
         Finish();
 
         // What implicit Euler leaves behind is no guess for RATTLE.
-        Array.Clear(_batch.Half, 0, _batch.Half.Length);
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
         return IsFinite();
     }
 
     private void Finish()
     {
         RattleStep<ScalarLane>.Accept(_batch);
-        for (int i = 0; i < _batch.Work.Total.Length; i++)
+        for (int i = 0; i < _batch.Work.TotalImpulses.Length; i++)
         {
-            _batch.Work.Total[i] += _batch.Work.First[i] + _batch.Half[i];
+            _batch.Work.TotalImpulses[i] += _batch.Work.PositionImpulses[i] + _batch.VelocityImpulses[i];
         }
     }
 
     // Impulses are proportional to the part's length; the guess is scaled to it.
-    private void SetPart(double h)
+    private void SetSubstep(double h)
     {
-        if (_part > 0 && _part != h)
+        if (_substep > 0 && _substep != h)
         {
-            double factor = h / _part;
-            for (int i = 0; i < _batch.Half.Length; i++)
+            double factor = h / _substep;
+            for (int i = 0; i < _batch.VelocityImpulses.Length; i++)
             {
-                _batch.Half[i] *= factor;
+                _batch.VelocityImpulses[i] *= factor;
             }
 
-            _batch.Laws?.ScaleHistory(factor);
+            _batch.ActiveSet?.ScaleHistory(factor);
         }
 
-        _part = h;
+        _substep = h;
     }
 
     private bool IsFinite()
     {
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, 0);
-            for (int i = 0; i < BodySlot.EndX; i++)
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            for (int i = 0; i < BodyLanes.EndX; i++)
             {
                 if (!(Math.Abs(_batch.Bodies[o + i]) < 1e100))
                 {
@@ -331,7 +331,7 @@ internal sealed class Ladder
 
             // A turn too wide for the series leaves a quaternion that is none.
             double norm = 0;
-            for (int i = BodySlot.Q; i < BodySlot.EndX; i++)
+            for (int i = BodyLanes.Q; i < BodyLanes.EndX; i++)
             {
                 norm += _batch.Bodies[o + i] * _batch.Bodies[o + i];
             }
@@ -346,13 +346,13 @@ internal sealed class Ladder
     }
 
     // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.
-    private void Stop()
+    private void Damp()
     {
         const double share = 0.9;
-        Stops++;
+        DampedSteps++;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
-            int o = Batch<ScalarLane>.Body(body, BodySlot.V);
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
             for (int i = 0; i < 6; i++)
             {
                 double kept = share * _batch.Bodies[o + i];
@@ -360,7 +360,7 @@ internal sealed class Ladder
             }
         }
 
-        Array.Clear(_batch.Half, 0, _batch.Half.Length);
-        _batch.Laws?.ClearHistory();
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        _batch.ActiveSet?.ClearHistory();
     }
 }

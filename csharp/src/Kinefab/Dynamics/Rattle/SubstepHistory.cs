@@ -1,7 +1,7 @@
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>How often an island's steps are halved, kept from step to step.</summary>
-internal struct StepCut
+internal struct SubstepHistory
 {
     // Steps in which by its demand an eighth as many parts would have done, after which it is cut into half as many.
     private const int CalmSteps = 15;
@@ -13,8 +13,8 @@ internal struct StepCut
 
     /// <summary>Takes note of a step.</summary>
     /// <param name="halvings">Halvings that it took.</param>
-    /// <param name="demand">See <see cref="StepDemand"/>.</param>
-    public void Note(int halvings, double demand)
+    /// <param name="demand">See <see cref="StepLimit"/>.</param>
+    public void Record(int halvings, double demand)
     {
         if (halvings > Halvings || demand * Margin > 1 << Halvings)
         {

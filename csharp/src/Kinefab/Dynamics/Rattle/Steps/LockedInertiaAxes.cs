@@ -7,28 +7,28 @@ namespace Kinefab.Dynamics.Rattle;
 /// Bodies with an infinite moment of inertia. What joints press against such an axis goes nowhere: kept in the angular
 /// momentum, it would spill into the axes that do turn as soon as the body turns, and make a gyroscope of it.
 /// </summary>
-internal static class FrozenAxes<V>
+internal static class LockedInertiaAxes<V>
     where V : struct, ILane<V>
 {
     /// <summary>Takes what lies along frozen axes, as they stand at the start of the step, out of the angular momenta.</summary>
-    public static void Clear(Batch<V> batch)
+    public static void ClearMomentum(LaneBatch<V> batch)
     {
-        foreach (int body in batch.Shape.FrozenBodies)
+        foreach (int body in batch.Shape.LockedInertiaBodies)
         {
-            Clear(batch.Bodies, Batch<V>.Body(body, 0));
+            ClearMomentum(batch.Bodies, LaneBatch<V>.Body(body, 0));
         }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Clear(double[] a, int o)
+    private static void ClearMomentum(double[] a, int o)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodySlot.Q * w);
-        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodySlot.L * w));
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.L * w));
 
         // 1 for an axis that turns, 0 for one that does not.
         LaneVector<V> turns = LaneVector<V>.Scale(
-            LaneVector<V>.Load(a, o + BodySlot.Inertia * w), LaneVector<V>.Load(a, o + BodySlot.InverseInertia * w));
-        q.Rotate(LaneVector<V>.Scale(turns, inBody)).Store(a, o + BodySlot.L * w);
+            LaneVector<V>.Load(a, o + BodyLanes.Inertia * w), LaneVector<V>.Load(a, o + BodyLanes.InverseInertia * w));
+        q.Rotate(LaneVector<V>.Scale(turns, inBody)).Store(a, o + BodyLanes.L * w);
     }
 }

@@ -1,0 +1,136 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <content>The scalar rows in the drift: their residuals at its end, and which rows leave their state.</content>
+internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Residuals of the scalar rows at the end of the drift as errors, m or rad.</summary>
+    public void Evaluate(double h)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            double error = 0;
+            scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+            if (scalar.State == RowState.Free)
+            {
+                error = scalar.Kind switch
+                {
+                    RowKind.Limit => scalar.End.GeometricError,
+                    RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
+                    _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.RestImpulse) / scalar.ImplicitDamping),
+                };
+            }
+
+            _batch.Work.Error[scalar.Index] = error;
+        }
+    }
+
+    /// <summary>Holds rows at their bounds whose impulses are beyond them; true when one was.</summary>
+    public bool ClampToBounds()
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.PendingImpulse = 0;
+            if (scalar.State == RowState.Free)
+            {
+                scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+                isChanged |= ClampToBounds(ref scalar);
+            }
+        }
+
+        return isChanged;
+    }
+
+    /// <summary>Whether a hard limit was passed that had no row at the start of the drift: one of a distance or cone, in the middle.</summary>
+    public bool HasMissedEvent(double tolerance)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (!scalar.IsActive && scalar.End.Has(RowFlags.Limit) && !scalar.End.Has(RowFlags.Spring) && scalar.End.GeometricError < -tolerance)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Gives the momenta what the last <see cref="UpdatePositions"/> changed of the impulses.</summary>
+    public void ApplyPending()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            if (_rows[i].PendingImpulse != 0)
+            {
+                Impulses<V>.ApplyRow(_batch, _rows[i].Block, _rows[i].Built, _rows[i].PendingImpulse);
+                _rows[i].PendingImpulse = 0;
+            }
+        }
+    }
+
+    /// <summary>Moves rows that have left their state; true when one had to.</summary>
+    public bool UpdatePositions(int pass, double tolerance)
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _rows.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.PendingImpulse = 0;
+            if (scalar.Kind == RowKind.None)
+            {
+                continue;
+            }
+
+            if (scalar.State == RowState.Free)
+            {
+                isChanged |= ClampToBounds(ref scalar);
+            }
+            else if (LeavesBound(scalar, scalar.Theta * scalar.Low, scalar.Theta * scalar.High, tolerance))
+            {
+                scalar.State = RowState.Free;
+                isChanged = true;
+            }
+        }
+
+        return isChanged;
+    }
+
+    private bool LeavesBound(in ScalarRow scalar, double low, double high, double tolerance)
+    {
+        switch (scalar.Kind)
+        {
+            case RowKind.Limit:
+                return scalar.End.GeometricError < -tolerance;
+            case RowKind.SpeedMotor:
+                double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
+                return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);
+            default:
+                double wanted = scalar.Theta * (scalar.RestImpulse - scalar.ImplicitDamping * DriftSpeed(scalar));
+                double slack = scalar.Theta * scalar.ImplicitDamping * tolerance;
+                return (scalar.ImpulseFirstHalf >= high && wanted < high - slack) || (scalar.ImpulseFirstHalf <= low && wanted > low + slack);
+        }
+    }
+
+    private bool ClampToBounds(ref ScalarRow scalar)
+    {
+        double impulse = Math.Min(scalar.Theta * scalar.High, Math.Max(scalar.Theta * scalar.Low, scalar.ImpulseFirstHalf));
+        if (impulse == scalar.ImpulseFirstHalf)
+        {
+            return false;
+        }
+
+        scalar.PendingImpulse = impulse - scalar.ImpulseFirstHalf;
+        scalar.ImpulseFirstHalf = impulse;
+        scalar.State = RowState.AtBound;
+        _batch.Work.PositionImpulses[scalar.Index] = impulse;
+        return true;
+    }
+}

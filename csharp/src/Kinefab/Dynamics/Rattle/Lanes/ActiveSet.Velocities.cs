@@ -1,0 +1,170 @@
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <content>The scalar rows in the projection of the momenta at the end pose: what holds there, and with which speed.</content>
+internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>At the end pose: gives springs the rest of their impulse and finds which rows the projection may hold.</summary>
+    public void BeginVelocities(double tolerance)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            _batch.VelocityImpulses[scalar.Index] = 0;
+            scalar.ImpulseSecondHalf = 0;
+            if (!scalar.IsActive || scalar.Kind == RowKind.None)
+            {
+                scalar.State = RowState.AtBound;
+                continue;
+            }
+
+            switch (scalar.Kind)
+            {
+                case RowKind.Spring:
+                    SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf * (1 - scalar.Theta) / scalar.Theta);
+                    scalar.CorrectionSpeed = scalar.State == RowState.Free ? (scalar.RestImpulse - scalar.ImpulseFirstHalf / scalar.Theta) / scalar.ImplicitDamping : double.NaN;
+                    scalar.State = RowState.AtBound;
+                    break;
+                case RowKind.SpeedMotor:
+                    if (scalar.Theta == 1)
+                    {
+                        scalar.State = RowState.AtBound;
+                    }
+                    else if (scalar.State == RowState.AtBound)
+                    {
+                        SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf);
+                    }
+
+                    break;
+                default:
+                    scalar.State = scalar.Built.GeometricError <= tolerance ? RowState.Free : RowState.AtBound;
+                    break;
+            }
+        }
+    }
+
+    /// <summary>Adds the speeds that the free rows shall have to the right-hand side of the projection.</summary>
+    public void AddTargets()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.State == RowState.Free)
+            {
+                _batch.Work.Solution[scalar.Index] += TargetSpeed(scalar);
+            }
+            else
+            {
+                _batch.Work.Solution[scalar.Index] = 0;
+            }
+        }
+    }
+
+    /// <summary>After a solve of the projection: moves rows that left their state; true when one had to.</summary>
+    public bool UpdateVelocities(int pass, double tolerance)
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _rows.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (!scalar.IsActive || scalar.Kind == RowKind.None || scalar.Kind == RowKind.Spring)
+            {
+                continue;
+            }
+
+            if (scalar.State == RowState.Free)
+            {
+                scalar.ImpulseSecondHalf = _batch.VelocityImpulses[scalar.Index];
+                double low = scalar.Low * (1 - scalar.Theta);
+                double high = scalar.High * (1 - scalar.Theta);
+                if (scalar.Kind == RowKind.Limit)
+                {
+                    // What pushed the joint back out of its stop on the way is no speed to leave it with.
+                    low = -scalar.ImpulseFirstHalf;
+                    high = double.PositiveInfinity;
+                }
+
+                if (scalar.ImpulseSecondHalf < low || scalar.ImpulseSecondHalf > high)
+                {
+                    SetImpulseSecondHalf(ref scalar, scalar.ImpulseSecondHalf < low ? low : high);
+                    scalar.State = RowState.AtBound;
+                    isChanged = true;
+                }
+            }
+            else if (scalar.Kind == RowKind.Limit && scalar.Built.GeometricError <= tolerance
+                && Impulses<V>.Speed(_batch, scalar.Block, scalar.Built) < TargetSpeed(scalar) - tolerance)
+            {
+                scalar.State = RowState.Free;
+                isChanged = true;
+            }
+        }
+
+        return isChanged;
+    }
+
+    /// <summary>Lets springs answer in the projected momenta; false when none has to.</summary>
+    public bool BeginCorrection()
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.IsActive && scalar.Kind == RowKind.Spring && scalar.CorrectionGain > 0 && !double.IsNaN(scalar.CorrectionSpeed))
+            {
+                scalar.State = RowState.Free;
+                isAny = true;
+            }
+        }
+
+        return isAny;
+    }
+
+    /// <summary>Takes from the right-hand side what the springs have answered so far.</summary>
+    public void SubtractCorrections(double[] answers)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isAnswer = scalar.Kind == RowKind.Spring && scalar.State == RowState.Free;
+            _batch.Work.Solution[scalar.Index] -= isAnswer ? answers[scalar.Index] / scalar.CorrectionGain : 0;
+        }
+    }
+
+    /// <summary>Takes the springs out again, as a projection leaves them.</summary>
+    public void EndCorrection()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.State = scalar.Kind == RowKind.Spring ? RowState.AtBound : scalar.State;
+        }
+    }
+
+    // A spring that answers holds the drift's speed. Newton's scalar row of impact: the speed after a stop against the speed before
+    // the step, above the threshold alone.
+    private static double TargetSpeed(in ScalarRow scalar)
+    {
+        if (scalar.Kind == RowKind.Spring)
+        {
+            return scalar.CorrectionSpeed;
+        }
+
+        if (scalar.Kind != RowKind.Limit)
+        {
+            return scalar.Built.VelocityTarget;
+        }
+
+        bool bounces = scalar.Built.Has(RowFlags.Restitution) && -scalar.StartSpeed > scalar.Built.BounceThreshold;
+        return bounces ? -scalar.Built.Restitution * scalar.StartSpeed : 0;
+    }
+
+    private void SetImpulseSecondHalf(ref ScalarRow scalar, double impulse)
+    {
+        Impulses<V>.ApplyRow(_batch, scalar.Block, scalar.Built, impulse - scalar.ImpulseSecondHalf);
+        scalar.ImpulseSecondHalf = impulse;
+        _batch.VelocityImpulses[scalar.Index] = impulse;
+    }
+}

@@ -1,0 +1,86 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <content>What springs and motors hold and give: the account by which a step is audited.</content>
+internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Opens the account of <see cref="SpringWork"/>.</summary>
+    public void ClearWork()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].Work = 0;
+        }
+    }
+
+    /// <summary>Puts the drift's work into the account, with the rows still those of its start and end.</summary>
+    public void AddWork()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.Theta * DriftSpeed(scalar) : 0;
+        }
+    }
+
+    /// <summary>Work of the springs that have no potential since the account was opened, J.</summary>
+    public double SpringWork()
+    {
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            sum += _rows[i].Work;
+        }
+
+        return sum;
+    }
+
+    /// <summary>
+    /// Energy in the springs that have a potential where the rows were last built, J: of one at its limit, what that force
+    /// gives on the way back.
+    /// </summary>
+    /// <param name="dt">Step, s.</param>
+    public double StoredEnergy(double dt)
+    {
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            double c = scalar.Built.GeometricError;
+            if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring) && scalar.Built.Stiffness > 0 && !(scalar.Built.Has(RowFlags.Limit) && c >= 0) && HasPotential(scalar))
+            {
+                double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
+                double k = response > LeastResponse ? scalar.Built.Stiffness / response : 0;
+                bool isForce = _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
+                double most = (c < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
+                double yield = Math.Min(Math.Abs(c), most / Math.Max(k, LeastResponse));
+                sum += k * yield * (Math.Abs(c) - yield / 2);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>The most that motors can have given since the start of the step, J.</summary>
+    public double MotorWorkBound()
+    {
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            sum += scalar.IsActive && !scalar.Built.Has(RowFlags.Spring) ? Math.Abs(scalar.Built.VelocityTarget * _batch.Work.TotalImpulses[scalar.Index]) : 0;
+        }
+
+        return sum;
+    }
+
+    // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing
+    // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says.
+    private bool HasPotential(in ScalarRow scalar) =>
+        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Shape.Blocks[scalar.Block].Joint!).DriveAngularVelocity == Vector3d.Zero
+        : scalar.Built.VelocityTarget == 0 && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Shape.Blocks[scalar.Block].Joint is RevoluteJoint);
+}

@@ -1,0 +1,334 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// The rows with a scalar row of one island. They share the island's matrix: a row on a free state has the state's
+/// compliance on the diagonal, a at-bound one is an identity row and its impulse acts from outside. The states are
+/// found by a semi-smooth Newton iteration: solve, move the rows that left their state, solve again. Should that
+/// circle, only the first row that is out of place moves (Murty's least-index rule), which ends.
+/// </summary>
+internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Passes that move all rows out of place, and passes in all.</summary>
+    private const int FreePasses = 8;
+    private const int MaxPasses = 64;
+
+    // Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.
+    private const double RigidShare = 1e-11;
+
+    // A compliance beyond this share of the row's response stands for a spring that hardly acts.
+    private const double LeastResponse = 1e-200;
+
+    private readonly LaneBatch<V> _batch;
+    private readonly ScalarRow[] _rows;
+    private readonly int[] _first;
+
+    // Whether the matrix is that of the rows as they stand now, held as their Hold says.
+    private bool _isFactored;
+
+    public ActiveSet(LaneBatch<V> batch)
+    {
+        _batch = batch;
+        _rows = new ScalarRow[batch.Shape.ScalarCount];
+        _first = new int[batch.Shape.Blocks.Length];
+        int next = 0;
+        for (int n = 0; n < _first.Length; n++)
+        {
+            RowBlock block = batch.Shape.Blocks[n];
+            _first[n] = next;
+            for (int i = 0; i < block.ScalarCount; i++)
+            {
+                int nodeRow = block.BilateralCount + i;
+                _rows[next++] = new ScalarRow { Block = n, BlockRow = nodeRow, Index = batch.Shape.Pattern.Rows[n] + nodeRow };
+            }
+        }
+    }
+
+    /// <summary>Before a block's rows are written: it has none yet.</summary>
+    public void Clear(int block)
+    {
+        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
+        for (int i = _first[block]; i < end; i++)
+        {
+            _rows[i].IsActive = false;
+        }
+    }
+
+    /// <summary>A block's row as Prepare wrote it.</summary>
+    public void Set(int block, int slot, in ConstraintRow row)
+    {
+        ref ScalarRow scalar = ref _rows[_first[block] + slot];
+        scalar.IsActive = true;
+        _isFactored &= scalar.ProjectedAs == ProjectedAs.Inactive || row.HasJacobianOf(scalar.Built);
+        scalar.Built = row;
+    }
+
+    /// <summary>The bodies have moved or the matrix was changed: it is to be assembled anew.</summary>
+    public void Invalidate() => _isFactored = false;
+
+    /// <summary>
+    /// Whether the matrix is still the drift's: the projection before it held the same rows, and no spring is to act.
+    /// </summary>
+    public bool IsFactoredForDrift()
+    {
+        bool isFactored = _isFactored;
+        for (int i = 0; i < _rows.Length && isFactored; i++)
+        {
+            isFactored = _rows[i].ProjectedAs != ProjectedAs.Compliant && _rows[i].FindProjectedAs() == _rows[i].ProjectedAs;
+        }
+
+        return isFactored;
+    }
+
+    /// <summary>Before a block's rows at the end of the drift are written.</summary>
+    public void ClearEndRows(int block)
+    {
+        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
+        for (int i = _first[block]; i < end; i++)
+        {
+            _rows[i].HasEnd = false;
+        }
+    }
+
+    /// <summary>A block's row at the end of the drift.</summary>
+    public void SetEndRow(int block, int slot, in ConstraintRow row)
+    {
+        ref ScalarRow scalar = ref _rows[_first[block] + slot];
+        scalar.HasEnd = true;
+        scalar.End = row;
+    }
+
+    /// <summary>A block's rows at the end of the drift as those of the pose that is built.</summary>
+    public void AdoptEndRows(int block)
+    {
+        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
+        for (int i = _first[block]; i < end; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.IsActive = scalar.HasEnd;
+            if (scalar.HasEnd)
+            {
+                scalar.Built = scalar.End;
+            }
+        }
+    }
+
+    /// <summary>Whether a block that has one scalar row has a motor, whose row about an axis that stays is the same wherever it is built.</summary>
+    public bool HasMotorAlone(int block) => _rows[_first[block]].IsActive && !_rows[_first[block]].Built.Has(RowFlags.Spring);
+
+    /// <summary>Forgets impulses and states.</summary>
+    public void ClearHistory()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].ImpulseFirstHalf = 0;
+            _rows[i].ImpulseSecondHalf = 0;
+            _rows[i].State = RowState.AtBound;
+        }
+    }
+
+    /// <summary>Takes the scalar rows' constants for a step from the rows at the start pose, guesses states, writes J.</summary>
+    /// <param name="h">Step, s.</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
+    public void Begin(double h, bool isImplicit)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.StartError = scalar.Built.GeometricError;
+            scalar.End = scalar.IsActive ? scalar.Built : default;
+            scalar.ImpulseSecondHalf = 0;
+            scalar.PendingImpulse = 0;
+            scalar.Theta = isImplicit ? 1 : 0.5;
+            scalar.Kind = scalar.FindKind();
+            if (scalar.Kind == RowKind.None)
+            {
+                scalar.State = RowState.AtBound;
+                scalar.ImpulseFirstHalf = 0;
+                _batch.VelocityImpulses[scalar.Index] = 0;
+                continue;
+            }
+
+            scalar.StartSpeed = StartSpeed(scalar);
+            double response = Response(scalar);
+            scalar.SetBounds(h, _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces);
+            if (scalar.Kind == RowKind.Spring)
+            {
+                scalar.SetSpring(h, response, isImplicit);
+                _batch.VelocityImpulses[scalar.Index] = Math.Min(scalar.Theta * scalar.High, Math.Max(scalar.Theta * scalar.Low, scalar.ImpulseFirstHalf));
+            }
+            else
+            {
+                _batch.VelocityImpulses[scalar.Index] = Math.Min(scalar.Theta * scalar.High, Math.Max(scalar.Theta * scalar.Low, _batch.VelocityImpulses[scalar.Index]));
+            }
+
+            scalar.ImpulseFirstHalf = _batch.VelocityImpulses[scalar.Index];
+            if (scalar.Kind == RowKind.Limit)
+            {
+                scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < 0 ? RowState.Free : RowState.AtBound;
+            }
+            else if (scalar.ImpulseFirstHalf > scalar.Theta * scalar.Low && scalar.ImpulseFirstHalf < scalar.Theta * scalar.High)
+            {
+                scalar.State = RowState.Free;
+            }
+
+            if (response < LeastResponse)
+            {
+                scalar.Kind = RowKind.None;
+                scalar.State = RowState.AtBound;
+                scalar.ImpulseFirstHalf = 0;
+                _batch.VelocityImpulses[scalar.Index] = 0;
+            }
+        }
+
+        WriteRows(true);
+    }
+
+    /// <summary>The free rows start without impulse; the at-bound ones keep theirs.</summary>
+    public void ClearFree()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.ImpulseFirstHalf = scalar.State == RowState.Free ? 0 : scalar.ImpulseFirstHalf;
+            _batch.Work.PositionImpulses[scalar.Index] = scalar.ImpulseFirstHalf;
+        }
+    }
+
+    /// <summary>Takes all rows out of the matrix until the next <see cref="Begin"/> guesses anew.</summary>
+    public void Deactivate()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].State = RowState.AtBound;
+        }
+    }
+
+    /// <summary>Holds the hard limits that are passed where the rows were last built, and nothing else; writes their J and C.</summary>
+    public void ActivateViolated()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.Kind = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring) ? RowKind.Limit : RowKind.None;
+            bool isPassed = scalar.Kind == RowKind.Limit && scalar.Built.GeometricError < 0;
+            scalar.State = isPassed ? RowState.Free : RowState.AtBound;
+            _batch.Work.Error[scalar.Index] = isPassed ? scalar.Built.GeometricError : 0;
+        }
+
+        WriteRows(false);
+    }
+
+    /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
+    public void ClearAtBound(double[] vector)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            if (_rows[i].State == RowState.AtBound)
+            {
+                vector[_rows[i].Index] = 0;
+            }
+        }
+    }
+
+    /// <summary>Impulses of a step of another length as a guess.</summary>
+    public void ScaleHistory(double factor)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].ImpulseFirstHalf *= factor;
+        }
+    }
+
+    /// <summary>What the next step takes from those before it.</summary>
+    public void Exchange(StateTape tape)
+    {
+        tape.Array(_rows);
+        tape.Value(ref _isFactored);
+    }
+
+    /// <summary>Keeps, or brings back, impulses, states and the account of work.</summary>
+    public void Save(WarmStart[] to)
+    {
+        for (int i = 0; i < to.Length; i++)
+        {
+            to[i] = new WarmStart(_rows[i]);
+        }
+    }
+
+    public void Restore(WarmStart[] from)
+    {
+        for (int i = 0; i < from.Length; i++)
+        {
+            _rows[i].ImpulseFirstHalf = from[i].ImpulseFirstHalf;
+            _rows[i].State = from[i].State;
+            _rows[i].Work = from[i].Work;
+        }
+
+        Invalidate();
+    }
+
+    /// <summary>Adds what a block's limits gave its first body in the whole step.</summary>
+    public void AddLimits(int block, ref Vector3d linear, ref Vector3d angular)
+    {
+        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
+        for (int i = _first[block]; i < end; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.IsActive && scalar.Built.Has(RowFlags.Limit))
+            {
+                linear += scalar.Built.Linear0 * _batch.Work.TotalImpulses[scalar.Index];
+                angular += scalar.Built.Angular0 * _batch.Work.TotalImpulses[scalar.Index];
+            }
+        }
+    }
+
+    /// <summary>J of the free rows into the batch, 0 for the at-bound ones.</summary>
+    /// <param name="isAll">Write J of all rows, so that impulses can be applied by them.</param>
+    public void WriteRows(bool isAll)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isThere = scalar.IsActive && scalar.Kind != RowKind.None && (isAll || scalar.State == RowState.Free);
+            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, scalar.Built, isThere ? 1 : 0);
+        }
+    }
+
+    /// <summary>The scalar rows' part of the diagonal of the assembled matrix.</summary>
+    /// <param name="isFlight">Springs act in the drift; after it they answer alone.</param>
+    public void AddToDiagonal(bool isFlight)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            RowBlock block = _batch.Shape.Blocks[scalar.Block];
+            int cell = _batch.Shape.Pattern.Diagonal(scalar.Block) + scalar.BlockRow * (block.Rows + 1);
+            scalar.ProjectedAs = scalar.FindProjectedAs();
+            switch (scalar.ProjectedAs)
+            {
+                case ProjectedAs.Inactive:
+                    _batch.Matrix[cell] = 1;
+                    break;
+                case ProjectedAs.Rigid:
+                    _batch.Matrix[cell] *= 1 + RigidShare;
+                    break;
+                default:
+                    _batch.Matrix[cell] += 1 / (isFlight ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);
+                    break;
+            }
+        }
+
+        _isFactored = true;
+    }
+
+    private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);
+
+    private double DriftSpeed(in ScalarRow scalar) => Impulses<V>.DriftSpeed(_batch, scalar.Block, scalar.Built, scalar.End);
+
+    private double Response(in ScalarRow scalar) => Impulses<V>.ResponseOf(_batch, scalar.Block, scalar.Built);
+}

@@ -1,0 +1,209 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Rows that a joint's or coupling's own Prepare writes: single locked angles, couplings, and all that obey a scalar row. They
+/// are not written in lanes: islands with such rows are solved one at a time.
+/// </summary>
+internal static class AssembledRows<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>C of these rows at the end of the drift.</summary>
+    public static void Evaluate(LaneBatch<V> batch, int n)
+    {
+        RowBlock block = batch.Shape.Blocks[n];
+        int row = batch.Shape.Pattern.Rows[n];
+        if (block.Coupling != null)
+        {
+            batch.Work.Error[row] = Couple(batch, block, out _, out _);
+            return;
+        }
+
+        if (!block.HasMovingRows)
+        {
+            return;
+        }
+
+        ConstraintRow[] rows = batch.Work.Rows;
+        int count = Prepare(batch, block, rows);
+        var slots = new RowSlots(block);
+        batch.ActiveSet?.ClearEndRows(n);
+        for (int i = 0; i < count; i++)
+        {
+            int slot = slots.Next(rows[i]);
+            if (slot >= 0)
+            {
+                batch.ActiveSet!.SetEndRow(n, slot, rows[i]);
+            }
+            else if (IsLoneAngle(block, rows[i]))
+            {
+                batch.Work.Error[row + block.BilateralCount - 1] = rows[i].GeometricError;
+            }
+        }
+    }
+
+    /// <summary>J of these rows where they were last evaluated, and the scalar rows' constants.</summary>
+    public static void Build(LaneBatch<V> batch, int n)
+    {
+        RowBlock block = batch.Shape.Blocks[n];
+        if (block.Coupling != null)
+        {
+            BuildCoupling(batch, n, block);
+        }
+        else if (block.HasMovingRows && block.Angular != AngularForm.Prepared)
+        {
+            batch.ActiveSet!.AdoptEndRows(n);
+        }
+        else if (block.HasMovingRows || !batch.ActiveSet!.HasMotorAlone(n))
+        {
+            Read(batch, n);
+        }
+    }
+
+    /// <summary>The same with the joint's fields as they are now.</summary>
+    public static void Read(LaneBatch<V> batch, int n)
+    {
+        RowBlock block = batch.Shape.Blocks[n];
+        ConstraintRow[] rows = batch.Work.Rows;
+        int count = Prepare(batch, block, rows);
+        var slots = new RowSlots(block);
+        batch.ActiveSet?.Clear(n);
+        for (int i = 0; i < count; i++)
+        {
+            int slot = slots.Next(rows[i]);
+            if (slot >= 0)
+            {
+                batch.ActiveSet!.Set(n, slot, rows[i]);
+            }
+            else if (IsLoneAngle(block, rows[i]))
+            {
+                Write(batch, n, block.BilateralCount - 1, rows[i], 1);
+            }
+        }
+    }
+
+    /// <summary>Writes a row's J times a factor.</summary>
+    public static void Write(LaneBatch<V> batch, int n, int row, in ConstraintRow from, double factor)
+    {
+        Put(batch, batch.Row(n, row, 0), from.Linear0, from.Angular0, factor);
+        Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -factor);
+    }
+
+    /// <summary>A coupling's coordinates are unwrapped against those of the last finished step.</summary>
+    public static void FinishCoupling(LaneBatch<V> batch, RowBlock block)
+    {
+        Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
+        block.Coupling!.LastA = a.GeometricError;
+        block.Coupling.LastB = b.GeometricError;
+    }
+
+    private static int Prepare(LaneBatch<V> batch, RowBlock block, ConstraintRow[] rows)
+    {
+        Pose pose0 = PoseOf(batch, block.Bodies[0]);
+        Pose pose1 = PoseOf(batch, block.Bodies[1]);
+        return block.Angular == AngularForm.Prepared
+            ? block.Joint!.Prepare(pose0, pose1, rows)
+            : block.Joint!.PrepareForces(pose0, pose1, rows);
+    }
+
+    private static bool IsLoneAngle(RowBlock block, in ConstraintRow row) =>
+        block.Angular == AngularForm.Prepared && row.Hint == SolveHint.Equality && row.Has(RowFlags.Angular);
+
+    private static double Couple(LaneBatch<V> batch, RowBlock block, out ConstraintRow rowA, out ConstraintRow rowB)
+    {
+        int[] sides = block.CouplingSides;
+        return block.Coupling!.Prepare(
+            PoseOf(batch, block.Bodies[sides[0]]),
+            PoseOf(batch, block.Bodies[sides[1]]),
+            PoseOf(batch, block.Bodies[sides[2]]),
+            PoseOf(batch, block.Bodies[sides[3]]),
+            out rowA,
+            out rowB);
+    }
+
+    // J = row of B - ratio times row of A, added up on the bodies that both joints touch.
+    private static void BuildCoupling(LaneBatch<V> batch, int n, RowBlock block)
+    {
+        Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
+        int first = batch.Row(n, 0, 0);
+        Array.Clear(batch.Linear, first, 3 * block.Bodies.Length);
+        Array.Clear(batch.Angular, first, 3 * block.Bodies.Length);
+        double ratio = block.Coupling!.Ratio;
+        Add(batch, n, block.CouplingSides[0], a.Linear0, a.Angular0, -ratio);
+        Add(batch, n, block.CouplingSides[1], a.Linear1, a.Angular1, ratio);
+        Add(batch, n, block.CouplingSides[2], b.Linear0, b.Angular0, 1);
+        Add(batch, n, block.CouplingSides[3], b.Linear1, b.Angular1, -1);
+    }
+
+    private static void Add(LaneBatch<V> batch, int n, int side, Vector3d linear, Vector3d angular, double factor)
+    {
+        int o = batch.Row(n, 0, side);
+        for (int i = 0; i < 3; i++)
+        {
+            batch.Linear[o + i] += linear[i] * factor;
+            batch.Angular[o + i] += angular[i] * factor;
+        }
+    }
+
+    private static void Put(LaneBatch<V> batch, int o, Vector3d linear, Vector3d angular, double factor)
+    {
+        LaneTransfer<V>.Write(batch.Linear, o, linear * factor);
+        LaneTransfer<V>.Write(batch.Angular, o, angular * factor);
+    }
+
+    private static Pose PoseOf(LaneBatch<V> batch, int body)
+    {
+        double[] a = batch.Bodies;
+        int x = LaneBatch<V>.Body(body, BodyLanes.EndX);
+        int q = LaneBatch<V>.Body(body, BodyLanes.EndQ);
+        return new Pose(new Vector3d(a[x], a[x + 1], a[x + 2]), new Quaterniond(a[q], a[q + 1], a[q + 2], a[q + 3]));
+    }
+}
+
+/// <summary>
+/// Which scalar row a row of Prepare belongs to, in its order of emission: drives; then cone, angles, distance, of which the cone
+/// and the distance have no row where their direction is undefined.
+/// </summary>
+internal ref struct RowSlots
+{
+    private readonly RowBlock _node;
+    private int _drives;
+    private int _angles;
+
+    public RowSlots(RowBlock block)
+    {
+        _node = block;
+        _drives = 0;
+        _angles = 0;
+    }
+
+    /// <summary>The scalar row of the next row, or -1 for a rigid row.</summary>
+    public int Next(in ConstraintRow row)
+    {
+        if (row.Has(RowFlags.Drive))
+        {
+            return _drives < _node.Drives ? _drives++ : -1;
+        }
+
+        if (!row.Has(RowFlags.Limit))
+        {
+            return -1;
+        }
+
+        int first = _node.Drives + (_node.HasCone ? 1 : 0);
+        if (!row.Has(RowFlags.Angular))
+        {
+            return first + _node.AngleLimits;
+        }
+
+        if (row.Has(RowFlags.Cone))
+        {
+            return _node.HasCone ? _node.Drives : -1;
+        }
+
+        return _angles < _node.AngleLimits ? first + _angles++ : -1;
+    }
+}

@@ -1,0 +1,220 @@
+using System.Runtime.CompilerServices;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// Motion of each body under its own momentum over a step h: x' = x + h v, and rotation with the angular momentum L kept
+/// exactly. The kinetic energy of rotation is split into that of a sphere and those of single principal axes,
+/// |L|^2 / (2 I_c) + sum over i of (1 / I_i - 1 / I_c) L_i^2 / 2, I_c the middle moment: a turn about L, which commutes with
+/// the others, and turns about two body axes, half of the one before and after the other. Explicit, second order,
+/// symplectic and time-reversible; exact for a body with two equal moments and for a turn about one axis.
+/// Source: Touma and Wisdom 1994; Dullweber, Leimkuhler and McLachlan 1997.
+/// </summary>
+internal static class FreeMotion<V>
+    where V : struct, ILane<V>
+{
+    /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills R; and W with their mean rates, where scalar rows need them.</summary>
+    public static void Drift(LaneBatch<V> batch, double h)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        Lane<V> step = Lane<V>.Splat(h);
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneBatch<V>.Body(body, 0);
+            LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
+            (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
+            Rotate(a, o, h, batch.Shape.RotationSplittings[body]);
+        }
+
+        foreach (int body in batch.Shape.MeanRateBodies)
+        {
+            MeasureMeanRate(a, LaneBatch<V>.Body(body, 0), h);
+        }
+    }
+
+    /// <summary>Moves kinematic bodies at their velocities from X, Q to EndX, EndQ.</summary>
+    public static void DriftKinematic(LaneBatch<V> batch, double h)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        Lane<V> step = Lane<V>.Splat(h);
+        Lane<V> half = Lane<V>.Splat(h / 2);
+        for (int body = batch.Shape.MovingBodies; body < batch.Shape.Bodies.Length; body++)
+        {
+            if (batch.Shape.IsStatic[body])
+            {
+                continue;
+            }
+
+            int o = LaneBatch<V>.Body(body, 0);
+            LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
+            (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
+            LaneVector<V> rate = LaneVector<V>.Load(a, o + BodyLanes.W * w);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Exponential(half * rate) * LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
+            q = q.NearlyNormalized();
+            q.Store(a, o + BodyLanes.EndQ * w);
+            q.StoreMatrix(a, o + BodyLanes.R * w);
+        }
+    }
+
+    /// <summary>Poses and matrices of the start as those of the end, for all bodies.</summary>
+    public static void Stay(LaneBatch<V> batch)
+    {
+        double[] a = batch.Bodies;
+        int w = Lane<V>.Width;
+        for (int body = 0; body < batch.Shape.Bodies.Length; body++)
+        {
+            int o = LaneBatch<V>.Body(body, 0);
+            LaneVector<V>.Load(a, o + BodyLanes.X * w).Store(a, o + BodyLanes.EndX * w);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
+            q.Store(a, o + BodyLanes.EndQ * w);
+            q.StoreMatrix(a, o + BodyLanes.R * w);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void MeasureMeanRate(double[] a, int o, double h)
+    {
+        int w = Lane<V>.Width;
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w) * LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w).Conjugate();
+        (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o + BodyLanes.W * w);
+    }
+
+    /// <summary>
+    /// Half the rate of the sphere's turn, rad/s: of a body that can exist no more than the angular speed, since the largest
+    /// moment is at most the sum of the others; of one that cannot, it says how wide the single turns are.
+    /// </summary>
+    public static Lane<V> SphericalHalfRate(double[] bodies, int o, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> momentum = LaneVector<V>.Load(bodies, o + BodyLanes.L * w);
+        Lane<V> inverse = Lane<V>.Load(bodies, o + (BodyLanes.InverseInertia + spin.Spherical) * w);
+        return Lane<V>.Splat(0.5) * inverse * Lane<V>.Sqrt(LaneVector<V>.Dot(momentum, momentum));
+    }
+
+    // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
+    // leaves all formulas as they are. Each turn is a method of its own, small enough that the compiler inlines its arithmetic.
+    private static void Rotate(double[] a, int o, double h, RotationSplitting spin)
+    {
+        RotateSpherical(a, o, h / 2, spin.Spherical);
+        if (spin.IsBDistinct)
+        {
+            MomentumToBody(a, o, spin);
+            RotateAboutA(a, o, h / 4, spin);
+            RotateAboutB(a, o, h / 2, spin);
+            RotateAboutA(a, o, h / 4, spin);
+        }
+        else if (spin.IsADistinct)
+        {
+            MomentumToBody(a, o, spin);
+            RotateAboutA(a, o, h / 2, spin);
+        }
+
+        Normalise(a, o);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void RotateSpherical(double[] a, int o, double half, int axis)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> inverse = Lane<V>.Splat(half) * Lane<V>.Load(a, o + (BodyLanes.InverseInertia + axis) * w);
+        LaneVector<V> u = inverse * LaneVector<V>.Load(a, o + BodyLanes.L * w);
+        Lane<V> square = LaneVector<V>.Dot(u, u);
+        Lane<V> c = LaneQuaternion<V>.CosineSeries(square);
+        LaneVector<V> s = LaneQuaternion<V>.SineSeries(square) * u;
+        LaneVector<V> v = LaneVector<V>.Load(a, o + BodyLanes.Q * w);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.Q + 3) * w);
+        (c * v + scalar * s + LaneVector<V>.Cross(s, v)).Store(a, o + BodyLanes.EndQ * w);
+        (c * scalar - LaneVector<V>.Dot(s, v)).Store(a, o + (BodyLanes.EndQ + 3) * w);
+    }
+
+    // L in the body's axes at the start, in the order first, second, sphere.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void MomentumToBody(double[] a, int o, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w).InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.L * w));
+        local.Store(a, o + BodyLanes.BodyMomentum * w);
+        Permuted(a, o + BodyLanes.BodyMomentum * w, spin).Store(a, o + BodyLanes.BodyMomentum * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void RotateAboutA(double[] a, int o, double half, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneVector<V>.Load(a, o + BodyLanes.BodyMomentum * w);
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisA, spin) * local.X;
+        HalfAngle(angle, out Lane<V> s, out Lane<V> c);
+        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.EndQ + 3) * w);
+        StorePermuted(new LaneVector<V>(c * v.X + s * scalar, c * v.Y + s * v.Z, c * v.Z - s * v.Y), a, o + BodyLanes.EndQ * w, spin);
+        (c * scalar - s * v.X).Store(a, o + (BodyLanes.EndQ + 3) * w);
+
+        // L is fixed in the world: in the body it turns the other way, by the whole angle.
+        Lane<V> sine = (s + s) * c;
+        Lane<V> cosine = c * c - s * s;
+        (cosine * local.Y + sine * local.Z).Store(a, o + (BodyLanes.BodyMomentum + 1) * w);
+        (cosine * local.Z - sine * local.Y).Store(a, o + (BodyLanes.BodyMomentum + 2) * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void RotateAboutB(double[] a, int o, double half, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        LaneVector<V> local = LaneVector<V>.Load(a, o + BodyLanes.BodyMomentum * w);
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisB, spin) * local.Y;
+        HalfAngle(angle, out Lane<V> s, out Lane<V> c);
+        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
+        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.EndQ + 3) * w);
+        StorePermuted(new LaneVector<V>(c * v.X - s * v.Z, c * v.Y + s * scalar, c * v.Z + s * v.X), a, o + BodyLanes.EndQ * w, spin);
+        (c * scalar - s * v.Y).Store(a, o + (BodyLanes.EndQ + 3) * w);
+        Lane<V> sine = (s + s) * c;
+        Lane<V> cosine = c * c - s * s;
+        (cosine * local.X - sine * local.Z).Store(a, o + BodyLanes.BodyMomentum * w);
+        (cosine * local.Z + sine * local.X).Store(a, o + (BodyLanes.BodyMomentum + 2) * w);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void Normalise(double[] a, int o)
+    {
+        int w = Lane<V>.Width;
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w).NearlyNormalized();
+        q.Store(a, o + BodyLanes.EndQ * w);
+        q.StoreMatrix(a, o + BodyLanes.R * w);
+    }
+
+    // 1 / I of an axis less that of the sphere's.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Lane<V> Excess(double[] a, int o, int axis, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        return Lane<V>.Load(a, o + (BodyLanes.InverseInertia + axis) * w) - Lane<V>.Load(a, o + (BodyLanes.InverseInertia + spin.Spherical) * w);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static LaneVector<V> Permuted(double[] a, int at, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        return new LaneVector<V>(Lane<V>.Load(a, at + spin.AxisA * w), Lane<V>.Load(a, at + spin.AxisB * w), Lane<V>.Load(a, at + spin.Spherical * w));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void StorePermuted(LaneVector<V> v, double[] a, int at, RotationSplitting spin)
+    {
+        int w = Lane<V>.Width;
+        v.X.Store(a, at + spin.AxisA * w);
+        v.Y.Store(a, at + spin.AxisB * w);
+        v.Z.Store(a, at + spin.Spherical * w);
+    }
+
+    // Sine and cosine of half the angle of a turn, from that half.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void HalfAngle(Lane<V> half, out Lane<V> sine, out Lane<V> cosine)
+    {
+        Lane<V> square = half * half;
+        sine = half * LaneQuaternion<V>.SineSeries(square);
+        cosine = LaneQuaternion<V>.CosineSeries(square);
+    }
+}

@@ -5,8 +5,8 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// The rows with a scalar row of one island. They share the island's matrix: a row on a free state has the state's
-/// compliance on the diagonal, a at-bound one is an identity row and its impulse acts from outside. The states are
+/// The scalar rows of one island. They share the island's matrix: a free row has its
+/// compliance on the diagonal, one at its bound is an identity row and its impulse acts from outside. The states are
 /// found by a semi-smooth Newton iteration: solve, move the rows that left their state, solve again. Should that
 /// circle, only the first row that is out of place moves (Murty's least-index rule), which ends.
 /// </summary>
@@ -300,8 +300,8 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>The scalar rows' part of the diagonal of the assembled matrix.</summary>
-    /// <param name="isFlight">Springs act in the drift; after it they answer alone.</param>
-    public void AddToDiagonal(bool isFlight)
+    /// <param name="isDrift">Springs act in the drift; after it they answer alone.</param>
+    public void AddToDiagonal(bool isDrift)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -318,7 +318,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] *= 1 + RigidShare;
                     break;
                 default:
-                    _batch.Matrix[cell] += 1 / (isFlight ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);
+                    _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);
                     break;
             }
         }

@@ -5,7 +5,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Rows that a joint's or coupling's own Prepare writes: single locked angles, couplings, and all that obey a scalar row. They
+/// Rows that a joint's or coupling's own Prepare writes: single locked angles, couplings, and all scalar rows. They
 /// are not written in lanes: islands with such rows are solved one at a time.
 /// </summary>
 internal static class AssembledRows<V>

@@ -176,12 +176,12 @@ internal static class RattleStep<V>
 
     /// <summary>Assembles and factors the matrix of the built rows.</summary>
     /// <param name="batch">The rows and bodies.</param>
-    /// <param name="isFlight">See <see cref="ActiveSet{V}.AddToDiagonal"/>.</param>
-    public static void Factor(LaneBatch<V> batch, bool isFlight)
+    /// <param name="isDrift">See <see cref="ActiveSet{V}.AddToDiagonal"/>.</param>
+    public static void Factor(LaneBatch<V> batch, bool isDrift)
     {
         batch.ActiveSet?.WriteRows(false);
-        DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isFlight ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
-        batch.ActiveSet?.AddToDiagonal(isFlight);
+        DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
+        batch.ActiveSet?.AddToDiagonal(isDrift);
         BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
     }
 

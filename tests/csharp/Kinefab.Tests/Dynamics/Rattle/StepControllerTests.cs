@@ -7,7 +7,7 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>When steps are cut, for how long, and what is counted when no method can take one.</summary>
-internal sealed class LadderTests
+internal sealed class StepControllerTests
 {
     [Test]
     public void Note_HarderStep_IsKept()
@@ -162,7 +162,7 @@ internal sealed class LadderTests
         Island island = IslandFinder.Find(mechanism)[0];
         var batch = new LaneBatch<ScalarLane>(island, new Workspace<ScalarLane>(island));
         LaneTransfer<ScalarLane>.GatherConstants(batch, 0, island, mechanism);
-        var ladder = new StepController(batch);
+        var controller = new StepController(batch);
         SubstepHistory cut = default(SubstepHistory);
         double most = 0;
         for (int i = 0; i < steps; i++)
@@ -178,7 +178,7 @@ internal sealed class LadderTests
             }
 
             most = System.Math.Max(most, StepLimit.Of(stiffest, batch.Work.Fastest[0], dt));
-            ladder.Advance(dt, 1e-9, ref cut, false, false);
+            controller.Advance(dt, 1e-9, ref cut, false, false);
             LaneTransfer<ScalarLane>.EndStep(batch);
             LaneTransfer<ScalarLane>.Scatter(batch, 1, mechanism);
         }

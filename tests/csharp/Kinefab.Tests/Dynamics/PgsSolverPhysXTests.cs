@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics;
 
-public sealed class UnitySolverPhysXTests
+public sealed class PgsSolverPhysXTests
 {
     // Metres and radians. PhysX reckons in single precision, so even equal formulas part by about 1e-6 in two seconds.
     private const double Tolerance = 1e-4;

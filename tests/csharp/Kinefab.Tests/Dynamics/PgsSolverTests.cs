@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics;
 
-public sealed class UnitySolverTests
+public sealed class PgsSolverTests
 {
     [Test]
     public void Step_RandomMechanisms_NeverGivesNaN()

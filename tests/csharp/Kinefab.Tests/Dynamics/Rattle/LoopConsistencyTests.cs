@@ -13,7 +13,7 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>Loops whose axes are a little off are named when the world is made, and no others.</summary>
-internal sealed class LoopProbeTests
+internal sealed class LoopConsistencyTests
 {
     private static readonly string Fixtures = Path.Combine(Scenario.Folder, "..", "..", "fixtures");
 

@@ -9,7 +9,7 @@ SDK = dotnet --list-sdks 2>/dev/null | grep -q '^1[0-9]\.'
 export DOTNET_CLI_TELEMETRY_OPTOUT := 1
 export DOTNET_NOLOGO := 1
 
-.PHONY: help extras setup tool demo test bench golden clean
+.PHONY: help extras setup tool demo test bench docs golden clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
@@ -62,6 +62,13 @@ bench: setup tool ## the measured figures of the README
 	dotnet run -c Release --project csharp/bench -- load
 	dotnet run -c Release --project csharp/bench -- drive
 	dotnet run -c Release --project csharp/bench -- mobility
+
+docs: ## the guides and the C# reference as pages, out/docs/index.html; a broken link is an error
+	@dotnet build csharp/src/Kinefab.NUnit -c Release -v quiet --nologo
+	@dotnet build csharp/src/Kinefab -c Release -v quiet --nologo
+	@dotnet tool restore >/dev/null
+	dotnet docfx docfx.json --warningsAsErrors
+	@cp out/docs/README.html out/docs/index.html
 
 golden: setup ## write the golden scenes of fixtures anew; read the difference before you commit it
 	$(PYTHON) tests/python/golden.py

@@ -24,11 +24,14 @@ public sealed class LeverTestsTests
 
     [TestCase("Kinefab", "lib/net10.0/Kinefab.dll", "lib/netstandard2.1/Kinefab.dll", "README.md", "THIRD-PARTY-NOTICES.md")]
     [TestCase("Kinefab.NUnit", "lib/net8.0/Kinefab.NUnit.dll", "lib/net8.0/Kinefab.NUnit.xml", "README.md", "THIRD-PARTY-NOTICES.md")]
-    public void Package_OfALibrary_HoldsWhatItPromises(string package, params string[] files)
+    [TestCase("Kinefab.Cli", "tools/net10.0/any/dotnet-kinefab.dll", "README.md", "THIRD-PARTY-NOTICES.md")]
+    public void Package_OfEach_HoldsWhatItPromises(string package, params string[] files)
     {
         using var feed = new PackageFeed(package);
         using ZipArchive archive = ZipFile.OpenRead(Directory.GetFiles(feed.Folder, $"{package}.*.nupkg").Single(file => !file.EndsWith(".snupkg", StringComparison.Ordinal)));
         Assert.That(files, Is.SubsetOf(archive.Entries.Select(entry => entry.FullName)));
-        Assert.That(Directory.GetFiles(feed.Folder, "*.snupkg"), Has.Length.EqualTo(1));
+        Assert.That(Directory.GetFiles(feed.Folder, "*.snupkg"), Has.Length.EqualTo(package == "Kinefab.Cli" ? 0 : 1));
+        using var readme = new StreamReader(archive.GetEntry("README.md")!.Open());
+        Assert.That(readme.ReadLine(), Is.EqualTo(package == "Kinefab.Cli" ? "# dotnet kinefab" : $"# {package}"), "each has a page of its own");
     }
 }

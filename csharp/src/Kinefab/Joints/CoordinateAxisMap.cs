@@ -3,17 +3,6 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
 
-/// <summary>Axis of a joint frame along or about which a coordinate is measured.</summary>
-internal enum CoordinateAxis : byte
-{
-    X,
-    Y,
-    Z,
-    AngularX,
-    AngularY,
-    AngularZ,
-}
-
 /// <summary>
 /// A scalar coordinate of a joint: Sign times frame 1's offset along, or angle about, an axis of frame 0, metres or
 /// radians. An angle is exact while the joint turns about that axis alone.

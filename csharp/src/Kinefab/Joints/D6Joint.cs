@@ -81,6 +81,25 @@ internal sealed class D6Joint : JointModel
             ? AxisMotion.Locked
             : motion;
 
+    /// <inheritdoc/>
+    public override RowLayout Layout()
+    {
+        AxisMotion x = Linear(X), y = Linear(Y), z = Linear(Z), swing1 = Swing(Swing1), swing2 = Swing(Swing2);
+        int locked = Bits(AxisMotion.Locked), limited = Bits(AxisMotion.Limited);
+        int linear = Count(DriveX.IsActive && x != AxisMotion.Locked) + Count(DriveY.IsActive && y != AxisMotion.Locked) + Count(DriveZ.IsActive && z != AxisMotion.Locked);
+        bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && swing1 != AxisMotion.Locked && swing2 != AxisMotion.Locked;
+        int angular = slerp ? 3
+            : Count(DriveTwist.IsActive && Twist != AxisMotion.Locked) + Count(DriveSwing.IsActive && swing1 != AxisMotion.Locked)
+                + Count(DriveSwing.IsActive && swing2 != AxisMotion.Locked);
+        return new RowLayout(locked, limited, linear, angular, slerp);
+
+        int Bits(AxisMotion motion) =>
+            Count(x == motion) | (Count(y == motion) << 1) | (Count(z == motion) << 2) | (Count(Twist == motion) << 3) | (Count(swing1 == motion) << 4)
+            | (Count(swing2 == motion) << 5);
+
+        static int Count(bool isOne) => isOne ? 1 : 0;
+    }
+
     private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
         JointFrames.At(this, body0, body1, out JointFrames f);

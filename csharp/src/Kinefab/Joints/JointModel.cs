@@ -102,6 +102,13 @@ internal abstract class JointModel
     /// </summary>
     public abstract int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows);
 
+    /// <summary>Which rows the joint may ever have with its fields as they are. Unless a joint says otherwise: drive rows alone, as many as it writes now.</summary>
+    public virtual RowLayout Layout()
+    {
+        Span<ConstraintRow> rows = stackalloc ConstraintRow[MaxRows];
+        return new RowLayout(0, 0, Prepare(Pose.Identity, Pose.Identity, rows), 0, false);
+    }
+
     /// <summary>As <see cref="Prepare"/>, but locked axes may be left out: for a solver that has their rows already.</summary>
     public virtual int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows);
 }

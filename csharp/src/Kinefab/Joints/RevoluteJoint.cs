@@ -46,6 +46,15 @@ internal sealed class RevoluteJoint : JointModel
         SpringTarget = hinge.SpringTarget;
     }
 
+    /// <summary>Locked in all axes where the limits leave no range; else free about X alone.</summary>
+    public override RowLayout Layout()
+    {
+        bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
+        return isLocked
+            ? new RowLayout(0b111111, 0, 0, 0, false)
+            : new RowLayout(0b110111, LimitEnabled ? 0b001000 : 0, 0, MotorEnabled || Spring.IsActive ? 1 : 0, false);
+    }
+
     /// <inheritdoc/>
     public override int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, true);
 

@@ -27,7 +27,7 @@ internal readonly struct LayoutWatch
         }
 
         _joints = joints.ToArray();
-        _signatures = joints.ConvertAll(RowBlock.Signature).ToArray();
+        _signatures = joints.ConvertAll(joint => joint.Layout().Signature).ToArray();
     }
 
     /// <summary>Whether a joint broke or changed since.</summary>
@@ -35,7 +35,7 @@ internal readonly struct LayoutWatch
     {
         for (int i = 0; i < _joints.Length; i++)
         {
-            if (_joints[i].IsBroken || RowBlock.Signature(_joints[i]) != _signatures[i])
+            if (_joints[i].IsBroken || _joints[i].Layout().Signature != _signatures[i])
             {
                 return true;
             }

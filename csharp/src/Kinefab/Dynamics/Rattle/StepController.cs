@@ -310,7 +310,7 @@ internal sealed class StepController
                 _batch.VelocityImpulses[i] *= factor;
             }
 
-            _batch.ActiveSet?.ScaleHistory(factor);
+            _batch.Scalars?.ScaleHistory(factor);
         }
 
         _substep = h;
@@ -361,6 +361,6 @@ internal sealed class StepController
         }
 
         Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        _batch.ActiveSet?.ClearHistory();
+        _batch.Scalars?.ClearHistory();
     }
 }

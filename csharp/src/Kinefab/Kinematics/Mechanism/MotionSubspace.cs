@@ -10,12 +10,7 @@ namespace Kinefab.Kinematics;
 internal static class MotionSubspace
 {
     /// <summary>Locked axes of a joint, bit i for <see cref="CoordinateAxis"/> i; 0 for no joint.</summary>
-    public static int LockedAxes(JointModel? joint) => joint switch
-    {
-        RevoluteJoint hinge => hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper ? 0b111111 : 0b110111,
-        D6Joint d6 => Bit(d6.X, 0) | Bit(d6.Y, 1) | Bit(d6.Z, 2) | Bit(d6.Twist, 3) | Bit(d6.Swing1, 4) | Bit(d6.Swing2, 5),
-        _ => 0,
-    };
+    public static int LockedAxes(JointModel? joint) => joint?.Layout().Locked ?? 0;
 
     /// <summary>Rows of a joint's locked axes.</summary>
     public static int Rows(JointModel joint) => 6 - Count(LockedAxes(joint));
@@ -95,6 +90,4 @@ internal static class MotionSubspace
     }
 
     private static Vector3d Unit(int i) => i == 0 ? Vector3d.UnitX : i == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
-
-    private static int Bit(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? 1 << bit : 0;
 }

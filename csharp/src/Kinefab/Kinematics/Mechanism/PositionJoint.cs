@@ -2,7 +2,6 @@ using System;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Numerics;
-using Joint = Kinefab.Joints.JointModel;
 
 namespace Kinefab.Kinematics;
 

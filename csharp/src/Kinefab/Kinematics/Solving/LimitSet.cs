@@ -33,7 +33,7 @@ internal sealed class LimitSet
         var joints = new List<int>();
         for (int j = 0; j < linkage.Joints.Length; j++)
         {
-            if (IsLimited(linkage.Joints[j]))
+            if (linkage.Joints[j].Layout().Limited != 0)
             {
                 joints.Add(j);
             }
@@ -80,7 +80,7 @@ internal sealed class LimitSet
         for (int i = 0; i < _joints.Length; i++)
         {
             int count = Prepare(_joints[i], poses);
-            int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[_joints[i]]) ? 2 : 0);
+            int swings = AngularLimits(count) - _linkage.Joints[_joints[i]].Layout().TwistLimits;
             for (int side = 0; side < Sides; side++)
             {
                 Distances[i * Sides + side] = double.PositiveInfinity;
@@ -121,7 +121,7 @@ internal sealed class LimitSet
     {
         int joint = JointOf(limit);
         int count = Prepare(joint, poses);
-        int swings = AngularLimits(count) - (HasTwist(_linkage.Joints[joint]) ? 2 : 0);
+        int swings = AngularLimits(count) - _linkage.Joints[joint].Layout().TwistLimits;
         int angular = 0;
         for (int r = 0; r < count; r++)
         {
@@ -165,14 +165,4 @@ internal sealed class LimitSet
         int place = angular++;
         return (LimitSide)(place < swings ? place : (int)LimitSide.TwistLower + place - swings);
     }
-
-    private static bool HasTwist(JointModel joint) => joint is RevoluteJoint || joint is D6Joint { Twist: AxisMotion.Limited };
-
-    private static bool IsLimited(JointModel joint) => joint switch
-    {
-        RevoluteJoint hinge => hinge.LimitEnabled && hinge.Limit.Lower < hinge.Limit.Upper,
-        D6Joint d6 => d6.X == AxisMotion.Limited || d6.Y == AxisMotion.Limited || d6.Z == AxisMotion.Limited
-            || d6.Twist == AxisMotion.Limited || d6.Swing1 == AxisMotion.Limited || d6.Swing2 == AxisMotion.Limited,
-        _ => false,
-    };
 }

@@ -50,6 +50,20 @@ internal readonly struct LaneVector<V>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static LaneVector<V> Scale(LaneVector<V> a, LaneVector<V> b) => new(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
+    /// <summary>A vector times the symmetric matrix that stands at the index: xx, yy, zz, xy, xz, yz.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static LaneVector<V> Transform(double[] array, int index, LaneVector<V> v)
+    {
+        int w = Lane<V>.Width;
+        Lane<V> xy = Lane<V>.Load(array, index + 3 * w);
+        Lane<V> xz = Lane<V>.Load(array, index + 4 * w);
+        Lane<V> yz = Lane<V>.Load(array, index + 5 * w);
+        return new LaneVector<V>(
+            Lane<V>.Load(array, index) * v.X + xy * v.Y + xz * v.Z,
+            xy * v.X + Lane<V>.Load(array, index + w) * v.Y + yz * v.Z,
+            xz * v.X + yz * v.Y + Lane<V>.Load(array, index + 2 * w) * v.Z);
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static LaneVector<V> Select(Lane<V> mask, LaneVector<V> first, LaneVector<V> second) => new(
         Lane<V>.Select(mask, first.X, second.X),

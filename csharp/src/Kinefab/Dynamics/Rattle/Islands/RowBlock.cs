@@ -90,44 +90,21 @@ internal sealed class RowBlock
         Index = index;
         Bodies = bodies;
         var classes = new List<RowClass>();
-        int linearDrives = 0;
-        if (joint is RevoluteJoint hinge)
+        RowLayout layout = joint.Layout();
+        LinearMask = layout.Locked & 0b111;
+        Angular = (layout.Locked >> 3) switch
         {
-            LinearMask = 7;
-            bool isLocked = hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper;
-            Angular = isLocked ? AngularForm.All : AngularForm.HingeX;
-            if (!isLocked)
-            {
-                Drives = hinge.MotorEnabled || hinge.Spring.IsActive ? 1 : 0;
-                AngleLimits = hinge.LimitEnabled ? 2 : 0;
-            }
-        }
-        else if (joint is D6Joint d6)
-        {
-            LinearMask = Locked(d6.Linear(d6.X), 1) | Locked(d6.Linear(d6.Y), 2) | Locked(d6.Linear(d6.Z), 4);
-            int angular = Locked(d6.Twist, 1) | Locked(d6.Swing(d6.Swing1), 2) | Locked(d6.Swing(d6.Swing2), 4);
-            Angular = angular switch
-            {
-                0 => AngularForm.None,
-                6 => AngularForm.HingeX,
-                5 => AngularForm.HingeY,
-                3 => AngularForm.HingeZ,
-                7 => AngularForm.All,
-                _ => AngularForm.Prepared,
-            };
-            linearDrives = CountLinearDrives(d6);
-            Drives = CountDrives(d6);
-            bool swing1 = d6.Swing(d6.Swing1) == AxisMotion.Limited;
-            bool swing2 = d6.Swing(d6.Swing2) == AxisMotion.Limited;
-            HasCone = swing1 && swing2;
-            AngleLimits = (swing1 ^ swing2 ? 2 : 0) + (d6.Twist == AxisMotion.Limited ? 2 : 0);
-            HasDistance = IsLimited(d6, d6.X) || IsLimited(d6, d6.Y) || IsLimited(d6, d6.Z);
-        }
-        else
-        {
-            Drives = CountDrives(joint);
-            linearDrives = Drives;
-        }
+            0 => AngularForm.None,
+            6 => AngularForm.HingeX,
+            5 => AngularForm.HingeY,
+            3 => AngularForm.HingeZ,
+            7 => AngularForm.All,
+            _ => AngularForm.Prepared,
+        };
+        Drives = layout.Drives;
+        HasCone = layout.HasCone;
+        AngleLimits = layout.SwingLimits + layout.TwistLimits;
+        HasDistance = layout.HasDistance;
 
         for (int axis = 0; axis < 3; axis++)
         {
@@ -156,7 +133,7 @@ internal sealed class RowBlock
 
         for (int i = 0; i < ScalarCount; i++)
         {
-            bool isLinear = i < linearDrives || (HasDistance && i == ScalarCount - 1);
+            bool isLinear = i < layout.LinearDrives || (HasDistance && i == ScalarCount - 1);
             classes.Add(isLinear ? RowClass.General : RowClass.Angular);
         }
 
@@ -230,57 +207,5 @@ internal sealed class RowBlock
         }
 
         return true;
-    }
-
-    /// <summary>Everything of a joint that decides which rows it has.</summary>
-    public static int Signature(JointModel joint)
-    {
-        if (joint is RevoluteJoint hinge)
-        {
-            return (hinge.LimitEnabled ? 1 : 0) | (hinge.LimitEnabled && hinge.Limit.Lower >= hinge.Limit.Upper ? 2 : 0)
-                | (hinge.MotorEnabled || hinge.Spring.IsActive ? 4 : 0);
-        }
-
-        if (joint is D6Joint d6)
-        {
-            return (int)d6.Linear(d6.X) | ((int)d6.Linear(d6.Y) << 2) | ((int)d6.Linear(d6.Z) << 4) | ((int)d6.Twist << 6) | ((int)d6.Swing(d6.Swing1) << 8)
-                | ((int)d6.Swing(d6.Swing2) << 10) | (CountDrives(d6) << 12) | (d6.DriveSlerp.IsActive ? 1 << 16 : 0);
-        }
-
-        return 0;
-    }
-
-    private static bool IsLimited(D6Joint d6, AxisMotion motion) => d6.Linear(motion) == AxisMotion.Limited;
-
-    private static int Locked(AxisMotion motion, int bit) => motion == AxisMotion.Locked ? bit : 0;
-
-    // Other joints than PhysX's two may have drive rows alone.
-    private static int CountDrives(JointModel joint)
-    {
-        System.Span<ConstraintRow> rows = stackalloc ConstraintRow[JointModel.MaxRows];
-        return joint.Prepare(Pose.Identity, Pose.Identity, rows);
-    }
-
-    // The same conditions as in D6Joint.LinearDrives and AngularDrives.
-    private static int CountLinearDrives(D6Joint d6) =>
-        (d6.DriveX.IsActive && d6.Linear(d6.X) != AxisMotion.Locked ? 1 : 0)
-        + (d6.DriveY.IsActive && d6.Linear(d6.Y) != AxisMotion.Locked ? 1 : 0)
-        + (d6.DriveZ.IsActive && d6.Linear(d6.Z) != AxisMotion.Locked ? 1 : 0);
-
-    private static int CountDrives(D6Joint d6)
-    {
-        int count = CountLinearDrives(d6);
-        bool twist = d6.Twist != AxisMotion.Locked;
-        bool swing1 = d6.Swing(d6.Swing1) != AxisMotion.Locked;
-        bool swing2 = d6.Swing(d6.Swing2) != AxisMotion.Locked;
-        if (d6.DriveSlerp.IsActive && twist && swing1 && swing2)
-        {
-            return count + 3;
-        }
-
-        count += d6.DriveTwist.IsActive && twist ? 1 : 0;
-        count += d6.DriveSwing.IsActive && swing1 ? 1 : 0;
-        count += d6.DriveSwing.IsActive && swing2 ? 1 : 0;
-        return count;
     }
 }

@@ -40,7 +40,7 @@ internal sealed class Workspace<V>
         Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
     }
 
-    /// <summary>Angular J times the inverse inertia, as <see cref="LaneBatch{V}.Angular"/>.</summary>
+    /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>.</summary>
     public double[] Response { get; }
 
     /// <summary>C at the end of the drift, and one iteration before.</summary>

@@ -23,112 +23,29 @@ internal sealed partial class ActiveSet<V>
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
 
-    private readonly LaneBatch<V> _batch;
+    private readonly LaneRecords<V> _batch;
+    private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
-    private readonly int[] _first;
 
-    // Whether the matrix is that of the rows as they stand now, held as their Hold says.
-    private bool _isFactored;
-
-    public ActiveSet(LaneBatch<V> batch)
+    public ActiveSet(LaneRecords<V> batch, ScalarRows scalars)
     {
         _batch = batch;
-        _rows = new ScalarRow[batch.Shape.ScalarCount];
-        _first = new int[batch.Shape.Blocks.Length];
-        int next = 0;
-        for (int n = 0; n < _first.Length; n++)
-        {
-            RowBlock block = batch.Shape.Blocks[n];
-            _first[n] = next;
-            for (int i = 0; i < block.ScalarCount; i++)
-            {
-                int nodeRow = block.BilateralCount + i;
-                _rows[next++] = new ScalarRow { Block = n, BlockRow = nodeRow, Index = batch.Shape.Pattern.Rows[n] + nodeRow };
-            }
-        }
+        _scalars = scalars;
+        _rows = scalars.Rows;
     }
-
-    /// <summary>Before a block's rows are written: it has none yet.</summary>
-    public void Clear(int block)
-    {
-        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
-        for (int i = _first[block]; i < end; i++)
-        {
-            _rows[i].IsActive = false;
-        }
-    }
-
-    /// <summary>A block's row as Prepare wrote it.</summary>
-    public void Set(int block, int slot, in ConstraintRow row)
-    {
-        ref ScalarRow scalar = ref _rows[_first[block] + slot];
-        scalar.IsActive = true;
-        _isFactored &= scalar.ProjectedAs == ProjectedAs.Inactive || row.HasJacobianOf(scalar.Built);
-        scalar.Built = row;
-    }
-
-    /// <summary>The bodies have moved or the matrix was changed: it is to be assembled anew.</summary>
-    public void Invalidate() => _isFactored = false;
 
     /// <summary>
     /// Whether the matrix is still the drift's: the projection before it held the same rows, and no spring is to act.
     /// </summary>
     public bool IsFactoredForDrift()
     {
-        bool isFactored = _isFactored;
+        bool isFactored = _scalars.IsFactored;
         for (int i = 0; i < _rows.Length && isFactored; i++)
         {
             isFactored = _rows[i].ProjectedAs != ProjectedAs.Compliant && _rows[i].FindProjectedAs() == _rows[i].ProjectedAs;
         }
 
         return isFactored;
-    }
-
-    /// <summary>Before a block's rows at the end of the drift are written.</summary>
-    public void ClearEndRows(int block)
-    {
-        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
-        for (int i = _first[block]; i < end; i++)
-        {
-            _rows[i].HasEnd = false;
-        }
-    }
-
-    /// <summary>A block's row at the end of the drift.</summary>
-    public void SetEndRow(int block, int slot, in ConstraintRow row)
-    {
-        ref ScalarRow scalar = ref _rows[_first[block] + slot];
-        scalar.HasEnd = true;
-        scalar.End = row;
-    }
-
-    /// <summary>A block's rows at the end of the drift as those of the pose that is built.</summary>
-    public void AdoptEndRows(int block)
-    {
-        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
-        for (int i = _first[block]; i < end; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            scalar.IsActive = scalar.HasEnd;
-            if (scalar.HasEnd)
-            {
-                scalar.Built = scalar.End;
-            }
-        }
-    }
-
-    /// <summary>Whether a block that has one scalar row has a motor, whose row about an axis that stays is the same wherever it is built.</summary>
-    public bool HasMotorAlone(int block) => _rows[_first[block]].IsActive && !_rows[_first[block]].Built.Has(RowFlags.Spring);
-
-    /// <summary>Forgets impulses and states.</summary>
-    public void ClearHistory()
-    {
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            _rows[i].ImpulseFirstHalf = 0;
-            _rows[i].ImpulseSecondHalf = 0;
-            _rows[i].State = RowState.AtBound;
-        }
     }
 
     /// <summary>Takes the scalar rows' constants for a step from the rows at the start pose, guesses states, writes J.</summary>
@@ -235,48 +152,11 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
-    /// <summary>Impulses of a step of another length as a guess.</summary>
-    public void ScaleHistory(double factor)
-    {
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            _rows[i].ImpulseFirstHalf *= factor;
-        }
-    }
-
-    /// <summary>What the next step takes from those before it.</summary>
-    public void Exchange(StateTape tape)
-    {
-        tape.Array(_rows);
-        tape.Value(ref _isFactored);
-    }
-
-    /// <summary>Keeps, or brings back, impulses, states and the account of work.</summary>
-    public void Save(WarmStart[] to)
-    {
-        for (int i = 0; i < to.Length; i++)
-        {
-            to[i] = new WarmStart(_rows[i]);
-        }
-    }
-
-    public void Restore(WarmStart[] from)
-    {
-        for (int i = 0; i < from.Length; i++)
-        {
-            _rows[i].ImpulseFirstHalf = from[i].ImpulseFirstHalf;
-            _rows[i].State = from[i].State;
-            _rows[i].Work = from[i].Work;
-        }
-
-        Invalidate();
-    }
-
     /// <summary>Adds what a block's limits gave its first body in the whole step.</summary>
     public void AddLimits(int block, ref Vector3d linear, ref Vector3d angular)
     {
-        int end = _first[block] + _batch.Shape.Blocks[block].ScalarCount;
-        for (int i = _first[block]; i < end; i++)
+        int end = _scalars.First(block) + _batch.Shape.Blocks[block].ScalarCount;
+        for (int i = _scalars.First(block); i < end; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             if (scalar.IsActive && scalar.Built.Has(RowFlags.Limit))
@@ -323,7 +203,7 @@ internal sealed partial class ActiveSet<V>
             }
         }
 
-        _isFactored = true;
+        _scalars.IsFactored = true;
     }
 
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);

@@ -12,7 +12,7 @@ internal static class AssembledRows<V>
     where V : struct, ILane<V>
 {
     /// <summary>C of these rows at the end of the drift.</summary>
-    public static void Evaluate(LaneBatch<V> batch, int n)
+    public static void Evaluate(LaneRecords<V> batch, int n)
     {
         RowBlock block = batch.Shape.Blocks[n];
         int row = batch.Shape.Pattern.Rows[n];
@@ -30,13 +30,13 @@ internal static class AssembledRows<V>
         ConstraintRow[] rows = batch.Work.Rows;
         int count = Prepare(batch, block, rows);
         var slots = new RowSlots(block);
-        batch.ActiveSet?.ClearEndRows(n);
+        batch.Scalars?.ClearEndRows(n);
         for (int i = 0; i < count; i++)
         {
             int slot = slots.Next(rows[i]);
             if (slot >= 0)
             {
-                batch.ActiveSet!.SetEndRow(n, slot, rows[i]);
+                batch.Scalars!.SetEndRow(n, slot, rows[i]);
             }
             else if (IsLoneAngle(block, rows[i]))
             {
@@ -46,7 +46,7 @@ internal static class AssembledRows<V>
     }
 
     /// <summary>J of these rows where they were last evaluated, and the scalar rows' constants.</summary>
-    public static void Build(LaneBatch<V> batch, int n)
+    public static void Build(LaneRecords<V> batch, int n)
     {
         RowBlock block = batch.Shape.Blocks[n];
         if (block.Coupling != null)
@@ -55,28 +55,28 @@ internal static class AssembledRows<V>
         }
         else if (block.HasMovingRows && block.Angular != AngularForm.Prepared)
         {
-            batch.ActiveSet!.AdoptEndRows(n);
+            batch.Scalars!.AdoptEndRows(n);
         }
-        else if (block.HasMovingRows || !batch.ActiveSet!.HasMotorAlone(n))
+        else if (block.HasMovingRows || !batch.Scalars!.HasMotorAlone(n))
         {
             Read(batch, n);
         }
     }
 
     /// <summary>The same with the joint's fields as they are now.</summary>
-    public static void Read(LaneBatch<V> batch, int n)
+    public static void Read(LaneRecords<V> batch, int n)
     {
         RowBlock block = batch.Shape.Blocks[n];
         ConstraintRow[] rows = batch.Work.Rows;
         int count = Prepare(batch, block, rows);
         var slots = new RowSlots(block);
-        batch.ActiveSet?.Clear(n);
+        batch.Scalars?.Clear(n);
         for (int i = 0; i < count; i++)
         {
             int slot = slots.Next(rows[i]);
             if (slot >= 0)
             {
-                batch.ActiveSet!.Set(n, slot, rows[i]);
+                batch.Scalars!.Set(n, slot, rows[i]);
             }
             else if (IsLoneAngle(block, rows[i]))
             {
@@ -86,21 +86,21 @@ internal static class AssembledRows<V>
     }
 
     /// <summary>Writes a row's J times a factor.</summary>
-    public static void Write(LaneBatch<V> batch, int n, int row, in ConstraintRow from, double factor)
+    public static void Write(LaneRecords<V> batch, int n, int row, in ConstraintRow from, double factor)
     {
         Put(batch, batch.Row(n, row, 0), from.Linear0, from.Angular0, factor);
         Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -factor);
     }
 
     /// <summary>A coupling's coordinates are unwrapped against those of the last finished step.</summary>
-    public static void FinishCoupling(LaneBatch<V> batch, RowBlock block)
+    public static void FinishCoupling(LaneRecords<V> batch, RowBlock block)
     {
         Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
         block.Coupling!.LastA = a.GeometricError;
         block.Coupling.LastB = b.GeometricError;
     }
 
-    private static int Prepare(LaneBatch<V> batch, RowBlock block, ConstraintRow[] rows)
+    private static int Prepare(LaneRecords<V> batch, RowBlock block, ConstraintRow[] rows)
     {
         Pose pose0 = PoseOf(batch, block.Bodies[0]);
         Pose pose1 = PoseOf(batch, block.Bodies[1]);
@@ -112,7 +112,7 @@ internal static class AssembledRows<V>
     private static bool IsLoneAngle(RowBlock block, in ConstraintRow row) =>
         block.Angular == AngularForm.Prepared && row.Hint == SolveHint.Equality && row.Has(RowFlags.Angular);
 
-    private static double Couple(LaneBatch<V> batch, RowBlock block, out ConstraintRow rowA, out ConstraintRow rowB)
+    private static double Couple(LaneRecords<V> batch, RowBlock block, out ConstraintRow rowA, out ConstraintRow rowB)
     {
         int[] sides = block.CouplingSides;
         return block.Coupling!.Prepare(
@@ -125,7 +125,7 @@ internal static class AssembledRows<V>
     }
 
     // J = row of B - ratio times row of A, added up on the bodies that both joints touch.
-    private static void BuildCoupling(LaneBatch<V> batch, int n, RowBlock block)
+    private static void BuildCoupling(LaneRecords<V> batch, int n, RowBlock block)
     {
         Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
         int first = batch.Row(n, 0, 0);
@@ -138,7 +138,7 @@ internal static class AssembledRows<V>
         Add(batch, n, block.CouplingSides[3], b.Linear1, b.Angular1, -1);
     }
 
-    private static void Add(LaneBatch<V> batch, int n, int side, Vector3d linear, Vector3d angular, double factor)
+    private static void Add(LaneRecords<V> batch, int n, int side, Vector3d linear, Vector3d angular, double factor)
     {
         int o = batch.Row(n, 0, side);
         for (int i = 0; i < 3; i++)
@@ -148,17 +148,17 @@ internal static class AssembledRows<V>
         }
     }
 
-    private static void Put(LaneBatch<V> batch, int o, Vector3d linear, Vector3d angular, double factor)
+    private static void Put(LaneRecords<V> batch, int o, Vector3d linear, Vector3d angular, double factor)
     {
         LaneTransfer<V>.Write(batch.Linear, o, linear * factor);
         LaneTransfer<V>.Write(batch.Angular, o, angular * factor);
     }
 
-    private static Pose PoseOf(LaneBatch<V> batch, int body)
+    private static Pose PoseOf(LaneRecords<V> batch, int body)
     {
         double[] a = batch.Bodies;
-        int x = LaneBatch<V>.Body(body, BodyLanes.EndX);
-        int q = LaneBatch<V>.Body(body, BodyLanes.EndQ);
+        int x = LaneRecords<V>.Body(body, BodyLanes.EndX);
+        int q = LaneRecords<V>.Body(body, BodyLanes.EndQ);
         return new Pose(new Vector3d(a[x], a[x + 1], a[x + 2]), new Quaterniond(a[q], a[q + 1], a[q + 2], a[q + 3]));
     }
 }

@@ -15,7 +15,7 @@ internal static class BilateralRows<V>
     where V : struct, ILane<V>
 {
     /// <summary>Levers and axes in the world's axes at the end of the drift.</summary>
-    public static void Place(LaneBatch<V> batch)
+    public static void Place(LaneRecords<V> batch)
     {
         RowBlock[] blocks = batch.Shape.Blocks;
         for (int n = 0; n < blocks.Length; n++)
@@ -29,7 +29,7 @@ internal static class BilateralRows<V>
     }
 
     /// <summary>Places levers and axes and finds C of all rows but those with a scalar row.</summary>
-    public static void Evaluate(LaneBatch<V> batch)
+    public static void Evaluate(LaneRecords<V> batch)
     {
         Place(batch);
         int w = Lane<V>.Width;
@@ -58,7 +58,7 @@ internal static class BilateralRows<V>
     }
 
     /// <summary>J of all rows where levers and axes were last placed.</summary>
-    public static void Build(LaneBatch<V> batch)
+    public static void Build(LaneRecords<V> batch)
     {
         RowBlock[] blocks = batch.Shape.Blocks;
         for (int n = 0; n < blocks.Length; n++)
@@ -97,7 +97,7 @@ internal static class BilateralRows<V>
         }
     }
 
-    private static void Place(LaneBatch<V> batch, int n, RowBlock block, int side)
+    private static void Place(LaneRecords<V> batch, int n, RowBlock block, int side)
     {
         int body = block.Bodies[side];
         if (batch.Shape.IsStatic[body])
@@ -106,8 +106,8 @@ internal static class BilateralRows<V>
         }
 
         ToWorld(
-            batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.R), batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(side)),
-            LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)), side == 0 ? block.WorldLeverMask0 : block.WorldLeverMask1);
+            batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.R), batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.Frame(side)),
+            LaneRecords<V>.Joint(n, LaneRecords<V>.WorldFrame(side)), side == 0 ? block.WorldLeverMask0 : block.WorldLeverMask1);
     }
 
     // Turns those vectors of a frame that the mask names, by one matrix.
@@ -129,15 +129,15 @@ internal static class BilateralRows<V>
     }
 
     // Returns the number of rows.
-    private static int EvaluateLinear(LaneBatch<V> batch, int n, RowBlock block, int row)
+    private static int EvaluateLinear(LaneRecords<V> batch, int n, RowBlock block, int row)
     {
         if (block.LinearMask == 0)
         {
             return 0;
         }
 
-        int x0 = LaneBatch<V>.Body(block.Bodies[0], BodyLanes.EndX);
-        int x1 = LaneBatch<V>.Body(block.Bodies[1], BodyLanes.EndX);
+        int x0 = LaneRecords<V>.Body(block.Bodies[0], BodyLanes.EndX);
+        int x1 = LaneRecords<V>.Body(block.Bodies[1], BodyLanes.EndX);
         if (block.LinearMask == 7)
         {
             Gap(batch, n, x0, x1).Store(batch.Work.Error, row);
@@ -158,14 +158,14 @@ internal static class BilateralRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void GapAlong(LaneBatch<V> batch, int n, int x0, int x1, int axis, int row) =>
+    private static void GapAlong(LaneRecords<V> batch, int n, int x0, int x1, int axis, int row) =>
         LaneVector<V>.Dot(Axis(batch, n, 0, axis), Gap(batch, n, x0, x1)).Store(batch.Work.Error, row);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Gap(LaneBatch<V> batch, int n, int x0, int x1) =>
+    private static LaneVector<V> Gap(LaneRecords<V> batch, int n, int x0, int x1) =>
         (LaneVector<V>.Load(batch.Bodies, x0) + Lever(batch, n, 0)) - (LaneVector<V>.Load(batch.Bodies, x1) + Lever(batch, n, 1));
 
-    private static void EvaluateAngular(LaneBatch<V> batch, int n, RowBlock block, int row)
+    private static void EvaluateAngular(LaneRecords<V> batch, int n, RowBlock block, int row)
     {
         for (int i = 0; i < block.LockedRotations; i++, row += Lane<V>.Width)
         {
@@ -175,7 +175,7 @@ internal static class BilateralRows<V>
     }
 
     /// <summary>The largest error of all rows, its largest change and the largest gap, of each lane.</summary>
-    public static void MeasureErrors(LaneBatch<V> batch)
+    public static void MeasureErrors(LaneRecords<V> batch)
     {
         int w = Lane<V>.Width;
         double[] errors = batch.Work.Error;
@@ -213,7 +213,7 @@ internal static class BilateralRows<V>
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildPoint(LaneBatch<V> batch, int n, int row)
+    private static void BuildPoint(LaneRecords<V> batch, int n, int row)
     {
         double[] rows = batch.Angular;
         int side = 3 * Lane<V>.Width;
@@ -229,10 +229,10 @@ internal static class BilateralRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildAlong(LaneBatch<V> batch, int n, RowBlock block, int axis, int row)
+    private static void BuildAlong(LaneRecords<V> batch, int n, RowBlock block, int axis, int row)
     {
         int side = 3 * Lane<V>.Width;
-        LaneVector<V> gap = Gap(batch, n, LaneBatch<V>.Body(block.Bodies[0], BodyLanes.EndX), LaneBatch<V>.Body(block.Bodies[1], BodyLanes.EndX));
+        LaneVector<V> gap = Gap(batch, n, LaneRecords<V>.Body(block.Bodies[0], BodyLanes.EndX), LaneRecords<V>.Body(block.Bodies[1], BodyLanes.EndX));
         LaneVector<V> a = Axis(batch, n, 0, axis);
         a.Store(batch.Linear, row);
         LaneVector<V>.Cross(Lever(batch, n, 0) - gap, a).Store(batch.Angular, row);
@@ -241,7 +241,7 @@ internal static class BilateralRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BuildRotation(LaneBatch<V> batch, int n, RowBlock block, int i, int row)
+    private static void BuildRotation(LaneRecords<V> batch, int n, RowBlock block, int i, int row)
     {
         block.RotationPlane(i, out int axis0, out int axis1);
         LaneVector<V> turn = LaneVector<V>.Cross(Axis(batch, n, 0, axis0), Axis(batch, n, 1, axis1));
@@ -250,9 +250,9 @@ internal static class BilateralRows<V>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Lever(LaneBatch<V> batch, int n, int side) => LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)));
+    private static LaneVector<V> Lever(LaneRecords<V> batch, int n, int side) => LaneVector<V>.Load(batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.WorldFrame(side)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Axis(LaneBatch<V> batch, int n, int side, int axis) =>
-        LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side) + 3 * (axis + 1)));
+    private static LaneVector<V> Axis(LaneRecords<V> batch, int n, int side, int axis) =>
+        LaneVector<V>.Load(batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.WorldFrame(side) + 3 * (axis + 1)));
 }

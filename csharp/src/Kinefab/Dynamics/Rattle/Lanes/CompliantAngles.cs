@@ -13,7 +13,7 @@ internal static class CompliantAngles<V>
     where V : struct, ILane<V>
 {
     /// <summary>What the springs add to the errors at the end of the drift.</summary>
-    public static void Evaluate(LaneBatch<V> batch)
+    public static void Evaluate(LaneRecords<V> batch)
     {
         int w = Lane<V>.Width;
         Lane<V> h = Lane<V>.Splat(batch.CompliantStep);

@@ -35,7 +35,7 @@ internal static class DelassusMatrix<V>
     public const double UnconstrainedShare = 1e9;
 
     /// <summary>World inverse inertias from R and the principal moments.</summary>
-    public static void InverseInertias(LaneBatch<V> batch)
+    public static void InverseInertias(LaneRecords<V> batch)
     {
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -48,14 +48,14 @@ internal static class DelassusMatrix<V>
     private static void InverseInertia(double[] a, int body)
     {
         int w = Lane<V>.Width;
-        int r = LaneBatch<V>.Body(body, BodyLanes.R);
-        LaneVector<V> inverse = LaneVector<V>.Load(a, LaneBatch<V>.Body(body, BodyLanes.InverseInertia));
+        int r = LaneRecords<V>.Body(body, BodyLanes.R);
+        LaneVector<V> inverse = LaneVector<V>.Load(a, LaneRecords<V>.Body(body, BodyLanes.InverseInertia));
         LaneVector<V> x = LaneVector<V>.Load(a, r);
         LaneVector<V> y = LaneVector<V>.Load(a, r + 3 * w);
         LaneVector<V> z = LaneVector<V>.Load(a, r + 6 * w);
         LaneVector<V> sx = LaneVector<V>.Scale(inverse, x);
         LaneVector<V> sy = LaneVector<V>.Scale(inverse, y);
-        int o = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
+        int o = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
         LaneVector<V>.Dot(sx, x).Store(a, o);
         LaneVector<V>.Dot(sy, y).Store(a, o + w);
         LaneVector<V>.Dot(LaneVector<V>.Scale(inverse, z), z).Store(a, o + 2 * w);
@@ -65,7 +65,7 @@ internal static class DelassusMatrix<V>
     }
 
     /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
-    public static void Assemble(LaneBatch<V> batch, double angularShare, double linearShare = LinearShare)
+    public static void Assemble(LaneRecords<V> batch, double angularShare, double linearShare = LinearShare)
     {
         Array.Clear(batch.Matrix, 0, batch.Matrix.Length);
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
@@ -89,24 +89,10 @@ internal static class DelassusMatrix<V>
         }
     }
 
-    /// <summary>The world inverse inertia of a body times a vector.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneVector<V> Turn(double[] bodies, int inverse, LaneVector<V> v)
+    private static void Responses(LaneRecords<V> batch, int n, RowBlock block, int side)
     {
         int w = Lane<V>.Width;
-        Lane<V> xy = Lane<V>.Load(bodies, inverse + 3 * w);
-        Lane<V> xz = Lane<V>.Load(bodies, inverse + 4 * w);
-        Lane<V> yz = Lane<V>.Load(bodies, inverse + 5 * w);
-        return new LaneVector<V>(
-            Lane<V>.Load(bodies, inverse) * v.X + xy * v.Y + xz * v.Z,
-            xy * v.X + Lane<V>.Load(bodies, inverse + w) * v.Y + yz * v.Z,
-            xz * v.X + yz * v.Y + Lane<V>.Load(bodies, inverse + 2 * w) * v.Z);
-    }
-
-    private static void Responses(LaneBatch<V> batch, int n, RowBlock block, int side)
-    {
-        int w = Lane<V>.Width;
-        int inverse = LaneBatch<V>.Body(block.Bodies[side], BodyLanes.WorldInverse);
+        int inverse = LaneRecords<V>.Body(block.Bodies[side], BodyLanes.WorldInverse);
         int stride = 3 * block.Bodies.Length * w;
         int o = batch.Row(n, 0, side);
         int i = 0;
@@ -119,13 +105,13 @@ internal static class DelassusMatrix<V>
 
         for (; i < block.Rows; i++, o += stride)
         {
-            Turn(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
+            LaneVector<V>.Transform(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
         }
     }
 
     // I^-1 (r x e) for e = x, y, z, by the columns of I^-1.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void PointResponses(LaneBatch<V> batch, int inverse, int o)
+    private static void PointResponses(LaneRecords<V> batch, int inverse, int o)
     {
         double[] a = batch.Bodies;
         double[] responses = batch.Work.Response;
@@ -140,7 +126,7 @@ internal static class DelassusMatrix<V>
         (r.Y * x - r.X * y).Store(responses, o + 12 * w);
     }
 
-    private static void AddDiagonal(LaneBatch<V> batch, int n, RowBlock block, int side)
+    private static void AddDiagonal(LaneRecords<V> batch, int n, RowBlock block, int side)
     {
         int first = batch.Row(n, 0, side);
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
@@ -159,7 +145,7 @@ internal static class DelassusMatrix<V>
         AddInverseMasses(batch, block.Bodies[side], block, side, first, block, side, first, cell, true);
     }
 
-    private static void AddLink(LaneBatch<V> batch, in Island.Link link)
+    private static void AddLink(LaneRecords<V> batch, in Island.Link link)
     {
         RowBlock later = batch.Shape.Blocks[link.Later];
         RowBlock earlier = batch.Shape.Blocks[link.Earlier];
@@ -183,7 +169,7 @@ internal static class DelassusMatrix<V>
 
     // Adds the products of a row's response with the angular parts of the first count rows of a block to neighbouring cells.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddRotations(LaneBatch<V> batch, int firstI, int i, RowBlock blockI, int firstJ, int count, RowBlock blockJ, int cell)
+    private static void AddRotations(LaneRecords<V> batch, int firstI, int i, RowBlock blockI, int firstJ, int count, RowBlock blockJ, int cell)
     {
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
@@ -200,7 +186,7 @@ internal static class DelassusMatrix<V>
     // q x r; the two turns of a hinge stay in registers. Of a block with itself the factor does not read what stands above the
     // triangle.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void AddPointRotations(LaneBatch<V> batch, int firstI, RowBlock blockI, int firstJ, RowBlock blockJ, int cell)
+    private static void AddPointRotations(LaneRecords<V> batch, int firstI, RowBlock blockI, int firstJ, RowBlock blockJ, int cell)
     {
         double[] rows = batch.Angular;
         double[] matrix = batch.Matrix;
@@ -232,11 +218,11 @@ internal static class DelassusMatrix<V>
 
     // Adds the products of the linear parts over the mass; the lower triangle alone of a block with itself.
     private static void AddInverseMasses(
-        LaneBatch<V> batch, int body, RowBlock blockI, int sideI, int firstI, RowBlock blockJ, int sideJ, int firstJ, int cell, bool isTriangle)
+        LaneRecords<V> batch, int body, RowBlock blockI, int sideI, int firstI, RowBlock blockJ, int sideJ, int firstJ, int cell, bool isTriangle)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
-        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.InverseMass));
+        Lane<V> inverseMass = Lane<V>.Load(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.InverseMass));
         if (blockI.LinearMask == 7 && blockJ.LinearMask == 7)
         {
             Lane<V> share = sideI == sideJ ? inverseMass : Lane<V>.Splat(0) - inverseMass;
@@ -278,21 +264,21 @@ internal static class DelassusMatrix<V>
         }
     }
 
-    private static void AddProduct(LaneBatch<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
+    private static void AddProduct(LaneRecords<V> batch, Lane<V> inverseMass, int oi, int oj, int cell)
     {
         Lane<V> product = inverseMass * LaneVector<V>.Dot(LaneVector<V>.Load(batch.Linear, oi), LaneVector<V>.Load(batch.Linear, oj));
         (Lane<V>.Load(batch.Matrix, cell) + product).Store(batch.Matrix, cell);
     }
 
     // Of a general row with one along an axis of the world, which is reversed on side 1.
-    private static void AddComponent(LaneBatch<V> batch, Lane<V> inverseMass, int component, int side, int cell)
+    private static void AddComponent(LaneRecords<V> batch, Lane<V> inverseMass, int component, int side, int cell)
     {
         Lane<V> product = inverseMass * Lane<V>.Load(batch.Linear, component);
         Lane<V> sum = Lane<V>.Load(batch.Matrix, cell);
         (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
     }
 
-    private static void Regularise(LaneBatch<V> batch, int n, RowBlock block, double angularShare, double linearShare)
+    private static void Regularise(LaneRecords<V> batch, int n, RowBlock block, double angularShare, double linearShare)
     {
         int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
         if (batch.Shape.IsRedundant)
@@ -319,19 +305,19 @@ internal static class DelassusMatrix<V>
     }
 
     // What the largest moments of a block's bodies would answer.
-    private static Lane<V> LeastResponse(LaneBatch<V> batch, RowBlock block)
+    private static Lane<V> LeastResponse(LaneRecords<V> batch, RowBlock block)
     {
         Lane<V> least = Lane<V>.Splat(0);
         foreach (int body in block.Bodies)
         {
-            least += Lane<V>.Load(batch.Bodies, LaneBatch<V>.Body(body, BodyLanes.LeastInverseInertia));
+            least += Lane<V>.Load(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.LeastInverseInertia));
         }
 
         return least;
     }
 
     // Least is infinite where angular rows get their share of the whole diagonal.
-    private static void RegulariseLoops(LaneBatch<V> batch, RowBlock block, int row, int cell, Lane<V> least, double angularShare, double linearShare)
+    private static void RegulariseLoops(LaneRecords<V> batch, RowBlock block, int row, int cell, Lane<V> least, double angularShare, double linearShare)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;

@@ -15,14 +15,14 @@ internal static class FreeMotion<V>
     where V : struct, ILane<V>
 {
     /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills R; and W with their mean rates, where scalar rows need them.</summary>
-    public static void Drift(LaneBatch<V> batch, double h)
+    public static void Drift(LaneRecords<V> batch, double h)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         Lane<V> step = Lane<V>.Splat(h);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = LaneBatch<V>.Body(body, 0);
+            int o = LaneRecords<V>.Body(body, 0);
             LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
             (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
             Rotate(a, o, h, batch.Shape.RotationSplittings[body]);
@@ -30,12 +30,12 @@ internal static class FreeMotion<V>
 
         foreach (int body in batch.Shape.MeanRateBodies)
         {
-            MeasureMeanRate(a, LaneBatch<V>.Body(body, 0), h);
+            MeasureMeanRate(a, LaneRecords<V>.Body(body, 0), h);
         }
     }
 
     /// <summary>Moves kinematic bodies at their velocities from X, Q to EndX, EndQ.</summary>
-    public static void DriftKinematic(LaneBatch<V> batch, double h)
+    public static void DriftKinematic(LaneRecords<V> batch, double h)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
@@ -48,7 +48,7 @@ internal static class FreeMotion<V>
                 continue;
             }
 
-            int o = LaneBatch<V>.Body(body, 0);
+            int o = LaneRecords<V>.Body(body, 0);
             LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
             (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
             LaneVector<V> rate = LaneVector<V>.Load(a, o + BodyLanes.W * w);
@@ -60,13 +60,13 @@ internal static class FreeMotion<V>
     }
 
     /// <summary>Poses and matrices of the start as those of the end, for all bodies.</summary>
-    public static void Stay(LaneBatch<V> batch)
+    public static void Stay(LaneRecords<V> batch)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
-            int o = LaneBatch<V>.Body(body, 0);
+            int o = LaneRecords<V>.Body(body, 0);
             LaneVector<V>.Load(a, o + BodyLanes.X * w).Store(a, o + BodyLanes.EndX * w);
             LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
             q.Store(a, o + BodyLanes.EndQ * w);

@@ -9,7 +9,7 @@ internal static class Impulses<V>
     where V : struct, ILane<V>
 {
     /// <summary>v += M^-1 J^T l, L += J^T l in the active lanes.</summary>
-    public static void Apply(LaneBatch<V> batch, double[] impulses)
+    public static void Apply(LaneRecords<V> batch, double[] impulses)
     {
         int w = Lane<V>.Width;
         if (w == 1 && batch.Work.Active[0] == 0)
@@ -40,7 +40,7 @@ internal static class Impulses<V>
 
     // The force l and the torque r x l, both reversed on side 1, and the torques along the turns.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ApplyPoint(LaneBatch<V> batch, int n, RowBlock block, double[] impulses, int row)
+    private static void ApplyPoint(LaneRecords<V> batch, int n, RowBlock block, double[] impulses, int row)
     {
         double[] rows = batch.Angular;
         int w = Lane<V>.Width;
@@ -68,11 +68,11 @@ internal static class Impulses<V>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void Add(LaneBatch<V> batch, int body, Lane<V> active, LaneVector<V> force, LaneVector<V> torque)
+    private static void Add(LaneRecords<V> batch, int body, Lane<V> active, LaneVector<V> force, LaneVector<V> torque)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int at = LaneBatch<V>.Body(body, 0);
+        int at = LaneRecords<V>.Body(body, 0);
         LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
         LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodyLanes.L * w);
         LaneVector<V> faster = v + Lane<V>.Load(a, at + BodyLanes.InverseMass * w) * force;
@@ -85,7 +85,7 @@ internal static class Impulses<V>
 
     // The same of any rows.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ApplySide(LaneBatch<V> batch, int n, RowBlock block, int side, double[] impulses, int row)
+    private static void ApplySide(LaneRecords<V> batch, int n, RowBlock block, int side, double[] impulses, int row)
     {
         double[] rows = batch.Angular;
         int w = Lane<V>.Width;
@@ -120,7 +120,7 @@ internal static class Impulses<V>
     /// <summary>Solution = -J v of all rows at the built pose.</summary>
     /// <param name="batch">The rows and bodies.</param>
     /// <param name="areFixedMoving">Whether kinematic bodies count with their velocities.</param>
-    public static void NegativeSpeeds(LaneBatch<V> batch, bool areFixedMoving = true)
+    public static void NegativeSpeeds(LaneRecords<V> batch, bool areFixedMoving = true)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
@@ -152,7 +152,7 @@ internal static class Impulses<V>
 
                 // The turning part is J_w I^-1 L for a moving body, its response being J_w I^-1; J_w w for a kinematic one.
                 bool isMoving = body < batch.Shape.MovingBodies;
-                int at = LaneBatch<V>.Body(body, 0);
+                int at = LaneRecords<V>.Body(body, 0);
                 LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
                 LaneVector<V> turn = LaneVector<V>.Load(a, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
                 double[] rows = isMoving ? batch.Work.Response : batch.Angular;
@@ -182,7 +182,7 @@ internal static class Impulses<V>
 
     // The same with the sums over both sides in registers.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void NegativePointSpeeds(LaneBatch<V> batch, int n, RowBlock block, int row, bool areFixedMoving)
+    private static void NegativePointSpeeds(LaneRecords<V> batch, int n, RowBlock block, int row, bool areFixedMoving)
     {
         int w = Lane<V>.Width;
         double[] solution = batch.Work.Solution;
@@ -202,7 +202,7 @@ internal static class Impulses<V>
                 continue;
             }
 
-            int at = LaneBatch<V>.Body(body, 0);
+            int at = LaneRecords<V>.Body(body, 0);
             LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at + BodyLanes.V * w);
             LaneVector<V> turn = LaneVector<V>.Load(batch.Bodies, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
             double[] rows = isMoving ? batch.Work.Response : batch.Angular;
@@ -223,7 +223,7 @@ internal static class Impulses<V>
     }
 
     /// <summary>The impulse of one row that a joint wrote, on the only lane.</summary>
-    public static void ApplyRow(LaneBatch<V> batch, int block, in ConstraintRow row, double impulse)
+    public static void ApplyRow(LaneRecords<V> batch, int block, in ConstraintRow row, double impulse)
     {
         int[] bodies = batch.Shape.Blocks[block].Bodies;
         ApplySide(batch, bodies[0], row.Linear0, row.Angular0, impulse);
@@ -231,7 +231,7 @@ internal static class Impulses<V>
     }
 
     /// <summary>The linear impulse that a block's rows give one of its bodies, on the only lane.</summary>
-    public static Vector3d Force(LaneBatch<V> batch, int n, int side, double[] impulses)
+    public static Vector3d Force(LaneRecords<V> batch, int n, int side, double[] impulses)
     {
         RowBlock block = batch.Shape.Blocks[n];
         int row = batch.Shape.Pattern.Rows[n];
@@ -256,7 +256,7 @@ internal static class Impulses<V>
     }
 
     /// <summary>Speed of such a row by the momenta and the built inverse inertias.</summary>
-    public static double Speed(LaneBatch<V> batch, int block, in ConstraintRow row)
+    public static double Speed(LaneRecords<V> batch, int block, in ConstraintRow row)
     {
         int[] bodies = batch.Shape.Blocks[block].Bodies;
         return row.Velocity(
@@ -267,7 +267,7 @@ internal static class Impulses<V>
     /// Speed of such a row in the last drift. J turns with the bodies: the mean of the start's and the end's gives the mean
     /// speed to second order.
     /// </summary>
-    public static double DriftSpeed(LaneBatch<V> batch, int block, in ConstraintRow start, in ConstraintRow end)
+    public static double DriftSpeed(LaneRecords<V> batch, int block, in ConstraintRow start, in ConstraintRow end)
     {
         int[] bodies = batch.Shape.Blocks[block].Bodies;
         Vector3d v0 = Vector(batch, bodies[0], BodyLanes.V), w0 = Vector(batch, bodies[0], BodyLanes.W);
@@ -276,18 +276,18 @@ internal static class Impulses<V>
     }
 
     /// <summary>J M^-1 J^T of such a row.</summary>
-    public static double ResponseOf(LaneBatch<V> batch, int block, in ConstraintRow row)
+    public static double ResponseOf(LaneRecords<V> batch, int block, in ConstraintRow row)
     {
         int[] bodies = batch.Shape.Blocks[block].Bodies;
         return ResponseOf(batch, bodies[0], row.Linear0, row.Angular0) + ResponseOf(batch, bodies[1], row.Linear1, row.Angular1);
     }
 
-    private static double ResponseOf(LaneBatch<V> batch, int body, Vector3d linear, Vector3d angular) =>
+    private static double ResponseOf(LaneRecords<V> batch, int body, Vector3d linear, Vector3d angular) =>
         body >= batch.Shape.MovingBodies
             ? 0
-            : batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.InverseMass)] * linear.LengthSquared + Vector3d.Dot(angular, Turn(batch, body, angular));
+            : batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.InverseMass)] * linear.LengthSquared + Vector3d.Dot(angular, Turn(batch, body, angular));
 
-    private static void ApplySide(LaneBatch<V> batch, int body, Vector3d linear, Vector3d angular, double impulse)
+    private static void ApplySide(LaneRecords<V> batch, int body, Vector3d linear, Vector3d angular, double impulse)
     {
         if (body >= batch.Shape.MovingBodies)
         {
@@ -295,26 +295,26 @@ internal static class Impulses<V>
         }
 
         double[] a = batch.Bodies;
-        double inverseMass = a[LaneBatch<V>.Body(body, BodyLanes.InverseMass)];
-        int v = LaneBatch<V>.Body(body, BodyLanes.V);
-        int l = LaneBatch<V>.Body(body, BodyLanes.L);
+        double inverseMass = a[LaneRecords<V>.Body(body, BodyLanes.InverseMass)];
+        int v = LaneRecords<V>.Body(body, BodyLanes.V);
+        int l = LaneRecords<V>.Body(body, BodyLanes.L);
         LaneTransfer<V>.Write(a, v, LaneTransfer<V>.ReadVector(a, v) + inverseMass * impulse * linear);
         LaneTransfer<V>.Write(a, l, LaneTransfer<V>.ReadVector(a, l) + impulse * angular);
     }
 
     /// <summary>Angular velocity by the momentum and the built inverse inertia, on the only lane.</summary>
-    public static Vector3d AngularVelocity(LaneBatch<V> batch, int body) =>
+    public static Vector3d AngularVelocity(LaneRecords<V> batch, int body) =>
         body < batch.Shape.MovingBodies ? Turn(batch, body, Vector(batch, body, BodyLanes.L)) : Vector(batch, body, BodyLanes.W);
 
-    private static Vector3d Turn(LaneBatch<V> batch, int body, Vector3d v)
+    private static Vector3d Turn(LaneRecords<V> batch, int body, Vector3d v)
     {
         double[] a = batch.Bodies;
-        int o = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
+        int o = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
         return new Vector3d(
             a[o] * v.X + a[o + 3] * v.Y + a[o + 4] * v.Z,
             a[o + 3] * v.X + a[o + 1] * v.Y + a[o + 5] * v.Z,
             a[o + 4] * v.X + a[o + 5] * v.Y + a[o + 2] * v.Z);
     }
 
-    private static Vector3d Vector(LaneBatch<V> batch, int body, int slot) => LaneTransfer<V>.ReadVector(batch.Bodies, LaneBatch<V>.Body(body, slot));
+    private static Vector3d Vector(LaneRecords<V> batch, int body, int slot) => LaneTransfer<V>.ReadVector(batch.Bodies, LaneRecords<V>.Body(body, slot));
 }

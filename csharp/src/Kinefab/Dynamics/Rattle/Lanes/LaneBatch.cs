@@ -1,134 +1,31 @@
-using System;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>
-/// The numbers of up to Width islands of one shape, side by side: number i of a record stands at i * Width + lane. All
-/// arrays are made beforehand; a step only writes into them.
-/// </summary>
-internal sealed class LaneBatch<V>
+/// <summary>Up to Width islands of one shape, side by side: their numbers, and the active set that decides about their scalar rows.</summary>
+internal sealed class LaneBatch<V> : LaneRecords<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Numbers of a joint: see <see cref="Frame"/> and <see cref="WorldFrame"/>.</summary>
-    public const int JointCount = 48;
-
     /// <param name="shape">What all its islands look like.</param>
     /// <param name="workspace">Arrays that hold nothing from step to step, shared by the batches of a shape.</param>
     public LaneBatch(Island shape, Workspace<V> workspace)
+        : base(shape, workspace)
     {
-        Shape = shape;
-        Work = workspace;
-        int w = Width;
         AngularShare = shape.Loops switch
         {
             LoopConsistency.Inconsistent => DelassusMatrix<V>.InconsistentShare,
             LoopConsistency.Rounded => DelassusMatrix<V>.RoundedShare,
             _ => DelassusMatrix<V>.AngularShare,
         };
-        Compliance = new double[shape.Pattern.RowCount * w];
-        Members = new int[shape.Bodies.Length * w];
-        JointMembers = new int[shape.Blocks.Length * w];
-        Bodies = new double[shape.Bodies.Length * BodyLanes.Count * w];
-        Joints = new double[shape.Blocks.Length * JointCount * w];
-        RowOffsets = new int[shape.Blocks.Length];
-        int sides = 0;
-        for (int n = 0; n < shape.Blocks.Length; n++)
+        if (Scalars != null)
         {
-            RowOffsets[n] = sides;
-            sides += shape.Blocks[n].Rows * shape.Blocks[n].Bodies.Length;
-        }
-
-        Linear = new double[3 * sides * w];
-        Angular = new double[3 * sides * w];
-        Matrix = new double[shape.Pattern.Length * w];
-        VelocityImpulses = new double[shape.Pattern.RowCount * w];
-        if (shape.ScalarCount > 0)
-        {
-            ActiveSet = new ActiveSet<V>(this);
+            ActiveSet = new ActiveSet<V>(this, Scalars);
         }
     }
 
-    public static int Width => Lane<V>.Width;
-
-    public Island Shape { get; }
-
-    /// <summary>Body b of a lane in the mechanism (or Joint.World), at b * Width + lane.</summary>
-    public int[] Members { get; }
-
-    /// <summary>Joint of block n of a lane in the mechanism, at n * Width + lane; not set for couplings.</summary>
-    public int[] JointMembers { get; }
-
-    /// <summary>Records of <see cref="BodyLanes"/>.</summary>
-    public double[] Bodies { get; }
-
-    /// <summary>Records of <see cref="JointCount"/>.</summary>
-    public double[] Joints { get; }
-
-    /// <summary>Linear and angular J: for each block, row and side a vector. Linear is read for <see cref="RowClass.General"/> alone.</summary>
-    public double[] Linear { get; }
-
-    public double[] Angular { get; }
-
-    /// <summary>Vectors before each block's in these.</summary>
-    public int[] RowOffsets { get; }
-
-    /// <summary>A = J M^-1 J^T, then its factor.</summary>
-    public double[] Matrix { get; }
-
-    /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>
-    public double[] VelocityImpulses { get; }
-
-    /// <summary>What holds nothing from step to step.</summary>
-    public Workspace<V> Work { get; }
-
-    /// <summary>Rows with a scalar row, or null without any.</summary>
+    /// <summary>Decides which scalar rows act; null without any.</summary>
     public ActiveSet<V>? ActiveSet { get; }
-
-    /// <summary>Anchor and three frame axes of a joint in its body 0 or 1, in the joint's record.</summary>
-    public static int Frame(int side) => 12 * side;
-
-    /// <summary>Lever (anchor from the centre of mass) and frame axes in the world's axes, where they were last evaluated.</summary>
-    public static int WorldFrame(int side) => 24 + 12 * side;
-
-    /// <summary>Index of a number of a body in <see cref="Bodies"/>.</summary>
-    public static int Body(int body, int slot) => (body * BodyLanes.Count + slot) * Width;
-
-    /// <summary>Index of a number of a joint in <see cref="Joints"/>.</summary>
-    public static int Joint(int block, int slot) => (block * JointCount + slot) * Width;
-
-    /// <summary>Index of the vector of a row's side in <see cref="Linear"/> and <see cref="Angular"/>.</summary>
-    public int Row(int block, int row, int side) => 3 * (RowOffsets[block] + row * Shape.Blocks[block].Bodies.Length + side) * Width;
 
     /// <summary>Share added to the diagonal of angular rows in RATTLE steps.</summary>
     public double AngularShare { get; }
-
-    /// <summary>What the matrix has on the diagonal above J M^-1 J^T, of rigid rows.</summary>
-    public double[] Compliance { get; }
-
-    /// <summary>Step for which its angles are springs, see <see cref="CompliantAngles{V}"/>; 0 where they are rigid.</summary>
-    public double CompliantStep { get; set; }
-
-    /// <summary>What the next step takes from those before it.</summary>
-    public void Exchange(StateTape tape)
-    {
-        tape.Array(Bodies);
-        tape.Array(Joints);
-        tape.Array(Linear);
-        tape.Array(Angular);
-        tape.Array(Matrix);
-        tape.Array(VelocityImpulses);
-        tape.Array(Compliance);
-        double softStep = CompliantStep;
-        tape.Value(ref softStep);
-        CompliantStep = softStep;
-        ActiveSet?.Exchange(tape);
-    }
-
-    /// <summary>Forgets what earlier steps left behind.</summary>
-    public void ClearHistory()
-    {
-        Array.Clear(VelocityImpulses, 0, VelocityImpulses.Length);
-        ActiveSet?.ClearHistory();
-    }
 }

@@ -20,7 +20,7 @@ internal static class LaneTransfer<V>
     private const double LeastSquare = 1e-300;
 
     /// <summary>Whose bodies a lane holds, and the constants of bodies and joints.</summary>
-    public static void GatherConstants(LaneBatch<V> batch, int lane, Island island, MultibodySystem mechanism)
+    public static void GatherConstants(LaneRecords<V> batch, int lane, Island island, MultibodySystem mechanism)
     {
         for (int b = 0; b < island.Bodies.Length; b++)
         {
@@ -28,18 +28,18 @@ internal static class LaneTransfer<V>
             batch.Members[b * Lane<V>.Width + lane] = body;
             bool isMoving = b < island.MovingBodies;
             Vector3d inverse = isMoving ? mechanism.Bodies.InverseInertias[body] : Vector3d.Zero;
-            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
-            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.InverseInertia) + lane, inverse);
-            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
+            batch.Bodies[LaneRecords<V>.Body(b, BodyLanes.InverseMass) + lane] = isMoving ? mechanism.Bodies.InverseMasses[body] : 0;
+            Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.InverseInertia) + lane, inverse);
+            Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
-            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.MostInverseInertia) + lane] = most;
-            batch.Bodies[LaneBatch<V>.Body(b, BodyLanes.LeastInverseInertia) + lane] = Least(inverse, most);
-            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.EndQ) + lane, Quaterniond.Identity);
-            Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.Q) + lane, Quaterniond.Identity);
+            batch.Bodies[LaneRecords<V>.Body(b, BodyLanes.MostInverseInertia) + lane] = most;
+            batch.Bodies[LaneRecords<V>.Body(b, BodyLanes.LeastInverseInertia) + lane] = Least(inverse, most);
+            Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.EndQ) + lane, Quaterniond.Identity);
+            Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.Q) + lane, Quaterniond.Identity);
             if (isMoving)
             {
                 // Nowhere yet: wherever the first step finds the body, it has been moved there.
-                Write(batch.Bodies, LaneBatch<V>.Body(b, BodyLanes.EndX) + lane, new Vector3d(double.NaN, double.NaN, double.NaN));
+                Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.EndX) + lane, new Vector3d(double.NaN, double.NaN, double.NaN));
             }
         }
 
@@ -52,10 +52,10 @@ internal static class LaneTransfer<V>
                 for (int side = 0; side < 2; side++)
                 {
                     Pose frame = side == 0 ? joint.Frame0 : joint.Frame1;
-                    WriteFrame(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(side)) + lane, frame);
+                    WriteFrame(batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.Frame(side)) + lane, frame);
 
                     // On the world they are placed once and for all.
-                    WriteFrame(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)) + lane, frame);
+                    WriteFrame(batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.WorldFrame(side)) + lane, frame);
                 }
             }
         }
@@ -66,7 +66,7 @@ internal static class LaneTransfer<V>
     /// <param name="mechanism">Where from.</param>
     /// <param name="dt">Step, s.</param>
     /// <returns>Whether a pose of any lane is not the one that the last step left.</returns>
-    public static bool Gather(LaneBatch<V> batch, MultibodySystem mechanism, double dt)
+    public static bool Gather(LaneRecords<V> batch, MultibodySystem mechanism, double dt)
     {
         Lane<V>.Splat(0).Store(batch.Work.Moved, 0);
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
@@ -98,12 +98,12 @@ internal static class LaneTransfer<V>
     }
 
     /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Gather"/>.</summary>
-    public static void BeginStep(LaneBatch<V> batch)
+    public static void BeginStep(LaneRecords<V> batch)
     {
         Lane<V>.Splat(0).Store(batch.Work.Fastest, 0);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = LaneBatch<V>.Body(body, 0);
+            int o = LaneRecords<V>.Body(body, 0);
             Dampen(batch, o);
             TakeMomentum(batch.Bodies, o);
             Lane<V> turn = FreeMotion<V>.SphericalHalfRate(batch.Bodies, o, batch.Shape.RotationSplittings[body]);
@@ -114,19 +114,19 @@ internal static class LaneTransfer<V>
     }
 
     /// <summary>Angular velocities in all lanes, by the matrix of the end pose.</summary>
-    public static void EndStep(LaneBatch<V> batch)
+    public static void EndStep(LaneRecords<V> batch)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int o = LaneBatch<V>.Body(body, 0);
-            DelassusMatrix<V>.Turn(a, o + BodyLanes.WorldInverse * w, LaneVector<V>.Load(a, o + BodyLanes.L * w)).Store(a, o + BodyLanes.W * w);
+            int o = LaneRecords<V>.Body(body, 0);
+            LaneVector<V>.Transform(a, o + BodyLanes.WorldInverse * w, LaneVector<V>.Load(a, o + BodyLanes.L * w)).Store(a, o + BodyLanes.W * w);
         }
     }
 
     /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="EndStep"/>.</summary>
-    public static void Scatter(LaneBatch<V> batch, int lanes, MultibodySystem mechanism)
+    public static void Scatter(LaneRecords<V> batch, int lanes, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
         double[] a = batch.Bodies;
@@ -136,7 +136,7 @@ internal static class LaneTransfer<V>
             for (int lane = 0; lane < lanes; lane++)
             {
                 int body = batch.Members[b * w + lane];
-                int o = LaneBatch<V>.Body(b, 0) + lane;
+                int o = LaneRecords<V>.Body(b, 0) + lane;
                 bodies.Poses[body] = new Pose(ReadVector(a, o + BodyLanes.EndX * w), ReadQuaternion(a, o + BodyLanes.EndQ * w));
                 bodies.LinearVelocities[body] = ReadVector(a, o + BodyLanes.V * w);
                 bodies.AngularVelocities[body] = ReadVector(a, o + BodyLanes.W * w);
@@ -145,12 +145,12 @@ internal static class LaneTransfer<V>
     }
 
     /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
-    public static void CopyLane(LaneBatch<V> batch, int lane, LaneBatch<ScalarLane> from)
+    public static void CopyLane(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> from)
     {
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
-            int to = LaneBatch<V>.Body(b, 0) + lane;
-            int source = LaneBatch<ScalarLane>.Body(b, 0);
+            int to = LaneRecords<V>.Body(b, 0) + lane;
+            int source = LaneRecords<ScalarLane>.Body(b, 0);
             for (int i = 0; i < BodyLanes.InverseMass; i++)
             {
                 batch.Bodies[to + i * Lane<V>.Width] = from.Bodies[source + i];
@@ -165,13 +165,13 @@ internal static class LaneTransfer<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void GatherState(LaneBatch<V> batch, int b, Bodies bodies)
+    private static void GatherState(LaneRecords<V> batch, int b, Bodies bodies)
     {
         ReadOnlySpan<double> poses = MemoryMarshal.Cast<Pose, double>(bodies.Poses);
         ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = LaneBatch<V>.Body(b, 0);
+        int o = LaneRecords<V>.Body(b, 0);
         Lane<V> moved = Lane<V>.Load(batch.Work.Moved, 0);
         for (int i = 0; i < PoseCount; i++)
         {
@@ -188,13 +188,13 @@ internal static class LaneTransfer<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void GatherForces(LaneBatch<V> batch, int b, MultibodySystem mechanism, double dt)
+    private static void GatherForces(LaneRecords<V> batch, int b, MultibodySystem mechanism, double dt)
     {
         Bodies bodies = mechanism.Bodies;
         ReadOnlySpan<int> members = batch.Members.AsSpan(b * Lane<V>.Width, Lane<V>.Width);
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = LaneBatch<V>.Body(b, 0);
+        int o = LaneRecords<V>.Body(b, 0);
         Lane<V> zero = Lane<V>.Splat(0);
         Lane<V> one = Lane<V>.Splat(1);
         Lane<V> time = Lane<V>.Splat(dt);
@@ -217,10 +217,10 @@ internal static class LaneTransfer<V>
     }
 
     // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
-    private static void ClearLockedTorque(LaneBatch<V> batch, int b, Bodies bodies)
+    private static void ClearLockedTorque(LaneRecords<V> batch, int b, Bodies bodies)
     {
         int w = Lane<V>.Width;
-        int o = LaneBatch<V>.Body(b, BodyLanes.Torque);
+        int o = LaneRecords<V>.Body(b, BodyLanes.Torque);
         for (int lane = 0; lane < w; lane++)
         {
             int body = batch.Members[b * w + lane];
@@ -232,11 +232,11 @@ internal static class LaneTransfer<V>
     }
 
     // It goes to its target at constant velocity.
-    private static void GatherKinematic(LaneBatch<V> batch, int b, int lane, Bodies bodies, double dt)
+    private static void GatherKinematic(LaneRecords<V> batch, int b, int lane, Bodies bodies, double dt)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        int o = LaneBatch<V>.Body(b, 0) + lane;
+        int o = LaneRecords<V>.Body(b, 0) + lane;
         int body = batch.Members[b * w + lane];
         Pose pose = bodies.Poses[body];
         bool isMoved = (pose.Position - ReadVector(a, o + BodyLanes.EndX * w)).LengthSquared > Near * Near
@@ -250,7 +250,7 @@ internal static class LaneTransfer<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Dampen(LaneBatch<V> batch, int o)
+    private static void Dampen(LaneRecords<V> batch, int o)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;

@@ -111,13 +111,13 @@ internal static class RattleStep<V>
     {
         DelassusMatrix<V>.InverseInertias(batch);
         BilateralRows<V>.Build(batch);
-        if (batch.ActiveSet == null)
+        if (batch.Scalars == null)
         {
             Factor(batch, true);
         }
         else
         {
-            batch.ActiveSet.Invalidate();
+            batch.Scalars.Invalidate();
         }
     }
 

@@ -24,7 +24,7 @@ internal sealed class Snapshot
         Array.Copy(batch.Bodies, _bodies, _bodies.Length);
         Array.Copy(batch.VelocityImpulses, _half, _half.Length);
         Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
-        batch.ActiveSet?.Save(_laws);
+        batch.Scalars?.Save(_laws);
     }
 
     public void Restore(LaneBatch<ScalarLane> batch)
@@ -33,6 +33,6 @@ internal sealed class Snapshot
         Array.Copy(_half, batch.VelocityImpulses, _half.Length);
         Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);
         RattleStep<ScalarLane>.Rebuild(batch);
-        batch.ActiveSet?.Restore(_laws);
+        batch.Scalars?.Restore(_laws);
     }
 }

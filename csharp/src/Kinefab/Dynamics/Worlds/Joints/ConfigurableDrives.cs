@@ -19,7 +19,7 @@ internal static class ConfigurableDrives
             case CoordinateAxis.Z:
                 return ref joint.DriveZ;
             default:
-                if (IsSlerp(joint))
+                if (joint.Layout().IsSlerp)
                 {
                     return ref joint.DriveSlerp;
                 }
@@ -86,12 +86,9 @@ internal static class ConfigurableDrives
             return;
         }
 
-        double goal = IsSlerp(joint) ? rate : -rate;
+        double goal = joint.Layout().IsSlerp ? rate : -rate;
         joint.DriveAngularVelocity = With(joint.DriveAngularVelocity, axis - (int)CoordinateAxis.AngularX, goal);
     }
-
-    private static bool IsSlerp(D6Joint joint) =>
-        joint.DriveSlerp.IsActive && joint.Twist != AxisMotion.Locked && joint.Swing1 != AxisMotion.Locked && joint.Swing2 != AxisMotion.Locked;
 
     private static Vector3d With(Vector3d v, int index, double value) =>
         new(index == 0 ? value : v.X, index == 1 ? value : v.Y, index == 2 ? value : v.Z);

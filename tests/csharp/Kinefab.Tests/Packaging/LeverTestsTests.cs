@@ -12,13 +12,17 @@ namespace Kinefab.Tests.Packaging;
 /// </summary>
 public sealed class LeverTestsTests
 {
-    [Test]
-    public void LeverTests_FromThePackages_PassInDotnetTest()
+    [TestCase("4.1.0")]
+    [TestCase("5.0.0")]
+    public void LeverTests_FromThePackages_PassInDotnetTest(string nunit)
     {
         using var feed = new PackageFeed("Kinefab", "Kinefab.NUnit");
         foreach (string file in Directory.GetFiles(PackageFeed.Source("examples/LeverTests")))
             File.Copy(file, Path.Combine(feed.Project, Path.GetFileName(file)));
+        string project = Path.Combine(feed.Project, "LeverTests.csproj");
+        File.WriteAllText(project, File.ReadAllText(project).Replace("\"NUnit\" Version=\"5.0.0\"", $"\"NUnit\" Version=\"{nunit}\"", StringComparison.Ordinal));
         string output = PackageFeed.Succeed(feed.Project, ["test", "--nologo", .. feed.Restore, "--logger", "console;verbosity=normal"]);
+        Assert.That(File.ReadAllText(Directory.GetFiles(feed.Project, "LeverTests.deps.json", SearchOption.AllDirectories)[0]), Does.Contain($"\"NUnit/{nunit}\""));
         Assert.That(output, Does.Match(@"Passed:\s+10\b|Total tests: 10\s+Passed: 10"), output);
     }
 

@@ -254,6 +254,20 @@ class Report:
         """
         self._told(feature, Outcome.APPROXIMATED, code, where, values)
 
+    def approximated_alike(self, features: Iterable[str], code: str, **values: object) -> None:
+        """Note features that are in the scene only nearly for one reason, and one finding for all of them.
+
+        >>> report = kinefab.Report()
+        >>> report.approximated_alike(["collider Ring"], "COLLIDERS_NOT_CUT", count=1, bodies="Ring")
+        >>> len(report.outcomes), len(report.diagnostics)
+        (1, 1)
+        """
+        found = self.add(code, **values)
+        self.outcomes += [
+            FeatureOutcome(feature, Outcome.APPROXIMATED, code, found.severity, found.message)
+            for feature in features
+        ]
+
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
         """Note that a feature is not in the scene, and the finding that says why.
 

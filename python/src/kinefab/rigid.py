@@ -13,12 +13,14 @@ from .partition import Partition
 class RigidGroups:
     """group_of: for each node its group's number, or None for a node that is no body (a flexible assembly, one of which
     nothing is there, or a suppressed node).  members: for each group its nodes in scene order.  grounded: for each group
-    whether it is fixed to the world.
+    whether it is fixed to the world.  standing: for each node that stands on the ground what it is rigid with other than by the
+    ground, as the lowest node of it; None for all others.
     """
 
     group_of: tuple[int | None, ...]
     members: tuple[tuple[int, ...], ...]
     grounded: tuple[bool, ...]
+    standing: tuple[int | None, ...] = ()
 
     def is_ground(self, node: int | None) -> bool:
         """Whether a joint's side is the world, directly or through its group."""
@@ -64,19 +66,22 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     """
     nodes, active = scene.nodes, active_nodes(scene)
     ground = len(nodes)
-    together = Partition(ground + 1)
+    together, apart = Partition(ground + 1), Partition(ground + 1)  # apart: as if there were no ground
     frozen = [False] * len(nodes)
     for i, node in enumerate(nodes):
         inherited = node.parent is not None and frozen[node.parent]
         frozen[i] = inherited or (node.kind is NodeKind.ASSEMBLY and not node.flexible)
         if active[i] and inherited and node.parent is not None:
             together.join(node.parent, i)
+            apart.join(node.parent, i)
         if active[i] and node.grounded:
             together.join(i, ground)
     fixed = [(j.a, j.b) for j in scene.joints if is_rigid(j) and not is_between_led(j, scene)]
     for a, b in [*fixed, *also_fixed]:
         if (a is None or active[a]) and (b is None or active[b]):
             together.join(ground if a is None else a, ground if b is None else b)
+            if a is not None and b is not None:
+                apart.join(a, b)
 
     is_body = [
         active[i] and (node.kind is NodeKind.PART or frozen[i] or node.grounded)
@@ -96,7 +101,10 @@ def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None
     grounded = [False] * len(numbers)
     if (group := numbers.get(together.find(ground))) is not None:
         grounded[group] = True
-    return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded))
+    standing = tuple(
+        apart.find(i) if group is not None and grounded[group] else None for i, group in enumerate(group_of)
+    )
+    return RigidGroups(group_of, tuple(tuple(m) for m in members), tuple(grounded), standing)
 
 
 def _something(scene: Scene) -> list[bool]:

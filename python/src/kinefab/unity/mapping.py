@@ -18,6 +18,7 @@ from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
+from .bodies import scenery
 from .bodies.rigidbodies import Rigidbodies, held_below, map_rigidbody, parents_beside, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
@@ -38,6 +39,8 @@ from .scene import (
     Source,
     UnityScene,
 )
+from .scene import Joint as JointComponent
+from .scene.colliders.collider import Collider as UnityCollider
 from .scene.vectors import vector3
 
 GROUND_ID = "kinefab:ground"
@@ -64,6 +67,7 @@ def map_scene(
     builder.add_objects()
     builder.add_rigidbodies()
     builder.add_joints()
+    builder.set_scenery_apart()
     physics = scene.physics
     gravity = vector3(frames.direction(physics.gravity))
     return UnityScene(
@@ -221,6 +225,26 @@ class _Builder:
         for held in held_below(self.scene, self.groups, self.rigidbodies):
             if self.parents[held] == self.scene.nodes[held].parent:  # a clip moves it
                 self.components[self.object_of[held]].append(Rigidbody(useGravity=False, isKinematic=True))
+
+    def set_scenery_apart(self) -> None:
+        """Kinematic Rigidbodies of its own to what stands on the ground and is no one's base: what is joined to the ground collides
+        with it, and it moves with the root as the ground does.  Where nothing is joined to the ground, all of it may stay one."""
+        connected = [c.connectedBody for own in self.components for c in own if isinstance(c, JointComponent)]
+        if self.ground is None or self.ground not in connected:
+            return
+        node_of: dict[int, int] = {index: node for node, index in enumerate(self.object_of)}
+        touched: set[int] = set()
+        for index, components in enumerate(self.components):
+            if any(isinstance(c, UnityCollider) for c in components):
+                at: int | None = index
+                while at is not None and at not in node_of:
+                    at = self.objects[at].parent
+                if at is not None:
+                    touched.add(node_of[at])
+        for top in scenery.tops(self.scene, self.groups, touched):
+            own = self.components[self.object_of[top]]
+            if not any(isinstance(c, Rigidbody) for c in own):
+                own.append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_joints(self) -> None:
         for joint in self.scene.joints:

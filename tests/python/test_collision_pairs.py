@@ -1,0 +1,89 @@
+"""Which bodies of an exported scene may collide, counted from the written file alone and held against the source's own rule."""
+
+from __future__ import annotations
+
+import json
+from itertools import combinations
+from pathlib import Path
+
+import kinefab
+import trimesh
+
+JOINTS = ("HingeJoint", "ConfigurableJoint", "FixedJoint")
+COLLIDERS = ("BoxCollider", "SphereCollider", "CapsuleCollider", "MeshCollider")
+
+
+def touching(path: Path) -> set[frozenset[str]]:
+    """Pairs of objects with colliders that Unity lets collide: of two Rigidbodies, one of them dynamic, no joint between them."""
+    objects = json.loads(path.read_text(encoding="utf-8"))["gameObjects"]
+    body: list[int | None] = []
+    for i, entry in enumerate(objects):
+        kinds = [c["type"] for c in entry.get("components", ())]
+        parent = entry.get("parent")
+        body.append(i if "Rigidbody" in kinds else None if parent is None else body[parent])
+    dynamic = {
+        i
+        for i, entry in enumerate(objects)
+        for c in entry.get("components", ())
+        if c["type"] == "Rigidbody" and not c.get("isKinematic", False)
+    }
+    joined = {
+        frozenset((body[i], c["connectedBody"]))
+        for i, entry in enumerate(objects)
+        for c in entry.get("components", ())
+        if c["type"] in JOINTS and "connectedBody" in c and not c.get("enableCollision", False)
+    }
+    shaped = [
+        i
+        for i, entry in enumerate(objects)
+        if any(c["type"] in COLLIDERS for c in entry.get("components", ()))
+    ]
+    return {
+        frozenset((objects[a]["id"], objects[b]["id"]))
+        for a, b in combinations(shaped, 2)
+        if body[a] != body[b] and {body[a], body[b]} & dynamic and frozenset((body[a], body[b])) not in joined
+    }
+
+
+ARM = """<sdf version="1.9"><world name="w"><model name="ground"><static>true</static><link name="floor"><collision name="c">
+<geometry><box><size>10 10 0.1</size></box></geometry></collision></link></model>
+<model name="pend"><link name="arm"><pose>0 0 0.5 0 0 0</pose><inertial><mass>1</mass></inertial><collision name="c"><pose>0.35 0 0 0 0 0</pose>
+<geometry><box><size>.1 .1 .1</size></box></geometry></collision></link>
+<joint name="j" type="revolute"><parent>world</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint></model></world></sdf>"""
+
+
+def test_what_is_joined_to_the_world_collides_with_the_floor(tmp_path: Path):
+    (tmp_path / "arm.sdf").write_text(ARM, encoding="utf-8")
+    kinefab.export(tmp_path / "arm.sdf", tmp_path / "arm.kinefab")
+    assert touching(tmp_path / "arm.kinefab") == {frozenset(("ground/floor", "pend/arm"))}
+
+
+def lid_over_floor() -> kinefab.Scene:
+    scene = kinefab.Scene()
+    box = scene.add_part("Box", trimesh.creation.box((0.4, 0.2, 0.3)), translation=(0, 0.1, 0), grounded=True)
+    lid = scene.add_part("Lid", trimesh.creation.box((0.4, 0.02, 0.3)), translation=(0, 0.21, 0))
+    scene.add_part("Floor", trimesh.creation.box((4, 0.1, 4)), translation=(0, -0.05, 0), grounded=True)
+    scene.add_hinge(box, lid, point=(0, 0.2, -0.15), axis=(-1, 0, 0), name="Hinge")
+    return scene
+
+
+def test_an_arm_collides_with_the_floor_and_not_with_its_base(tmp_path: Path):
+    kinefab.export(lid_over_floor(), tmp_path / "lid.kinefab")
+    assert touching(tmp_path / "lid.kinefab") == {frozenset(("Lid", "Floor"))}
+
+
+def test_scenery_stands_below_the_ground_that_moves_the_scene(tmp_path: Path):
+    kinefab.export(lid_over_floor(), tmp_path / "lid.kinefab")
+    objects = json.loads((tmp_path / "lid.kinefab").read_text(encoding="utf-8"))["gameObjects"]
+    floor = next(o for o in objects if o["id"] == "Floor")
+    body = next(c for c in floor["components"] if c["type"] == "Rigidbody")
+    assert objects[floor["parent"]]["id"] == "kinefab:ground"
+    assert body["isKinematic"]
+
+
+def test_a_bracket_welded_to_the_base_is_the_base(tmp_path: Path):
+    scene = lid_over_floor()
+    bracket = scene.add_part("Bracket", trimesh.creation.box((0.1, 0.1, 0.1)), translation=(0, 0.3, -0.3))
+    scene.add_fixed(0, bracket)
+    kinefab.export(scene, tmp_path / "lid.kinefab")
+    assert touching(tmp_path / "lid.kinefab") == {frozenset(("Lid", "Floor"))}

@@ -7,7 +7,10 @@ from itertools import combinations
 from pathlib import Path
 
 import kinefab
+import pytest
 import trimesh
+from kinefab.geometry.looks.gltf_document import gltf_document
+from kinefab.model import Apart
 
 JOINTS = ("HingeJoint", "ConfigurableJoint", "FixedJoint")
 COLLIDERS = ("BoxCollider", "SphereCollider", "CapsuleCollider", "MeshCollider")
@@ -87,3 +90,49 @@ def test_a_bracket_welded_to_the_base_is_the_base(tmp_path: Path):
     scene.add_fixed(0, bracket)
     kinefab.export(scene, tmp_path / "lid.kinefab")
     assert touching(tmp_path / "lid.kinefab") == {frozenset(("Lid", "Floor"))}
+
+
+def two_balls() -> kinefab.Scene:
+    scene = kinefab.Scene()
+    for name, x in (("A", 0.0), ("B", 0.1), ("C", 0.2)):
+        scene.add_part(name, trimesh.creation.box((0.2, 0.2, 0.2)), translation=(x, 1, 0))
+    scene.apart.append(Apart(0, 1, "contact exclude"))
+    return scene
+
+
+def test_bodies_that_the_source_lets_pass_are_kept_apart_without_a_script(tmp_path: Path):
+    result = kinefab.export(two_balls(), tmp_path / "balls.kinefab")
+    assert touching(tmp_path / "balls.kinefab") == {frozenset("AC"), frozenset("BC")}
+    content = json.loads((tmp_path / "balls.kinefab").read_text(encoding="utf-8"))
+    assert content["extras"]["ignoreCollision"] == [["A", "B"]]
+    overlaps = [d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
+    assert not any("A" in message.split() and "B" in message.split() for message in overlaps)
+
+
+def test_pairs_by_node_reach_usd(tmp_path: Path):
+    pytest.importorskip("pxr")
+    kinefab.export(two_balls(), tmp_path / "balls.usda")
+    assert "physics:filteredPairs = </" in (tmp_path / "balls.usda").read_text(encoding="utf-8")
+
+
+def test_pairs_by_node_reach_gltf(tmp_path: Path):
+    kinefab.export(two_balls(), tmp_path / "balls.glb")
+    document = gltf_document(tmp_path / "balls.glb")
+    filters = document["extensions"]["KHR_physics_rigid_bodies"]["collisionFilters"]
+    assert {tuple(f["notCollideWithSystems"]) for f in filters} == {("A",), ("B",)}
+
+
+def test_an_articulation_tells_the_pairs_that_it_cannot_say(tmp_path: Path):
+    result = kinefab.export(
+        two_balls(), tmp_path / "balls.prefab", kinefab.ExportOptions(writing={"physics": "articulation"})
+    )
+    assert any(d.code == "TARGET_FIELD_DROPPED" and "A - B" in d.message for d in result.report.diagnostics)
+
+
+def test_a_pair_with_what_stands_in_the_world_is_told(tmp_path: Path):
+    scene = two_balls()
+    scene.add_part("Floor", trimesh.creation.box((4, 0.1, 4)), grounded=True)
+    scene.apart.append(Apart(0, 3, "filtered pair"))
+    result = kinefab.export(scene, tmp_path / "balls.kinefab", kinefab.ExportOptions(ground="world"))
+    assert "PAIR_DROPPED" in {d.code for d in result.report.diagnostics}
+    assert frozenset(("A", "Floor")) in touching(tmp_path / "balls.kinefab")

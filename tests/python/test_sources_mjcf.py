@@ -362,9 +362,11 @@ def test_shapes_say_what_is_drawn_and_what_is_touched(tmp_path):
     assert {"MJCF_COLLISION_FILTER", "MJCF_GEOM_UNSEEN"} <= codes(report)
 
 
-def test_contact_excludes_stand_in_the_extras(tmp_path):
+def test_contact_excludes_are_pairs_of_nodes(tmp_path):
     scene, report = loaded(tmp_path, LOOP, tail="<contact><exclude body1='a' body2='b'/></contact>")
-    assert scene.extras["ignoreCollision"] == [["a", "b"]] and "MJCF_COLLISION_FILTER" in codes(report)
+    (pair,) = scene.apart
+    assert {scene.nodes[pair.a].name, scene.nodes[pair.b].name} == {"a", "b"}
+    assert "ignoreCollision" not in scene.extras and "MJCF_COLLISION_FILTER" not in codes(report)
 
 
 KEYED = "<keyframe><key name='home' qpos='.5' ctrl='.3'/><key qpos='-.2'/></keyframe>"

@@ -156,7 +156,7 @@ TOLD = {
     "USD_DEFORMATION": body("B", inside='def Mesh "M" { int[] faceVertexCounts = [3]; int[] faceVertexIndices = [0, 1, 2]; point3f[] points.timeSamples = { 0: [(0,0,0),(1,0,0),(0,1,0)], 1: [(0,0,0),(2,0,0),(0,1,0)] }\n }'),
     "USD_MATERIAL_UNKNOWN": body("B", inside='def Sphere "S" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M>\n }') + 'def Material "M" { token outputs:mdl:surface.connect = </M/S.outputs:out>\n def Shader "S" { token outputs:out\n }\n }',
     "USD_TEXTURE_MISSING": body("B", inside='def Sphere "S" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M>\n }') + 'def Material "M" { token outputs:surface.connect = </M/S.outputs:surface>\n def Shader "S" { uniform token info:id = "UsdPreviewSurface"; token outputs:surface; color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>\n }\n def Shader "T" { uniform token info:id = "UsdUVTexture"; asset inputs:file = @gone.png@; float3 outputs:rgb\n }\n }',
-    "USD_COLLISION_FILTER": body("A") + body("B").replace('"PhysicsMassAPI"]', '"PhysicsMassAPI", "PhysicsFilteredPairsAPI"]').replace("float physics:mass", "rel physics:filteredPairs = </A>\n float physics:mass"),
+    "USD_COLLISION_FILTER": body("A", inside='def Cube "C" {\n }') + body("B").replace('"PhysicsMassAPI"]', '"PhysicsMassAPI", "PhysicsFilteredPairsAPI"]').replace("float physics:mass", "rel physics:filteredPairs = </A/C>\n float physics:mass"),
     "USD_MIRROR_BAKED": body("B", inside='def Cube "C" { double3 xformOp:scale = (-1, 2, 1)\n uniform token[] xformOpOrder = ["xformOp:scale"]\n }'),
     "USD_SHEAR_BAKED": body("B", inside='def Cube "C" { matrix4d xformOp:transform = ((1,0,0,0),(0.5,1,0,0),(0,0,1,0),(0,0,0,1))\n uniform token[] xformOpOrder = ["xformOp:transform"]\n }'),
 }  # fmt: skip
@@ -262,7 +262,8 @@ def test_a_pair_that_is_filtered_from_both_sides_is_one(tmp_path):
         pair.replace("float physics:mass", "rel physics:filteredPairs = [</A>, </B>]\n float physics:mass")
     )
     scene, _ = scene_of(tmp_path, text)
-    assert scene.extras["ignoreCollision"] == [["A", "B"]]
+    (pair,) = scene.apart
+    assert [scene.nodes[pair.a].id, scene.nodes[pair.b].id] == ["A", "B"]
 
 
 @pytest.mark.parametrize("kind", ["PhysicsFixedJoint", "PhysicsSphericalJoint", "PhysicsDistanceJoint"])

@@ -196,7 +196,8 @@ def test_collision_groups_and_pairs_are_those_of_the_source(tmp_path, extras):
         for k, v in read_back.extras["collisionGroups"].items()
     }
     assert "tools" in ignored["arms"] and ("arms" in ignored["arms"]) is not own
-    ((first, second),) = read_back.extras["ignoreCollision"]
+    (pair,) = read_back.apart
+    first, second = read_back.nodes[pair.a].id, read_back.nodes[pair.b].id
     assert {first.rpartition("/")[2], second.rpartition("/")[2]} == {"Part_0", "Part_1"}
 
 

@@ -33,6 +33,7 @@ from .freedoms import (
 from .ids import IN_BRACKETS, free_id
 from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
+from .pairs import Apart
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
 from .scene import EARTH, Physics, Scene, Source, SourceFile
 from .sides import Exchange, exchange_of, is_same_from_both_sides
@@ -41,6 +42,7 @@ from .surfaces import PLAIN, AlphaMode, Surface, Texture, Wrap
 __all__ = [
     "AlphaMode",
     "AnimationClip",
+    "Apart",
     "Body",
     "Collider",
     "ColliderKind",

@@ -101,6 +101,8 @@ class Node:
     kilograms: of a part without ``mass``, what its geometry weighs together, whatever densities say; None: by its densities.
     colliders: the shapes that the source states, () for none at all; None where it does not say, and the export chooses.
     collision: the shape that is made for its bodies where it states no colliders, None for the export's choice.
+    helps: of a body that no source has, which stands between two joints of one: the node of that one, of which it takes a share
+        of the mass; None for all others.
     dynamics: see ``Dynamics``.  sites: named frames.  layer, tag: the source's words for them, "" for none.
     where: place in the source, for diagnostics.
     """
@@ -126,3 +128,4 @@ class Node:
     tag: str = ""
     where: str = ""
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
+    helps: int | None = None

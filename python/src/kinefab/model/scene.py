@@ -11,6 +11,7 @@ from .constraints import Constraint, DofRecord
 from .couplings import Coupling
 from .joints import Joint
 from .meshes import Mesh
+from .pairs import Apart
 from .parts import Node
 from .surfaces import Surface
 
@@ -57,6 +58,7 @@ class Scene:
 
     offers: what else the source can give, by the name of the option that asks for it: names of its variants
         (``variant``: "set=name"), of its keyframes (``keyframe``).
+    apart: pairs of bodies that pass through each other by the source's own rule, beside those that joints keep from colliding.
     identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
         the source whatever it is called there.  By it a prefab knows its objects again.
     """
@@ -73,6 +75,7 @@ class Scene:
     physics: Physics = field(default_factory=Physics)
     offers: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
+    apart: list[Apart] = field(default_factory=list[Apart])
     identities: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def __repr__(self) -> str:

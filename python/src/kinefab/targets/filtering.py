@@ -1,6 +1,6 @@
 """Which colliders do not collide, as the scene's extras say it.
 
-ignoreCollision: pairs of ids.  collisionGroups: for each group those that it ignores.  collisionMasks: for each group contype and
+Pairs of nodes are ``Scene.apart``; a script's own scene may state them by id too.  ignoreCollision: pairs of ids.  collisionGroups: for each group those that it ignores.  collisionMasks: for each group contype and
 conaffinity; two groups collide where one's type meets the other's affinity, and what is in none has 1 of both.
 """
 
@@ -43,13 +43,14 @@ def ignored_pairs(scene: Scene) -> tuple[list[tuple[int, int]], list[str]]:
     """Pairs of nodes, and in words those of which a side is no node."""
     stated = scene.extras.get("ignoreCollision")
     of_node = {node.id: i for i, node in enumerate(scene.nodes)}
-    found: list[tuple[int, int]] = []
+    found: list[tuple[int, int]] = [(pair.a, pair.b) for pair in scene.apart]
     unknown: list[str] = []
     for pair in cast("list[object]", stated) if isinstance(stated, list) else []:
         ids = [str(id) for id in cast("list[object]", pair)] if isinstance(pair, list) else []
         numbers = [of_node[id] for id in ids if id in of_node]
         if len(ids) == 2 and len(numbers) == 2:
-            found.append((numbers[0], numbers[1]))
+            if frozenset(numbers) not in {frozenset(pair) for pair in found}:
+                found.append((numbers[0], numbers[1]))
         else:
             unknown.append(" and ".join(ids))
     return found, unknown

@@ -30,6 +30,7 @@ from .scene import (
     ONE,
     Component,
     Coupling,
+    ConfigurableJoint,
     FixedJoint,
     GameObject,
     MeshFilter,
@@ -41,6 +42,7 @@ from .scene import (
 )
 from .scene import Joint as JointComponent
 from .scene.colliders.collider import Collider as UnityCollider
+from .scene.joints.configurable_joint import APART
 from .scene.vectors import vector3
 
 GROUND_ID = "kinefab:ground"
@@ -68,6 +70,7 @@ def map_scene(
     builder.add_rigidbodies()
     builder.add_joints()
     builder.set_scenery_apart()
+    builder.keep_apart()
     physics = scene.physics
     gravity = vector3(frames.direction(physics.gravity))
     return UnityScene(
@@ -85,7 +88,7 @@ def map_scene(
         animations=tuple(map_clip(clip, builder.object_of) for clip in scene.animations),
         constraints=tuple(map_constraint(c, builder.object_of) for c in scene.constraints),
         analysis=None if analysis is None else map_mobility(analysis, builder.object_of),
-        extras=dict(scene.extras),
+        extras=_extras(scene),
     )
 
 
@@ -261,6 +264,61 @@ class _Builder:
             components.append(component)
             self.joints[joint.id] = (mapped, len(components) - 1)
 
+    def keep_apart(self) -> None:
+        """Joints that hold nothing between bodies that the source lets pass through each other: Unity needs no script then."""
+        bodies = [self._body(index) for index in range(len(self.objects))]
+        joined = {
+            frozenset((bodies[i], c.connectedBody))
+            for i, own in enumerate(self.components)
+            for c in own
+            if isinstance(c, JointComponent) and not c.enableCollision
+        }
+        taken = set(self.joints)
+        for pair in self.scene.apart:
+            a, b = (bodies[self.object_of[node]] for node in (pair.a, pair.b))
+            ids = (self.scene.nodes[pair.a].id, self.scene.nodes[pair.b].id)
+            feature = f"{pair.reason} of {ids[0]} and {ids[1]}"
+            if a == b or not (self._moves(a) or self._moves(b)):
+                self.report.kept(feature, pair.where)
+                continue
+            own, other = (a, b) if self._moves(a) else (b, a)
+            whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
+            if own is None or other is None or not (whole or frozenset((a, b)) in joined):
+                self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
+                continue
+            if frozenset((a, b)) not in joined:
+                id = free_id(f"apart:{ids[0]} - {ids[1]}", taken)
+                joint = ConfigurableJoint(
+                    connectedBody=other, autoConfigureConnectedAnchor=False, closure=True, id=id, extras={APART: pair.reason}
+                )
+                self.components[own].append(joint)
+                joined.add(frozenset((a, b)))
+            self.report.kept(feature, pair.where)
+
+    def _body(self, index: int) -> int | None:
+        """The object whose Rigidbody moves another; None for what stands in the world."""
+        at: int | None = index
+        while at is not None and not any(isinstance(c, Rigidbody) for c in self.components[at]):
+            at = self.objects[at].parent
+        return at
+
+    def _moves(self, body: int | None) -> bool:
+        return body is not None and any(
+            isinstance(c, Rigidbody) and not c.isKinematic for c in self.components[body]
+        )
+
+    def _is_whole(self, body: int | None, node: int) -> bool:
+        """Whether all colliders of a Rigidbody are those of a node and of what stands below it."""
+        within = {self.object_of[node]}
+        for index, entry in enumerate(self.objects):
+            if entry.parent in within:
+                within.add(index)
+        return all(
+            index in within
+            for index, own in enumerate(self.components)
+            if any(isinstance(c, UnityCollider) for c in own) and self._body(index) == body
+        )
+
     def _carrier(self, node: int) -> int:
         assert self.rigidbodies is not None
         carrier = self.rigidbodies.carrier_of[node]
@@ -277,6 +335,16 @@ class _Builder:
         screws = screw_couplings([mapped for mapped, _ in self.joints.values()], stated)
         mapped = (map_coupling(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
         return [coupling for coupling in mapped if coupling is not None]
+
+
+def _extras(scene: Scene) -> dict[str, object]:
+    """The scene's own, with the pairs of bodies that pass through each other by their ids."""
+    found = dict(scene.extras)
+    if scene.apart:
+        stated = found.get("ignoreCollision")
+        pairs = [[scene.nodes[pair.a].id, scene.nodes[pair.b].id] for pair in scene.apart]
+        found["ignoreCollision"] = [*pairs, *(stated if isinstance(stated, list) else [])]
+    return found
 
 
 HOME = Pose()

@@ -19,7 +19,7 @@ from ..robots.rigid_links import Carrier, add_links
 from ..robots.robot_frame import direction
 from .actuators import read_actuators
 from .bodies import Bodies
-from .contacts import excluded, filters
+from .contacts import add_excludes, excluded, masks
 from .engine import Compiled, compile_model
 from .equalities import Equalities
 from .files import scan
@@ -51,7 +51,8 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     scene.joints += made.joints
     equalities = Equalities(compiled, carriers, made, scene, report, frozenset(excluded(compiled)))
     equalities.read()
-    scene.extras = filters(compiled, _joined(scene, carriers), report)
+    add_excludes(scene, compiled, carriers, _joined(scene, carriers), report)
+    scene.extras = masks(compiled, report)
     tell_losses(compiled, equalities, report)
     report.raise_for_errors()
     return scene

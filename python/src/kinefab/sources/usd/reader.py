@@ -74,7 +74,7 @@ def _scene(opened: OpenStage, report: Report, request: Request) -> Scene:
     acting = [prim for prim in found.vendor if prim.GetTypeName() == KIND]
     scene.joints = Actuators(couplings, units, values, report).drive(acting, scene.joints)
     tell_prims([prim for prim in found.vendor if prim.GetTypeName() != KIND], opened, report)
-    scene.extras = filters(found, opened, values, report)
+    scene.extras = filters(scene, found, opened, values, report)
     values.tell_unasked()
     report.raise_for_errors()
     return scene

@@ -107,6 +107,7 @@ class _Articulation:
         for i, entry in enumerate(self.objects):
             for body in (c for c in entry.components if isinstance(c, Rigidbody)):
                 self.bodies[i] = body
+            self._leave_out_apart(i)
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
         self.edges = [
             (i, k)
@@ -119,6 +120,17 @@ class _Articulation:
             self.poses.append(Pose())
             self.ground = len(self.objects) - 1
             self.bodies[self.ground] = Rigidbody(isKinematic=True, useGravity=False)
+
+    def _leave_out_apart(self, index: int) -> None:
+        """Joints that only keep bodies from colliding: between links they would hold helper bodies apart, not the links."""
+        components = self.objects[index].components
+        left = [c for c in components if isinstance(c, ConfigurableJoint) and c.keeps_apart]
+        for joint in left:
+            told = {"field": "what does not collide", "target": ARTICULATION}
+            self.report.dropped(f"pair {joint.id.removeprefix('apart:')}", "TARGET_FIELD_DROPPED", **told)
+        if left:
+            kept = tuple(c for c in components if c not in left)
+            self.objects[index] = replace(self.objects[index], components=kept)
 
     def _joint(self, edge: Edge) -> Joint:
         joint = self.objects[edge[0]].components[edge[1]]

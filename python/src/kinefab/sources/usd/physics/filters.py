@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ....diagnostics import Report
+from ....model import Apart, Scene
 from ..api import UsdPhysics
 from ..found import Found
 from ..stage import OpenStage
@@ -35,10 +36,12 @@ def collision_groups(found: Found, opened: OpenStage, report: Report) -> dict[st
     return groups
 
 
-def filters(found: Found, opened: OpenStage, values: Values, report: Report) -> dict[str, object]:
-    """What a script may set up by Physics.IgnoreCollision: a scene file has no room for it but the extras.
+def filters(
+    scene: Scene, found: Found, opened: OpenStage, values: Values, report: Report
+) -> dict[str, object]:
+    """Adds the pairs of bodies to the scene; returns what is left for its extras.
 
-    ignoreCollision: pairs of ids.  collisionGroups: for each group the groups that it ignores.
+    ignoreCollision: pairs of paths of which one is no body, as a single collider.  collisionGroups: for each group the groups that it ignores.
     """
     extras: dict[str, object] = {}
     pairs: list[list[str]] = []
@@ -55,12 +58,18 @@ def filters(found: Found, opened: OpenStage, values: Values, report: Report) -> 
             pair = [str(prim.GetPath())[1:], str(target)[1:]]
             if pair[0] != pair[1] and pair not in pairs and pair[::-1] not in pairs:
                 pairs.append(pair)
-    for first, second in pairs:
+    node_of = {node.id: i for i, node in enumerate(scene.nodes)}
+    unknown = [pair for pair in pairs if not (pair[0] in node_of and pair[1] in node_of)]
+    scene.apart += [
+        Apart(node_of[first], node_of[second], "filtered pair", opened.place(f"/{first}"))
+        for first, second in (pair for pair in pairs if pair not in unknown)
+    ]
+    for first, second in unknown:
         report.approximated(
             f"filtered pair {first} and {second}", "USD_COLLISION_FILTER", opened.place(f"/{first}")
         )
-    if pairs:
-        extras["ignoreCollision"] = pairs
+    if unknown:
+        extras["ignoreCollision"] = unknown
     if found.collision_groups:
         table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(opened.stage)
         ignored: dict[str, list[str]] = {}

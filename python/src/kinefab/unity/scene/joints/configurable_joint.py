@@ -32,6 +32,10 @@ class JointDrive:
     useAcceleration: bool = False
 
 
+APART = "apart"
+"""Of the extras of a joint that holds nothing and only keeps two bodies from colliding: the source's rule."""
+
+
 @dataclass(frozen=True, slots=True)
 class ConfigurableJoint(AnchoredJoint):
     """Motions are ``Locked``, ``Limited`` or ``Free``.  targetVelocity: m/s; targetAngularVelocity: rad/s."""
@@ -67,6 +71,11 @@ class ConfigurableJoint(AnchoredJoint):
     projectionAngle: float = 180.0
     configuredInWorldSpace: bool = False
     swapBodies: bool = False
+
+    @property
+    def keeps_apart(self) -> bool:
+        """Whether it is there only to keep two bodies from colliding."""
+        return APART in self.extras
 
 
 MOTION_FIELDS = ("xMotion", "yMotion", "zMotion", "angularXMotion", "angularYMotion", "angularZMotion")

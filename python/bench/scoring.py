@@ -190,6 +190,10 @@ def _masses(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list
             continue  # told by the poses
         if body is not None and body in moving:
             together.setdefault(body, []).append(mass)
+    helping: dict[str, list[int]] = {}  # light bodies between joints weigh a share of the one that they help
+    for i, entry in enumerate(motion.objects):
+        if helped := entry.get("extras", {}).get("helps"):
+            helping.setdefault(helped, []).append(i)
     for body, parts in together.items():
         name = motion.objects[body]["name"]
         if not sum(part.mass for part in parts) > 0.0:
@@ -199,6 +203,11 @@ def _masses(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list
         expected = _combined(parts)
         mass, center, inertia = motion.mass(body)
         r, t = motion.placed[body]
+        beside = helping.get(motion.objects[body]["id"], [])
+        if beside:
+            whole = _combined([_in_world(motion, i) for i in (body, *beside)])
+            mass, center = whole.mass, r.T @ (whole.center - t)
+            inertia = r.T @ whole.inertia @ r
         size = max(float(np.abs(expected.inertia).max()), 1e-12)
         reach = max(float(np.linalg.norm(expected.center)), 1e-3)
         here = r @ center + t
@@ -213,6 +222,13 @@ def _masses(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list
     if worst > CLOSE:
         wrong.append(where)
     return {"mass_error": worst}
+
+
+def _in_world(motion: Any, body: int) -> Mass:
+    """Of a body of the scene, along Unity's world axes."""
+    mass, center, inertia = motion.mass(body)
+    r, t = motion.placed[body]
+    return Mass(mass, r @ center + t, r @ inertia @ r.T)
 
 
 def _combined(parts: list[Mass]) -> Mass:

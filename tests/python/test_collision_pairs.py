@@ -7,10 +7,12 @@ from itertools import combinations
 from pathlib import Path
 
 import kinefab
+import numpy as np
 import pytest
 import trimesh
 from kinefab.geometry.looks.gltf_document import gltf_document
-from kinefab.model import Apart
+from kinefab.model import Apart, JointKind
+from kinefab.sources.mjcf.stacks import Axis, steps_of
 
 JOINTS = ("HingeJoint", "ConfigurableJoint", "FixedJoint")
 COLLIDERS = ("BoxCollider", "SphereCollider", "CapsuleCollider", "MeshCollider")
@@ -136,3 +138,39 @@ def test_a_pair_with_what_stands_in_the_world_is_told(tmp_path: Path):
     result = kinefab.export(scene, tmp_path / "balls.kinefab", kinefab.ExportOptions(ground="world"))
     assert "PAIR_DROPPED" in {d.code for d in result.report.diagnostics}
     assert frozenset(("A", "Floor")) in touching(tmp_path / "balls.kinefab")
+
+
+TWISTED = """<sdf version="1.9"><model name="m">
+<link name="a"><inertial><mass>4</mass></inertial><collision name="c"><geometry><box><size>.3 .3 .3</size></box></geometry></collision></link>
+<link name="b"><pose>0 0 .2 0 0 0</pose><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.3 .3 .3</size></box></geometry></collision></link>
+<joint name="u" type="revolute2"><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis><axis2><xyz>0.6 0.8 0</xyz></axis2></joint></model></sdf>"""
+
+
+def test_a_body_between_joints_is_of_the_mass_that_it_helps_and_in_nobodys_way(tmp_path: Path):
+    (tmp_path / "m.sdf").write_text(TWISTED, encoding="utf-8")
+    result = kinefab.export(tmp_path / "m.sdf", tmp_path / "m.kinefab")
+    objects = json.loads((tmp_path / "m.kinefab").read_text(encoding="utf-8"))["gameObjects"]
+    masses = {
+        o["id"]: c.get("mass", 1.0) for o in objects for c in o.get("components", ()) if c["type"] == "Rigidbody"
+    }
+    assert len(masses) == 3
+    assert sum(masses.values()) == pytest.approx(6.0)
+    assert masses["m/a"] == pytest.approx(4.0)
+    assert touching(tmp_path / "m.kinefab") == set()
+    assert not {"MASS_STAND_IN", "COLLIDERS_OVERLAP"} & {d.code for d in result.report.diagnostics}
+
+
+def slide(index: int, direction: tuple[float, float, float], limited: bool = False) -> Axis:
+    return Axis(index, "slide", np.zeros(3), np.array(direction), 0.0, 0.0, True, limited)
+
+
+@pytest.mark.parametrize("limited", [False, True])
+def test_three_slides_and_a_ball_are_a_free_body(limited: bool):
+    ball = Axis(3, "ball", np.array([0.1, 0, 0]), np.array([0.0, 0, 1]), 0.0, 0.0, True, False, np.eye(3))
+    slides = [slide(0, (0, 1, 0)), slide(1, (1, 0, 0), limited), slide(2, (0, 0, 1))]
+    steps = steps_of([*slides, ball])
+    assert (steps[0].kind is JointKind.FREE and len(steps) == 1) is not limited
+    for step in steps[: 0 if limited else 1]:
+        for axis, index in zip(slides, step.freedoms):
+            assert step.frame_a.rotation[:, index] == pytest.approx(axis.direction)
+        assert np.linalg.det(step.frame_a.rotation) == pytest.approx(1.0)

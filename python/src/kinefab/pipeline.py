@@ -21,6 +21,7 @@ from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
 from .geometry.collision import ConvexOnly, collision_meshes
+from .geometry.contact.helping import with_helpers
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
 from .geometry.looks.soundness import with_sound_meshes
@@ -155,7 +156,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
         scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
     )
     report.extend(found.report)
-    exported = found.scene(options.solve)
+    exported = with_helpers(found.scene(options.solve))
     groups = rigid_groups(exported, found.fixed)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..diagnostics import Report
 from ..findings import JointFinding
-from ..model import PLAIN, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
+from ..model import PLAIN, Apart, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_kinematic
 from ..spatial import Pose
@@ -279,7 +279,7 @@ class _Builder:
             ids = (self.scene.nodes[pair.a].id, self.scene.nodes[pair.b].id)
             feature = f"{pair.reason} of {ids[0]} and {ids[1]}"
             if a == b or not (self._moves(a) or self._moves(b)):
-                self.report.kept(feature, pair.where)
+                self._tell_apart(pair, feature)
                 continue
             own, other = (a, b) if self._moves(a) else (b, a)
             whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
@@ -293,6 +293,10 @@ class _Builder:
                 )
                 self.components[own].append(joint)
                 joined.add(frozenset((a, b)))
+            self._tell_apart(pair, feature)
+
+    def _tell_apart(self, pair: Apart, feature: str) -> None:
+        if pair.stated:
             self.report.kept(feature, pair.where)
 
     def _body(self, index: int) -> int | None:

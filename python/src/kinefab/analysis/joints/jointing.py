@@ -181,11 +181,10 @@ class _Jointing:
     def _middle_node(self, near: Array, far: Array, name: str, relation: Relation) -> int:
         """A body without geometry; a tenth of the lighter neighbour's mass keeps the solver's mass ratios low."""
         nodes = self.assembly.scene.nodes
-        beside = [
-            nodes[n].mass for body in (relation.first, relation.second) for n in self.assembly.nodes[body]
-        ]
-        masses = [mass.mass for mass in beside if mass is not None]
-        mass = MIDDLE_SHARE * min(masses, default=1.0)
+        beside = [n for body in (relation.first, relation.second) for n in self.assembly.nodes[body]]
+        masses = [(mass.mass, n) for n in beside if (mass := nodes[n].mass) is not None]
+        mass = MIDDLE_SHARE * min(masses, default=(1.0, 0))[0]
+        moving = [(m, n) for m, n in masses if not self.assembly.stated.is_ground(n)]
         radius = max(0.5 * float(np.linalg.norm(far - near)), 0.1 * relation.length)
         weight = MassProperties(mass, np.zeros(3), 0.4 * mass * radius * radius * np.eye(3))
         self.nodes.append(
@@ -195,6 +194,7 @@ class _Jointing:
                 pose=Pose(np.eye(3), 0.5 * (near + far)),
                 mass=weight,
                 visible=False,
+                helps=min(moving)[1] if moving else None,
             )
         )
         return self.assembly.system.bodies + len(self.nodes) - 1

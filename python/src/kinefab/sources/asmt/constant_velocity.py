@@ -21,7 +21,6 @@ from ...model import (
     Freedom,
     Joint,
     JointKind,
-    MassProperties,
     Motion,
     Node,
     NodeKind,
@@ -30,7 +29,7 @@ from ...model import (
     freedoms_of,
 )
 from ...spatial import Array, Pose, quaternion_from_matrix, rotation_about
-from ..robots.rigid_links import STAND_IN_RADIUS, STAND_IN_SHARE, unique
+from ..robots.rigid_links import unique
 
 ALIKE = 1e-4
 """Parts of a quaternion, up to which both half turns do as well: the axes then point the same way in one line."""
@@ -95,8 +94,6 @@ def add_constant_velocity(
 def _light(scene: Scene, ident: str, beside: int, pose: Pose, where: str) -> int:
     """Add a body of no consequence; its node."""
     body = scene.nodes[beside]
-    mass = STAND_IN_SHARE * (1.0 if body.mass is None else body.mass.mass)
-    weight = MassProperties(mass, np.zeros(3), 0.4 * mass * STAND_IN_RADIUS**2 * np.eye(3))
     dynamics = replace(body.dynamics, kinematic=False)
     label = ident.rpartition("/")[2]
     scene.nodes.append(
@@ -106,10 +103,10 @@ def _light(scene: Scene, ident: str, beside: int, pose: Pose, where: str) -> int
             NodeKind.PART,
             body.parent,
             pose,
-            mass=weight,
             colliders=(),
             dynamics=dynamics,
             where=where,
+            helps=beside,
         )
     )
     return len(scene.nodes) - 1

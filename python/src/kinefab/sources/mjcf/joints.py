@@ -112,6 +112,15 @@ def add_joint(
         kind, freedoms = JointKind.FIXED, freedoms_of(JointKind.FIXED)
     elif kind is JointKind.SPHERICAL:
         freedoms, slerp = _ball(compiled, step.axes[0], name, where, report)
+    elif kind is JointKind.FREE:
+        turning, slerp = _ball(compiled, step.axes[-1], name, where, report)
+        given = list(turning)
+        for axis, index in zip(step.axes[:-1], step.freedoms):
+            given[index] = _freedom(compiled, axis, driven, compiled.joints[axis.index], report)
+            made.coordinate[axis.index] = (name, index)
+        freedoms = tuple(given)
+        if slerp is not None or any(f.drive is not None or f.passive is not None for f in freedoms):
+            kind = JointKind.GENERAL
     else:
         given = list(freedoms_of(step.kind))
         if step.kind is JointKind.GENERAL:

@@ -73,6 +73,8 @@ def _step(axes: tuple[Axis, ...]) -> Step | None:
     if kinds == ["ball"]:
         at = Pose(translation=axes[0].point)
         return Step(axes, JointKind.SPHERICAL, (RX,), at, at)
+    if kinds == ["slide"] * 3 + ["ball"]:
+        return _floating(axes)
     if "ball" in kinds:
         return None
     hinges = [axis for axis in axes if axis.kind == "hinge"]
@@ -84,6 +86,23 @@ def _step(axes: tuple[Axis, ...]) -> Step | None:
     if hinges and slides and axes[-1] is not hinges[0] and not _cylindrical(hinges[0], slides):
         return None
     return _sliding(axes, hinges, slides)
+
+
+def _floating(axes: tuple[Axis, ...]) -> Step | None:
+    """Three slides without ranges at right angles, and a ball after them: nothing is held."""
+    *slides, ball = axes
+    if any(axis.limited for axis in axes) or not all(
+        _across(one, other) for i, one in enumerate(slides) for other in slides[:i]
+    ):
+        return None
+    basis = np.column_stack([axis.direction for axis in slides])
+    if np.linalg.det(basis) < 0.0:
+        basis = basis[:, [1, 0, 2]]
+    freedoms = tuple(TX + int(np.argmax(basis.T @ axis.direction)) for axis in slides)
+    start = sum((axis.zero * axis.direction for axis in slides), np.zeros(3))
+    return Step(
+        axes, JointKind.FREE, (*freedoms, RX), Pose(basis, ball.point - start), Pose(basis, ball.point)
+    )
 
 
 def _cylindrical(hinge: Axis, slides: list[Axis]) -> bool:

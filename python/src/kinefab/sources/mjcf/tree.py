@@ -66,11 +66,12 @@ class Tree:
         m = self.compiled.model
         before, last = pose_of(m.body_pos[body], m.body_quat[body]), parent
         pose = self.compiled.body_pose(int(m.body_parentid[body])) @ before
+        outer = len(self.links) + len(steps) - 1
         for number, step in enumerate(steps):
             for axis in step.axes:
                 pose = pose @ axis.moved()
             outermost = number == len(steps) - 1
-            self.links.append(self._link(body) if outermost else self._between(body, step, pose))
+            self.links.append(self._link(body) if outermost else self._between(body, step, pose, outer))
             here = len(self.links) - 1
             self.hung.append(Hung(step, before, last, here))
             before, last = Pose(), here
@@ -88,8 +89,9 @@ class Tree:
     def _link(self, body: int) -> Link:
         return self.bodies.link(body, self.compiled.bodies[body], self.compiled.body_pose(body))
 
-    def _between(self, body: int, step: Step, pose: Pose) -> Link:
-        """The light body behind a step that is not the last.  pose: in the world, MuJoCo's axes."""
+    def _between(self, body: int, step: Step, pose: Pose, helped: int) -> Link:
+        """The light body behind a step that is not the last.  pose: in the world, MuJoCo's axes.
+        helped: link of the body."""
         compiled = self.compiled
         own = compiled.bodies[body]
         label = unique(self._labels, f"{own} {compiled.joints[step.axes[-1].index]}")
@@ -97,7 +99,7 @@ class Tree:
         link = Link(
             f"{self.bodies.root}/{label}", label, pose, compiled.where("body", compiled.name("body", body))
         )
-        link.parent = 0
+        link.parent, link.helps = 0, helped
         self.report.approximated(
             f"joints of {own}", "MJCF_MIDDLE_BODY", link.where, body=own, middle=label
         )  # fmt: skip

@@ -47,7 +47,7 @@ class Solid:
 class Link:
     """pose: in the world at the exported pose, source axes.  id: unique path.  parent: index of its assembly's node.
     frames: further named frames, in the link's own.  solid: of one without ``inertial`` that leaves it to its shapes.
-    extras: kept with the node."""
+    extras: kept with the node.  helps: of a link that no source has the index of the one that it helps, as ``Node.helps``."""
 
     id: str
     name: str
@@ -63,6 +63,7 @@ class Link:
     kinematic: bool = False
     solid: Solid | None = None
     extras: dict[str, object] = field(default_factory=dict[str, object])
+    helps: int | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,11 +105,15 @@ def add_links(
             carriers[i] = Carrier(len(scene.nodes), placed(pose))
         together = [links[i] for i in indices]
         node = _node(own, together, inside, shapes, report)
-        if node.mass is None and not node.grounded and not any(body.weighed for body in node.bodies):
+        if own.helps is None and node.mass is None and not node.grounded and not any(body.weighed for body in node.bodies):
             light.append(len(scene.nodes))
         scene.nodes.append(node)
     node_of = {group: first_node + i for i, group in enumerate(members)}
     group_of = {node: group for group, node in node_of.items()}
+    for group, node in node_of.items():
+        helped = links[group].helps
+        if helped is not None:
+            scene.nodes[node] = replace(scene.nodes[node], helps=node_of[groups[helped]])
     for index in light:
         beside = [scene.nodes[node_of[g]].mass for g in neighbours.get(group_of[index], ())]
         _stand_in(scene, index, [m.mass for m in beside if m is not None], report)

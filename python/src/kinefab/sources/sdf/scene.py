@@ -135,6 +135,7 @@ def _add_middle(joint: SdfJoint, made: list[Link], number: dict[Entry, int], ent
         joint.pose,
         joint.where,
         parent=made[number[child]].parent,
+        helps=number[child],
     )
     number[entry] = len(made)
     made.append(link)

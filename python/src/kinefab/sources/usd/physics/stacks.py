@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from ....diagnostics import Report
-from ....model import Joint, JointKind, MassProperties, Node, NodeKind
+from ....model import Joint, JointKind, Node, NodeKind
 from ....spatial import Pose, rotation_log
-from ...robots.rigid_links import STAND_IN_RADIUS, STAND_IN_SHARE, unique
+from ...robots.rigid_links import unique
 from ..values import schemas
 from .joints import Readings
 
@@ -76,8 +76,6 @@ def _at_zero(joint: Joint, nodes: Sequence[Node]) -> bool:
 def _chain(nodes: list[Node], joints: Sequence[Joint], a: int | None, b: int) -> list[Joint]:
     """The joints from a to b, one after the other: all but the last to a light body that stands where b does."""
     body = nodes[b]
-    mass = STAND_IN_SHARE * (1.0 if body.mass is None else body.mass.mass)
-    weight = MassProperties(mass, np.zeros(3), 0.4 * mass * STAND_IN_RADIUS**2 * np.eye(3))
     known = {node.id: node for node in nodes}
     found: list[Joint] = []
     before: int | None = a
@@ -92,10 +90,10 @@ def _chain(nodes: list[Node], joints: Sequence[Joint], a: int | None, b: int) ->
                 NodeKind.PART,
                 body.parent,
                 Pose(body.pose.rotation, body.pose.translation),
-                mass=weight,
                 colliders=(),
                 dynamics=replace(body.dynamics, kinematic=False),
                 where=joint.where,
+                helps=b,
             )
             nodes.append(middle)
             known[ident] = middle

@@ -577,6 +577,7 @@ REFUSED = {
     "lead": ("SCREW_LEAD_ZERO", 5, model(PAIR + joint("j", "screw", "a", "b", TURN + "<thread_pitch>0</thread_pitch>"))),
 }  # fmt: skip
 TOLD = {
+    "zero axis that cannot matter": ("ROBOT_AXIS_ZERO", 5, model(PAIR + joint("j", "revolute", "a", "b", "<axis><xyz>0 0 0</xyz><limit><lower>0</lower><upper>0</upper></limit></axis>"))),
     "negative mass": ("VALUE_UNREADABLE", 3, model(A.replace("<mass>2", "<mass>-2"))),
     "moment of words": ("VALUE_UNREADABLE", 3, model(A.replace("<ixx>.1", "<ixx>none"))),
     "a colour of bytes": (

@@ -26,7 +26,7 @@ from .references import (
     heads_of_3mf,
     metres_of_3mf,
 )
-from .stl import demand_whole_stl
+from .whole.stl import demand_whole_stl
 from .wavefront.reader import ObjError, read_obj
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")

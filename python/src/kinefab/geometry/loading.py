@@ -18,6 +18,7 @@ from .files import Reader, read_mesh_file, transformed
 from .lending import tell_losses, with_lent_bodies, without_lent_bodies, without_looks
 from .matching import Wanted, match_bodies
 from .pieces import MeshFile, Piece, joined
+from .whole.lfs import is_pointer
 
 SAME_SHAPE = 1e-5
 """Two meshes are one when no vertex differs by more than this share of their size: what is left of printed
@@ -41,6 +42,10 @@ class MeshFiles:
 
     def get(self, path: Path, where: str, report: Report | None = None) -> MeshFile | None:
         """The file, or None with an error in the report.  where: the place that names it.  report: instead of the own one."""
+        if path not in self._files and is_pointer(path):
+            told = self._report if report is None else report
+            told.add("GEOMETRY_LFS_POINTER", where, path=path.name)
+            self._files[path] = None
         if path not in self._files:
             read = self._readers.get(path.suffix.lower(), read_mesh_file)
             self._files[path] = read(path, self._report if report is None else report, where)

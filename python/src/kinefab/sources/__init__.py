@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from ..diagnostics import Report, is_encodable
+from ..geometry.whole.lfs import is_pointer
 from ..options import FormatOption
 from .mjcf.options import KEYFRAME
 from .occ.options import TOLERANCE
@@ -117,6 +118,9 @@ def read(
     from .reading.request import Request
 
     path = Path(path)
+    if is_pointer(path):  # before anything is missed that would read the file itself
+        report.add("SOURCE_LFS_POINTER", path.name, path=path.name)
+        report.raise_for_errors()
     found = format_of(path)
     if found is None:
         known, road = ", ".join(sorted(known_suffixes())), road_of(path.name)

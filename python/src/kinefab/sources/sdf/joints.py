@@ -142,8 +142,11 @@ def _axis(element: Element, tag: str, joint: SdfJoint, scope: Scope, feature: st
     xyz = np.array((0.0, 0.0, 1.0) if given is None else given.values(3, (0.0, 0.0, 1.0)))
     length = float(np.linalg.norm(xyz))
     if not length > 1e-9:
-        child.fault("AXIS_ZERO", field=tag)
         xyz, length = np.array([0.0, 0.0, 1.0]), 1.0
+        if joint.kind in ("revolute", "prismatic") and _never_moves(child):
+            report.approximated(feature, "ROBOT_AXIS_ZERO", child.where)
+        else:
+            child.fault("AXIS_ZERO", field=tag)
     frame = "" if given is None else given.attributes.get("expressed_in", "").strip()
     if scope.version < (1, 7):  # the older spellings: 1.4 always means the model's frame
         flag = truth(child.content("use_parent_model_frame"))
@@ -153,6 +156,13 @@ def _axis(element: Element, tag: str, joint: SdfJoint, scope: Scope, feature: st
     axis.freedom = _freedom(child, joint.kind, f"{tag} of {feature}", report)
     axis.mimic = _mimic(child, scope, feature)
     return axis
+
+
+def _never_moves(axis: Element) -> bool:
+    """Whether its range is 0 to 0, so that its direction cannot matter."""
+    limit = axis.child("limit")
+    ends = [None if limit is None else limit.child(tag) for tag in ("lower", "upper")]
+    return all(end is not None and end.value(math.inf, infinite=True) == 0.0 for end in ends)
 
 
 def _freedom(axis: Element, kind: str, feature: str, report: Report) -> Freedom:

@@ -32,7 +32,7 @@ from ...unity.scene import (
 )
 from ...unity.scene.joints.joint import AnchoredJoint
 from ...unity.scene.vectors import quaternion4, vector3
-from .links import ARTICULATION, NotArticulated, link_motion, tell_link_losses
+from .links import ARTICULATION, NotArticulated, link_motion, tell_link_losses, twist_range
 
 ARTICULATION_GROUND_ID = "kinefab:articulation ground"
 """Of the root that stands for the world where no object does."""
@@ -203,6 +203,8 @@ class _Articulation:
             told = {"joint": joint.id or self.objects[edge[0]].id, "detail": str(reason)}
             self.report.dropped(f"joint {told['joint']}", "ARTICULATION_IMPOSSIBLE", **told)
             return link
+        if moving["jointType"] == "Revolute" and twist_range(joint) is not None:
+            self._tell_range(joint)
         if moving["jointType"] != "Fixed":
             moving["jointFriction"] = self._tell_friction(joint)
         tell_link_losses(joint, body, self.objects[child].id, self.report)
@@ -234,6 +236,13 @@ class _Articulation:
             "parentAnchorPosition": vector3(outer.translation),
             "parentAnchorRotation": quaternion4(quaternion_from_matrix(outer.rotation)),
         }
+
+    def _tell_range(self, joint: Joint) -> None:
+        """A link holds the range that was told as lost, as no ConfigurableJoint does."""
+        feature, stated = f"joint {joint.id}", self.joints.get(joint.id)
+        self.report.withdraw(feature, "JOINT_LIMIT_BEYOND_TURN")
+        if all(outcome.feature != feature for outcome in self.report.outcomes):
+            self.report.kept(feature, "" if stated is None else stated.where)
 
     def _tell_friction(self, joint: Joint) -> float:
         """The link's coefficient.  What was told as lost, as Unity's joints have no friction, is not."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 from ...diagnostics import Report
 from ...unity.scene import (
@@ -16,10 +16,13 @@ from ...unity.scene import (
     JointDrive,
     Rigidbody,
 )
+from ...unity.scene.joints.configurable_joint import TWIST_RANGE
 
 ARTICULATION = "an articulation"
 MOTOR_DAMPING = 1e7
 """N m s/rad of the drive that stands for a motor: its force is then the motor's largest."""
+MOST_TURN = 360.0
+"""Degrees to either side within which PhysX holds the range of a link's hinge."""
 RUNTIME = ("maxAngularVelocity", "solverIterations", "solverVelocityIterations")
 """Of a body, which Unity takes from a script only."""
 
@@ -48,6 +51,15 @@ def link_motion(joint: Joint, start: float) -> dict[str, Any]:
     if linear == ("Locked",) * 3:
         return _turning(joint, angular)
     raise NotArticulated("an articulation has revolute, prismatic, spherical and fixed joints only")
+
+
+def twist_range(joint: Joint) -> tuple[float, float] | None:
+    """Ends of the twist of a hinge, degrees, where only a link can hold them: within a whole turn to either side."""
+    stated = joint.extras.get(TWIST_RANGE)
+    if not isinstance(stated, list) or len(cast("list[float]", stated)) != 2:
+        return None
+    low, high = cast("list[float]", stated)
+    return (low, high) if -MOST_TURN <= low and high <= MOST_TURN else None
 
 
 def _slide_drive(joint: ConfigurableJoint, start: float) -> ArticulationDrive:
@@ -100,6 +112,10 @@ def _turning(joint: ConfigurableJoint, angular: tuple[str, str, str]) -> dict[st
         "xDrive": replace(twist, lowerLimit=low, upperLimit=high),
     }
     if angular[1:] == ("Locked", "Locked"):
+        if (range := twist_range(joint)) is not None:
+            found["twistLock"] = "Limited"
+            low, high = sorted(sense * end for end in range)
+            found["xDrive"] = replace(twist, lowerLimit=low, upperLimit=high)
         return {"jointType": "Revolute", **found}
     swing = _driven(joint.slerpDrive if slerp else joint.angularYZDrive, 0.0, 0.0)
     reach_y, reach_z = joint.angularYLimit.limit, joint.angularZLimit.limit

@@ -17,7 +17,7 @@ from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Joint, Motion, Spherical
 from ...spatial import Array, quaternion_from_matrix, rotation_exp, rotation_log
 from ..frames import Senses
 from ..scene import JointDrive, SoftJointLimit, SoftJointLimitSpring
-from ..scene.joints.configurable_joint import MOTION_FIELDS
+from ..scene.joints.configurable_joint import MOTION_FIELDS, TWIST_RANGE
 from ..scene.vectors import quaternion4, vector3
 from .coordinates import CanonicalJoint, Coordinates
 from .limits import one_sided, report_outside
@@ -144,6 +144,7 @@ def _twist_limits(w: _Writing, motions: list[Motion]) -> None:
     if lower < -180.0 or upper > 180.0:
         w.approximated("JOINT_LIMIT_BEYOND_TURN", low=f"{lower:g}", high=f"{upper:g}")
         motions[RX] = Motion.FREE
+        w.fields["extras"] = {TWIST_RANGE: sorted((sign * lower, sign * upper))}
         return
     low, high = sorted((sign * lower, sign * upper))
     w.fields["lowAngularXLimit"] = SoftJointLimit(low, freedom.restitution)

@@ -165,6 +165,7 @@ def _component(
     limits, middle = configurable_fields(joint, shape, coordinates, placement, report)
     shifted = Pose(frame_a.rotation, frame_a.point(middle))
     anchors, basis = _frame_fields(shifted, frame_b, placement, coordinates)
+    common["extras"] |= limits.pop("extras", {})
     axes = {"axis": vector3(basis[:, 0]), "secondaryAxis": vector3(basis[:, 1])}
     return ConfigurableJoint(**common, **anchors, **axes, **limits)
 

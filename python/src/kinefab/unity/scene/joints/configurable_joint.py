@@ -35,6 +35,10 @@ class JointDrive:
 APART = "apart"
 """Of the extras of a joint that holds nothing and only keeps two bodies from colliding: the source's rule."""
 
+TWIST_RANGE = "angularXRange"
+"""Of the extras of a joint whose twist has a range beyond half a turn, which the component does not count: its ends, degrees, of the
+same sense as ``lowAngularXLimit`` and ``highAngularXLimit``."""
+
 
 @dataclass(frozen=True, slots=True)
 class ConfigurableJoint(AnchoredJoint):

@@ -1,0 +1,1 @@
+"""Whether a file is all there: cut short, or not fetched at all."""

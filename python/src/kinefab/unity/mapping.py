@@ -19,7 +19,7 @@ from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
 from .bodies import scenery
-from .bodies.rigidbodies import Rigidbodies, held_below, map_rigidbody, parents_beside, place_rigidbodies
+from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigidbody, parents_beside, place_rigidbodies
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -132,10 +132,15 @@ class _Builder:
         self.surfaces = list(self.scene.surfaces)
         self.rigidbodies = place_rigidbodies(self.scene, self.groups)
         self.parents = parents_beside(self.scene, self.groups, self.rigidbodies)
+        welded, left = carried_along(self.scene, self.rigidbodies, self.parents)
+        for i in left:
+            node = self.scene.nodes[i]
+            self.report.approximated(f"weld of {node.id}", "WELD_STAYS", node.where, node=node.id)
+        beside, self.parents = self.parents, welded
         active, placed = active_nodes(self.scene), local_transforms(self.scene, self.parents)
         for i, (node, parent) in enumerate(zip(self.scene.nodes, self.parents)):
             above = self.ground if parent is None else self.object_of[parent]
-            if parent != node.parent:
+            if beside[i] != node.parent:
                 self.report.kept(f"part {node.id}", node.where, "GROUNDED_STANDS_BESIDE", node=node.id)
             index = self._object(
                 GameObject(

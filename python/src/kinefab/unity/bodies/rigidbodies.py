@@ -97,6 +97,34 @@ def parents_beside(scene: Scene, groups: RigidGroups, placed: Rigidbodies) -> li
     return parents
 
 
+def carried_along(
+    scene: Scene, placed: Rigidbodies, parents: list[int | None]
+) -> tuple[list[int | None], list[int]]:
+    """What each node stands below, where what is welded to a body that scripts or clips move stands below that one and goes with it;
+    and the nodes for which that cannot be, as they stand before it in the scene or above it.
+
+    Unity moves kinematic bodies by their Transforms alone, whatever joint holds them together.
+    """
+    parents, left = list(parents), list[int]()
+    animated = {track.node for clip in scene.animations for track in clip.tracks}
+    groups: dict[int, list[int]] = {}
+    for own, connected in placed.fixed:
+        groups.setdefault(connected, [connected]).append(own)
+    for members in groups.values():
+        led = [i for i in members if any(scene.nodes[n].dynamics.kinematic for n in placed.carriers[i])]
+        if not led:
+            continue
+        leader = next((i for i in led if i in animated), led[0])
+        for own in members:
+            if own in led or own in animated:
+                continue
+            if own < leader:
+                left.append(own)
+            else:
+                parents[own] = leader
+    return parents, left
+
+
 def body_mass(scene: Scene, carrier: int, moved_nodes: tuple[int, ...], report: Report) -> MassProperties:
     """Of everything a carrier moves, in the carrier's frame."""
     own = scene.nodes[carrier]

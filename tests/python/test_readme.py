@@ -79,3 +79,12 @@ def test_solver_figures_are_those_of_the_results():
         for width, ns in zip(lanes.split(" / "), figures.split(" / "))
     }
     assert len(told) == 7 and told.items() <= measured.items()
+
+
+def test_the_page_of_mates_says_first_that_they_are_to_be_looked_over():
+    """What an independent set gave stands above our own machines, and how to look before either."""
+    page = (ROOT / "guides" / "mates.md").read_text("utf-8")
+    told = [page.index(words) for words in ("Look them over", "kinefab view", "| 14 | 0.73 | 0.79 | 7 of 14 |", "| 68 |")]
+    assert told == sorted(told)
+    short = (ROOT / "README.md").read_text("utf-8").partition("](guides/mates.md)")[0]
+    assert "0.73" in short and "kinefab view robot.step --mates auto" in short

@@ -26,6 +26,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__main__", "__init__"},
     ],
     "cli": [
+        {"findings"},
         {"asking", "console"},
         {"declared"},
         {"analyse", "batch", "bundle", "capture", "export", "inspect", "mates", "views"},

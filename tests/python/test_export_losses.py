@@ -6,6 +6,7 @@ import json
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import kinefab
 import libraries
@@ -128,6 +129,15 @@ def test_the_summary_the_report_and_the_page_agree(tmp_path):
     assert {e["feature"] for e in shown if e["joints"] == [0]} == lost | {"joint shoulder"}
     words = runner().invoke(app, ["report", str(scene), "-o", str(tmp_path / "p.html")])
     assert words.exit_code == 0 and f"{counts}." in (tmp_path / "p.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("ending", ["kinefab", "glb", "prefab"])
+def test_a_joint_that_reader_and_target_keep_is_counted_once(ending, tmp_path):
+    """The reader of FreeCAD's documents says what became of each of its joints, and so does what writes them."""
+    source = Path(__file__).parents[2] / "fixtures" / "freecad" / "four_bar.FCStd"
+    result = kinefab.export(source, tmp_path / f"a.{ending}")
+    joints = [o.feature for o in result.report.outcomes if o.feature.startswith("joint ")]
+    assert len(joints) >= 4 and sorted(set(joints)) == sorted(joints)
 
 
 def test_reversed_limits_are_an_error(tmp_path):

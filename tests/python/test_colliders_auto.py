@@ -49,13 +49,19 @@ def test_a_hollow_moving_part_is_in_convex_pieces(asked, tmp_path):
     assert sum(volumes) == pytest.approx(RING.volume, rel=0.1)
 
 
-def test_without_the_library_the_hull_collides_and_is_told(tmp_path, monkeypatch):
+def test_without_the_library_hulls_collide_and_it_is_told_once(tmp_path, monkeypatch):
+    """Each collider is a feature of its own; the reason is one finding, with the count and the names."""
     monkeypatch.setattr(decomposition, "find_spec", lambda name: None)
-    content, result = exported(tmp_path, ("Ring", RING, (0, 0, 0), False, None))
-    (collider,) = colliders(content, "Ring")
-    assert collider["convex"] is True
-    (told,) = (o for o in result.report.outcomes if o.code == "COLLIDER_HOLLOW_AS_HULL")
-    assert "Ring" in told.message and told.outcome is kinefab.Outcome.APPROXIMATED
+    parts = [(name, RING, (at, 0, 0), False, None) for at, name in enumerate(("Ring", "Washer", "Tube"))]
+    content, result = exported(tmp_path, *parts)
+    for name, *_ in parts:
+        (collider,) = colliders(content, name)
+        assert collider["convex"] is True
+    (told,) = (d for d in result.report.diagnostics if d.code == "COLLIDERS_NOT_CUT")
+    assert "3 in all: Ring/Ring, Washer/Washer, Tube/Tube." in told.message
+    lost = [o for o in result.report.outcomes if o.code == "COLLIDERS_NOT_CUT"]
+    assert [o.feature for o in lost] == ["collider Ring/Ring", "collider Washer/Washer", "collider Tube/Tube"]
+    assert {o.outcome for o in lost} == {kinefab.Outcome.APPROXIMATED}
 
 
 def test_a_grounded_part_keeps_its_hole_and_a_solid_one_its_hull(tmp_path):

@@ -65,7 +65,7 @@ def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp
     assert joint["exact"] is False
 
 
-def test_a_joint_that_loses_something_is_not_told_as_kept_too(tmp_path):
+def test_a_joint_in_full_is_kept_and_its_effort_is_a_feature_of_its_own(tmp_path):
     """In the file's own report as well."""
     scene = kinefab.Scene()
     weak = Freedom(Motion.FREE, passive=Passive(effort=5.0))
@@ -73,10 +73,10 @@ def test_a_joint_that_loses_something_is_not_told_as_kept_too(tmp_path):
         "revolute", None, scene.add_part("P", BOX), point=(0, 0, 0), axis=(1, 0, 0), name="J", rx=weak
     )
     content, result = exported(scene, tmp_path)
-    assert [(o.outcome.value, o.code) for o in result.report.outcomes] == [
-        ("dropped", "JOINT_EFFORT_DROPPED")
-    ]
-    assert [(e["feature"], e["outcome"]) for e in content["report"]] == [("joint J", "dropped")]
+    lost = ("largest effort of joint J", "dropped")
+    assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [lost, ("joint J", "kept")]
+    assert [(e["feature"], e["outcome"]) for e in content["report"]] == [lost, ("joint J", "kept")]
+    assert result.report.outcomes[0].message.startswith("Joint J states a largest effort (5) of rx")
 
 
 def test_reversed_limits_are_an_error(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -465,3 +466,47 @@ def test_a_hull_does_not_hang_on_vertices_that_are_repeated_for_their_normals():
         collision_hulls(Scene(meshes=[mesh]), [(0, "ball")], Report()).values() for mesh in (plain, split)
     )
     assert np.array_equal(one.vertices, other.vertices) and np.array_equal(one.faces, other.faces)
+
+
+TRIANGLE = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+
+
+def _binary(head: bytes, count: int, body: bytes) -> bytes:
+    return head.ljust(80, b"\0") + struct.pack("<I", count) + body
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (_binary(b"", 4, 2 * TRIANGLE + TRIANGLE[:20]), "it ends at byte 204 of 284, those of the 4 triangles"),
+        (_binary(b"solid of a CAD program", 3, 2 * TRIANGLE), "it ends at byte 184 of 234"),
+        (_binary(b"", 4_000_000_000, 2 * TRIANGLE), "it ends at byte 184 of 200000000084"),
+        (b"\0" * 40, "it ends at byte 40, inside the 84 bytes of its head"),
+        (_binary(b"", 1, 2 * TRIANGLE), "end at byte 134; the file goes on to byte 184"),
+        (b"solid x\n" + FACET + b"facet normal 0 0 1\nouter", "before the line 'endsolid'"),
+        (b"solid x\n" + FACET + b"endsol", "before the line 'endsolid'"),
+        (b"solid x\n" + FACET + b"endsolid facet\nsolid y\n" + FACET, "before the line 'endsolid'"),
+    ],
+)
+def test_an_stl_that_is_cut_short_says_where_it_ends(data, said, tmp_path):
+    path, report = tmp_path / "part.stl", Report()
+    path.write_bytes(data)
+    assert read_mesh_file(path, report, "part.stl") is None
+    assert [d.code for d in report.diagnostics] == ["GEOMETRY_UNREADABLE"]
+    assert said in report.diagnostics[0].message
+
+
+@pytest.mark.parametrize(
+    ("data", "triangles"),
+    [
+        (_binary(b"solid of a CAD program", 2, 2 * TRIANGLE), 2),
+        (b"solid x\n" + FACET + b"endsolid facet\n", 1),
+        (b"  SOLID x\n" + FACET.upper() + b"ENDSOLID\nsolid y\n" + FACET + b"endsolid y", 2),
+    ],
+)
+def test_a_whole_stl_is_read_however_it_begins(data, triangles, tmp_path):
+    path, report = tmp_path / "part.stl", Report()
+    path.write_bytes(data)
+    found = read_mesh_file(path, report, "part.stl")
+    assert not report.diagnostics and sum(len(piece.faces) for piece in found.pieces) == triangles

@@ -78,8 +78,34 @@ def test_an_answer_that_was_not_saved_is_told(tmp_path, missing):
     (tmp_path / f"{missing}.json").unlink()
     report = Report()
     assert len(sources.read(path, report).joints) == 6
-    codes = {d.code for d in report.diagnostics}
-    assert codes == (set() if missing == "name" else {"CAPTURE_MEMBER_FAILED"})
+    assert [d.code for d in report.diagnostics] == ([] if missing == "name" else ["CAPTURE_NOT_SAVED"])
+    assert all(f"{missing}.json" in d.message and "Rebuild" not in d.remedy for d in report.diagnostics)
+
+
+def test_limits_of_an_assembly_inside_are_read_from_a_file_of_its_element(tmp_path):
+    """A lever below another assembly: told by the name of the file that would hold them, and read from there."""
+    values = json.loads(DEFINITION.read_text("utf-8"))
+    inner = values["rootAssembly"]
+    own = {"id": "M1", "type": "Assembly", "name": "Lever", "suppressed": False, "elementId": "E1", "documentId": "D1",
+           "documentMicroversion": "m", "configuration": "default"}  # fmt: skip
+    root = {"instances": [own], "features": [], "patterns": [], "elementId": "E0", "documentId": "D1",
+            "occurrences": [{"path": ["M1"], "transform": np.eye(4).ravel().tolist(), "fixed": True, "hidden": False}]}  # fmt: skip
+    root["occurrences"] += [{**o, "path": ["M1", *o["path"]]} for o in inner["occurrences"]]
+    sub = {**inner, "elementId": "E1", "documentId": "D1", "documentMicroversion": "m", "configuration": "default"}
+    values["rootAssembly"], values["subAssemblies"] = root, [sub]
+    for name in ("features.json", "matevalues.json"):
+        shutil.copy(DEFINITION.parent / name, tmp_path / name)
+    path = tmp_path / "definition.json"
+    path.write_text(json.dumps(values), "utf-8")
+    report = Report()
+    ends = [freedom.upper for joint in sources.read(path, report).joints for freedom in joint.freedoms]
+    assert ends and set(ends) == {np.inf}
+    told = [d.message for d in report.diagnostics if d.code == "CAPTURE_NOT_SAVED"]
+    assert len(told) == 1 and "E1_features.json" in told[0]
+    shutil.copy(DEFINITION.parent / "features.json", tmp_path / "E1_features.json")
+    report = Report()
+    ends = [freedom.upper for joint in sources.read(path, report).joints for freedom in joint.freedoms]
+    assert min(ends) < np.inf and "CAPTURE_NOT_SAVED" not in {d.code for d in report.diagnostics}
 
 
 def test_up_is_asked_for():

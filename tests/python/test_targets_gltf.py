@@ -683,6 +683,6 @@ def test_what_gltf_has_no_place_for_is_told(tmp_path):
     scene = Scene([node], physics=kinefab.model.Physics((0.0, -1.0, 0.0), 0.01))
     result = kinefab.export(scene, tmp_path / "a.glb")
     told = {o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"}
-    assert told == {"project setting gravity", "project setting fixed_timestep", "body A"}
+    assert told == {"project setting gravity", "project setting fixed_timestep", "the largest angular velocity of body A"}
     (own,) = parsed(tmp_path / "a.glb")[0]["nodes"]
     assert own["extras"] == {"id": "A", "layer": "Robots", "tag": "Cart"}

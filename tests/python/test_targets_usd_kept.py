@@ -85,7 +85,7 @@ def test_of_a_joint_that_slides_too_they_stand_there_and_engines_take_none(tmp_p
     assert sorted(lost) == [
         ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
         ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
-        ("joint Joint", "TARGET_FIELD_DROPPED"),  # the largest effort
+        ("the largest effort of rx of joint Joint", "TARGET_FIELD_DROPPED"),
     ]
     freedoms = back(path).freedoms
     assert freedoms[TX].passive.friction == 12.0 and freedoms[RX].passive.friction == 0.5

@@ -254,6 +254,20 @@ class Report:
         """
         self._told(feature, Outcome.APPROXIMATED, code, where, values)
 
+    def approximated_alike(self, features: Iterable[str], code: str, **values: object) -> None:
+        """Note features that are in the scene only nearly for one reason, and one finding for all of them.
+
+        >>> report = kinefab.Report()
+        >>> report.approximated_alike(["collider Ring"], "COLLIDERS_NOT_CUT", count=1, bodies="Ring")
+        >>> len(report.outcomes), len(report.diagnostics)
+        (1, 1)
+        """
+        found = self.add(code, **values)
+        self.outcomes += [
+            FeatureOutcome(feature, Outcome.APPROXIMATED, code, found.severity, found.message)
+            for feature in features
+        ]
+
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
         """Note that a feature is not in the scene, and the finding that says why.
 
@@ -263,6 +277,18 @@ class Report:
         'dropped'
         """
         self._told(feature, Outcome.DROPPED, code, where, values)
+
+    def field_dropped(self, owner: str, field: str, target: str, where: str = "") -> None:
+        """Note that a target has no place for one field of what it holds: a feature of its own, beside the owner's.
+
+        >>> report = kinefab.Report()
+        >>> report.field_dropped("joint Hinge", "friction", ".glb")
+        >>> report.outcomes[0].feature
+        'friction of joint Hinge'
+        """
+        found = self.add("TARGET_FIELD_DROPPED", where, feature=owner, field=field, target=target)
+        lost = Outcome.DROPPED, found.code, found.severity, found.message, where
+        self.outcomes.append(FeatureOutcome(f"{field} of {owner}", *lost))
 
     def _told(
         self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]
@@ -343,40 +369,3 @@ class Report:
         """
         if any(d.severity is Severity.ERROR for d in self.diagnostics[since:]):
             raise KinefabError(self.of(Severity.ERROR))
-
-
-def findings_document(report: Report, file: str, written: bool | None = None) -> dict[str, object]:
-    """The findings as ``schemas/findings.schema.json`` has them.
-
-    file: that was asked about, or that was to be written; ``written`` then says whether it was, and is None otherwise.
-    """
-    return {
-        "file": file,
-        **({} if written is None else {"written": written}),
-        "errors": len(report.of(Severity.ERROR)),
-        "warnings": len(report.of(Severity.WARNING)),
-        "diagnostics": [
-            {
-                "code": d.code,
-                "severity": d.severity.value,
-                **({"where": d.where} if d.where else {}),
-                "message": d.message,
-                "remedy": d.remedy,
-            }
-            for d in report.diagnostics
-        ],
-    }
-
-
-def report_document(report: Report, target: str, written: bool) -> dict[str, object]:
-    """A report as ``schemas/export_report.schema.json`` has it.  target: the scene file; written: whether it was."""
-    outcomes = [
-        {
-            "feature": o.feature,
-            "outcome": o.outcome.value,
-            **({"code": o.code, "message": o.message} if o.code else {}),
-            **({"where": o.where} if o.where else {}),
-        }
-        for o in report.outcomes
-    ]
-    return {**findings_document(report, target, written), "outcomes": outcomes}

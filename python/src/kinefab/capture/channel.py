@@ -32,6 +32,14 @@ class NotHeld(MemberFailed):
     """A question that the record holds no answer to: it was never asked."""
 
 
+class NotSaved(MemberFailed):
+    """An answer that could lie in a file beside the others.  file: its name."""
+
+    def __init__(self, member: str, file: str) -> None:
+        super().__init__(member, f"{file} was not saved")
+        self.file = file
+
+
 class RecordBroken(Exception):
     """A record that is none."""
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from ..diagnostics import Report
-from .channel import MemberFailed, NotHeld
+from .channel import MemberFailed, NotHeld, NotSaved
 
 Record = dict[str, Any]
 """A record of ``schemas/bundle.schema.json``."""
@@ -128,6 +128,10 @@ class Draft:
             yield feature, found
 
     def failed(self, feature: str, error: Exception) -> None:
+        if isinstance(error, NotSaved):
+            told = {"program": self.program, "member": error.member, "file": error.file}
+            self.report.dropped(feature, "CAPTURE_NOT_SAVED", **told)
+            return
         member = error.member if isinstance(error, MemberFailed) else "an answer"
         detail = error.detail if isinstance(error, MemberFailed) else f"{type(error).__name__}: {error}"
         self.report.dropped(

@@ -7,13 +7,14 @@ from typing import Optional
 
 import typer
 
-from ..diagnostics import KinefabError, Report, findings_document
+from ..diagnostics import KinefabError, Report
 from ..options import ExportOptions
 from ..targets import known_endings
 from . import console
 from .asking import taking
 from .console import log
 from .declared import export_options
+from .findings import findings_document
 
 
 @taking("options", export_options)

@@ -14,8 +14,9 @@ from typing import NoReturn
 
 import typer
 
-from ..diagnostics import KinefabError, Report, Severity, diagnostic, findings_document, listed, printable
+from ..diagnostics import KinefabError, Report, Severity, diagnostic, listed, printable
 from ..replacing import why_unwritable, write_whole
+from .findings import findings_document
 
 verbosity = 0
 """1: remarks are shown too; 0: warnings and errors; -1: errors only.  Set by the program's own options."""

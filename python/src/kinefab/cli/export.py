@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Optional
 
 import typer
 
-from ..diagnostics import KinefabError, Report, Severity, report_document
+from ..diagnostics import KinefabError, Report, Severity
 from ..options import ExportOptions
 from ..replacing import demand_writable
 from ..targets import known_endings
@@ -16,6 +16,7 @@ from . import console
 from .asking import taking
 from .console import count, demand_ending, json_text, log, progress_bar, remark, unwritable_as_finding, write
 from .declared import SOURCE_HELP, TARGET_HELP, export_options
+from .findings import report_document
 
 if TYPE_CHECKING:
     from ..pipeline import ExportResult

@@ -26,6 +26,7 @@ from .references import (
     heads_of_3mf,
     metres_of_3mf,
 )
+from .stl import demand_whole_stl
 from .wavefront.reader import ObjError, read_obj
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf", ".dae", ".3mf", ".off")
@@ -68,6 +69,8 @@ def read_mesh_file(path: Path, report: Report, where: str) -> MeshFile | None:
         if path.stat().st_size == 0:
             report.add("GEOMETRY_EMPTY", where, path=path.name)
             return None
+        if suffix == ".stl":
+            demand_whole_stl(path)
         found = read_obj(path, report) if suffix == ".obj" else _read_scene(path, report, where)
     except ObjError as error:
         report.add("GEOMETRY_UNREADABLE", where, path=path.name, detail=error)

@@ -180,7 +180,7 @@ def _tell_losses(scene: UnityScene, report: Report) -> None:
     def told(kind: str, name: str, noun: Noun) -> None:
         for field, usual in unsaid(type(noun)).items():
             if getattr(noun, field) != usual:
-                report.dropped(f"{kind} {name}", "TARGET_FIELD_DROPPED", field=field, target=".kinefab")
+                report.field_dropped(f"{kind} {name}", field, ".kinefab")
 
     for material in scene.materials:
         told("material", material.name, material)
@@ -197,7 +197,7 @@ def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:
         lost = {"colors": mesh.colors is not None, "tangents": mesh.tangents is not None}
         for name, there in (lost | {"uv sets behind the first": len(mesh.uvs) > 1}).items():
             if there:
-                report.dropped(f"mesh {mesh.name}", "TARGET_FIELD_DROPPED", field=name, target=".kinefab")
+                report.field_dropped(f"mesh {mesh.name}", name, ".kinefab")
 
 
 def _unsafe(name: str) -> str:

@@ -21,7 +21,7 @@ from urllib.parse import quote, urlencode, urlsplit
 
 from ...diagnostics import KinefabError, Report
 from ...geometry.references import read_regular
-from ..channel import MemberFailed, RecordBroken
+from ..channel import MemberFailed, NotSaved, RecordBroken
 from .gltf import nameless
 
 ADDRESS = re.compile(
@@ -44,10 +44,12 @@ SAVED = ("definition", "features", "matevalues", "name")
 
 @dataclass(slots=True)
 class Answers:
-    """fetch: the answer to a question that is not kept yet, JSON or bytes; None where there is no program."""
+    """fetch: the answer to a question that is not kept yet, JSON or bytes; None where there is no program.
+    by_hand: whether each answer is a file, saved by hand."""
 
     answers: dict[str, Any] = field(default_factory=dict[str, Any])
     fetch: Callable[[str], Any] | None = None
+    by_hand: bool = False
     calls: int = 0
 
     @property
@@ -57,6 +59,8 @@ class Answers:
     def ask(self, question: str) -> Any:
         """Raises MemberFailed."""
         if question not in self.answers:
+            if self.by_hand:
+                raise NotSaved(_asked(question), _file(question))
             if self.fetch is None:
                 raise MemberFailed(question, "no such answer was saved")
             self.calls += 1
@@ -211,20 +215,18 @@ def opened(source: str, environment: Mapping[str, str], report: Report) -> Answe
 
 def _saved(source: Path, report: Report) -> Answers:
     """``definition.json`` and, beside it, ``features.json``, ``matevalues.json``, ``name.json`` and for a part its glTF or an STL in
-    metres, ``ELEMENTID_PARTID.glb``, ``PARTID.stl`` and the like: answers saved by hand."""
+    metres, ``ELEMENTID_PARTID.glb``, ``PARTID.stl`` and the like; of an assembly inside it ``ELEMENTID_features.json``."""
     folder = source if source.is_dir() else source.parent
-    files = {word: folder / f"{word}.json" for word in SAVED}
+    files = {word: folder / _file(word) for word in SAVED}
     if not source.is_dir():
         files["definition"] = source
-    found = Answers()
-    for word, path in files.items():
-        try:
-            if path.is_file():
-                found.answers[word] = json.loads(path.read_text(encoding="utf-8-sig"))
-        except (OSError, ValueError, RecursionError) as error:
-            raise KinefabError([report.add("CAPTURE_RECORD", path.name, detail=str(error))]) from None
+    found = Answers(by_hand=True)
+    _read_json(files, found, report)
     if "definition" not in found.answers:
         raise KinefabError([report.add("SOURCE_NOT_FOUND", path=files["definition"])])
+    inner = [limits_question(assembly) for assembly in _assemblies(found.answers["definition"])[1:]]
+    beside = {question: path for question in inner if (path := folder / _file(question)).parent == folder}
+    _read_json(beside, found, report)
     for question, path in _meshes(found.answers["definition"], folder):
         try:
             found.answers[question] = {"base64": base64.b64encode(read_regular(path)).decode()}
@@ -236,13 +238,33 @@ def _saved(source: Path, report: Report) -> Answers:
     return found
 
 
+def _read_json(files: Mapping[str, Path], found: Answers, report: Report) -> None:
+    """files: by the question that each answers."""
+    for question, path in files.items():
+        try:
+            if path.is_file():
+                found.answers[question] = json.loads(path.read_text(encoding="utf-8-sig"))
+        except (OSError, ValueError, RecursionError) as error:
+            raise KinefabError([report.add("CAPTURE_RECORD", path.name, detail=str(error))]) from None
+
+
+def _file(question: str) -> str:
+    """What the answer is called when it is saved by hand."""
+    kind, _, rest = question.partition(" ")
+    return f"{rest.split(' ')[2]}_features.json" if kind == "limits" else f"{kind}.json"
+
+
+def _asked(question: str) -> str:
+    """What to ask Onshape for."""
+    kind, _, rest = question.partition(" ")
+    return f"features of the assembly {rest.split(' ')[2]}" if kind == "limits" else kind
+
+
 def _meshes(definition: Any, folder: Path) -> list[tuple[str, Path]]:
     """The mesh files that are there for the parts of a definition, each with the question that it answers."""
     there = {path.name: path for path in folder.iterdir() if path.suffix in MESHES}
     found: dict[str, Path] = {}
-    held = cast("dict[str, Any]", definition) if isinstance(definition, dict) else {}
-    for assembly in (held.get("rootAssembly"), *_listed(held.get("subAssemblies"))):
-        owner = cast("dict[str, Any]", assembly) if isinstance(assembly, dict) else {}
+    for owner in _assemblies(definition):
         for instance in _listed(owner.get("instances")):
             if not isinstance(instance, dict):
                 continue
@@ -253,6 +275,13 @@ def _meshes(definition: Any, folder: Path) -> list[tuple[str, Path]]:
                     if (path := there.get(stem + ending)) is not None:
                         found.setdefault(asked(entry), path)
     return list(found.items())
+
+
+def _assemblies(definition: Any) -> list[dict[str, Any]]:
+    """The asked one first, then those inside it."""
+    held = cast("dict[str, Any]", definition) if isinstance(definition, dict) else {}
+    every = (held.get("rootAssembly"), *_listed(held.get("subAssemblies")))
+    return [cast("dict[str, Any]", entry) if isinstance(entry, dict) else {} for entry in every]
 
 
 def _listed(value: Any) -> list[Any]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import Report
+from ...diagnostics import Report, named as names_of
 from ...model import Mesh, Scene
 from ...spatial import Array, IntArray
 from ..closure import is_skin, welded
@@ -56,12 +56,16 @@ def convex_pieces(
     wanted = [i for i in possible if i in near][:MOST_BODIES]
     free = [i for i in possible if i not in near][: min(MOST_FREE, MOST_BODIES - len(wanted))]
     found: dict[int, tuple[Mesh, ...]] = {}
-    there = bool(_libraries())
+    if not _libraries():
+        left = [body for body, _ in hollow.values()]
+        if left:
+            features = [f"collider {body}" for body in left]
+            told = {"count": len(left), "bodies": names_of(left)}
+            report.approximated_alike(features, "COLLIDERS_NOT_CUT", **told)
+        return found
     for index, (body, share) in hollow.items():
         mesh = scene.meshes[index]
-        if not there:
-            detail = "neither of the Python packages manifold3d and coacd is installed"
-        elif len(mesh.faces) > MOST_TRIANGLES:
+        if len(mesh.faces) > MOST_TRIANGLES:
             detail = f"it has {len(mesh.faces)} triangles, at most {MOST_TRIANGLES} are decomposed"
         elif index in wanted or index in free:
             pieces = _decomposed(mesh)

@@ -29,6 +29,5 @@ def animations(scene: Scene, node_of: Sequence[int], binary: Binary, report: Rep
         if channels:
             found.append({"name": clip.name, "samplers": samplers, "channels": channels})
         if clip.repeat is not Repeat.ONCE:
-            told = {"field": "repeat", "target": ".glb"}
-            report.dropped(f"clip {clip.name}", "TARGET_FIELD_DROPPED", clip.where, **told)
+            report.field_dropped(f"clip {clip.name}", "repeat", ".glb", clip.where)
     return found

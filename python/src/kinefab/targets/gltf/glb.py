@@ -169,13 +169,7 @@ class _Document:
         if own.visible and body.visible:
             self.nodes[index]["mesh"] = self._mesh(body.mesh, body.surfaces)
         else:
-            self.report.dropped(
-                f"body {own.id}/{body.name}",
-                "TARGET_FIELD_DROPPED",
-                own.where,
-                field="visibility",
-                target=".glb",
-            )
+            self.report.field_dropped(f"body {own.id}/{body.name}", "visibility", ".glb", own.where)
         shape = own.collision or self.content.colliders
         if own.colliders is not None or shape is ColliderShape.NONE:
             return
@@ -307,8 +301,7 @@ class _Document:
                 ("the largest angular velocity", dynamics.max_angular_velocity is not None),
             ):
                 if there:
-                    told = {"field": field, "target": ".glb"}
-                    self.report.dropped(f"body {own.id}", "TARGET_FIELD_DROPPED", own.where, **told)
+                    self.report.field_dropped(f"body {own.id}", field, ".glb", own.where)
             self._extend(self.node_of[carrier], "motion", entry)
         for own, connected in self.placed.fixed:
             frame = self._node("fixed", self.node_of[own], Pose())

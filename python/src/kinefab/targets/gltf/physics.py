@@ -84,7 +84,7 @@ class PhysicsEntries:
     def joint(self, joint: Joint) -> int:
         """The description of a joint's limits and drives; the report tells what it has no field for.  joint: its drives as
         ``with_passive_drives`` leaves them."""
-        feature, before = f"joint {joint.id}", len(self._report.outcomes)
+        feature = f"joint {joint.id}"
         limits = [limit for i, f in enumerate(joint.freedoms) if (limit := _limit(i, f)) is not None]
         limits = _merged(limits)
         drives = [_drive(i, f.drive) for i, f in enumerate(joint.freedoms) if f.drive is not None]
@@ -97,9 +97,8 @@ class PhysicsEntries:
         ]
         for field, there in told:
             if there:
-                self._report.dropped(feature, "TARGET_FIELD_DROPPED", joint.where, field=field, target=".glb")
-        if len(self._report.outcomes) == before:
-            self._report.kept(feature, joint.where)
+                self._report.field_dropped(feature, field, ".glb", joint.where)
+        self._report.kept(feature, joint.where)
         entry: dict[str, Any] = {"limits": limits}  # some readers want the list where it is empty, too
         if drives:
             entry["drives"] = drives

@@ -229,7 +229,7 @@ class _Articulation:
         passive = [f.passive.friction for f in stated.freedoms if f.passive is not None] if stated else []
         most = max(passive, default=0.0)
         if stated is not None and most > 0.0:
-            feature = f"joint {joint.id}"
+            feature = f"friction of joint {joint.id}"
             self.report.withdraw(feature, "JOINT_FRICTION_DROPPED")
             told = {"joint": joint.id, "value": f"{most:g}"}
             self.report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)

@@ -117,10 +117,10 @@ def tell_link_losses(joint: Joint, body: Rigidbody, owner: str, report: Report) 
     """joint: above the link that stands for ``body``.  owner: id of its object."""
     feature = f"joint {joint.id or owner}"
     for field in _without_a_field(joint):
-        report.dropped(feature, "TARGET_FIELD_DROPPED", field=field, target=ARTICULATION)
+        report.field_dropped(feature, field, ARTICULATION)
     for name in RUNTIME:
         if getattr(body, name) is not None:
-            report.dropped(f"Rigidbody of {owner}", "TARGET_FIELD_DROPPED", field=name, target=ARTICULATION)
+            report.field_dropped(f"Rigidbody of {owner}", name, ARTICULATION)
     if not isinstance(joint, ConfigurableJoint) or joint.rotationDriveMode != "Slerp":
         return
     if joint.slerpDrive != JointDrive():

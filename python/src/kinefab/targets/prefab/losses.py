@@ -55,8 +55,7 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
     if options.pipeline is Pipeline.BUILTIN:
         for material in scene.materials:
             if material.doubleSided:
-                told = {"field": "doubleSided", "target": "Unity's Standard shader"}
-                report.dropped(f"material {material.name}", "TARGET_FIELD_DROPPED", **told)
+                report.field_dropped(f"material {material.name}", "doubleSided", "Unity's Standard shader")
 
 
 def _tell_vertex_colors(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
@@ -64,14 +63,14 @@ def _tell_vertex_colors(scene: UnityScene, options: PrefabOptions, report: Repor
     shown = {c.mesh for entry in scene.gameObjects for c in entry.components if isinstance(c, MeshFilter)}
     for index in sorted(shown):
         if is_colored(scene.meshes, index):
-            told = {"field": "the colours of vertices", "target": f"the {options.pipeline.value} shader"}
-            report.dropped(f"mesh {mesh_name(scene.meshes, index)}", "TARGET_FIELD_DROPPED", **told)
+            shader = f"the {options.pipeline.value} shader"
+            report.field_dropped(f"mesh {mesh_name(scene.meshes, index)}", "the colours of vertices", shader)
 
 
 def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report: Report) -> None:
     for name in RUNTIME:
         if getattr(body, name) is not None:
-            report.dropped(f"Rigidbody of {owner}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
+            report.field_dropped(f"Rigidbody of {owner}", name, TARGET)
     if not options.dialect.mass_properties:
         report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
 
@@ -82,8 +81,7 @@ def _tell_link(link: ArticulationBody, owner: str, options: PrefabOptions, repor
     if not link.immovable:
         report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
     if any(drive.acceleration for drive in (link.xDrive, link.yDrive, link.zDrive)):
-        told = {"field": "useAcceleration", "target": f"{TARGET} of Unity 2021"}
-        report.dropped(f"link {owner}", "TARGET_FIELD_DROPPED", **told)
+        report.field_dropped(f"link {owner}", "useAcceleration", f"{TARGET} of Unity 2021")
 
 
 def _tell_joint_of_2021(joint: Joint, owner: str, report: Report) -> None:
@@ -103,8 +101,7 @@ def _tell_joint_of_2021(joint: Joint, owner: str, report: Report) -> None:
     if isinstance(joint, HingeJoint):
         stated = {"extendedLimits": joint.extendedLimits, "useAcceleration": joint.useAcceleration}
     for name in (name for name, value in stated.items() if value):
-        told = {"field": name, "target": f"{TARGET} of Unity 2021"}
-        report.dropped(f"joint {joint.id or owner}", "TARGET_FIELD_DROPPED", **told)
+        report.field_dropped(f"joint {joint.id or owner}", name, f"{TARGET} of Unity 2021")
 
 
 def tell_couplings(couplings: Iterable[Coupling], report: Report) -> None:

@@ -47,7 +47,7 @@ class Clips:
             if len(self._placed) > 1:
                 report.approximated(feature, "TARGET_CLIP_IN_LINE", clip.where, clip=clip.name, target=target)
             elif clip.repeat is not Repeat.ONCE:
-                report.dropped(feature, "TARGET_FIELD_DROPPED", clip.where, field="repeat", target=target)
+                report.field_dropped(feature, "repeat", target, clip.where)
         moved = {node for placed in self._placed for node in placed.tracks}
         self.moving = {i for i in range(len(scene.nodes)) if moved.intersection(self._chain(i))}
 

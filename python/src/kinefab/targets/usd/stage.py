@@ -163,13 +163,7 @@ class Stage:
         node, report = self.content.scene.nodes[number], self.content.report
         for word, value in (("layer", node.layer), ("tag", node.tag)):
             if value:
-                report.dropped(
-                    f"part {node.id}",
-                    "TARGET_FIELD_DROPPED",
-                    node.where,
-                    field=f"the {word} '{value}'",
-                    target=self.target,
-                )
+                report.field_dropped(f"part {node.id}", f"the {word} '{value}'", self.target, node.where)
         if number in bodies.moving.carriers and bodies.taken_out(number):
             report.kept(f"part {node.id}", node.where, "TARGET_BODY_BESIDE", node=node.id, target=self.target)
 

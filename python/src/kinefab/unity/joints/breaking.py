@@ -33,5 +33,5 @@ def _limit(joint: Joint, what: str, value: float, report: Report) -> float:
         return value
     if not value > MOST:
         told = {"joint": joint.id, "what": what, "value": f"{value:g}"}
-        report.approximated(f"joint {joint.id}", "JOINT_BREAKS_AT_NOTHING", joint.where, **told)
+        report.approximated(f"break {what} of joint {joint.id}", "JOINT_BREAKS_AT_NOTHING", joint.where, **told)
     return math.inf

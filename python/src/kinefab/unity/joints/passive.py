@@ -42,7 +42,7 @@ def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Repo
         return freedom
     what, value = next(iter(wrong.items()))
     names = {"joint": joint.id, "freedom": joint.freedom_name(index), "what": what, "value": f"{value:g}"}
-    report.dropped(f"joint {joint.id}", "JOINT_DRIVE_IMPOSSIBLE", freedom.where or joint.where, **names)
+    report.dropped(f"drive of joint {joint.id}", "JOINT_DRIVE_IMPOSSIBLE", freedom.where or joint.where, **names)
     return replace(freedom, drive=None)
 
 
@@ -73,30 +73,27 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
     bare = replace(freedom, passive=None)
     if freedom.motion is Motion.LOCKED:
         return bare
-    for value, code in (
-        (passive.friction, "JOINT_FRICTION_DROPPED"),
-        (passive.armature, "JOINT_ARMATURE_DROPPED"),
+    for what, value, code in (
+        ("friction", passive.friction, "JOINT_FRICTION_DROPPED"),
+        ("armature", passive.armature, "JOINT_ARMATURE_DROPPED"),
     ):
         if value > 0.0:
-            report.dropped(f"joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
+            report.dropped(f"{what} of joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
     drive = freedom.drive
     # A drive that keeps within the effort anyway leaves nothing of it to tell.
     effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
-    if math.isfinite(effort) or math.isfinite(passive.speed):
-        report.dropped(
-            f"joint {joint.id}",
-            "JOINT_EFFORT_DROPPED",
-            joint.where,
-            effort=f"{effort:g}",
-            speed=f"{passive.speed:g}",
-            **names,
-        )
+    most = {"effort": effort, "speed": passive.speed}
+    stated = {what: value for what, value in most.items() if math.isfinite(value)}
+    if stated:
+        feature = f"largest {' and '.join(stated)} of joint {joint.id}"
+        limits = " and ".join(f"{what} ({value:g})" for what, value in stated.items())
+        report.dropped(feature, "JOINT_EFFORT_DROPPED", joint.where, limits=limits, **names)
     if not (passive.stiffness or passive.damping):
         return bare
     if drive is None:
         return replace(bare, drive=Drive(passive.rest, 0.0, passive.stiffness, passive.damping))
     if drive.motor or drive.acceleration or math.isfinite(drive.max_force):
-        report.dropped(f"joint {joint.id}", "JOINT_PASSIVE_DROPPED", joint.where, **names)
+        report.dropped(f"spring and damper of joint {joint.id}", "JOINT_PASSIVE_DROPPED", joint.where, **names)
         return bare
     # F = k1 (t1 - q) + d1 (v1 - u) + k2 (t2 - q) - d2 u: one spring and one damper.
     stiffness, damping = drive.stiffness + passive.stiffness, drive.damping + passive.damping

@@ -129,7 +129,7 @@ class Textures:
             ):
                 if not is_plain:
                     feature = f"{slot} texture of material {material.name}"
-                    self.report.dropped(feature, "TARGET_FIELD_DROPPED", field=told, target=self.shader)
+                    self.report.field_dropped(feature, told, self.shader)
 
 
 def _place_of_all(slots: Mapping[str, tuple[str, Texture]]) -> tuple[Vector2, Vector2]:

@@ -229,10 +229,8 @@ class Joints:
         """What engines take of it: turns within articulations, which have no joint that slides too."""
         name = joint.freedom_name(shape.name_of[freedom])
         if math.isfinite(passive.effort):
-            self.report.dropped(
-                f"joint {joint.id}", "TARGET_FIELD_DROPPED", joint.where,
-                field=f"the largest effort of {name}", target=self.ending,
-            )  # fmt: skip
+            field = f"the largest effort of {name}"
+            self.report.field_dropped(f"joint {joint.id}", field, self.ending, joint.where)
         if (
             any(i < RX for i in unlocked_of(shape.freedoms))
             and replace(passive, effort=math.inf) != Passive()

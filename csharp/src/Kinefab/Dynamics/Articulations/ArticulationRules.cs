@@ -5,12 +5,13 @@ namespace Kinefab.Dynamics.Articulations;
 /// (NVIDIAGameWorks/PhysX and NVIDIA-Omniverse/PhysX, DyFeatherstoneArticulation.cpp and DyFeatherstoneForwardDynamic.cpp); 5.6.1 can be run
 /// outside Unity and is what the traces were made with.
 /// </summary>
-internal sealed class ArticulationRules
+internal sealed record ArticulationRules
 {
     /// <summary>As Unity 2021.2 to 6000 has them.</summary>
     public static readonly ArticulationRules PhysX4 = new()
     {
         Compliance = 1e-4,
+        ComplianceShare = 0,
         LimitShare = 1,
         LimitsHoldInVelocityIterations = false,
         ClampsTargets = true,
@@ -22,7 +23,8 @@ internal sealed class ArticulationRules
     /// <summary>As PhysX 5.6.1 has them.</summary>
     public static readonly ArticulationRules PhysX5 = new()
     {
-        Compliance = 0.025,
+        Compliance = 0,
+        ComplianceShare = 0.025,
         LimitShare = 0.8,
         LimitsHoldInVelocityIterations = true,
         ClampsTargets = false,
@@ -31,8 +33,11 @@ internal sealed class ArticulationRules
         DrivesSphericalByRotation = true,
     };
 
-    /// <summary>Added to the response of friction, limits, speed limits and acceleration drives, 1/kg or 1/(kg m^2). 4.1: DY_ARTICULATION_CFM; 5: cfmScale.</summary>
+    /// <summary>Added to the response of friction, limits, speed limits and acceleration drives, 1/kg or 1/(kg m^2). 4.1: DY_ARTICULATION_CFM.</summary>
     public double Compliance { get; init; }
+
+    /// <summary>Added as well: this share of the links' largest linear response. 5: cfmScale, computeArticulatedResponseMatrix.</summary>
+    public double ComplianceShare { get; init; }
 
     /// <summary>Share of a passed limit that one step takes back. 4.1: erp 1; 5: DY_ARTICULATION_PGS_BIAS_COEFFICIENT.</summary>
     public double LimitShare { get; init; }

@@ -26,7 +26,6 @@ internal sealed class ArticulationSolver
     private readonly Twist[] _movingMotions;
 
     private double _dt;
-    private bool _hasRows;
     private bool _needsFlush;
 
     public ArticulationSolver(ArticulationTree tree, ArticulationRules rules)
@@ -55,6 +54,16 @@ internal sealed class ArticulationSolver
 
     /// <summary>Forces on the links over the next step, at their centres of mass; cleared by it.</summary>
     public Wrench[] Applied { get; }
+
+    /// <summary>What joints between its links and the world ask for; null: there are none.</summary>
+    public ILinkRows? WorldRows
+    {
+        get => _sweeps.WorldRows;
+        set => _sweeps.WorldRows = value;
+    }
+
+    /// <summary>Added to the response of a joint's row on a link: 5 only.</summary>
+    public double JointCompliance(int link) => _rules.ComplianceShare * Responses.Links[link].LargestLinear;
 
     /// <summary>A whole step without anything else.</summary>
     public void Step(Vector3d gravity, double dt, int positionIterations, int velocityIterations)
@@ -104,20 +113,17 @@ internal sealed class ArticulationSolver
 
         Array.Clear(Tree.Forces, 0, Tree.Forces.Length);
         Array.Clear(Applied, 0, Applied.Length);
-        _hasRows = _sweeps.Needed();
-        _needsFlush = _hasRows || hasJoints;
-        if (_needsFlush)
-            Responses.FindResponses();
-        if (_hasRows)
-        {
-            FindTransmitted();
-            _sweeps.Prepare(dt, _transmitted);
-            _sweeps.Start();
-        }
+        _needsFlush = hasJoints || _sweeps.Needed();
+        if (!_needsFlush)
+            return;
+        Responses.FindResponses();
+        FindTransmitted();
+        _sweeps.Prepare(dt, _transmitted);
+        _sweeps.Start();
     }
 
     /// <summary>The joints' own rows once; false when another sweep would do nothing.</summary>
-    public bool Sweep(bool isVelocityIteration) => _hasRows && _sweeps.Sweep(isVelocityIteration, _dt);
+    public bool Sweep(bool isVelocityIteration) => _needsFlush && _sweeps.Sweep(isVelocityIteration, _dt);
 
     /// <summary>Change of a link's motion since the last flush, by rows.</summary>
     public Twist Motion(int link) => Tree.Motions[link] + Responses.Change(link);
@@ -228,8 +234,7 @@ internal sealed class ArticulationSolver
         if (!_needsFlush)
             return;
         Responses.Flush(Tree.Motions, Tree.Speeds, _scratch);
-        if (_hasRows)
-            _sweeps.Start();
+        _sweeps.Start();
     }
 
     private Pose Integrate(in Pose pose, in Twist motion) =>

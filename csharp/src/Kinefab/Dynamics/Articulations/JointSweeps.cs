@@ -29,6 +29,9 @@ internal sealed class JointSweeps
 
     private bool _hasGiven;
 
+    /// <summary>Rows of joints to the world; null: none.</summary>
+    public ILinkRows? WorldRows;
+
     public JointSweeps(ArticulationTree tree, ForwardDynamics dynamics, LinkResponses responses, ArticulationRules rules)
     {
         _tree = tree;
@@ -71,6 +74,7 @@ internal sealed class JointSweeps
             int first = _tree.FirstFreedom[i];
             int count = _tree.FirstFreedom[i + 1] - first;
             LinkDefinition link = _tree.Links[i];
+            double compliance = _rules.Compliance + _rules.ComplianceShare * Math.Max(_responses.Links[i].LargestLinear, _responses.Links[_tree.Parents[i]].LargestLinear);
             double maxFriction = link.Friction > 0 ? Length(transmitted[i]) * link.Friction * dt : 0;
             for (int k = 0; k < count; k++)
             {
@@ -78,7 +82,7 @@ internal sealed class JointSweeps
                 FindResponse(i, first, count, k);
                 ref AxisRows row = ref _rows[f];
                 row.Response = _jointResponses[f * Axes + k];
-                row.InverseResponse = row.Response > 0 ? 1 / (row.Response + _rules.Compliance) : 0;
+                row.InverseResponse = row.Response > 0 ? 1 / (row.Response + compliance) : 0;
                 row.MaxFriction = maxFriction;
                 row.MaxSpeed = link.MaxJointSpeed;
                 ref LinkAxis axis = ref _tree.AxisOfFreedom(i, f);
@@ -105,6 +109,7 @@ internal sealed class JointSweeps
         _hasGiven = false;
         _changes[0] = _dynamics.RootResponse.Times(_responses.RootKept);
         _impulses[0] = default;
+        SolveWorldRows(0);
         int at = 0;
         for (int i = 1; i < _tree.Count; i++)
         {
@@ -143,6 +148,13 @@ internal sealed class JointSweeps
         }
 
         _changes[link] = change;
+        SolveWorldRows(link);
+    }
+
+    private void SolveWorldRows(int link)
+    {
+        if (WorldRows != null && WorldRows.Has(link))
+            _hasGiven |= WorldRows.Solve(link, ref _changes[link], ref _impulses[link]);
     }
 
     private void Leave(int link)
@@ -197,5 +209,6 @@ internal sealed class JointSweeps
         return (left.W < 0 ? 2 : -2) * left.Vector[axis];
     }
 
-    private static double Length(in Wrench w) => Math.Sqrt(w.Force.LengthSquared + w.Torque.LengthSquared);
+    // As PhysX adds them up: N and N m.
+    private static double Length(in Wrench w) => w.Force.Length + w.Torque.Length;
 }

@@ -25,7 +25,6 @@ internal sealed class LinkResponses
     /// <summary>Impulse kept at the root.</summary>
     public Wrench RootKept;
 
-    private readonly double[] _keptElsewhere;
     private readonly int[] _path;
 
     public LinkResponses(ArticulationTree tree, ForwardDynamics dynamics)
@@ -35,7 +34,6 @@ internal sealed class LinkResponses
         Links = new SpatialMatrix[tree.Count];
         Kept = new double[tree.Freedoms];
         Changes = new double[tree.Freedoms];
-        _keptElsewhere = new double[tree.Freedoms];
         _path = new int[tree.Count];
     }
 
@@ -74,19 +72,11 @@ internal sealed class LinkResponses
     /// <summary>Change of a link's motion by all that is kept.</summary>
     public Twist Change(int link) => Outwards(link, _dynamics.RootResponse.Times(RootKept), Kept);
 
-    /// <summary>Change of both links' motions by an impulse on each, on top of what is kept; the same link twice adds up. A link of -1 is none.</summary>
-    public void Both(int a, in Wrench onA, int b, in Wrench onB, out Twist changeA, out Twist changeB)
+    /// <summary>Takes back all that is kept.</summary>
+    public void Forget()
     {
-        Wrench root = default;
-        if (a >= 0)
-            root += Inwards(a, onA, _keptElsewhere);
-        if (b >= 0)
-            root += Inwards(b, onB, _keptElsewhere);
-        Twist start = _dynamics.RootResponse.Times(root);
-        changeA = a >= 0 ? Outwards(a, start, _keptElsewhere) : default;
-        changeB = b >= 0 ? Outwards(b, start, _keptElsewhere) : default;
-        Clear(a);
-        Clear(b);
+        RootKept = default;
+        Array.Clear(Kept, 0, Kept.Length);
     }
 
     /// <summary>Adds what is kept to the links' motions and the joints' speeds, and keeps nothing any more.</summary>
@@ -148,11 +138,5 @@ internal sealed class LinkResponses
         }
 
         return change;
-    }
-
-    private void Clear(int link)
-    {
-        for (int i = link; i > 0; i = _tree.Parents[i])
-            Array.Clear(_keptElsewhere, _tree.FirstFreedom[i], _tree.FirstFreedom[i + 1] - _tree.FirstFreedom[i]);
     }
 }

@@ -106,6 +106,9 @@ internal struct SpatialMatrix
         };
     }
 
+    /// <summary>Of a response: the largest velocity along X, Y or Z by a unit impulse along the same.</summary>
+    public readonly double LargestLinear => System.Math.Max(_c0.X, System.Math.Max(_c1.Y, _c2.Z));
+
     /// <summary>Inverse of a symmetric positive 3 x 3 matrix by its columns; false where it has none.</summary>
     public static bool Invert(Vector3d c0, Vector3d c1, Vector3d c2, out Vector3d i0, out Vector3d i1, out Vector3d i2)
     {

@@ -57,6 +57,37 @@ internal static class TreeKinematics
             tree.Positions[f] = turn[tree.AxisOf[f]];
     }
 
+    /// <summary>Positions and speeds of all joints from the links' poses and motions.</summary>
+    public static void Read(ArticulationTree tree)
+    {
+        for (int i = 1; i < tree.Count; i++)
+        {
+            int first = tree.FirstFreedom[i];
+            if (tree.Links[i].Joint == LinkJointKind.Spherical)
+                ReadSpherical(tree, i);
+            else if (tree.FirstFreedom[i + 1] > first)
+                tree.Positions[first] = ReadPosition(tree, i, tree.Positions[first]);
+            Twist relative = tree.Motions[i] - tree.Motions[tree.Parents[i]].At(tree.Poses[i].Position - tree.Poses[tree.Parents[i]].Position);
+            for (int f = first; f < tree.FirstFreedom[i + 1]; f++)
+            {
+                Twist axis = Turned(tree.Poses[i].Rotation, tree.OwnAxes[f]);
+                tree.Speeds[f] = tree.Links[i].Joint == LinkJointKind.Prismatic ? Vector3d.Dot(axis.Linear, relative.Linear) : Vector3d.Dot(axis.Angular, relative.Angular);
+            }
+        }
+    }
+
+    /// <summary>A slide's or hinge's position from its links' poses; of angles the one nearest to a given one, 0 where that is no number.</summary>
+    public static double ReadPosition(ArticulationTree tree, int link, double near)
+    {
+        LinkDefinition definition = tree.Links[link];
+        if (definition.Joint == LinkJointKind.Prismatic)
+            return ((tree.Poses[tree.Parents[link]] * definition.ParentAnchor).Inverse() * (tree.Poses[link] * definition.Anchor)).Position.X;
+        Quaterniond q = RelativeRotation(tree, link);
+        double angle = 2 * Math.Atan2(q.X, q.W);
+        double turns = Math.Round((near - angle) / (2 * Math.PI));
+        return Finite.Is(turns) ? angle + 2 * Math.PI * turns : angle;
+    }
+
     /// <summary>Motions of all links below the root from the joints' speeds.</summary>
     public static void Move(ArticulationTree tree)
     {

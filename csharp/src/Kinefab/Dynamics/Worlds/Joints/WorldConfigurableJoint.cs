@@ -111,6 +111,13 @@ public sealed class WorldConfigurableJoint : WorldJoint
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
+    /// <summary>Counts the turns from the pose as it is, within half a turn of zero.</summary>
+    internal void Restart()
+    {
+        for (int i = (int)CoordinateAxis.AngularX; i < Axes; i++)
+            _unwrapped[i] = Raw(i, 0);
+    }
+
     internal override void AfterStep()
     {
         for (int i = (int)CoordinateAxis.AngularX; i < Axes; i++)

@@ -24,7 +24,13 @@ const chain = (kinds, scene = {}) => ({
   links: [base(), ...kinds.map(([type, axis, axes, more], i) => link(type, axis, axes, { parent: i, mass: 2 - 0.2 * i, ...more }))],
 });
 const floating = { fixed: false, gravity: [0, 0, 0], rootVelocity: { linear: [0.3, 0.1, -0.2], angular: [0.5, -0.7, 1.1] } };
-const loop = (motion, actor0, actor1) => ({ motion, actor0, actor1 });
+const ball = (actor0, actor1) => ({ motion: { twist: "free", swing1: "free", swing2: "free" }, actor0, actor1 });
+const fourBar = [
+  base(),
+  link("revolute", "z", { x: free }),
+  link("revolute", "z", { x: free }, { parent: 1, own: [0, 0.3, 0] }),
+  link("revolute", "z", { x: free }, { parent: 2, at: [0, -0.3, 0.02], own: [0.3, 0, 0] }),
+];
 
 const all = {
   "fixed-hangs": ["A link fixed to a fixed root stands still", arm("fixed", "z", {})],
@@ -98,9 +104,10 @@ const all = {
   "force-on-root": ["A push on a floating root, for ten steps", { ...arm("revolute", "z", { x: drive({ damping: 0.2 }) }), fixed: false, gravity: [0, 0, 0], forces: [{ link: 0, force: [5, 2, 1], torque: [0, 0.2, 0.3], until: 10 }] }],
   "mass-ratio": ["A light link below a heavy one", chain([["revolute", "z", { x: drive({ stiffness: 2000, damping: 200 }) }], ["revolute", "z", { x: drive({ stiffness: 20, damping: 2, target: 0.4 }) }, { mass: 0.05, inertia: [0.001, 0.002, 0.002] }]])],
   "step-small": ["Steps of 5 ms", arm("revolute", "z", { x: limited(-0.6, 1, { damping: 0.5 }) }, {}, { dt: 0.005 })],
-  "loop-to-world": ["A ball joint holds the tip of a chain of three to the world", { ...chain([["revolute", "z", { x: free }], ["revolute", "z", { x: free }], ["revolute", "z", { x: free }]]), joints: [{ ...loop({ twist: "free", swing1: "free", swing2: "free" }, undefined, { link: 3 }), frame0: { position: [2.1, 0.09, 0.15] }, frame1: { position: [0.3, 0, 0] } }] }],
-  "loop-of-links": ["A ball joint between two arms closes a loop", { links: [base(), link("revolute", "z", { x: free }), link("revolute", "z", { x: free }, { at: [0.3, -0.25, 0.02] })], joints: [{ ...loop({ twist: "free", swing1: "free", swing2: "free" }, { link: 1 }, { link: 2 }), frame0: { position: [0.3, -0.02, 0.03] }, frame1: { position: [0.3, 0.28, 0.03] } }] }],
-  "loop-with-body": ["A rigid body hangs on the tip by a ball joint", { ...arm("revolute", "z", { x: drive({ stiffness: 200, damping: 20 }) }), bodies: [{ position: [1.2, 0.03, 0.05], mass: 1, inertia: [0.02, 0.05, 0.04] }], joints: [{ ...loop({ twist: "free", swing1: "free", swing2: "free" }, { link: 1 }, { body: 0 }), frame0: { position: [0.3, 0, 0] }, frame1: { position: [-0.3, 0, 0] } }] }],
+  "loop-to-world": ["A four-bar: a ball joint holds the tip of three links to the world", { links: fourBar, joints: [{ ...ball(undefined, { link: 3 }), frame0: { position: [0.3, -0.52, 0.09] }, frame1: { position: [-0.3, 0, 0] } }] }],
+  "loop-to-world-driven": ["The same with a driven crank", { links: [fourBar[0], link("revolute", "z", { x: drive({ stiffness: 200, damping: 40, target: 0.6 }) }), ...fourBar.slice(2)], joints: [{ ...ball(undefined, { link: 3 }), frame0: { position: [0.3, -0.52, 0.09] }, frame1: { position: [-0.3, 0, 0] } }] }],
+  "loop-of-links": ["A five-bar: a ball joint between the tips of two arms of an articulation closes the loop", { links: [base(), link("revolute", "z", { x: free }), link("revolute", "z", { x: drive({ damping: 0.5 }) }, { parent: 1, at: [0.3, 0.05, 0], own: [0, 0.3, 0] }), link("revolute", "z", { x: free }, { at: [0.3, -0.52, 0.02], own: [-0.3, 0, -0.03] })], joints: [{ ...ball({ link: 2 }, { link: 3 }), frame0: { position: [0, -0.3, 0] }, frame1: { position: [0.3, -0, 0] } }] }],
+  "loop-with-body": ["A rigid body hangs on the tip by a ball joint", { ...arm("revolute", "z", { x: drive({ stiffness: 200, damping: 20 }) }), bodies: [{ position: [1.2, 0.03, 0.05], mass: 1, inertia: [0.02, 0.05, 0.04] }], joints: [{ ...ball({ link: 1 }, { body: 0 }), frame0: { position: [0.3, 0, 0] }, frame1: { position: [-0.3, 0, 0] } }] }],
 };
 
 export const scenarios = Object.entries(all).map(([name, [about, scenario]]) => ({ name, about, ...scenario }));

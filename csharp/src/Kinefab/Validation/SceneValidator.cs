@@ -232,8 +232,8 @@ public static class SceneValidator
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.WorldTransform(parent).Scale, new Place(findings, "gameObjects", i));
-            if (objects[i].Link is ArticulationBody link)
-                LinkRules.Anchors(scene, i, new Place(findings, "gameObjects", i, objects[i].ComponentSpan.IndexOf(link)));
+            if (objects[i].Link is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
+                LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, objects[i].ComponentSpan.IndexOf(link)));
         }
 
         foreach ((int index, int component) in anchored)

@@ -19,8 +19,6 @@ public sealed record ArticulationBody : Component
         "linearDamping", "angularDamping", "jointFriction", "maxJointVelocity", "centerOfMass", "inertiaTensor", "inertiaTensorRotation",
         "immovable", "useGravity", "collisionDetectionMode", "solverIterations", "solverVelocityIterations", "because", "extras");
 
-    private Rigidbody? asRigidbody;
-
     /// <summary>Unity's defaults.</summary>
     public ArticulationBody()
     {
@@ -197,7 +195,7 @@ public sealed record ArticulationBody : Component
     public IReadOnlyList<string> Because { get; init; } = Array.Empty<string>();
 
     /// <summary>The link as a body by itself.</summary>
-    internal Rigidbody AsRigidbody => asRigidbody ??= new Rigidbody
+    internal Rigidbody AsRigidbody => new()
     {
         Mass = Mass,
         LinearDamping = LinearDamping,

@@ -45,6 +45,9 @@ internal sealed class ArticulatedBodies
 
     public ArticulationSolver[] Solvers { get; }
 
+    /// <summary>For each articulation the bodies of its links, the root first.</summary>
+    public IReadOnlyList<int[]> Links => _bodies;
+
     /// <summary>Of each body the articulation that it is a link of; -1: it is a rigid body by itself.</summary>
     public int[] ArticulationOf { get; }
 

@@ -85,6 +85,7 @@ internal sealed class ArticulationSolver
     public void Begin(Vector3d gravity, double dt, bool hasJoints)
     {
         _dt = dt;
+        _dynamics.SpeedLimitStep = _rules.ScalesSpeedsTogether ? 0 : dt;
         LimitSpeeds();
         if (Tree.IsFixed)
             Tree.Motions[0] = default;
@@ -94,8 +95,6 @@ internal sealed class ArticulationSolver
         _dynamics.FindInertias();
         if (Tree.IsFixed || !_rules.KeepsMomentum)
         {
-            for (int i = 0; i < Tree.Count; i++)
-                _scratch[i] = default;
             for (int i = 0; i < Tree.Count; i++)
                 _external[i] += _internal[i];
             Accelerate(_external, Tree.Forces, withSpeedTerms: true);

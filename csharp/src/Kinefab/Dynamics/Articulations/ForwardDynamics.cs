@@ -44,6 +44,9 @@ internal sealed class ForwardDynamics
     /// <summary>Of the links' centres of mass.</summary>
     public readonly Twist[] Accelerations;
 
+    /// <summary>Seconds in which accelerations take no joint past its largest speed; 0: they may.</summary>
+    public double SpeedLimitStep;
+
     // What a link and all below it resist with while the joints do not accelerate (p^A).
     private readonly Wrench[] _bias;
 
@@ -160,6 +163,8 @@ internal sealed class ForwardDynamics
         {
             Twist acceleration = Accelerations[_tree.Parents[i]].At(Levers[i]);
             Answer(i, acceleration, JointAccelerations, JointAccelerations);
+            if (SpeedLimitStep > 0)
+                LimitSpeeds(i);
             if (withSpeedTerms)
                 acceleration += SpeedTerms[i];
             for (int f = _tree.FirstFreedom[i]; f < _tree.FirstFreedom[i + 1]; f++)
@@ -189,6 +194,17 @@ internal sealed class ForwardDynamics
 
         for (int k = 0; k < count; k++)
             answers[first + k] = InverseInertias[at + 3 * k] * rest.X + InverseInertias[at + 3 * k + 1] * rest.Y + InverseInertias[at + 3 * k + 2] * rest.Z;
+    }
+
+    private void LimitSpeeds(int link)
+    {
+        double most = _tree.Links[link].MaxJointSpeed;
+        for (int f = _tree.FirstFreedom[link]; f < _tree.FirstFreedom[link + 1]; f++)
+        {
+            double speed = _tree.Speeds[f] + JointAccelerations[f] * SpeedLimitStep;
+            if (Math.Abs(speed) > most)
+                JointAccelerations[f] = (Math.Min(Math.Max(speed, -most), most) - _tree.Speeds[f]) / SpeedLimitStep;
+        }
     }
 
     private void InvertSeveral(int link, int first, int count)

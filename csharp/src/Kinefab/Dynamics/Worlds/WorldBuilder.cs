@@ -49,6 +49,8 @@ internal sealed class WorldBuilder
             Bodies[i] = new WorldBody(MultibodySystem, i, gameObject, scene, body);
         }
 
+        foreach (int[] links in Articulated.Links)
+            Bodies[links[0]].LinksBelow = links.AsSpan(1).ToArray();
         Joints = new WorldJoint[_definition.Joints.Count];
         for (int i = 0; i < Joints.Length; i++)
         {

@@ -89,13 +89,8 @@ internal static class LinkRules
     }
 
     /// <summary>The two anchors of a joint are one frame at the start; else the first step snaps the link there.</summary>
-    internal static void Anchors(ValidScene scene, int gameObject, in Place at)
+    internal static void Anchors(ArticulationBody link, WorldTransform own, WorldTransform above, in Place at)
     {
-        if (LinkJoint.Parent(scene.Document, gameObject) is not int parent)
-            return;
-        ArticulationBody link = scene.Document.GameObjects[gameObject].Link!;
-        WorldTransform own = scene.WorldTransform(gameObject);
-        WorldTransform above = scene.WorldTransform(parent);
         double gap = (own.Pose.Point(Vector3d.Scale(own.Scale, link.AnchorPosition)) - above.Pose.Point(Vector3d.Scale(above.Scale, link.ParentAnchorPosition))).Length;
         Quaterniond turn = (own.Pose.Rotation * link.AnchorRotation.Normalized()).Conjugate() * (above.Pose.Rotation * link.ParentAnchorRotation.Normalized());
         double angle = 2 * Math.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * 180 / Math.PI;

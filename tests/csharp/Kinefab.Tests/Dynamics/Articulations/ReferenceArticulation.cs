@@ -122,6 +122,15 @@ internal sealed class ReferenceArticulation
         return (metres, radians);
     }
 
+    /// <summary>Rigid bodies of the scenario.</summary>
+    public JsonElement[] Bodies => _json.TryGetProperty("bodies", out JsonElement bodies) ? [.. bodies.EnumerateArray()] : [];
+
+    /// <summary>Joints of the scenario.</summary>
+    public JsonElement[] Joints => _json.TryGetProperty("joints", out JsonElement joints) ? [.. joints.EnumerateArray()] : [];
+
+    /// <summary>The tree's number of a link of the scenario.</summary>
+    public int TreeLink(int scenarioLink) => Array.IndexOf(_order, scenarioLink);
+
     private LinkDefinition Define(JsonElement link, int old)
     {
         var definition = new LinkDefinition

@@ -35,6 +35,7 @@ from ..scene import (
 from ..scene.joints.joint import AnchoredJoint
 from ..scene.vectors import quaternion4, vector3
 from .motions import ARTICULATION, NotArticulated, link_motion, tell_link_losses
+from .order import with_parents_first
 
 ARTICULATION_GROUND_ID = "kinefab:articulation ground"
 """Of the root that stands for the world where no object does."""
@@ -88,7 +89,10 @@ class _Articulation:
             self._close(edge, links)
         animations = self._clips(links.keys())
         couplings = tuple(self._coupling(coupling) for coupling in self.scene.couplings)
-        return replace(self.scene, gameObjects=tuple(self.objects), couplings=couplings, animations=animations)
+        made = replace(
+            self.scene, gameObjects=tuple(self.objects), couplings=couplings, animations=animations
+        )
+        return with_parents_first(made)
 
     def _coupling(self, coupling: Coupling) -> Coupling:
         """Between the same motions: a link's coordinates count as those of the joint that it stands for."""

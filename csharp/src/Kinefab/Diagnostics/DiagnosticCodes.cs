@@ -282,6 +282,9 @@ public static class DiagnosticCodes
     /// <summary>The loop through {joints} does not move as its joints stand: its axes are off by a small angle, which locks it. The solvers let the locked angles give, as Unity does.</summary>
     public const string LoopInconsistent = "LOOP_INCONSISTENT";
 
+    /// <summary>No pose of the mechanism satisfies the limits of {joints} and its other joints at once, from {time} s; each is held where it stands.</summary>
+    public const string LimitsContradict = "LIMITS_CONTRADICT";
+
     /// <summary>The exact solver found no motion of the mechanism of {object} in a part of the step from {time} s: {reason}. The mechanism stands still in that part, and its speeds fall.</summary>
     public const string StepUnsolved = "STEP_UNSOLVED";
 

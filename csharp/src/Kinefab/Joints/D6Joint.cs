@@ -252,7 +252,7 @@ internal sealed class D6Joint : JointModel
 
         if (twist)
         {
-            writer.AngleLimits(x1, SwingTwist.TwistAngle(parts.Twist), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            writer.AngleLimits(x1, Followed(SwingTwist.TwistAngle(parts.Twist)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
         }
     }
 

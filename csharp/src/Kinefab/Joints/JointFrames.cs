@@ -50,6 +50,13 @@ internal struct JointFrames
         Axes(q0, out f._x0, out f._y0, out f._z0);
     }
 
+    /// <summary>Notes the angle about X that a joint has reached, by which its next step counts the turns.</summary>
+    public static void FinishTwist(JointModel joint, in Pose body0, in Pose body1)
+    {
+        At(joint, body0, body1, out JointFrames f);
+        joint.LastTwist = SwingTwist.Nearest(SwingTwist.TwistAngle(f.Relative.Rotation), joint.LastTwist);
+    }
+
     /// <summary>Axis 0, 1 or 2 of frame 0 in the world.</summary>
     public readonly Vector3d Axis0(int i) => i == 0 ? _x0 : i == 1 ? _y0 : _z0;
 

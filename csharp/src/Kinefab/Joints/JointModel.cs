@@ -58,8 +58,14 @@ internal abstract class JointModel
     public double ProjectionLinearTolerance = 1e10;
     public double ProjectionAngularTolerance = Math.PI;
 
-    /// <summary>Prepare writes the rows of all limits however far they are, not only within their contact distance.</summary>
+    /// <summary>
+    /// Prepare writes the rows of all limits however far they are, not only within their contact distance, and counts the angle about X
+    /// with its whole turns, near <see cref="LastTwist"/>; else it wraps where PhysX's does.
+    /// </summary>
     public bool LimitsFromAfar;
+
+    /// <summary>Angle of actor 1 against actor 0 about X at the last finished step, with its whole turns, radians.</summary>
+    public double LastTwist;
 
     /// <summary>A broken joint has no rows.</summary>
     public bool IsBroken;
@@ -93,6 +99,7 @@ internal abstract class JointModel
         ProjectionLinearTolerance = copy.ProjectionLinearTolerance;
         ProjectionAngularTolerance = copy.ProjectionAngularTolerance;
         LimitsFromAfar = copy.LimitsFromAfar;
+        LastTwist = copy.LastTwist;
         IsBroken = copy.IsBroken;
     }
 
@@ -108,6 +115,9 @@ internal abstract class JointModel
         Span<ConstraintRow> rows = stackalloc ConstraintRow[MaxRows];
         return new RowLayout(0, 0, Prepare(Pose.Identity, Pose.Identity, rows), 0, false);
     }
+
+    /// <summary>An angle about X as Prepare counts it.</summary>
+    private protected double Followed(double twist) => LimitsFromAfar ? SwingTwist.Nearest(twist, LastTwist) : twist;
 
     /// <summary>As <see cref="Prepare"/>, but locked axes may be left out: for a solver that has their rows already.</summary>
     public virtual int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows);

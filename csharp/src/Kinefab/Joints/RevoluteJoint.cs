@@ -102,5 +102,5 @@ internal sealed class RevoluteJoint : JointModel
         return writer.Count;
     }
 
-    private static double Angle(in JointFrames f) => SwingTwist.TwistAngle(f.Relative.Rotation);
+    private double Angle(in JointFrames f) => Followed(SwingTwist.TwistAngle(f.Relative.Rotation));
 }

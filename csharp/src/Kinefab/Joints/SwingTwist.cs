@@ -22,6 +22,9 @@ internal readonly struct SwingTwist
     /// </summary>
     public static double TwistAngle(Quaterniond q) => 2 * Math.Atan2(q.X, q.W);
 
+    /// <summary>Of the angles that differ from one by whole turns the one nearest to a reference, radians.</summary>
+    public static double Nearest(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));
+
     /// <summary>Component of the swing about Y or Z, radians. Source: ExtJoint.h, computeSwingAngle.</summary>
     public static double SwingAngle(double component, double w) => 4 * Math.Atan2(component, 1 + w);
 }

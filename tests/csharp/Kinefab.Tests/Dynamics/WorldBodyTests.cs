@@ -123,4 +123,21 @@ public sealed class WorldBodyTests
         Assert.That((body.Pose.Rotation * new Quaterniond(0, 0.6, 0, 0.8).Conjugate()).Vector.Length, Is.LessThanOrEqualTo(1e-12));
         Assert.That(body.Pose.Rotation.LengthSquared, Is.EqualTo(1).Within(1e-12));
     }
+
+    [TestCase(ConfigurableJointMotion.Locked, ConfigurableJointMotion.Locked, ConfigurableJointMotion.Locked, 0)]
+    [TestCase(ConfigurableJointMotion.Free, ConfigurableJointMotion.Locked, ConfigurableJointMotion.Locked, 1)]
+    [TestCase(ConfigurableJointMotion.Free, ConfigurableJointMotion.Locked, ConfigurableJointMotion.Free, 1)]
+    [TestCase(ConfigurableJointMotion.Free, ConfigurableJointMotion.Free, ConfigurableJointMotion.Locked, 2)]
+    public void Drift_OfALockedAngle_IsTheAngle(ConfigurableJointMotion x, ConfigurableJointMotion y, ConfigurableJointMotion z, int axis)
+    {
+        foreach (double degrees in new[] { 0.5, -25, 60, 80 })
+        {
+            World world = SmallScene.Create(new ConfigurableJoint { AngularXMotion = x, AngularYMotion = y, AngularZMotion = z });
+            var about = new Vector3d(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+
+            world.Bodies[0].Pose = new Pose(SmallScene.OwnPose.Position, SmallScene.OwnPose.Rotation * Quaterniond.AxisAngle(about, degrees * System.Math.PI / 180));
+
+            Assert.That(world.Joints[0].Drift.Angle, Is.EqualTo(System.Math.Abs(degrees)).Within(1e-9));
+        }
+    }
 }

@@ -60,6 +60,60 @@ public sealed class WorldDriveTests
         Assert.That(SmallScene.Turn(world)[coordinate - Coordinate.AngularX], Is.EqualTo(33).Within(1e-3));
     }
 
+    [Test]
+    public void DriveTo_AnyNumberOfTurns_ReachesIt([Values] SolverKind solver, [Values(190, -200, 800, -1000)] double target)
+    {
+        World hinge = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ }, solver: solver);
+        World twist = SmallScene.Create(Only(Coordinate.AngularX, swap: true), solver: solver);
+        World swing = SmallScene.Create(Only(Coordinate.AngularY, swap: false), solver: solver);
+
+        foreach ((World world, Coordinate coordinate) in new[] { (hinge, Coordinate.Angle), (twist, Coordinate.AngularX), (swing, Coordinate.AngularY) })
+        {
+            world.Joints[0].DriveTo(coordinate, target);
+            SmallScene.Run(world, 5);
+            Assert.That(world.Joints[0].Coordinate(coordinate), Is.EqualTo(target).Within(1e-3), $"{coordinate}");
+            world.Joints[0].DriveTo(coordinate, -target);
+            SmallScene.Run(world, 5);
+            Assert.That(world.Joints[0].Coordinate(coordinate), Is.EqualTo(-target).Within(1e-3), $"{coordinate}, all the way back");
+            Assert.That((world.Stops, world.Findings.Diagnostics.Count), Is.EqualTo((0, 0)));
+        }
+    }
+
+    [Test]
+    public void DriveTo_AfterItArrived_StaysAtRest([Values] SolverKind solver)
+    {
+        World hinge = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ }, solver: solver);
+        World slide = SmallScene.Create(Only(Coordinate.Z, swap: true), solver: solver);
+
+        hinge.Joints[0].DriveTo(Coordinate.Angle, 30);
+        slide.Joints[0].DriveTo(Coordinate.Z, -0.1);
+        SmallScene.Run(hinge, 60);
+        SmallScene.Run(slide, 60);
+
+        Assert.That(hinge.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(30).Within(1e-6));
+        Assert.That(slide.Joints[0].Coordinate(Coordinate.Z), Is.EqualTo(-0.1).Within(1e-8));
+        Assert.That((hinge.Stops, slide.Stops), Is.EqualTo((0, 0)));
+    }
+
+    [Test]
+    public void DriveAt_MoreThanHalfATurnAStep_IsCounted([Values] SolverKind solver)
+    {
+        World hinge = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ }, new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 1000 }, solver: solver);
+        World twist = SmallScene.Create(Only(Coordinate.AngularX, swap: false), new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 1000 }, solver: solver);
+
+        hinge.Joints[0].DriveAt(Coordinate.Angle, -24000);
+        twist.Joints[0].DriveAt(Coordinate.AngularX, 24000);
+        SmallScene.Run(hinge, 0.1);
+        SmallScene.Run(twist, 0.1);
+        double angle = hinge.Joints[0].Coordinate(Coordinate.Angle);
+        double turn = twist.Joints[0].Coordinate(Coordinate.AngularX);
+        SmallScene.Run(hinge, 0.1);
+        SmallScene.Run(twist, 0.1);
+
+        Assert.That(hinge.Joints[0].Coordinate(Coordinate.Angle) - angle, Is.EqualTo(-2400).Within(1));
+        Assert.That(twist.Joints[0].Coordinate(Coordinate.AngularX) - turn, Is.EqualTo(2400).Within(1));
+    }
+
     [TestCase(Coordinate.X, false, 0.2)]
     [TestCase(Coordinate.Z, true, -0.2)]
     public void DriveAt_Slide_HoldsTheSpeed(Coordinate coordinate, bool swap, double speed)

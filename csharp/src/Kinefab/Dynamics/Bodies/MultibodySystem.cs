@@ -31,6 +31,9 @@ internal sealed class MultibodySystem
     /// <summary>Islands of which the last step found the joints apart and moved the bodies together; written by the exact solver.</summary>
     public readonly List<ClosedPose> Closed = new();
 
+    /// <summary>Limits that stood passed in the last step, since no pose satisfies them and the rest of the joints.</summary>
+    public readonly List<HeldLimit> HeldLimits = new();
+
     public MultibodySystem(Bodies bodies, JointModel[] joints, CoordinateCoupling[] couplings)
     {
         Bodies = bodies;
@@ -122,6 +125,19 @@ internal struct ClosedPose
     /// <summary>The farthest that a body's centre of mass was moved, m, and a body turned, rad.</summary>
     public double Distance;
     public double Angle;
+}
+
+/// <summary>A limit that stands passed.</summary>
+internal struct HeldLimit
+{
+    /// <summary>One of the island's bodies, the same for all of its limits.</summary>
+    public int Body;
+
+    public JointModel Joint;
+
+    /// <summary>By how much, m or rad.</summary>
+    public double Error;
+    public bool IsAngular;
 }
 
 /// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>

@@ -106,16 +106,32 @@ internal sealed class CouplingRows
     }
 
     /// <summary>Notes the coordinates reached, against which the next step unwraps its angles.</summary>
-    public void Finish()
+    /// <param name="dt">Step, s.</param>
+    public void Finish(double dt)
     {
         Bodies bodies = _mechanism.Bodies;
         foreach (CoordinateCoupling coupling in _mechanism.Couplings)
         {
-            JointModel a = coupling.A.Joint;
-            JointModel b = coupling.B.Joint;
-            coupling.LastA = coupling.A.Evaluate(bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), coupling.LastA, out _);
-            coupling.LastB = coupling.B.Evaluate(bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), coupling.LastB, out _);
+            coupling.LastA = Reached(coupling.A, bodies, coupling.LastA, dt);
+            coupling.LastB = Reached(coupling.B, bodies, coupling.LastB, dt);
         }
+    }
+
+    // Of angles the nearest to where the speeds of this step have led: the bodies may have turned by more than half a turn.
+    private static double Reached(in CoordinateAxisMap coordinate, Bodies bodies, double last, double dt)
+    {
+        JointModel joint = coordinate.Joint;
+        Pose pose0 = bodies.PoseOf(joint.Body0);
+        Pose pose1 = bodies.PoseOf(joint.Body1);
+        double reached = coordinate.Evaluate(pose0, pose1, last, out ConstraintRow row);
+        if (!coordinate.IsAngle)
+        {
+            return reached;
+        }
+
+        Vector3d w0 = joint.Body0 < 0 ? Vector3d.Zero : bodies.AngularVelocities[joint.Body0];
+        Vector3d w1 = joint.Body1 < 0 ? Vector3d.Zero : bodies.AngularVelocities[joint.Body1];
+        return SwingTwist.Nearest(reached, last + dt * row.Velocity(Vector3d.Zero, w0, Vector3d.Zero, w1));
     }
 
     // A body on both sides counts once, with its parts added up.

@@ -151,7 +151,7 @@ internal sealed class PgsSolver : ISolver
             _projection.Refresh();
         }
 
-        _couplings.Finish();
+        _couplings.Finish(dt);
     }
 
     /// <inheritdoc/>

@@ -30,6 +30,8 @@ internal abstract class IslandGroup
             mechanism.Stops += controller.DampedSteps - stopsBefore;
             mechanism.Unsolved.Add(controller.Unsolved(island));
         }
+
+        controller.AddHeldLimits(island, mechanism.HeldLimits);
     }
 }
 

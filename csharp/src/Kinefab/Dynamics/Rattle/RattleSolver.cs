@@ -43,6 +43,7 @@ internal sealed class RattleSolver : ISolver
         foreach (JointModel joint in mechanism.Joints)
         {
             joint.LimitsFromAfar = true;
+            JointFrames.FinishTwist(joint, mechanism.Bodies.PoseOf(joint.Body0), mechanism.Bodies.PoseOf(joint.Body1));
         }
 
         foreach (InconsistentLoop loop in loops)
@@ -66,6 +67,7 @@ internal sealed class RattleSolver : ISolver
 
         _mechanism.Unsolved.Clear();
         _mechanism.Closed.Clear();
+        _mechanism.HeldLimits.Clear();
         double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         foreach (IslandGroup group in _groups)
         {

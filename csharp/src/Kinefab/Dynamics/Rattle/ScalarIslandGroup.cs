@@ -58,13 +58,6 @@ internal sealed class ScalarIslandGroup : IslandGroup
             LaneTransfer<ScalarLane>.EndStep(batch);
             LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, 1, _mechanism, dt);
-            foreach (RowBlock block in _islands[i].Blocks)
-            {
-                if (block.Coupling != null)
-                {
-                    AssembledRows<ScalarLane>.FinishCoupling(batch, block);
-                }
-            }
         }
     }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -46,6 +47,7 @@ internal sealed class StepController
     private bool _isAudited;
     private EnergyAudit _energy;
     private double _dt;
+    private double _tolerance;
 
     public StepController(LaneBatch<ScalarLane> batch)
     {
@@ -69,6 +71,18 @@ internal sealed class StepController
         return _worst < 0
             ? new UnsolvedStep { Body = island.Bodies[0] }
             : new UnsolvedStep { Body = island.Bodies[0], Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
+    }
+
+    /// <summary>The joints whose limits stand passed and cannot be closed are added to a list.</summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    /// <param name="held">Takes them.</param>
+    public void AddHeldLimits(Island island, List<HeldLimit> held)
+    {
+        for (int i = _batch.ActiveSet?.NextHeldOpen(0) ?? -1; i >= 0; i = _batch.ActiveSet!.NextHeldOpen(i + 1))
+        {
+            ref readonly ScalarRow row = ref _batch.ActiveSet!.Row(i);
+            held.Add(new HeldLimit { Body = island.Bodies[0], Joint = island.Blocks[row.Block].Joint!, Error = -row.Allowed, IsAngular = row.Built.Has(RowFlags.Angular) });
+        }
     }
 
     /// <summary>Whether the last step began by closing its start pose.</summary>
@@ -97,15 +111,17 @@ internal sealed class StepController
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
         _substep = dt;
+        _tolerance = tolerance;
         _failures = 0;
         _dampedInStep = 0;
         _refinesAfterFailure = false;
         _isAudited = EnergyAudit.IsKnown(_batch);
+        isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         bool hasSettled = hasFailed || HasClosed;
         if (hasSettled)
         {
-            CloseInitialState();
+            CloseInitialState(isMoved);
         }
 
         double demand = StepLimit.Of(_batch, dt);
@@ -126,7 +142,7 @@ internal sealed class StepController
             {
                 hasSettled = true;
                 _refinesAfterFailure = true;
-                CloseInitialState();
+                CloseInitialState(isMoved);
                 _start.Save(_batch);
                 Audit(dt);
             }
@@ -144,10 +160,10 @@ internal sealed class StepController
         SetSubstep(dt);
     }
 
-    // Closing what stands open does work on springs.
-    private void CloseInitialState()
+    // Closing what stood open before the step does work on springs.
+    private void CloseInitialState(bool isMoved)
     {
-        _isAudited &= !_closure.IsOpen();
+        _isAudited &= !(isMoved && _closure.IsOpen());
         RattleStep<ScalarLane>.Rebuild(_batch);
         InitialVelocityProjection.Apply(_batch);
     }
@@ -156,7 +172,7 @@ internal sealed class StepController
     {
         if (_isAudited)
         {
-            _energy = new EnergyAudit(_batch, dt);
+            _energy = new EnergyAudit(_batch, dt, _tolerance);
         }
     }
 
@@ -187,7 +203,7 @@ internal sealed class StepController
     private bool IsEnergyKept(int halvings)
     {
         bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
-        return !_isAudited || new EnergyAudit(_batch, _dt).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
+        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)
@@ -293,6 +309,7 @@ internal sealed class StepController
     private void Finish()
     {
         RattleStep<ScalarLane>.Accept(_batch);
+        AssembledRows<ScalarLane>.FinishAngles(_batch);
         for (int i = 0; i < _batch.Work.TotalImpulses.Length; i++)
         {
             _batch.Work.TotalImpulses[i] += _batch.Work.PositionImpulses[i] + _batch.VelocityImpulses[i];

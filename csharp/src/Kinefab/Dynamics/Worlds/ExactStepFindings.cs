@@ -47,7 +47,25 @@ internal sealed class ExactStepFindings
             Add(found, DiagnosticCodes.StepUnsolved, pointer, ("object", id), ("reason", Reason(step)), ("time", Text(time)));
         }
 
+        for (int i = 0; i < mechanism.HeldLimits.Count; i++)
+        {
+            HeldLimit first = mechanism.HeldLimits[i];
+            if (i == 0 || mechanism.HeldLimits[i - 1].Body != first.Body)
+            {
+                (_, string pointer) = Place(mechanism, bodies, joints, first.Joint, first.Body);
+                string names = string.Join(", ", mechanism.HeldLimits.Where(one => one.Body == first.Body).Select(one => Named(mechanism, bodies, joints, one)).Distinct());
+                Add(found, DiagnosticCodes.LimitsContradict, pointer, ("joints", names), ("time", Text(time)));
+            }
+        }
+
         return found;
+    }
+
+    private static string Named(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, in HeldLimit limit)
+    {
+        int joint = Array.IndexOf(mechanism.Joints, limit.Joint);
+        string name = joint >= 0 && joint < joints.Count ? joints[joint].NameInCad ?? joints[joint].Name : bodies[limit.Body].Id;
+        return $"{name} (by {Length(limit.Error, limit.IsAngular)})";
     }
 
     // Behind the scene's joints stand those that freeze positions: there the body is what can be named.

@@ -210,8 +210,13 @@ public sealed partial class World
             }
         }
 
+        for (int i = 0; i < Joints.Count; i++)
+        {
+            Joints[i].BeforeStep();
+        }
+
         _solver.Step(dt);
-        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0)
+        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0 || _mechanism.HeldLimits.Count > 0)
         {
             List<Diagnostic> found = _exact.Of(_mechanism, Bodies, Joints, Time);
             Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;
@@ -221,7 +226,7 @@ public sealed partial class World
         for (int i = 0; i < Joints.Count; i++)
         {
             WorldJoint joint = Joints[i];
-            joint.AfterStep();
+            joint.AfterStep(dt, Solver == SolverKind.Exact ? 0.5 : 1);
             if (joint.IsBroken && !_broken[i])
             {
                 _broken[i] = true;

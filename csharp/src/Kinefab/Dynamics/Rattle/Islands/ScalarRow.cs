@@ -70,6 +70,12 @@ internal struct ScalarRow
     /// <summary>C at the start of the step.</summary>
     public double StartError;
 
+    /// <summary>
+    /// C up to which a limit may stand passed, not above 0: where it stood when closing the pose had failed, as limits that contradict each
+    /// other or the rest of the joints leave it. It is passed no further, and comes back as far as the others let it.
+    /// </summary>
+    public double Allowed;
+
     /// <summary>Speed of the row at the start of the step.</summary>
     public double StartSpeed;
 

@@ -109,6 +109,7 @@ internal sealed class ScalarRows
             _rows[i].ImpulseFirstHalf = 0;
             _rows[i].ImpulseSecondHalf = 0;
             _rows[i].State = RowState.AtBound;
+            _rows[i].Allowed = 0;
         }
     }
 

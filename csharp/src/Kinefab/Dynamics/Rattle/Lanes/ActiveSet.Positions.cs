@@ -8,6 +8,9 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed partial class ActiveSet<V>
     where V : struct, ILane<V>
 {
+    // Tolerances by which a limit may be passed at the end of a drift.
+    private const double MostPassed = 1.01;
+
     /// <summary>Residuals of the scalar rows at the end of the drift as errors, m or rad.</summary>
     public void Evaluate(double h)
     {
@@ -20,7 +23,7 @@ internal sealed partial class ActiveSet<V>
             {
                 error = scalar.Kind switch
                 {
-                    RowKind.Limit => scalar.End.GeometricError,
+                    RowKind.Limit => scalar.End.GeometricError - scalar.Allowed,
                     RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
                     _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.RestImpulse) / scalar.ImplicitDamping),
                 };
@@ -48,13 +51,17 @@ internal sealed partial class ActiveSet<V>
         return isChanged;
     }
 
-    /// <summary>Whether a hard limit was passed that had no row at the start of the drift: one of a distance or cone, in the middle.</summary>
+    /// <summary>
+    /// Whether the end of the drift passed a hard limit: one that had no row at its start, of a distance or cone in the middle; or one whose
+    /// row no impulse could hold.
+    /// </summary>
     public bool HasMissedEvent(double tolerance)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsActive && scalar.End.Has(RowFlags.Limit) && !scalar.End.Has(RowFlags.Spring) && scalar.End.GeometricError < -tolerance)
+            double allowed = scalar.IsActive ? scalar.Allowed : 0;
+            if (scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && !scalar.End.Has(RowFlags.Spring) && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
             {
                 return true;
             }
@@ -108,7 +115,7 @@ internal sealed partial class ActiveSet<V>
         switch (scalar.Kind)
         {
             case RowKind.Limit:
-                return scalar.End.GeometricError < -tolerance;
+                return scalar.End.GeometricError - scalar.Allowed < -tolerance;
             case RowKind.SpeedMotor:
                 double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
                 return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);

@@ -65,6 +65,24 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
+    /// <summary>Energy in all springs, each off by a distance, J.</summary>
+    /// <param name="distance">m or rad.</param>
+    public double LargestStoredEnergy(double distance)
+    {
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring))
+            {
+                double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
+                sum += response > LeastResponse ? scalar.Built.Stiffness / response * distance * distance : 0;
+            }
+        }
+
+        return sum;
+    }
+
     /// <summary>The most that motors can have given since the start of the step, J.</summary>
     public double MotorWorkBound()
     {

@@ -23,6 +23,9 @@ internal sealed partial class ActiveSet<V>
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
 
+    /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
+    public const double MostClosedByDrift = 1e-6;
+
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
@@ -62,6 +65,7 @@ internal sealed partial class ActiveSet<V>
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind();
+            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None)
             {
                 scalar.State = RowState.AtBound;
@@ -86,7 +90,7 @@ internal sealed partial class ActiveSet<V>
             scalar.ImpulseFirstHalf = _batch.VelocityImpulses[scalar.Index];
             if (scalar.Kind == RowKind.Limit)
             {
-                scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < 0 ? RowState.Free : RowState.AtBound;
+                scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < scalar.Allowed ? RowState.Free : RowState.AtBound;
             }
             else if (scalar.ImpulseFirstHalf > scalar.Theta * scalar.Low && scalar.ImpulseFirstHalf < scalar.Theta * scalar.High)
             {
@@ -166,6 +170,37 @@ internal sealed partial class ActiveSet<V>
             }
         }
     }
+
+    /// <summary>Whether a limit stands passed by more than it was left so: its joint's fields were changed.</summary>
+    public bool IsNewlyPassed()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isLimit = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring);
+            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - MostClosedByDrift)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>The next row, from one on, of a limit that stands passed and cannot be closed; -1: there is none.</summary>
+    public int NextHeldOpen(int from)
+    {
+        int i = from;
+        while (i < _rows.Length && _rows[i].Allowed == 0)
+        {
+            i++;
+        }
+
+        return i < _rows.Length ? i : -1;
+    }
+
+    /// <summary>A row.</summary>
+    public ref readonly ScalarRow Row(int index) => ref _rows[index];
 
     /// <summary>J of the free rows into the batch, 0 for the at-bound ones.</summary>
     /// <param name="isAll">Write J of all rows, so that impulses can be applied by them.</param>

@@ -92,12 +92,22 @@ internal static class AssembledRows<V>
         Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -factor);
     }
 
-    /// <summary>A coupling's coordinates are unwrapped against those of the last finished step.</summary>
-    public static void FinishCoupling(LaneRecords<V> batch, RowBlock block)
+    /// <summary>Notes the angles that were reached: those of limits, springs and couplings are counted on from the last finished part of a step.</summary>
+    public static void FinishAngles(LaneRecords<V> batch)
     {
-        Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
-        block.Coupling!.LastA = a.GeometricError;
-        block.Coupling.LastB = b.GeometricError;
+        foreach (RowBlock block in batch.Shape.Blocks)
+        {
+            if (block.Coupling != null)
+            {
+                Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
+                block.Coupling.LastA = a.GeometricError;
+                block.Coupling.LastB = b.GeometricError;
+            }
+            else if (block.ScalarCount > 0)
+            {
+                JointFrames.FinishTwist(block.Joint!, PoseOf(batch, block.Bodies[0]), PoseOf(batch, block.Bodies[1]));
+            }
+        }
     }
 
     private static int Prepare(LaneRecords<V> batch, RowBlock block, ConstraintRow[] rows)

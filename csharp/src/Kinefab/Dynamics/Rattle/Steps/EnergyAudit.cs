@@ -9,6 +9,9 @@ internal readonly struct EnergyAudit
     // Rounding of the forces' work, against its terms.
     private const double Rounding = 1e-12;
 
+    // Tolerances by which a pose may be off that counts as closed: its own, its start's and what the chord leaves of other rows.
+    private const double Tolerances = 10;
+
     private readonly double _kinetic;
     private readonly double _work;
     private readonly double _terms;
@@ -21,10 +24,17 @@ internal readonly struct EnergyAudit
     private readonly double _sprung;
     private readonly double _driven;
 
+    // What a pose holds that is off by so much: of a mechanism at rest that is all there is.
+    private readonly double _floor;
+
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="dt">Step, s.</param>
-    public EnergyAudit(LaneBatch<ScalarLane> batch, double dt)
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public EnergyAudit(LaneBatch<ScalarLane> batch, double dt, double tolerance)
     {
+        double distance = Tolerances * tolerance;
+        double speed = distance / dt;
+        _floor = batch.ActiveSet?.LargestStoredEnergy(distance) ?? 0;
         _kinetic = 0;
         _work = 0;
         _terms = 0;
@@ -45,6 +55,7 @@ internal readonly struct EnergyAudit
             _work += work.X + work.Y + work.Z;
             _terms += Math.Abs(work.X) + Math.Abs(work.Y) + Math.Abs(work.Z);
             _forced += mass * acceleration.LengthSquared * dt * dt / 2;
+            _floor += (mass + 1 / a[o + BodyLanes.LeastInverseInertia]) * speed * speed + mass * acceleration.Length * distance;
         }
     }
 
@@ -69,7 +80,7 @@ internal readonly struct EnergyAudit
     {
         double sprung = _sprung - since._sprung;
         double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - sprung;
-        double rounding = Rounding * (_terms + since._terms);
+        double rounding = Rounding * (_terms + since._terms) + _floor;
         return mayLose
             ? change <= share * (since._kinetic + since._stored + Math.Abs(sprung) + _forced) + _driven + rounding
             : Math.Abs(change) <= share * (_kinetic + _forced) + rounding;

@@ -48,7 +48,6 @@ public readonly struct JointDrift
 
             if (row.Has(RowFlags.Angular))
             {
-                // The rows' axes are half as long as the angle's where the error is that of a quaternion.
                 double error = row.GeometricError / row.Angular0.Length;
                 angle += error * error;
             }
@@ -58,7 +57,11 @@ public readonly struct JointDrift
             }
         }
 
-        return new JointDrift(Math.Sqrt(distance), Math.Sqrt(angle) * (180 / Math.PI));
+        // A row's error over its axis is a tangent: of the angle where one swing is locked alone, else twice that of its half.
+        int angular = joint.Layout().Locked >> (int)CoordinateAxis.AngularX;
+        double tangent = Math.Sqrt(angle);
+        double turned = angular is 0b010 or 0b100 ? Math.Atan(tangent) : 2 * Math.Atan(tangent / 2);
+        return new JointDrift(Math.Sqrt(distance), turned * (180 / Math.PI));
     }
 
     internal static bool IsAtLimit(JointModel joint, in Pose body0, in Pose body1)

@@ -12,6 +12,11 @@ namespace Kinefab.Dynamics;
 public sealed class WorldConfigurableJoint : WorldJoint
 {
     private const int Axes = 6;
+    private const int FirstAngle = (int)CoordinateAxis.AngularX;
+
+    // How far ahead of the joint a goal is put, radians: the rows pull by the sine of the whole or the half of it.
+    private const double MostAheadOfSwing = Math.PI / 2;
+    private const double MostAheadOfTwist = 3;
 
     private readonly double[] _start = new double[Axes];
     private readonly double[] _unwrapped = new double[Axes];
@@ -19,6 +24,10 @@ public sealed class WorldConfigurableJoint : WorldJoint
 
     // Of the angles about X, Y and Z, as the joint's rows count them, radians.
     private readonly double[] _goals;
+
+    // Of the angles too, but with their whole turns; NaN where DriveTo set none.
+    private readonly double[] _turningGoals = { double.NaN, double.NaN, double.NaN };
+    private readonly double[] _speeds = new double[Axes];
     private ConfigurableJoint _settings;
 
     internal WorldConfigurableJoint(MultibodySystem mechanism, int index, JointPlace place, ConfigurableJoint settings)
@@ -36,6 +45,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         {
             _start[i] = Raw(i, 0);
             _unwrapped[i] = _start[i];
+            _speeds[i] = IsAngle(i) ? SpeedOf(i) : 0;
         }
     }
 
@@ -63,6 +73,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _settings = value;
             UnityJoints.Apply(value, (D6Joint)Solved);
             ConfigurableDrives.Goals((D6Joint)Solved).CopyTo(_goals, 0);
+            Array.Fill(_turningGoals, double.NaN);
         }
     }
 
@@ -88,7 +99,8 @@ public sealed class WorldConfigurableJoint : WorldJoint
         double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
         if (IsAngle(i))
         {
-            _goals[i - (int)CoordinateAxis.AngularX] = goal;
+            _turningGoals[i - FirstAngle] = goal;
+            _goals[i - FirstAngle] = goal;
             ConfigurableDrives.SetAngles(joint, _goals);
         }
         else
@@ -106,6 +118,11 @@ public sealed class WorldConfigurableJoint : WorldJoint
         Finite.OrThrow(speed, nameof(speed));
         var joint = (D6Joint)Solved;
         ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
+        if (IsAngle(i))
+        {
+            _turningGoals[i - FirstAngle] = double.NaN;
+        }
+
         double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;
         drive = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = limit, IsAcceleration = true };
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
@@ -114,16 +131,50 @@ public sealed class WorldConfigurableJoint : WorldJoint
     /// <summary>Counts the turns from the pose as it is, within half a turn of zero.</summary>
     internal void Restart()
     {
-        for (int i = (int)CoordinateAxis.AngularX; i < Axes; i++)
+        for (int i = FirstAngle; i < Axes; i++)
+        {
             _unwrapped[i] = Raw(i, 0);
+            _speeds[i] = SpeedOf(i);
+        }
+
+        Solved.LastTwist = _sign * _unwrapped[FirstAngle];
     }
 
-    internal override void AfterStep()
+    // A drive's row knows the goal as a rotation, which it reaches by the shorter way: a goal farther off is led there.
+    internal override void BeforeStep()
     {
-        for (int i = (int)CoordinateAxis.AngularX; i < Axes; i++)
+        bool isLed = false;
+        for (int i = 0; i < _goals.Length; i++)
         {
-            _unwrapped[i] = Raw(i, _unwrapped[i]);
+            if (double.IsNaN(_turningGoals[i]))
+            {
+                continue;
+            }
+
+            double at = _sign * _unwrapped[FirstAngle + i];
+            double ahead = _turningGoals[i] - at;
+            double most = i == 0 ? MostAheadOfTwist : MostAheadOfSwing;
+            double goal = Math.Abs(ahead) > most ? at + Math.Sign(ahead) * most : _turningGoals[i];
+            isLed |= goal != _goals[i];
+            _goals[i] = goal;
         }
+
+        if (isLed)
+        {
+            ConfigurableDrives.SetAngles((D6Joint)Solved, _goals);
+        }
+    }
+
+    internal override void AfterStep(double dt, double endShare)
+    {
+        for (int i = FirstAngle; i < Axes; i++)
+        {
+            double speed = SpeedOf(i);
+            _unwrapped[i] = Raw(i, _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed));
+            _speeds[i] = speed;
+        }
+
+        Solved.LastTwist = _sign * _unwrapped[FirstAngle];
     }
 
     internal override void Exchange(StateTape tape)
@@ -131,6 +182,8 @@ public sealed class WorldConfigurableJoint : WorldJoint
         tape.Value(ref _settings);
         tape.Array(_unwrapped);
         tape.Array(_goals);
+        tape.Array(_turningGoals);
+        tape.Array(_speeds);
     }
 
     private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;
@@ -138,6 +191,16 @@ public sealed class WorldConfigurableJoint : WorldJoint
     private static int Axis(Coordinate coordinate) => coordinate >= Document.Coordinate.X && coordinate <= Document.Coordinate.AngularZ
         ? coordinate - Document.Coordinate.X
         : throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
+
+    // rad/s.
+    private double SpeedOf(int axis)
+    {
+        new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, 0, out ConstraintRow row);
+        Bodies bodies = MultibodySystem.Bodies;
+        Vector3d w0 = Solved.Body0 < 0 ? Vector3d.Zero : bodies.AngularVelocities[Solved.Body0];
+        Vector3d w1 = Solved.Body1 < 0 ? Vector3d.Zero : bodies.AngularVelocities[Solved.Body1];
+        return row.Velocity(Vector3d.Zero, w0, Vector3d.Zero, w1);
+    }
 
     private double Raw(int axis, double near) =>
         new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, near, out _);

@@ -12,9 +12,17 @@ public sealed class WorldHingeJoint : WorldJoint
 {
     private HingeJoint _settings;
     private double _unwrapped;
+    private double _speed;
+
+    // Of DriveTo, radians; NaN without.
+    private double _goal = double.NaN;
 
     internal WorldHingeJoint(MultibodySystem mechanism, int index, JointPlace place, HingeJoint settings)
-        : base(mechanism, index, place) => _settings = settings;
+        : base(mechanism, index, place)
+    {
+        _settings = settings;
+        _speed = Velocity / Degrees;
+    }
 
     /// <summary>Limits, motor, spring, break limits and mass scales. A new value acts from the next step on; the frames stay as created.</summary>
     /// <exception cref="ArgumentException">A number is out of its range or none; the message names the field.</exception>
@@ -33,6 +41,7 @@ public sealed class WorldHingeJoint : WorldJoint
 
             SettingsCheck.ThrowIfWrong(value);
             _settings = value;
+            _goal = double.NaN;
             UnityJoints.Apply(value, (RevoluteJoint)Solved);
         }
     }
@@ -44,7 +53,7 @@ public sealed class WorldHingeJoint : WorldJoint
     public double Angle => Wrapped() * Degrees;
 
     /// <summary>The same with its whole turns since start-up, degrees.</summary>
-    public double UnwrappedAngle => Near(Wrapped(), _unwrapped) * Degrees;
+    public double UnwrappedAngle => SwingTwist.Nearest(Wrapped(), _unwrapped) * Degrees;
 
     /// <summary>HingeJoint.velocity with the sign of the angle's growth, degrees/s.</summary>
     public double Velocity
@@ -72,6 +81,7 @@ public sealed class WorldHingeJoint : WorldJoint
         joint.MotorEnabled = false;
         joint.Spring = PositionDrive(joint.Spring);
         joint.SpringTarget = -target / Degrees;
+        _goal = target / Degrees;
     }
 
     /// <inheritdoc/>
@@ -81,16 +91,36 @@ public sealed class WorldHingeJoint : WorldJoint
         Finite.OrThrow(speed, nameof(speed));
         var joint = (RevoluteJoint)Solved;
         joint.MotorEnabled = true;
+        _goal = double.NaN;
         joint.MotorVelocity = -speed / Degrees;
         joint.MotorForceLimit = _settings.Motor.Force > 0 ? _settings.Motor.Force : double.PositiveInfinity;
     }
 
-    internal override void AfterStep() => _unwrapped = Near(Wrapped(), _unwrapped);
+    // The spring counts from where the joint's own angle stands, which may have wrapped.
+    internal override void BeforeStep()
+    {
+        if (!double.IsNaN(_goal))
+        {
+            var joint = (RevoluteJoint)Solved;
+            double turns = Math.Round((_unwrapped + joint.Angle(Pose0, Pose1)) / (2 * Math.PI));
+            joint.SpringTarget = 2 * Math.PI * turns - _goal;
+        }
+    }
+
+    internal override void AfterStep(double dt, double endShare)
+    {
+        double speed = Velocity / Degrees;
+        _unwrapped = SwingTwist.Nearest(Wrapped(), _unwrapped + dt * ((1 - endShare) * _speed + endShare * speed));
+        _speed = speed;
+        Solved.LastTwist = -_unwrapped;
+    }
 
     internal override void Exchange(StateTape tape)
     {
         tape.Value(ref _settings);
         tape.Value(ref _unwrapped);
+        tape.Value(ref _speed);
+        tape.Value(ref _goal);
     }
 
     private static void Check(Coordinate coordinate)
@@ -109,6 +139,4 @@ public sealed class WorldHingeJoint : WorldJoint
     }
 
     private Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : MultibodySystem.Bodies.AngularVelocities[body];
-
-    private static double Near(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));
 }

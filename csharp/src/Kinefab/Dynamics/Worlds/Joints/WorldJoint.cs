@@ -105,8 +105,17 @@ public abstract class WorldJoint
         ? given
         : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, ForceLimit = double.PositiveInfinity, IsAcceleration = true };
 
-    /// <summary>Called when the joint has been moved by a step.</summary>
-    internal virtual void AfterStep()
+    /// <summary>Called before a step: goals of drives follow the turns that were made.</summary>
+    internal virtual void BeforeStep()
+    {
+    }
+
+    /// <summary>
+    /// Called when the joint has been moved by a step: notes its angles, each the nearest to where it was and the way that its speeds lead.
+    /// </summary>
+    /// <param name="dt">Step, s.</param>
+    /// <param name="endShare">How much of the way is the end speed's, the rest is the start speed's: all in symplectic Euler, half in a step of second order.</param>
+    internal virtual void AfterStep(double dt, double endShare)
     {
     }
 

@@ -156,7 +156,9 @@ public sealed class WorldLinkJoint : WorldJoint
         axis.TargetSpeed = speed / Unit;
     }
 
-    internal override void AfterStep() => _joint.AfterStep();
+    internal override void BeforeStep() => _joint.BeforeStep();
+
+    internal override void AfterStep(double dt, double endShare) => _joint.AfterStep(dt, endShare);
 
     internal override void Exchange(StateTape tape)
     {

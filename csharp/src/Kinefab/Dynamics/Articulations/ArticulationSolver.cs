@@ -27,6 +27,7 @@ internal sealed class ArticulationSolver
 
     private double _dt;
     private bool _needsFlush;
+    private bool _hasFriction;
 
     public ArticulationSolver(ArticulationTree tree, ArticulationRules rules)
     {
@@ -113,10 +114,14 @@ internal sealed class ArticulationSolver
         Array.Clear(Tree.Forces, 0, Tree.Forces.Length);
         Array.Clear(Applied, 0, Applied.Length);
         _needsFlush = hasJoints || _sweeps.Needed();
+        _hasFriction = false;
+        foreach (LinkDefinition link in Tree.Links)
+            _hasFriction |= link.Friction > 0;
         if (!_needsFlush)
             return;
         Responses.FindResponses();
-        FindTransmitted();
+        if (_hasFriction)
+            FindTransmitted();
         _sweeps.Prepare(dt, _transmitted);
         _sweeps.Start();
     }

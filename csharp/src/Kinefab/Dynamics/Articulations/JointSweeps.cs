@@ -128,10 +128,38 @@ internal sealed class JointSweeps
 
     private void Enter(int link, int parent, bool isVelocityIteration, double dt)
     {
+        _impulses[link] = default;
         int first = _tree.FirstFreedom[link];
         int end = _tree.FirstFreedom[link + 1];
+        if (end - first == 1)
+            EnterOne(link, parent, first, isVelocityIteration, dt);
+        else
+            EnterSeveral(link, parent, first, end, isVelocityIteration, dt);
+        SolveWorldRows(link);
+    }
+
+    // Nearly all joints: as EnterSeveral, without its loops.
+    private void EnterOne(int link, int parent, int freedom, bool isVelocityIteration, double dt)
+    {
+        ref Twist above = ref _changes[parent];
+        Vector3d angular = above.Angular;
+        Vector3d linear = above.Linear + Vector3d.Cross(angular, _dynamics.Levers[link]);
+        ref Wrench inertia = ref _dynamics.InertiaAxes[freedom];
+        double answer = _dynamics.InverseInertias[link * Axes * Axes]
+            * (_responses.Kept[freedom] - Vector3d.Dot(inertia.Force, linear) - Vector3d.Dot(inertia.Torque, angular));
+        double given = _rows[freedom].Solve(_startSpeeds[freedom] + answer, isVelocityIteration, dt, _rules);
+        _given[freedom] = given;
+        _hasGiven |= given != 0;
+        ref Twist axis = ref _dynamics.Axis[freedom];
+        ref Twist response = ref _linkResponses[freedom];
+        _changes[link] = new Twist(
+            angular + axis.Angular * answer + response.Angular * given,
+            linear + axis.Linear * answer + response.Linear * given);
+    }
+
+    private void EnterSeveral(int link, int parent, int first, int end, bool isVelocityIteration, double dt)
+    {
         Twist change = _changes[parent].At(_dynamics.Levers[link]);
-        _impulses[link] = default;
         _dynamics.Answer(link, change, _responses.Kept, _responses.Changes);
         for (int f = first; f < end; f++)
             change += _dynamics.Axis[f] * _responses.Changes[f];
@@ -148,7 +176,6 @@ internal sealed class JointSweeps
         }
 
         _changes[link] = change;
-        SolveWorldRows(link);
     }
 
     private void SolveWorldRows(int link)

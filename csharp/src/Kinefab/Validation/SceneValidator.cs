@@ -89,6 +89,14 @@ public static class SceneValidator
                     BodyRules.Mass(body, place);
                     BodyRules.Inertia(body, place);
                     break;
+                case ArticulationBody link:
+                    LinkRules.Numbers(link, place);
+                    LinkRules.Mass(link, place);
+                    LinkRules.LimitsOrder(link, place);
+                    LinkRules.LockedDrives(link, place);
+                    LinkRules.SphericalLocks(link, place);
+                    LinkRules.Tree(document, index, place);
+                    break;
                 case Collider collider:
                     Collider(collider, document, nearestBody, place);
                     break;
@@ -124,7 +132,7 @@ public static class SceneValidator
     private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, in Place at)
     {
         JointRules.Numbers(joint, at);
-        JointRules.OwnBody(objects[index].Body, at);
+        JointRules.OwnBody(objects[index].Link is null ? objects[index].Body : null, at);
         JointRules.ConnectedBody(joint, index, objects, at);
         JointRules.Kinematic(joint, objects[index].Body, objects, at);
         if (joint is AnchoredJoint anchored)
@@ -221,6 +229,8 @@ public static class SceneValidator
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.WorldTransform(parent).Scale, new Place(findings, "gameObjects", i));
+            if (objects[i].Link is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
+                LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, objects[i].ComponentSpan.IndexOf(link)));
         }
 
         foreach ((int index, int component) in anchored)

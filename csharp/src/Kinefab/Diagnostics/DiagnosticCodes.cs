@@ -120,6 +120,9 @@ public static class DiagnosticCodes
     /// <summary>{number} is not a finite number.</summary>
     public const string NumberNotFinite = "NUMBER_NOT_FINITE";
 
+    /// <summary>{number} is 0 as a 32-bit float, and Unity computes in those.</summary>
+    public const string NumberBelowFloat32 = "NUMBER_BELOW_FLOAT32";
+
     /// <summary>{number} is beyond the largest 32-bit float, and Unity computes in those.</summary>
     public const string NumberBeyondFloat32 = "NUMBER_BEYOND_FLOAT32";
 

@@ -15,6 +15,7 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
+from ..joints.limits import feature_of
 from ..mapping import GROUND_ID
 from ..overlaps import check_overlaps
 from ..scene import (
@@ -256,7 +257,8 @@ class _Articulation:
         most = max(passive, default=0.0)
         if stated is not None and most > 0.0:
             feature = f"friction of joint {joint.id}"
-            self.report.withdraw(feature, "JOINT_FRICTION_DROPPED")
+            for freedom in stated.unlocked:
+                self.report.withdraw(feature_of(stated, "friction", freedom), "JOINT_FRICTION_DROPPED")
             told = {"joint": joint.id, "value": f"{most:g}"}
             self.report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)
         return most

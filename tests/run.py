@@ -104,7 +104,7 @@ def run_npm(what: str, *arguments: str) -> None:
 
 def install_node_modules() -> None:
     """PhysX itself, and Khronos' validator of glTF."""
-    if not (ROOT / "tests" / "reference" / "node_modules" / "gltf-validator").is_dir():
+    if not (ROOT / "tests" / "reference" / "node_modules" / "physx-js-webidl").is_dir():
         run_npm("PhysX and glTF validator", "ci", "--silent", "--no-audit", "--no-fund", "--fetch-retries=0")
 
 
@@ -166,6 +166,7 @@ def main() -> int:
         run_python(counts, Path(scratch))
         if has_sdk():  # states of random mechanisms in PhysX, for the C# test that is skipped without them
             run_npm("PhysX states", "run", "--silent", "fuzz")
+            run_npm("random articulations", "run", "--silent", "fuzz:articulations")
         run_csharp(counts, Path(scratch))
     if os.environ.get("KINEFAB_REQUIRE_ALL") == "1":
         counts.failed += [f"skipped, and KINEFAB_REQUIRE_ALL=1: {reason}" for reason in counts.skipped]

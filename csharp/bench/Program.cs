@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|mobility|solver|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|mobility|solver|articulation|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
@@ -13,6 +13,7 @@ internal static class Program
         ["load"] = Tables.Load,
         ["mobility"] = Tables.Mobility,
         ["solver"] = Tables.Solver,
+        ["articulation"] = Tables.Articulation,
     };
 
     private static int Main(string[] args)

@@ -48,15 +48,22 @@ internal static class Tables
     }
 
     /// <summary>Drift and energy beside the time, which takes a harness of its own; it prints its table.</summary>
-    internal static string Solver()
+    internal static string Solver() => Written(() =>
+    {
+        SolverBenchmark.Run();
+        ChainBenchmark.Run();
+    });
+
+    internal static string Articulation() => Written(ArticulationBenchmark.Run);
+
+    private static string Written(Action run)
     {
         TextWriter console = Console.Out;
         using var text = new StringWriter(CultureInfo.InvariantCulture) { NewLine = "\n" };
         Console.SetOut(text);
         try
         {
-            SolverBenchmark.Run();
-            ChainBenchmark.Run();
+            run();
         }
         finally
         {

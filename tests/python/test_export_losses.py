@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import kinefab
 import libraries
 import numpy as np
 import pytest
+from command_line import runner
+from kinefab.cli import app
 from kinefab.diagnostics import KinefabError, Outcome, Report
 from kinefab.model import RX, Drive, Freedom, JointKind, Motion, Passive
 from kinefab.pipeline import prepared
@@ -77,6 +82,62 @@ def test_a_joint_in_full_is_kept_and_its_effort_is_a_feature_of_its_own(tmp_path
     assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [lost, ("joint J", "kept")]
     assert [(e["feature"], e["outcome"]) for e in content["report"]] == [lost, ("joint J", "kept")]
     assert result.report.outcomes[0].message.startswith("Joint J states a largest effort (5) of rx")
+
+
+def test_what_several_freedoms_lose_are_several_features(tmp_path):
+    """A counted loss is one thing that a person can find, by the freedom's own name where it has one."""
+    scene = kinefab.Scene()
+    rough = Freedom(Motion.FREE, passive=Passive(friction=0.1))
+    named = replace(rough, name="travel")
+    part = scene.add_part("P", BOX, density=700.0)
+    scene.add_joint("cylindrical", None, part, point=(0, 0, 0), axis=(1, 0, 0), name="J", tx=named, rx=rough)
+    _, result = exported(scene, tmp_path)
+    became = {o.feature: o.outcome.value for o in result.report.outcomes}
+    assert became == {
+        "friction of joint J, travel": "dropped",
+        "friction of joint J, rx": "dropped",
+        "joint J": "kept",
+    }
+
+
+EFFORT = """<robot name="r"><link name="base"/>
+<link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><cylinder radius="0.1" length="1"/></geometry></collision></link>
+<joint name="shoulder" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="10" velocity="2"/><dynamics friction="0.5"/></joint></robot>"""
+
+
+def test_the_summary_the_report_and_the_page_agree(tmp_path):
+    """A URDF's joint that is carried over in full, with an effort and a friction that have no place."""
+    (tmp_path / "r.urdf").write_text(EFFORT, "utf-8")
+    scene, listed = tmp_path / "r.kinefab", tmp_path / "r.json"
+    source = tmp_path / "r.urdf"
+    said = runner().invoke(app, ["export", str(source), "-o", str(scene), "--report", str(listed)])
+    outcomes = json.loads(listed.read_text("utf-8"))["outcomes"]
+    became = {o["feature"]: o["outcome"] for o in outcomes}
+    assert became["joint shoulder"] == "kept" and len(became) == len(outcomes)
+    lost = {"largest effort and speed of joint shoulder", "friction of joint shoulder"}
+    assert {feature for feature, outcome in became.items() if outcome == "dropped"} == lost
+    words = ("kept", "approximated", "dropped")
+    counts = ", ".join(f"{list(became.values()).count(word)} {word}" for word in words)
+    assert f"features: {counts}." in said.stderr
+    assert counts in runner().invoke(app, ["inspect", str(scene)]).stdout
+    page = kinefab.view(scene, tmp_path / "r.html").read_text("utf-8")
+    data = re.search(r'<script id="data" type="application/json">(.*?)</script>', page, re.DOTALL)
+    shown = json.loads(data[1])["report"]
+    assert {e["feature"]: e["outcome"] for e in shown} == became
+    assert {e["feature"] for e in shown if e["joints"] == [0]} == lost | {"joint shoulder"}
+    words = runner().invoke(app, ["report", str(scene), "-o", str(tmp_path / "p.html")])
+    assert words.exit_code == 0 and f"{counts}." in (tmp_path / "p.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("ending", ["kinefab", "glb", "prefab"])
+def test_a_joint_that_reader_and_target_keep_is_counted_once(ending, tmp_path):
+    """The reader of FreeCAD's documents says what became of each of its joints, and so does what writes them."""
+    source = Path(__file__).parents[2] / "fixtures" / "freecad" / "four_bar.FCStd"
+    result = kinefab.export(source, tmp_path / f"a.{ending}")
+    joints = [o.feature for o in result.report.outcomes if o.feature.startswith("joint ")]
+    assert len(joints) >= 4 and sorted(set(joints)) == sorted(joints)
 
 
 def test_reversed_limits_are_an_error(tmp_path):

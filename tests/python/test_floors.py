@@ -51,7 +51,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"frames", "scene"},
         {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
-        {"counting"},
+        {"counting", "links"},
         {"__init__"},
     ],
     "targets": [
@@ -63,8 +63,8 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "targets/prefab": [
         {"text", "files", "names", "manifest"},
-        {"options", "assets", "objects", "moment", "links", "meshes"},
-        {"losses", "articulation", "project"},
+        {"options", "assets", "objects", "moment", "meshes"},
+        {"losses", "project"},
         {"folder", "exporting"},
         {"__init__"},
     ],

@@ -13,11 +13,9 @@ from scenes import read
 
 ROOT = Path(__file__).parents[2]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
-READMES = [
-    path
-    for path in (ROOT / "README.md", ROOT / "python" / "README.md")
-    if BLOCK.search(path.read_text("utf-8"))
-]
+PAGES = [ROOT / "README.md", ROOT / "python" / "README.md", *sorted((ROOT / "guides").glob("*.md"))]
+"""What a user reads; schemas and results are referred to."""
+READMES = [path for path in PAGES if BLOCK.search(path.read_text("utf-8"))]
 
 
 @pytest.mark.parametrize("readme", READMES, ids=lambda path: path.parent.name)
@@ -45,7 +43,7 @@ EXTRA = re.compile(r"""pip install +(?:-e +)?((?:\\?["'])?)(?:\./python|kinefab)
 
 def test_extras_are_asked_for_in_words_that_every_shell_takes():
     """Brackets alone are a pattern to zsh, macOS' own, which finds no file; apostrophes are letters to Windows' cmd."""
-    told = [ROOT / "README.md", ROOT / "python" / "README.md", ROOT / "schemas" / "diagnostics.json"]
+    told = [*PAGES, ROOT / "schemas" / "diagnostics.json"]
     told += (ROOT / "python" / "src").rglob("*.py")
     marks = {path: EXTRA.findall(path.read_text(encoding="utf-8")) for path in told}
     wrong = {path.name: found for path, found in marks.items() if set(found) - {'"', '\\"'}}
@@ -79,3 +77,55 @@ def test_solver_figures_are_those_of_the_results():
         for width, ns in zip(lanes.split(" / "), figures.split(" / "))
     }
     assert len(told) == 7 and told.items() <= measured.items()
+
+
+def test_the_page_of_mates_says_first_that_they_are_to_be_looked_over():
+    """What an independent set gave stands above our own machines, and how to look before either."""
+    page = (ROOT / "guides" / "mates.md").read_text("utf-8")
+    words = ("Look them over", "kinefab view", "| 14 | 0.73 | 0.79 | 7 of 14 |", "| 68 |")
+    assert (told := [page.index(word) for word in words]) == sorted(told)
+    (line,) = [line for line in README.splitlines() if "guides/mates.md" in line]
+    assert "`kinefab view robot.step --mates auto`" in line and "looked over" in line
+
+
+README = (ROOT / "README.md").read_text("utf-8")
+SCREEN = "\n".join(README.splitlines()[:30])
+READERS = ("Unity developer", "CAD engineer", "roboticist", "script writer", "CI maintainer")
+
+
+def test_the_first_screen_says_what_it_is_for_whom_and_what_to_type(tmp_path):
+    """A picture, three commands of which the two of ours run as they stand, and for whom it is not."""
+    assert re.search(r"^!\[.+\]\(fixtures/lever/lever\.gif\)$", SCREEN, re.MULTILINE)
+    assert "**Is it for me?** Yes, if" in SCREEN and "No, if" in SCREEN
+    commands = SCREEN.partition("```sh\n")[2].partition("```")[0].splitlines()
+    assert len(commands) == 3 and commands[0].startswith("pip install ./python ")
+    (tmp_path / "fixtures").symlink_to(ROOT / "fixtures")
+    for command in commands[1:]:
+        program, *words = command.partition("#")[0].replace("--open", "").split()
+        assert program == "kinefab"
+        done = subprocess.run([sys.executable, "-m", "kinefab", *words], cwd=tmp_path, capture_output=True)
+        assert done.returncode == 0, done.stderr
+    written = {path.suffix for path in tmp_path.iterdir()}
+    assert written >= {".unitypackage", ".html"}
+
+
+def test_each_reader_has_ten_lines_and_a_link():
+    """What is longer stands on the page that is linked; headings, blank lines and fences are not counted."""
+    for reader in READERS:
+        title = reader[0].upper() + reader[1:]
+        assert f"[{reader}](#{reader.lower().replace(' ', '-')})" in README
+        section = README.partition(f"\n## {title}\n")[2].partition("\n## ")[0]
+        lines = [line for line in section.splitlines() if line and not line.startswith("```")]
+        assert 3 <= len(lines) <= 10, reader
+        assert re.search(r"\]\((guides|python|schemas)/", section), reader
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_words_are_those_that_people_say(page):
+    """What a newcomer does not know is said in the README's first words, or is not said."""
+    text = page.read_text("utf-8")
+    assert not re.search(r"\b(and|are|is|each|text|reasons?) told\b|\btold by name\b|closing row", text)
+    if page.parent == ROOT:
+        head = text.partition("\n## ")[0]
+        assert all(f"**{word}**" in head for word in ("kept", "approximated", "dropped", "feature", "mate", "scene"))
+        assert "**CAD bundle** is" in " ".join(head.split())

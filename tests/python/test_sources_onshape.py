@@ -82,6 +82,24 @@ def test_an_answer_that_was_not_saved_is_told(tmp_path, missing):
     assert all(f"{missing}.json" in d.message and "Rebuild" not in d.remedy for d in report.diagnostics)
 
 
+def test_meshes_that_were_not_saved_are_told_once(tmp_path):
+    """A definition alone: the joints move, and one finding says which files would draw the parts."""
+    path = shutil.copy(DEFINITION, tmp_path)
+    report = Report()
+    scene = sources.read(path, report)
+    assert len(scene.joints) == 6 and not any(node.bodies for node in scene.nodes)
+    codes = [d.code for d in report.diagnostics]
+    assert codes.count("CAPTURE_MESHES_NOT_SAVED") == 1 and "CAPTURE_MEMBER_FAILED" not in codes
+    (told,) = (d for d in report.diagnostics if d.code == "CAPTURE_MESHES_NOT_SAVED")
+    assert "6 part(s)" in told.message and "EShaft.ipt_JHD.glb" in told.message
+    lost = [o.feature for o in report.outcomes if o.code == "CAPTURE_MESHES_NOT_SAVED"]
+    assert len(lost) == 6 and "mesh of BarC:1" in lost
+    shutil.copy(DEFINITION.parent / "EBarC.ipt_JHD.stl", tmp_path)
+    report = Report()
+    sources.read(path, report)
+    assert any("5 part(s)" in d.message for d in report.diagnostics)
+
+
 def test_limits_of_an_assembly_inside_are_read_from_a_file_of_its_element(tmp_path):
     """A lever below another assembly: told by the name of the file that would hold them, and read from there."""
     values = json.loads(DEFINITION.read_text("utf-8"))

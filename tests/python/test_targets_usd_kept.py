@@ -83,8 +83,8 @@ def test_of_a_joint_that_slides_too_they_stand_there_and_engines_take_none(tmp_p
     slide = Freedom(Motion.LIMITED, -0.02, 0.1, passive=Passive(friction=12.0))
     path, lost = written(pair("cylindrical", tx=slide, rx=turning(friction=0.5, effort=9.0)), tmp_path)
     assert sorted(lost) == [
-        ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
-        ("joint Joint", "TARGET_FEATURE_APPROXIMATED"),
+        ("friction, armature and largest speed of joint Joint, rx", "TARGET_FEATURE_APPROXIMATED"),
+        ("friction, armature and largest speed of joint Joint, tx", "TARGET_FEATURE_APPROXIMATED"),
         ("the largest effort of rx of joint Joint", "TARGET_FIELD_DROPPED"),
     ]
     freedoms = back(path).freedoms

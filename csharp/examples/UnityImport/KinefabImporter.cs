@@ -24,9 +24,11 @@ namespace KinefabUnity
         /// <param name="material">Lit material of the project's render pipeline, copied for each surface; null: the Standard shader's.</param>
         /// <param name="parent">Where the scene's roots go; null: to the top of the hierarchy. Its scale should be one.</param>
         /// <returns>The objects in the order of the file, so that the file's indices hold.</returns>
+        /// <exception cref="System.NotSupportedException">The scene has ArticulationBodies.</exception>
         public static GameObject[] Import(ValidScene scene, Material material = null, Transform parent = null)
         {
             Doc.SceneDocument document = scene.Document;
+            RefuseLinks(document);
             var objects = new GameObject[document.GameObjects.Count];
 
             // Every pose comes before any body: PhysX takes a body's pose when the body is made.
@@ -87,6 +89,21 @@ namespace KinefabUnity
             to.localPosition = Vector(from.LocalPosition);
             to.localRotation = Rotation(from.LocalRotation);
             to.localScale = Vector(from.LocalScale);
+        }
+
+        // As Rigidbodies links would fall apart.
+        private static void RefuseLinks(Doc.SceneDocument document)
+        {
+            foreach (Doc.GameObject from in document.GameObjects)
+            {
+                foreach (Doc.Component component in from.Components)
+                {
+                    if (component is Doc.ArticulationBody)
+                    {
+                        throw new System.NotSupportedException($"{from.Id} is a link: articulations come into Unity by a prefab, kinefab export -o NAME.prefab --physics articulation.");
+                    }
+                }
+            }
         }
 
         private static void Set(Rigidbody to, Doc.Rigidbody from, Doc.Physics project)

@@ -14,12 +14,12 @@ internal sealed class SceneSummary
         for (int i = 0; i < Document.GameObjects.Count; i++)
         {
             IReadOnlyList<Component> components = Document.GameObjects[i].Components;
-            Bodies += components.Count(component => component is Rigidbody);
+            Bodies += components.Count(component => component is Rigidbody or ArticulationBody);
             Colliders += components.Count(component => component is Collider);
             for (int c = 0; c < components.Count; c++)
             {
-                if (components[c] is Joint joint)
-                    Joints.Add(new JointSummary(i, c, joint, scene.Freedoms(i, c)));
+                if (components[c] is Joint || (components[c] is ArticulationBody && !scene.IsRootLink(i)))
+                    Joints.Add(new JointSummary(i, c, components[c].GetType().Name, scene.Joint(new JointCoordinate { GameObject = i, Component = c }), scene.Freedoms(i, c)));
             }
         }
     }
@@ -40,4 +40,4 @@ internal sealed class SceneSummary
 }
 
 /// <summary>A joint, where it stands and what it leaves free.</summary>
-internal sealed record JointSummary(int GameObject, int Component, Joint Joint, IReadOnlyList<JointFreedom> Freedoms);
+internal sealed record JointSummary(int GameObject, int Component, string Type, Joint Joint, IReadOnlyList<JointFreedom> Freedoms);

@@ -32,7 +32,7 @@ internal static class SummaryJson
     private static void Write(JointSummary summary, SceneDocument document, Utf8JsonWriter json)
     {
         json.WriteStartObject();
-        json.WriteString("type", summary.Joint.GetType().Name);
+        json.WriteString("type", summary.Type);
         json.WriteString("gameObject", document.GameObjects[summary.GameObject].Id);
         json.WriteNumber("component", summary.Component);
         if (summary.Joint.ConnectedBody is int body)

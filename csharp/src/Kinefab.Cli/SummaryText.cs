@@ -40,7 +40,7 @@ internal static class SummaryText
         string freedoms = summary.Freedoms.Count == 0 ? "nothing free" : string.Join(", ", summary.Freedoms.Select(Describe));
         string closure = summary.Joint.Closure ? ", closes a loop" : "";
         string exact = summary.Joint.Exact ? "" : ", approximated";
-        return $"{summary.Joint.GetType().Name} {document.GameObjects[summary.GameObject].Id} - {other}: {freedoms}{closure}{exact}";
+        return $"{summary.Type} {document.GameObjects[summary.GameObject].Id} - {other}: {freedoms}{closure}{exact}";
     }
 
     private static string Describe(JointFreedom freedom)

@@ -262,11 +262,25 @@ class Report:
         >>> len(report.outcomes), len(report.diagnostics)
         (1, 1)
         """
+        self._alike(features, Outcome.APPROXIMATED, code, values)
+
+    def dropped_alike(self, features: Iterable[str], code: str, **values: object) -> None:
+        """Note features that are not in the scene for one reason, and one finding for all of them.
+
+        >>> report = kinefab.Report()
+        >>> told = {"count": 2, "files": "E_A.glb, E_B.glb", "program": "Onshape"}
+        >>> report.dropped_alike(["mesh of A", "mesh of B"], "CAPTURE_MESHES_NOT_SAVED", **told)
+        >>> len(report.outcomes), len(report.diagnostics)
+        (2, 1)
+        """
+        self._alike(features, Outcome.DROPPED, code, values)
+
+    def _alike(
+        self, features: Iterable[str], outcome: Outcome, code: str, values: Mapping[str, object]
+    ) -> None:
         found = self.add(code, **values)
-        self.outcomes += [
-            FeatureOutcome(feature, Outcome.APPROXIMATED, code, found.severity, found.message)
-            for feature in features
-        ]
+        lost = outcome, code, found.severity, found.message
+        self.outcomes += [FeatureOutcome(feature, *lost) for feature in features]
 
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
         """Note that a feature is not in the scene, and the finding that says why.

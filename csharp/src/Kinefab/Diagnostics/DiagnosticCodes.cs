@@ -96,6 +96,12 @@ public static class DiagnosticCodes
     /// <summary>The connected gameObjects[{gameObject}] has no Rigidbody.</summary>
     public const string ConnectedBodyWithoutRigidbody = "CONNECTED_BODY_WITHOUT_RIGIDBODY";
 
+    /// <summary>The ArticulationBody stands below the Rigidbody of {object}.</summary>
+    public const string LinkBelowRigidbody = "LINK_BELOW_RIGIDBODY";
+
+    /// <summary>The GameObject has an ArticulationBody and a Rigidbody.</summary>
+    public const string LinkAndRigidbody = "LINK_AND_RIGIDBODY";
+
     /// <summary>The joint connects its own GameObject with itself.</summary>
     public const string JointConnectsItself = "JOINT_CONNECTS_ITSELF";
 
@@ -113,6 +119,9 @@ public static class DiagnosticCodes
 
     /// <summary>{number} is not a finite number.</summary>
     public const string NumberNotFinite = "NUMBER_NOT_FINITE";
+
+    /// <summary>{number} is 0 as a 32-bit float, and Unity computes in those.</summary>
+    public const string NumberBelowFloat32 = "NUMBER_BELOW_FLOAT32";
 
     /// <summary>{number} is beyond the largest 32-bit float, and Unity computes in those.</summary>
     public const string NumberBeyondFloat32 = "NUMBER_BEYOND_FLOAT32";
@@ -143,6 +152,9 @@ public static class DiagnosticCodes
 
     /// <summary>The lower limit {min} is above the upper one {max}.</summary>
     public const string HingeLimitsOrder = "HINGE_LIMITS_ORDER";
+
+    /// <summary>The lower limit {lower} is above the upper one {upper}.</summary>
+    public const string LinkLimitsOrder = "LINK_LIMITS_ORDER";
 
     /// <summary>lowAngularXLimit {low} is above highAngularXLimit {high}.</summary>
     public const string AngularXLimitsOrder = "ANGULAR_X_LIMITS_ORDER";
@@ -249,6 +261,15 @@ public static class DiagnosticCodes
     /// <summary>The drive does nothing, because its axis is locked.</summary>
     public const string DriveOnLockedFreedom = "DRIVE_ON_LOCKED_FREEDOM";
 
+    /// <summary>One axis alone of the spherical joint is limited, which Unity refuses.</summary>
+    public const string LinkSphericalOneLimited = "LINK_SPHERICAL_ONE_LIMITED";
+
+    /// <summary>The link is immovable, but not the root of its articulation, so Unity moves it all the same.</summary>
+    public const string LinkImmovableNotRoot = "LINK_IMMOVABLE_NOT_ROOT";
+
+    /// <summary>The two anchors of the link are {distance} m and {angle} degrees apart, and the first step snaps the link there.</summary>
+    public const string LinkAnchorsApart = "LINK_ANCHORS_APART";
+
     /// <summary>maximumForce is 0, so the drive does nothing.</summary>
     public const string DriveMaximumForceZero = "DRIVE_MAXIMUM_FORCE_ZERO";
 
@@ -275,6 +296,9 @@ public static class DiagnosticCodes
 
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
+
+    /// <summary>The exact solver leaves out {what} of the link.</summary>
+    public const string LinkNotExact = "LINK_NOT_EXACT";
 
     /// <summary>The {joint} comes apart by {measure} within {seconds} s in Unity's solver{others}.</summary>
     public const string AdviceJointDrifts = "ADVICE_JOINT_DRIFTS";

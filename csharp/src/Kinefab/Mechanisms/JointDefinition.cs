@@ -13,12 +13,16 @@ internal readonly struct JointDefinition
     /// <summary>The connected body, or JointModel.World.</summary>
     public readonly int Connected;
 
-    public JointDefinition(int gameObject, int component, Document.Joint source, int own, int connected)
+    /// <summary>The link whose joint it is; null: it is a component by itself.</summary>
+    public readonly Document.ArticulationBody? Link;
+
+    public JointDefinition(int gameObject, int component, Document.Joint source, int own, int connected, Document.ArticulationBody? link = null)
     {
         GameObject = gameObject;
         Component = component;
         Source = source;
         Own = own;
         Connected = connected;
+        Link = link;
     }
 }

@@ -29,7 +29,7 @@ internal sealed class MechanismDefinition
     /// <summary>For each GameObject the body that carries it along, or Joint.World.</summary>
     public int[] BodyOf { get; }
 
-    /// <summary>In order of GameObject and component.</summary>
+    /// <summary>In order of GameObject and component; a link's own joint among them.</summary>
     public IReadOnlyList<JointDefinition> Joints { get; }
 
     /// <summary>What Unity makes of a scene: inactive objects have neither bodies nor joints.</summary>
@@ -59,6 +59,10 @@ internal sealed class MechanismDefinition
                 if (objects[i].Components[c] is Document.Joint joint)
                 {
                     joints.Add(new JointDefinition(i, c, joint, bodyOf[i], Connected(joint)));
+                }
+                else if (objects[i].Components[c] is ArticulationBody link && LinkJoint.Of(scene.Document, i) is Document.Joint held)
+                {
+                    joints.Add(new JointDefinition(i, c, held, bodyOf[i], Connected(held), link));
                 }
             }
 

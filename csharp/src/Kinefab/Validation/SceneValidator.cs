@@ -25,11 +25,16 @@ public static class SceneValidator
         Descriptions(document, findings);
         StructureRules.Ids(document, findings);
         var anchored = new List<(int GameObject, int Component)>();
+
+        // The nearest Rigidbody on each object or its ancestors; parents may still be wrong, so only earlier ones count.
+        var bodies = new Rigidbody?[document.GameObjectSpan.Length];
         for (int i = 0; i < document.GameObjectSpan.Length; i++)
         {
             if (i % ObjectsBetweenLooks == 0)
                 cancellation.ThrowIfCancellationRequested();
-            GameObject(document, i, anchored, findings);
+            GameObject gameObject = document.GameObjectSpan[i];
+            bodies[i] = gameObject.Body ?? (gameObject.Parent is int parent && parent >= 0 && parent < i ? bodies[parent] : null);
+            GameObject(document, i, bodies[i], anchored, findings);
         }
 
         Lists(document, findings);
@@ -52,7 +57,7 @@ public static class SceneValidator
             DescriptionRules.Analysis(analysis, document.GameObjects.Count, new Place(findings, "analysis"));
     }
 
-    private static void GameObject(SceneDocument document, int index, List<(int GameObject, int Component)> anchored, Findings findings)
+    private static void GameObject(SceneDocument document, int index, Rigidbody? nearestBody, List<(int GameObject, int Component)> anchored, Findings findings)
     {
         ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
         GameObject gameObject = objects[index];
@@ -84,8 +89,16 @@ public static class SceneValidator
                     BodyRules.Mass(body, place);
                     BodyRules.Inertia(body, place);
                     break;
+                case ArticulationBody link:
+                    LinkRules.Numbers(link, place);
+                    LinkRules.Mass(link, place);
+                    LinkRules.LimitsOrder(link, place);
+                    LinkRules.LockedDrives(link, place);
+                    LinkRules.SphericalLocks(link, place);
+                    LinkRules.Tree(document, index, place);
+                    break;
                 case Collider collider:
-                    Collider(collider, document, index, place);
+                    Collider(collider, document, nearestBody, place);
                     break;
                 case Joint joint:
                     Joint(joint, index, objects, place);
@@ -96,7 +109,7 @@ public static class SceneValidator
         }
     }
 
-    private static void Collider(Collider collider, SceneDocument document, int index, in Place at)
+    private static void Collider(Collider collider, SceneDocument document, Rigidbody? nearestBody, in Place at)
     {
         switch (collider)
         {
@@ -111,23 +124,15 @@ public static class SceneValidator
                 break;
             case MeshCollider mesh:
                 NumberRules.Reference(at, "mesh", mesh.Mesh, "meshes", document.Meshes.Count);
-                ColliderRules.Convexity(mesh, BodyOf(index, document.GameObjectSpan), at);
+                ColliderRules.Convexity(mesh, nearestBody, at);
                 break;
         }
-    }
-
-    /// <summary>The nearest Rigidbody on the object or its ancestors; parents may still be wrong, so only earlier ones count.</summary>
-    private static Rigidbody? BodyOf(int index, ReadOnlySpan<GameObject> objects)
-    {
-        while (objects[index].Body is null && objects[index].Parent is int parent && parent >= 0 && parent < index)
-            index = parent;
-        return objects[index].Body;
     }
 
     private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, in Place at)
     {
         JointRules.Numbers(joint, at);
-        JointRules.OwnBody(objects[index].Body, at);
+        JointRules.OwnBody(objects[index].Link is null ? objects[index].Body : null, at);
         JointRules.ConnectedBody(joint, index, objects, at);
         JointRules.Kinematic(joint, objects[index].Body, objects, at);
         if (joint is AnchoredJoint anchored)
@@ -224,6 +229,8 @@ public static class SceneValidator
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.WorldTransform(parent).Scale, new Place(findings, "gameObjects", i));
+            if (objects[i].Link is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
+                LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, objects[i].ComponentSpan.IndexOf(link)));
         }
 
         foreach ((int index, int component) in anchored)

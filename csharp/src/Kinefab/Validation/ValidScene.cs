@@ -53,10 +53,15 @@ public sealed partial class ValidScene
     internal WorldTransform Connected(Joint joint) =>
         joint.ConnectedBody is int body ? WorldTransform(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));
 
-    /// <summary>The Rigidbody of a GameObject; null when it has none.</summary>
+    /// <summary>The Rigidbody of a GameObject, or its ArticulationBody as one; null when it has neither.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public Rigidbody? Body(int gameObject) => Document.GameObjects[Index(gameObject)].Body;
+
+    /// <summary>Whether a GameObject's ArticulationBody is the root of its articulation; false without one.</summary>
+    /// <param name="gameObject">Index of the GameObject.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
+    public bool IsRootLink(int gameObject) => Document.GameObjects[Index(gameObject)].Link is not null && LinkJoint.Parent(Document, gameObject) is null;
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
@@ -91,6 +96,9 @@ public sealed partial class ValidScene
                 joints += component is Joint ? 1 : 0;
         }
 
+        for (int i = 0; i < Document.GameObjects.Count; i++)
+            joints += LinkJoint.Of(Document, i) is null ? 0 : 1;
+
         return $"scene of {Document.GameObjects.Count} objects, {bodies} bodies, {joints} joints, {Document.Couplings.Count} couplings; {Report}";
     }
 
@@ -101,6 +109,8 @@ public sealed partial class ValidScene
     private Joint JointAt(int gameObject, int component, string argument)
     {
         IReadOnlyList<Component> components = Document.GameObjects[Index(gameObject)].Components;
+        if ((uint)component < (uint)components.Count && components[component] is ArticulationBody && LinkJoint.Of(Document, gameObject) is Joint held)
+            return held;
         return (uint)component < (uint)components.Count && components[component] is Joint joint
             ? joint
             : throw new ArgumentOutOfRangeException(argument, $"Component {component} of {Document.GameObjects[gameObject].Id} is no joint.");

@@ -50,7 +50,7 @@ PHYSICS = FormatOption(
 PREFAB_OPTIONS = (UNITY, PIPELINE, SCRIPTS, PHYSICS)
 
 TARGETS = (
-    Target("Kinefab scene", (".kinefab",), "kinefab_file"),
+    Target("Kinefab scene", (".kinefab",), "kinefab_file", (PHYSICS,)),
     Target("Unity prefab", (".prefab",), "prefab", PREFAB_OPTIONS),
     Target("glTF 2.0", (".glb",), "gltf"),
     Target("USD", (".usda", ".usdc", ".usdz"), "usd", requires=("pxr",), extra="usd"),

@@ -24,13 +24,16 @@ from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
 from ..unity.counting import with_led_joints_on_light_bodies
-from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
+from ..unity.links.tree import articulated
+from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
 from .numbers import plain_value, significant
 
 FORMAT_VERSION = "1.0"
+LINKS_VERSION = "1.1"
+"""Of a scene with ArticulationBodies, which 1.0 has no word for."""
 UINT16_VERTICES = 65535
 """Most vertices that Unity's 16-bit index format counts."""
 HASH_DIGITS = 16
@@ -65,7 +68,7 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     as they were.
     """
     report = content.report
-    scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(), report))
+    scene = _in_unity(content)
     _tell_losses(scene, report)
     _tell_mesh_losses(content.scene.meshes, report)
     content.refuse_losses()
@@ -94,14 +97,27 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     return (target,) if buffer_path is None else (target, buffer_path)
 
 
+def _in_unity(content: Content) -> UnityScene:
+    """In Unity's terms, as the format can say them; by links where that is asked for."""
+    links = content.options.get("physics") == "articulation"
+    scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(links), content.report))
+    if not links:
+        return scene
+    return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
+
+
 def _head(scene: UnityScene) -> dict[str, Any]:
     """Everything before the meshes, in the file's order."""
     head: dict[str, Any] = {
         "format": "kinefab.scene",
-        "version": FORMAT_VERSION,
+        "version": LINKS_VERSION if _has_links(scene) else FORMAT_VERSION,
         "generator": {"name": "kinefab", "version": __version__},
     }
     return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
+
+
+def _has_links(scene: UnityScene) -> bool:
+    return any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components)
 
 
 def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:

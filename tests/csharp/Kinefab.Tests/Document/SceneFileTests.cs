@@ -43,6 +43,51 @@ public class SceneFileTests
     }
 
     [Test]
+    public void Load_ABufferThatManyName_IsHeldOnce()
+    {
+        string folder = Directory.CreateTempSubdirectory().FullName;
+        try
+        {
+            File.WriteAllBytes(Path.Combine(folder, "b.bin"), new byte[4096]);
+            string buffers = string.Join(", ", Enumerable.Repeat("""{"uri": "b.bin", "byteLength": 4096, "sha256": "ad7facb2586fc6e966c004d7d1d16b024f5805ff7cb47c7a85dabd8b48892ca7"}""", 50));
+            string path = Path.Combine(folder, "a.kinefab");
+            File.WriteAllText(path, OneObject.Replace("EXTRA", "", StringComparison.Ordinal).Replace("}]}", "}], \"buffers\": [" + buffers + "]}", StringComparison.Ordinal));
+            SceneReading reading = SceneFile.Load(path);
+            Assert.That(reading.Document!.Buffers, Has.Count.EqualTo(50));
+            Assert.That(reading.Document.Buffers.Select(buffer => buffer.Data!.Value).Distinct(), Has.Exactly(1).Items, "memory of one array");
+        }
+        finally
+        {
+            Directory.Delete(folder, recursive: true);
+        }
+    }
+
+    /// <summary>Opening a pipe that nobody writes into waits for ever.</summary>
+    [Test]
+    [Platform("Linux,MacOsX")]
+    [CancelAfter(30_000)]
+    public void Load_APipeInPlaceOfABuffer_IsRefusedUnopened([Values] bool isLink)
+    {
+        string folder = Directory.CreateTempSubdirectory().FullName;
+        try
+        {
+            string pipe = Path.Combine(folder, isLink ? "pipe" : "b.bin");
+            using (var made = System.Diagnostics.Process.Start("mkfifo", [pipe]))
+                made.WaitForExit();
+            if (isLink)
+                File.CreateSymbolicLink(Path.Combine(folder, "b.bin"), pipe);
+            string path = Path.Combine(folder, "a.kinefab");
+            File.WriteAllText(path, OneObject.Replace("EXTRA", "", StringComparison.Ordinal).Replace("}]}", """}], "buffers": [{"uri": "b.bin", "byteLength": 4096, "sha256": "ad7facb2586fc6e966c004d7d1d16b024f5805ff7cb47c7a85dabd8b48892ca7"}]}""", StringComparison.Ordinal));
+            SceneDocument document = SceneFile.Load(path).Document!;
+            Assert.That(Kinefab.Validation.SceneValidator.Validate(document).Report.Diagnostics.Select(d => d.Code), Is.EqualTo([DiagnosticCodes.BufferSize]));
+        }
+        finally
+        {
+            Directory.Delete(folder, recursive: true);
+        }
+    }
+
+    [Test]
     public void Parse_TextAboveTheLimit_IsRefused()
     {
         var options = new SceneReadOptions { Limits = new SceneLimits { MaxFileBytes = 10 } };

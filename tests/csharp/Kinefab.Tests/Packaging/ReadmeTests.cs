@@ -15,7 +15,7 @@ using static Kinefab.NUnit.MechanismConstraints;
 
 namespace Kinefab.Tests.Packaging;
 
-/// <summary>The C# of the README, line by line, so that it compiles and runs.</summary>
+/// <summary>The C# of the README and the guides, line by line, so that it compiles and runs.</summary>
 [NonParallelizable]
 public sealed class ReadmeTests
 {
@@ -92,7 +92,8 @@ public sealed class ReadmeTests
         HashSet<string> here = File.ReadAllLines(ThisFile()).Select(Plain).ToHashSet();
         bool inside = false;
         var missing = new List<string>();
-        foreach (string line in File.ReadAllLines(Path.Combine(Root(), "README.md")))
+        string[] pages = [Path.Combine(Root(), "README.md"), .. Directory.GetFiles(Path.Combine(Root(), "guides"), "*.md")];
+        foreach (string line in pages.SelectMany(File.ReadAllLines))
         {
             if (line.StartsWith("```", StringComparison.Ordinal))
                 inside = line == "```csharp";

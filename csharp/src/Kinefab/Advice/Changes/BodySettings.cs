@@ -26,7 +26,8 @@ internal static class BodySettings
     {
         foreach (WorldJoint joint in world.Joints)
         {
-            if (joint.Solved.Body0 < 0 || joint.Solved.Body1 < 0)
+            // Reduced coordinates take any ratio along a tree.
+            if (joint is WorldLinkJoint || joint.Solved.Body0 < 0 || joint.Solved.Body1 < 0)
                 continue;
             WorldBody a = world.Bodies[joint.Solved.Body0];
             WorldBody b = world.Bodies[joint.Solved.Body1];
@@ -92,7 +93,7 @@ internal static class BodySettings
         for (int i = 0; i < turns.Length; i++)
         {
             WorldBody b = world.Bodies[i];
-            if (b.IsKinematic || !b.Settings.UseGravity)
+            if (b.IsKinematic || !b.Settings.UseGravity || b.IsLink)
                 continue;
             double weight = b.Settings.Mass * world.Gravity.Length * step * step;
             turns[i] = new Vector3d(Turn(b, arms[i], weight, 0), Turn(b, arms[i], weight, 1), Turn(b, arms[i], weight, 2));
@@ -121,7 +122,7 @@ internal static class BodySettings
         for (int i = 0; i < world.Bodies.Count; i++)
         {
             WorldBody body = world.Bodies[i];
-            if (body.IsKinematic)
+            if (body.IsKinematic || body.IsLink)
                 continue;
             Vector3d now = body.Settings.InertiaTensor;
             Vector3d turn = turns[i];
@@ -147,7 +148,7 @@ internal static class BodySettings
     }
 
     public static string Pointer(ValidScene scene, WorldBody body) =>
-        EditText.Component(body.GameObject, scene.Document.GameObjects[body.GameObject].Components.ToList().FindIndex(c => c is Rigidbody));
+        EditText.Component(body.GameObject, scene.Document.GameObjects[body.GameObject].Components.ToList().FindIndex(c => c is Rigidbody or ArticulationBody));
 
     private static bool IsFrozen(Rigidbody body, int axis) =>
         (body.Constraints & (RigidbodyConstraints)((int)RigidbodyConstraints.FreezeRotationX << axis)) != 0;

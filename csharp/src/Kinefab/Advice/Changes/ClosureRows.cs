@@ -109,7 +109,8 @@ internal static class ClosureRows
     // The locked rows and the component as a ConfigurableJoint; null for what has drives or limits of a hinge that would be lost.
     private static (MotionField[] Locked, JsonTree Component)? Locked(ValidScene scene, RedundantRows place)
     {
-        var joint = (Joint)scene.Document.GameObjects[place.GameObject].Components[place.Component];
+        if (scene.Document.GameObjects[place.GameObject].Components[place.Component] is not Joint joint)
+            return null;
         JsonTree component = EditedScene.Component(scene, place.GameObject, place.Component);
         if (joint is ConfigurableJoint configurable)
             return (MotionField.All.Where(f => f.In(configurable) == ConfigurableJointMotion.Locked).ToArray(), component);

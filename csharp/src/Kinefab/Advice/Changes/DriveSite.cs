@@ -50,7 +50,7 @@ internal sealed class DriveSite
     /// <summary>The same drive with another largest force.</summary>
     public ChangePart WithForce(double force)
     {
-        (string field, string word) = Joint is WorldHingeJoint ? ("force", "Force") : ("maximumForce", "Maximum Force");
+        (string field, string word) = Joint is WorldHingeJoint ? ("force", "Force") : Joint is WorldLinkJoint ? ("forceLimit", "Force Limit") : ("maximumForce", "Maximum Force");
         string value = EditText.Number(force);
         return new ChangePart(Joint.GameObject, $"{Label} > {word} {EditText.Number(Force)} -> {value}", Place, new SceneEdit($"{Pointer}/{field}", value));
     }
@@ -58,7 +58,7 @@ internal sealed class DriveSite
     /// <summary>The same drive with another damper.</summary>
     public ChangePart WithDamper(double damper)
     {
-        (string field, string word) = Joint is WorldHingeJoint ? ("damper", "Damper") : ("positionDamper", "Position Damper");
+        (string field, string word) = Joint is WorldHingeJoint ? ("damper", "Damper") : Joint is WorldLinkJoint ? ("damping", "Damping") : ("positionDamper", "Position Damper");
         string value = EditText.Number(damper);
         return new ChangePart(Joint.GameObject, $"{Label} > {word} {EditText.Number(Damper)} -> {value}", Place, new SceneEdit($"{Pointer}/{field}", value));
     }
@@ -69,6 +69,13 @@ internal sealed class DriveSite
         foreach (WorldJoint joint in world.Joints)
         {
             string place = JointSettings.Place(scene, joint);
+            if (joint is WorldLinkJoint link)
+            {
+                foreach (DriveSite site in Of(link, place))
+                    yield return site;
+                continue;
+            }
+
             switch (JointSettings.Of(scene, joint))
             {
                 case HingeJoint { UseMotor: true } hinge when hinge.Motor.Force > 0:
@@ -83,6 +90,22 @@ internal sealed class DriveSite
                         yield return site;
                     break;
             }
+        }
+    }
+
+    // Those of the types Target and Velocity have no gains to change.
+    private static IEnumerable<DriveSite> Of(WorldLinkJoint joint, string place)
+    {
+        foreach (Coordinate coordinate in joint.FreeCoordinates)
+        {
+            (string field, string label, ArticulationDrive drive) = coordinate switch
+            {
+                Coordinate.AngularY => ("yDrive", "Y Drive", joint.Settings.YDrive),
+                Coordinate.AngularZ => ("zDrive", "Z Drive", joint.Settings.ZDrive),
+                _ => ("xDrive", "X Drive", joint.Settings.XDrive),
+            };
+            if (drive.DriveType is ArticulationDriveType.Force or ArticulationDriveType.Acceleration && drive.IsActive)
+                yield return new DriveSite(joint, place, field, label, new[] { coordinate }, drive.Stiffness, drive.Damping, drive.ForceLimit);
         }
     }
 

@@ -14,7 +14,7 @@ internal static class JointSettings
     /// <summary>Preprocessing off everywhere.</summary>
     public static Change? PreprocessingOff(ValidScene scene, World world)
     {
-        ChangePart[] parts = world.Joints.Where(j => Of(scene, j).EnablePreprocessing)
+        ChangePart[] parts = world.Joints.Where(j => Of(scene, j)?.EnablePreprocessing == true)
             .Select(j => new ChangePart(j.GameObject, "Enable Preprocessing off", Place(scene, j), new SceneEdit(EditText.Pointer(j) + "/enablePreprocessing", "false")))
             .ToArray();
         return parts.Length == 0 ? null : new Change("enablePreprocessing off", parts);
@@ -45,8 +45,9 @@ internal static class JointSettings
         return parts.Count == 0 ? null : new Change("projection", parts);
     }
 
-    public static Joint Of(ValidScene scene, WorldJoint joint) =>
-        (Joint)scene.Document.GameObjects[joint.GameObject].Components[joint.Component];
+    /// <summary>Its component; null for a link's joint, which is part of an ArticulationBody and has none of a joint's settings.</summary>
+    public static Joint? Of(ValidScene scene, WorldJoint joint) =>
+        scene.Document.GameObjects[joint.GameObject].Components[joint.Component] as Joint;
 
     /// <summary>A joint as a user finds it: its type and the two objects.</summary>
     public static string Place(ValidScene scene, WorldJoint joint) => Place(scene, joint.GameObject, joint.Component);
@@ -54,8 +55,8 @@ internal static class JointSettings
     public static string Place(ValidScene scene, int gameObject, int component)
     {
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
-        var joint = (Joint)objects[gameObject].Components[component];
+        Joint joint = scene.Joint(new JointCoordinate { GameObject = gameObject, Component = component });
         string other = joint.ConnectedBody is int body ? objects[body].Id : "world";
-        return $"{joint.GetType().Name} {objects[gameObject].Id} - {other}";
+        return $"{objects[gameObject].Components[component].GetType().Name} {objects[gameObject].Id} - {other}";
     }
 }

@@ -32,7 +32,7 @@ internal static class ProjectSettings
         };
         foreach (int i in own)
         {
-            int component = scene.Document.GameObjects[i].Components.ToList().FindIndex(c => c is Rigidbody);
+            int component = scene.Document.GameObjects[i].Components.ToList().FindIndex(c => c is Rigidbody or ArticulationBody);
             parts.Add(new ChangePart(
                 i,
                 $"Rigidbody.solverIterations -> {value}",

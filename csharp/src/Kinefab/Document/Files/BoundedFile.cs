@@ -17,11 +17,23 @@ internal static class BoundedFile
     /// <summary>The bytes; null when there are more than <paramref name="limit"/>, and then <paramref name="size"/> says at least how many.</summary>
     internal static byte[]? Read(string path, long limit, out long size, CancellationToken cancellation)
     {
+        // A pipe or device has no length. It is not opened: that alone waits until somebody writes.
+        size = 0;
+        if (LengthOf(path) == 0)
+            return Array.Empty<byte>();
         using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
-
-        // A pipe has no length, which is refused: nobody may ever write into it.
-        size = stream.Length;
+        if (!stream.CanSeek)
+            throw new IOException("It is no regular file.");
         return Read(stream, limit, out size, cancellation);
+    }
+
+    private static long LengthOf(string path)
+    {
+        var file = new FileInfo(path);
+#if NET6_0_OR_GREATER
+        file = file.ResolveLinkTarget(returnFinalTarget: true) as FileInfo ?? file;
+#endif
+        return file.Exists ? file.Length : -1;
     }
 
     /// <summary>The bytes from where a stream stands to its end; null when there are more than <paramref name="limit"/>.</summary>

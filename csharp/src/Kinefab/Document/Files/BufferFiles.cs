@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Linq;
 using System.Threading;
 
 namespace Kinefab.Document;
@@ -9,24 +10,24 @@ internal static class BufferFiles
 {
     internal static void Attach(SceneDocument document, string folder, CancellationToken cancellation)
     {
-        foreach (SceneBuffer buffer in document.Buffers)
+        // A file that several buffers name is read, and held, once.
+        foreach (IGrouping<string, SceneBuffer> file in document.Buffers.Where(buffer => BufferUri.IsSafe(buffer.Uri)).GroupBy(buffer => buffer.Uri, StringComparer.Ordinal))
         {
-            if (BufferUri.IsSafe(buffer.Uri))
-                Attach(buffer, Path.Combine(folder, buffer.Uri), cancellation);
-        }
-    }
-
-    private static void Attach(SceneBuffer buffer, string path, CancellationToken cancellation)
-    {
-        try
-        {
-            byte[]? bytes = BoundedFile.Read(path, Math.Max(0, buffer.ByteLength), out long size, cancellation);
-            buffer.Attach(bytes, null, size);
-        }
-        catch (Exception fault) when (BoundedFile.IsExpected(fault))
-        {
-            // The message holds the full path, which differs from machine to machine.
-            buffer.Attach(null, fault is FileNotFoundException or DirectoryNotFoundException ? "there is no such file" : "it cannot be opened");
+            try
+            {
+                byte[]? bytes = BoundedFile.Read(Path.Combine(folder, file.Key), Math.Max(0, file.Max(buffer => buffer.ByteLength)), out long size, cancellation);
+                foreach (SceneBuffer buffer in file)
+                {
+                    long length = bytes?.Length ?? size;
+                    buffer.Attach(length > buffer.ByteLength ? default(ReadOnlyMemory<byte>?) : bytes, null, length);
+                }
+            }
+            catch (Exception fault) when (BoundedFile.IsExpected(fault))
+            {
+                // The message holds the full path, which differs from machine to machine.
+                foreach (SceneBuffer buffer in file)
+                    buffer.Attach(null, fault is FileNotFoundException or DirectoryNotFoundException ? "there is no such file" : "it cannot be opened");
+            }
         }
     }
 }

@@ -10,6 +10,7 @@ internal static class ComponentReader
         ("MeshFilter", static (ref JsonCursor json) => new MeshFilter(ref json)),
         ("MeshRenderer", static (ref JsonCursor json) => new MeshRenderer(ref json)),
         ("Rigidbody", static (ref JsonCursor json) => new Rigidbody(ref json)),
+        ("ArticulationBody", static (ref JsonCursor json) => new ArticulationBody(ref json)),
         ("MeshCollider", static (ref JsonCursor json) => new MeshCollider(ref json)),
         ("HingeJoint", static (ref JsonCursor json) => new HingeJoint(ref json)),
         ("ConfigurableJoint", static (ref JsonCursor json) => new ConfigurableJoint(ref json)),

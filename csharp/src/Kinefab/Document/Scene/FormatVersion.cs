@@ -9,7 +9,7 @@ internal static class FormatVersion
 {
     internal const string Format = "kinefab.scene";
     internal const int Major = 1;
-    internal const int Minor = 0;
+    internal const int Minor = 1;
 
     /// <summary>Another format ends the reading: nothing else in the file can be trusted to mean what it says.</summary>
     internal static void ReadFormat(ref JsonCursor json)

@@ -77,15 +77,24 @@ public sealed record GameObject : DocumentObject
     /// <summary>The same, without the price of an interface.</summary>
     internal ReadOnlySpan<Component> ComponentSpan => components;
 
-    /// <summary>The first Rigidbody among the components; a valid scene has no second one.</summary>
+    /// <summary>The first Rigidbody among the components, or the first ArticulationBody as one; a valid scene has no second one.</summary>
     internal Rigidbody? Body { get; private set; }
+
+    /// <summary>The first ArticulationBody among the components; a valid scene has no second one.</summary>
+    internal ArticulationBody? Link { get; private set; }
 
     private void SetComponents(Component[] value)
     {
         components = value;
         Body = null;
+        Link = null;
         foreach (Component component in value)
+        {
             Body ??= component as Rigidbody;
+            Link ??= component as ArticulationBody;
+        }
+
+        Body ??= Link?.AsRigidbody;
     }
 
     private protected override string Describe() => $"\"{Id}\" ({string.Join(", ", components.Select(component => component.GetType().Name))}){(Active ? "" : ", inactive")}";

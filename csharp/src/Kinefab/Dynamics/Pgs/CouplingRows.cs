@@ -13,6 +13,7 @@ internal sealed class CouplingRows
     private const int MaxBodies = 4;
 
     private readonly MultibodySystem _mechanism;
+    private readonly Predicate<int> _isElsewhere;
     private readonly Row[] _rows;
 
     // MaxBodies for each row.
@@ -40,9 +41,10 @@ internal sealed class CouplingRows
         public Vector3d SqrtAngular;
     }
 
-    public CouplingRows(MultibodySystem mechanism)
+    public CouplingRows(MultibodySystem mechanism, Predicate<int> isElsewhere)
     {
         _mechanism = mechanism;
+        _isElsewhere = isElsewhere;
         _rows = new Row[mechanism.Couplings.Length];
         _parts = new Part[_rows.Length * MaxBodies];
     }
@@ -55,7 +57,7 @@ internal sealed class CouplingRows
             CoordinateCoupling coupling = _mechanism.Couplings[i];
             ref Row row = ref _rows[i];
             row = default;
-            if (coupling.A.Joint.IsBroken || coupling.B.Joint.IsBroken)
+            if (_isElsewhere(i) || coupling.A.Joint.IsBroken || coupling.B.Joint.IsBroken)
             {
                 continue;
             }

@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Dynamics.Articulations;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -17,6 +18,11 @@ internal sealed class PgsSolver : ISolver
     private readonly SolveOrder _order;
     private readonly ProjectionOrder _projection;
     private readonly CouplingRows _couplings;
+    private readonly ArticulatedBodies _articulated;
+    private readonly LinkRows _linkRows;
+    private readonly Action<JointReaction[]> _writeReactions;
+    private Action<JointReaction[]>? _unread;
+    private double _dt;
 
     // One more than there are bodies: the last stands for the world and never moves.
     private readonly Pose[] _startPoses;
@@ -38,12 +44,21 @@ internal sealed class PgsSolver : ISolver
     private readonly double[] _least = new double[JointModel.MaxRows];
 
     public PgsSolver(MultibodySystem mechanism)
+        : this(mechanism, ArticulatedBodies.None(mechanism))
+    {
+    }
+
+    /// <summary>With articulations among the bodies.</summary>
+    public PgsSolver(MultibodySystem mechanism, ArticulatedBodies articulated)
     {
         _mechanism = mechanism;
         _bodies = mechanism.Bodies;
-        _order = new SolveOrder(mechanism);
+        _articulated = articulated;
+        _linkRows = new LinkRows(mechanism, articulated);
+        _writeReactions = WriteReactions;
+        _order = new SolveOrder(mechanism, _linkRows.Takes);
         _projection = new ProjectionOrder(mechanism);
-        _couplings = new CouplingRows(mechanism);
+        _couplings = new CouplingRows(mechanism, _linkRows.TakesCoupling);
         int slots = _bodies.Count + 1;
         _startPoses = new Pose[slots];
         _startPoses[_bodies.Count] = Pose.Identity;
@@ -70,16 +85,18 @@ internal sealed class PgsSolver : ISolver
                 _rootInertia[i] = SqrtInertia.Root(_bodies.InverseInertias[i]);
         }
 
+        _dt = dt;
         int positionIterations = 0;
         int velocityIterations = 0;
         for (int i = 0; i < _bodies.Count; i++)
         {
-            BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, dt);
+            if (!_articulated.IsLink(i))
+                BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, dt);
             _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
             _startPoses[i] = _bodies.Poses[i];
             _startLinear[i] = _bodies.LinearVelocities[i];
             _startAngular[i] = _bodies.AngularVelocities[i];
-            if (!_bodies.IsKinematic[i])
+            if (!_bodies.IsKinematic[i] || _articulated.IsLink(i))
             {
                 positionIterations = Math.Max(positionIterations, _bodies.PositionIterations[i]);
                 velocityIterations = Math.Max(velocityIterations, _bodies.VelocityIterations[i]);
@@ -88,14 +105,20 @@ internal sealed class PgsSolver : ISolver
 
         int blocks = Prepare(dt);
         _couplings.Prepare(_sqrtInertia, dt);
+        _articulated.Begin(dt, _linkRows.IsNeeded);
+        _linkRows.Prepare(dt);
         Array.Clear(_deltas, 0, _deltas.Length);
         _rows.Constants = _rows.BiasedConstants;
         for (int i = 0; i < positionIterations; i++)
         {
             Sweep(blocks);
             _couplings.Sweep(_deltas);
+            SweepArticulations(isVelocityIteration: false);
         }
 
+        foreach (ArticulationSolver articulation in _articulated.Solvers)
+            articulation.EndPositionIterations();
+        _linkRows.RemoveBias();
         Array.Copy(_deltas, _motions, _deltas.Length);
         _rows.Constants = _rows.UnbiasedConstants;
         _couplings.RemoveBias();
@@ -103,13 +126,23 @@ internal sealed class PgsSolver : ISolver
         {
             Sweep(blocks);
             _couplings.Sweep(_deltas);
+            SweepArticulations(isVelocityIteration: true);
         }
 
-        bool broken = _reactions.Break(blocks, dt);
+        bool broken = _reactions.Break(blocks, dt) | _linkRows.Break(dt);
+        if (_linkRows.IsNeeded)
+        {
+            _unread = _mechanism.UnreadReactions;
+            _mechanism.UnreadReactions = _writeReactions;
+        }
+
         for (int i = 0; i < _bodies.Count; i++)
         {
-            Move(i, dt);
+            if (!_articulated.IsLink(i))
+                Move(i, dt);
         }
+
+        _articulated.Finish();
 
         _projection.Apply();
         if (broken)
@@ -124,12 +157,26 @@ internal sealed class PgsSolver : ISolver
     /// <inheritdoc/>
     public void Exchange(StateTape tape)
     {
+        _articulated.Exchange(tape);
         // Nothing is kept from step to step but what follows from the joints.
         if (!tape.IsPlaying)
             return;
         _mechanism.HasChangedBodies = true;
         _order.Refresh();
         _projection.Refresh();
+    }
+
+    private void SweepArticulations(bool isVelocityIteration)
+    {
+        _linkRows.Sweep(_deltas, _sqrtInertia);
+        foreach (ArticulationSolver articulation in _articulated.Solvers)
+            articulation.Sweep(isVelocityIteration);
+    }
+
+    private void WriteReactions(JointReaction[] reactions)
+    {
+        _unread?.Invoke(reactions);
+        _linkRows.Write(reactions, _dt);
     }
 
     private int Prepare(double dt)

@@ -16,15 +16,19 @@ internal sealed class SolveOrder
     private const int MaxPartitions = 64;
 
     private readonly MultibodySystem _mechanism;
+    private readonly Predicate<int> _isElsewhere;
     private readonly ulong[] _used;
     private readonly int[] _last;
     private readonly int[] _partition;
     private readonly int[] _order;
     private int _count;
 
-    public SolveOrder(MultibodySystem mechanism)
+    /// <param name="mechanism">Whose joints.</param>
+    /// <param name="isElsewhere">Joints that others solve.</param>
+    public SolveOrder(MultibodySystem mechanism, Predicate<int> isElsewhere)
     {
         _mechanism = mechanism;
+        _isElsewhere = isElsewhere;
         _used = new ulong[mechanism.Bodies.Count];
         _last = new int[mechanism.Bodies.Count];
         _partition = new int[mechanism.Joints.Length];
@@ -44,7 +48,7 @@ internal sealed class SolveOrder
         for (int i = _partition.Length - 1; i >= 0; i--)
         {
             JointModel joint = _mechanism.Joints[i];
-            if (!joint.IsBroken && Moves(joint.Body0) && Moves(joint.Body1))
+            if (IsHere(i) && Moves(joint.Body0) && Moves(joint.Body1))
             {
                 _partition[i] = FreePartition(joint.Body0, joint.Body1);
                 partitions = Math.Max(partitions, _partition[i] + 1);
@@ -54,7 +58,7 @@ internal sealed class SolveOrder
         for (int i = _partition.Length - 1; i >= 0; i--)
         {
             JointModel joint = _mechanism.Joints[i];
-            if (!joint.IsBroken && Moves(joint.Body0) != Moves(joint.Body1))
+            if (IsHere(i) && Moves(joint.Body0) != Moves(joint.Body1))
             {
                 int body = Moves(joint.Body0) ? joint.Body0 : joint.Body1;
                 _partition[i] = _last[body]++;
@@ -68,13 +72,15 @@ internal sealed class SolveOrder
             for (int i = 0; i < _partition.Length; i++)
             {
                 JointModel joint = _mechanism.Joints[i];
-                if (_partition[i] == p && !joint.IsBroken && (Moves(joint.Body0) || Moves(joint.Body1)))
+                if (_partition[i] == p && IsHere(i) && (Moves(joint.Body0) || Moves(joint.Body1)))
                 {
                     _order[_count++] = i;
                 }
             }
         }
     }
+
+    private bool IsHere(int joint) => !_mechanism.Joints[joint].IsBroken && !_isElsewhere(joint);
 
     private int FreePartition(int body0, int body1)
     {

@@ -22,16 +22,36 @@ internal static class ExactSolverCheck
                 {
                     found.Add(Ignored(joint, $"/gameObjects/{Text(i)}/components/{Text(c)}"));
                 }
+                else if (objects[i].Components[c] is ArticulationBody link && !scene.IsRootLink(i) && LeftOut(link) is string what)
+                {
+                    found.Add(Finding(DiagnosticCodes.LinkNotExact, $"/gameObjects/{Text(i)}/components/{Text(c)}", ("what", what)));
+                }
             }
         }
 
         return found;
     }
 
-    private static Diagnostic Ignored(Joint joint, string pointer)
+    // Joint friction has no law that keeps energy's account; a swing's limits are a cone that is alike on both sides.
+    private static string? LeftOut(ArticulationBody link)
     {
-        const string code = DiagnosticCodes.MassScaleIgnored;
-        (string Name, string Value)[] values = { ("own", Text(joint.MassScale)), ("connected", Text(joint.ConnectedMassScale)) };
+        var what = new List<string>();
+        if (link.JointFriction > 0 && link.JointType != ArticulationJointType.Fixed)
+            what.Add("jointFriction");
+        if (link.MaxJointVelocity is not null)
+            what.Add("maxJointVelocity");
+        if (link.JointType == ArticulationJointType.Spherical && (Lopsided(link.SwingYLock, link.YDrive) || Lopsided(link.SwingZLock, link.ZDrive)))
+            what.Add("the nearer of two swing limits that are not alike");
+        return what.Count > 0 ? string.Join(", ", what) : null;
+    }
+
+    private static bool Lopsided(ConfigurableJointMotion motion, ArticulationDrive drive) => motion == ConfigurableJointMotion.Limited && drive.LowerLimit != -drive.UpperLimit;
+
+    private static Diagnostic Ignored(Joint joint, string pointer) =>
+        Finding(DiagnosticCodes.MassScaleIgnored, pointer, ("own", Text(joint.MassScale)), ("connected", Text(joint.ConnectedMassScale)));
+
+    private static Diagnostic Finding(string code, string pointer, params (string Name, string Value)[] values)
+    {
         DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
         return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), pointer, null, null);
     }

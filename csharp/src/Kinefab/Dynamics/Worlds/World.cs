@@ -136,7 +136,7 @@ public sealed partial class World
         List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem);
         ISolver chosen = solver switch
         {
-            SolverKind.Unity => new PgsSolver(builder.MultibodySystem),
+            SolverKind.Unity => new PgsSolver(builder.MultibodySystem, builder.Articulated),
             SolverKind.Exact => new RattleSolver(builder.MultibodySystem, loops),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
@@ -210,9 +210,9 @@ public sealed partial class World
             }
         }
 
-        foreach (WorldJoint joint in Joints)
+        for (int i = 0; i < Joints.Count; i++)
         {
-            joint.BeforeStep();
+            Joints[i].BeforeStep();
         }
 
         _solver.Step(dt);

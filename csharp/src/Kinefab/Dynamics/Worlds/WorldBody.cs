@@ -6,7 +6,7 @@ using Kinefab.Validation;
 
 namespace Kinefab.Dynamics;
 
-/// <summary>A Rigidbody in a <see cref="World"/>.</summary>
+/// <summary>A Rigidbody, or an ArticulationBody, in a <see cref="World"/>.</summary>
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed class WorldBody
 {
@@ -31,6 +31,9 @@ public sealed class WorldBody
         Id = scene.Document.GameObjects[gameObject].Id;
         Name = scene.Document.GameObjects[gameObject].Name;
     }
+
+    /// <summary>Of the root of an articulation its other links, which go where it is put.</summary>
+    internal int[] LinksBelow { get; set; } = Array.Empty<int>();
 
     /// <summary>Index of the GameObject that carries the Rigidbody.</summary>
     public int GameObject { get; }
@@ -69,15 +72,25 @@ public sealed class WorldBody
         }
     }
 
-    /// <summary>Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities; the rotation is normalised.</summary>
+    /// <summary>
+    /// Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities; the rotation is normalised. With the root of an
+    /// articulation all its links go.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
+    /// <exception cref="InvalidOperationException">It is set of a link that is no root.</exception>
     public Pose Pose
     {
         get => _bodies.Poses[_index] * _localInverse;
         set
         {
-            _bodies.Poses[_index] = Checked(value) * _local;
-            _bodies.KinematicTargets[_index] = _bodies.Poses[_index];
+            if (IsLink && !_scene.IsRootLink(GameObject))
+                throw new InvalidOperationException("A link's pose follows from its joints: set its joint's position, or the root's pose.");
+            Pose pose = Checked(value) * _local;
+            Pose way = pose * _bodies.Poses[_index].Inverse();
+            _bodies.Poses[_index] = pose;
+            _bodies.KinematicTargets[_index] = pose;
+            foreach (int link in LinksBelow)
+                _bodies.Poses[link] = way * _bodies.Poses[link];
         }
     }
 
@@ -107,6 +120,9 @@ public sealed class WorldBody
         get => _bodies.AngularVelocities[_index];
         set => _bodies.AngularVelocities[_index] = value.FiniteOrThrow(nameof(value));
     }
+
+    /// <summary>Whether it is a link of an articulation (an ArticulationBody): its pose follows from its joints, but for a root's.</summary>
+    public bool IsLink => _scene.Document.GameObjects[GameObject].Link is not null;
 
     /// <summary>Whether only its target moves the body.</summary>
     public bool IsKinematic => _bodies.IsKinematic[_index];

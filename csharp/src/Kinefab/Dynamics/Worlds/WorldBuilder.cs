@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Kinefab.Document;
+using Kinefab.Dynamics.Articulations;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
 using Kinefab.Numerics;
@@ -33,8 +34,13 @@ internal sealed class WorldBuilder
         {
             MakeLocks(bodies);
         }
+        else
+        {
+            LeaveLinksInPlace();
+        }
 
         MultibodySystem = new MultibodySystem(bodies, _joints.ToArray(), MakeCouplings(bodies)) { Gravity = scene.Document.Physics.Gravity };
+        Articulated = ArticulationModel.Of(scene, _definition, MultibodySystem, isReduced: !locksAsJoints);
         Bodies = new WorldBody[objects.Length];
         for (int i = 0; i < Bodies.Length; i++)
         {
@@ -43,6 +49,8 @@ internal sealed class WorldBuilder
             Bodies[i] = new WorldBody(MultibodySystem, i, gameObject, scene, body);
         }
 
+        foreach (int[] links in Articulated.Links)
+            Bodies[links[0]].LinksBelow = links.AsSpan(1).ToArray();
         Joints = new WorldJoint[_definition.Joints.Count];
         for (int i = 0; i < Joints.Length; i++)
         {
@@ -50,6 +58,7 @@ internal sealed class WorldBuilder
             var place = new JointPlace(joint.GameObject, joint.Component, scene.Document.GameObjects[joint.GameObject].Id);
             Joints[i] = joint.Source switch
             {
+                _ when joint.Link is not null && joint.Connected >= 0 => new WorldLinkJoint(MultibodySystem, i, place, joint, Articulated),
                 HingeJoint hinge => new WorldHingeJoint(MultibodySystem, i, place, hinge),
                 ConfigurableJoint configurable => new WorldConfigurableJoint(MultibodySystem, i, place, configurable),
                 _ => new WorldFixedJoint(MultibodySystem, i, place),
@@ -59,9 +68,25 @@ internal sealed class WorldBuilder
 
     public MultibodySystem MultibodySystem { get; }
 
+    /// <summary>Its articulations; none in a scene without.</summary>
+    public ArticulatedBodies Articulated { get; }
+
     public WorldBody[] Bodies { get; }
 
     public WorldJoint[] Joints { get; }
+
+    // PhysX projects no joint that a link takes part in: its pose follows from its joints.
+    private void LeaveLinksInPlace()
+    {
+        for (int i = 0; i < _definition.Joints.Count; i++)
+        {
+            JointDefinition joint = _definition.Joints[i];
+            if (IsLink(joint.Own) || IsLink(joint.Connected))
+                _joints[i].Projection = false;
+        }
+    }
+
+    private bool IsLink(int body) => body >= 0 && _scene.Document.GameObjects[_definition.GameObjects[body]].Link is not null;
 
     // They stand behind the scene's joints, so that those keep their indices. Actor 0 is the world: its axes do not turn.
     private void MakeLocks(Bodies bodies)

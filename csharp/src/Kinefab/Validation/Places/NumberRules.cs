@@ -11,6 +11,15 @@ internal static class NumberRules
     {
         if (!(value > 0 && value < double.PositiveInfinity))
             OutOfRange(at, field, value, "above 0");
+        else
+            NotVanishing(at, field, value);
+    }
+
+    /// <summary>What has to be above 0 is so as a 32-bit float too, in which Unity computes.</summary>
+    internal static void NotVanishing(in Place at, string field, double value)
+    {
+        if (value > 0 && (float)value == 0)
+            at.Report(field, DiagnosticCodes.NumberBelowFloat32, ("number", Invariant.Text(value)));
     }
 
     /// <summary>Infinity stands for "without limit".</summary>

@@ -26,6 +26,8 @@ internal static class BodyRules
     {
         if (!(body.Mass > 0 && body.Mass < double.PositiveInfinity))
             at.Report("mass", DiagnosticCodes.BodyMassNotPositive, ("mass", Invariant.Text(body.Mass)));
+        else
+            NumberRules.NotVanishing(at, "mass", body.Mass);
     }
 
     /// <summary>Positive principal moments; and no real body has one that exceeds the sum of the others (a + b >= c).</summary>
@@ -38,6 +40,8 @@ internal static class BodyRules
             at.Report("inertiaTensor", DiagnosticCodes.BodyInertiaNotPositive, ("inertia", inertia.ToString()));
         else if (largest > (sum - largest) * (1 + InertiaTolerance))
             at.Report("inertiaTensor", DiagnosticCodes.BodyInertiaTriangle, ("inertia", inertia.ToString()));
+        else
+            NumberRules.NotVanishing(at, "inertiaTensor", System.Math.Min(inertia.X, System.Math.Min(inertia.Y, inertia.Z)));
     }
 
     /// <summary>Flat bodies reach equality; their moments are rounded.</summary>

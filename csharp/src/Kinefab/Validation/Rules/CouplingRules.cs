@@ -34,6 +34,8 @@ internal static class CouplingRules
                 return hinge;
             case ConfigurableJoint joint when coordinate.Coordinate != Coordinate.Angle:
                 return joint;
+            case ArticulationBody when coordinate.Coordinate != Coordinate.Angle && LinkJoint.Of(document, coordinate.GameObject) is Joint link:
+                return link;
             case Joint:
                 at.Report(side + "/coordinate", DiagnosticCodes.CouplingCoordinateMissing, ("coordinate", Word(coordinate.Coordinate)));
                 return null;

@@ -32,16 +32,19 @@ internal static class StructureRules
             at.Report("parent", DiagnosticCodes.ParentNotEarlier, ("parent", Invariant.Text(parent)), ("index", Invariant.Text(index)));
     }
 
-    /// <summary>Unity allows one Rigidbody, MeshFilter and MeshRenderer on a GameObject.</summary>
+    /// <summary>Unity allows one Rigidbody, ArticulationBody, MeshFilter and MeshRenderer on a GameObject.</summary>
     internal static void SingleComponents(ReadOnlySpan<Component> components, int gameObject, Findings findings)
     {
-        bool body = false, filter = false, renderer = false;
+        bool body = false, link = false, filter = false, renderer = false;
         for (int i = 0; i < components.Length; i++)
         {
             switch (components[i])
             {
                 case Rigidbody:
                     Once(ref body, nameof(Rigidbody), DiagnosticCodes.RigidbodyDuplicate, new Place(findings, "gameObjects", gameObject, i));
+                    break;
+                case ArticulationBody:
+                    Once(ref link, nameof(ArticulationBody), DiagnosticCodes.ComponentDuplicate, new Place(findings, "gameObjects", gameObject, i));
                     break;
                 case MeshFilter:
                     Once(ref filter, nameof(MeshFilter), DiagnosticCodes.ComponentDuplicate, new Place(findings, "gameObjects", gameObject, i));

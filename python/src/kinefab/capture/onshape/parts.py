@@ -12,6 +12,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from ...diagnostics import named
 from ...spatial import Array
 from ..draft import WRONG_ANSWER, BodyMesh, Draft, Numbers, Record
 from ..looks import linear_rgba, listed, look
@@ -64,6 +65,7 @@ class Parts:
             if part.shape is not None:
                 with self.draft.safely(f"axes of {part.name}"):
                     votes[part.form].misfits[definition] = self._misfits(part, part.shape)
+        self._tell_not_saved()
         screens = _as_screens_show([part for part in self.wanted.values() if part.form == "glTF"])
         if screens:
             self.draft.report.add("CAPTURE_COLORS_READ", form="glTF", count=len(votes["glTF"].misfits))
@@ -98,6 +100,20 @@ class Parts:
                     self.draft.report.approximated(feature, "CAPTURE_NO_GLTF", **told)
         elif lost:
             self.draft.failed(f"mesh of {part.name}", ValueError(lost))
+
+    def _tell_not_saved(self) -> None:
+        """Of answers saved by hand: the parts that no file draws, in one finding with the names such files would have."""
+        asked = (gltf_question, stl_question)
+        bare = [
+            part
+            for part in self.wanted.values()
+            if part.shape is None and not any(self._answered(question(part.instance)) for question in asked)
+        ]
+        if bare and self.answers.by_hand:
+            files = [f"{part.instance.get('elementId')}_{part.instance.get('partId')}.glb" for part in bare]
+            told = {"count": len(bare), "files": named(files), "program": self.draft.program}
+            features = [f"mesh of {part.name}" for part in bare]
+            self.draft.report.dropped_alike(features, "CAPTURE_MESHES_NOT_SAVED", **told)
 
     def _said(self, part: Part) -> None:
         if part.shape is not None and self._answered(question := look_question(part.instance)):

@@ -89,8 +89,6 @@ class _Reader:
             statements,
             lambda statement, reason: self._left(f"joint {statement.id}", statement.where, reason),
         )
-        for joint in (*self.scene.joints, *self.scene.constraints, *self.scene.couplings):
-            self.report.kept(f"joint {shown(joint.id)}", joint.where)
         self._motions(sets, pairs)
         gravity = assembly.find("ConstantGravity")
         pull = row(gravity.below[0]) if gravity is not None and gravity.below else []

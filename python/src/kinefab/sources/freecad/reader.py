@@ -69,8 +69,6 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
         scene.nodes[node] = replace(scene.nodes[node], grounded=True)
     add_statements(scene, reader.statements, lambda statement, reason: left(report, statement, reason))
     _set_aside(scene, parts.empty)
-    for kept in (*scene.joints, *scene.constraints, *scene.couplings):
-        report.kept(f"joint {shown(kept.id)}", kept.where)
     shapes.load(scene, parts.shapes, Looks(scene, report, documents.follow), request.progress)
     scene.source = replace(scene.source, files=tuple(
         SourceFile(Path(os.path.relpath(found.path, documents.folder)).as_posix(), hashlib.sha256(found.archive.data).hexdigest())

@@ -224,8 +224,9 @@ def _passive(compiled: Compiled, j: int, effort: float, report: Report) -> Passi
     ]
     if bent:
         report.approximated(
-            f"joint {name}", "MJCF_NONLINEAR", compiled.where("joint", name), detail="; ".join(bent)
-        )
+            f"spring and damper of joint {name}", "MJCF_NONLINEAR", compiled.where("joint", name),
+            detail="; ".join(bent),
+        )  # fmt: skip
     return None if made == Passive() else made
 
 

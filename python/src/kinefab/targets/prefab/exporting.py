@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 
+from ...unity.links.tree import articulated
 from ...unity.scene import (
     AnimationClip,
     ArticulationBody,
@@ -16,7 +18,6 @@ from ...unity.scene import (
     UnityScene,
 )
 from ..content import Content
-from .articulation import articulated
 from .assets.clips import CLIP_ID, clip_asset
 from .assets.identities import mesh_identities, named_identities
 from .assets.materials import MATERIAL_ID, material_asset
@@ -72,7 +73,7 @@ class _Export:
         self.couplings = self.scene.couplings if options.articulation else ()
         if options.articulation:
             stated = {joint.id: joint for joint in content.scene.joints}
-            self.scene = articulated(self.scene, stated, content.report)
+            self.scene = replace(articulated(self.scene, stated, content.report), couplings=())
         self.dialect = options.dialect
         self.found: list[AssetFile] = []
 

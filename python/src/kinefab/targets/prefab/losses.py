@@ -20,7 +20,7 @@ from ...unity.scene import (
     SphereCollider,
     UnityScene,
 )
-from .links import RUNTIME
+from ...unity.links.motions import RUNTIME
 from .meshes import is_colored, mesh_name
 from .options import PrefabOptions
 from .text.dialects import Pipeline
@@ -80,7 +80,7 @@ def _tell_link(link: ArticulationBody, owner: str, options: PrefabOptions, repor
         return
     if not link.immovable:
         report.dropped(f"centre of mass and inertia of {owner}", "TARGET_MASS_DROPPED", object=owner)
-    if any(drive.acceleration for drive in (link.xDrive, link.yDrive, link.zDrive)):
+    if any(drive.driveType != "Force" for drive in (link.xDrive, link.yDrive, link.zDrive)):
         report.field_dropped(f"link {owner}", "useAcceleration", f"{TARGET} of Unity 2021")
 
 

@@ -17,6 +17,15 @@ HALF_TURN = math.pi
 """Radians to either side of the exported pose that a ConfigurableJoint counts a twist by."""
 
 
+def feature_of(joint: Joint, what: str, freedom: int) -> str:
+    """What the report calls one thing that a joint has, a feature beside the joint itself: ``friction of joint Knee``.
+
+    freedom: TX..RZ, named where the joint has several.
+    """
+    which = f", {joint.freedom_name(freedom)}" if len(joint.unlocked) > 1 else ""
+    return f"{what} of joint {joint.id}{which}"
+
+
 def report_outside(joint: Joint, freedom: int, limits: Freedom, value: float, report: Report) -> None:
     """Warn when the exported pose lies outside the range: Unity would throw the part into it at start-up.
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ...diagnostics import Report
 from ...model import Drive, Freedom, Joint, Motion, Passive
+from .limits import feature_of
 
 MOST = 1e36
 """Newtons, metres, radians: a 32-bit float holds it in degrees too."""
@@ -42,7 +43,8 @@ def _without_impossible(joint: Joint, index: int, freedom: Freedom, report: Repo
         return freedom
     what, value = next(iter(wrong.items()))
     names = {"joint": joint.id, "freedom": joint.freedom_name(index), "what": what, "value": f"{value:g}"}
-    report.dropped(f"drive of joint {joint.id}", "JOINT_DRIVE_IMPOSSIBLE", freedom.where or joint.where, **names)
+    where = freedom.where or joint.where
+    report.dropped(feature_of(joint, "drive", index), "JOINT_DRIVE_IMPOSSIBLE", where, **names)
     return replace(freedom, drive=None)
 
 
@@ -78,14 +80,15 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
         ("armature", passive.armature, "JOINT_ARMATURE_DROPPED"),
     ):
         if value > 0.0:
-            report.dropped(f"{what} of joint {joint.id}", code, joint.where, value=f"{value:g}", **names)
+            feature = feature_of(joint, what, index)
+            report.dropped(feature, code, joint.where, value=f"{value:g}", **names)
     drive = freedom.drive
     # A drive that keeps within the effort anyway leaves nothing of it to tell.
     effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
     most = {"effort": effort, "speed": passive.speed}
     stated = {what: value for what, value in most.items() if math.isfinite(value)}
     if stated:
-        feature = f"largest {' and '.join(stated)} of joint {joint.id}"
+        feature = feature_of(joint, f"largest {' and '.join(stated)}", index)
         limits = " and ".join(f"{what} ({value:g})" for what, value in stated.items())
         report.dropped(feature, "JOINT_EFFORT_DROPPED", joint.where, limits=limits, **names)
     if not (passive.stiffness or passive.damping):
@@ -93,7 +96,8 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
     if drive is None:
         return replace(bare, drive=Drive(passive.rest, 0.0, passive.stiffness, passive.damping))
     if drive.motor or drive.acceleration or math.isfinite(drive.max_force):
-        report.dropped(f"spring and damper of joint {joint.id}", "JOINT_PASSIVE_DROPPED", joint.where, **names)
+        feature = feature_of(joint, "spring and damper", index)
+        report.dropped(feature, "JOINT_PASSIVE_DROPPED", joint.where, **names)
         return bare
     # F = k1 (t1 - q) + d1 (v1 - u) + k2 (t2 - q) - d2 u: one spring and one damper.
     stiffness, damping = drive.stiffness + passive.stiffness, drive.damping + passive.damping

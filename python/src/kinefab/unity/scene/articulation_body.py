@@ -1,7 +1,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from .vectors import IDENTITY, ONE, ZERO, Quaternion, Vector3
 
@@ -10,7 +11,7 @@ from .vectors import IDENTITY, ONE, ZERO, Quaternion, Vector3
 class ArticulationDrive:
     """Metres or degrees, newtons or newton metres; gains for each metre or radian.
 
-    acceleration: they are per unit of inertia instead.
+    driveType: ``Force``; ``Acceleration``, gains per unit of inertia; ``Target`` or ``Velocity``, as stiff as the solver can.
     """
 
     lowerLimit: float = 0.0
@@ -20,7 +21,7 @@ class ArticulationDrive:
     forceLimit: float = math.inf
     target: float = 0.0
     targetVelocity: float = 0.0
-    acceleration: bool = False
+    driveType: str = "Force"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,3 +54,5 @@ class ArticulationBody:
     immovable: bool = False
     useGravity: bool = True
     collisionDetectionMode: str = "Discrete"
+    because: tuple[str, ...] = ()
+    extras: Mapping[str, object] = field(default_factory=dict[str, object], compare=False, hash=False)

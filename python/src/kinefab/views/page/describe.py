@@ -205,13 +205,23 @@ def _report(document: Entry, joints: Sequence[Entry]) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for entry in document.get("report", ()):
         feature = str(entry.get("feature", ""))
-        id = feature.partition(" ")[2] or feature
-        parts = {part_of[name] for name in (id, id.rpartition("/")[0]) if name in part_of}
-        parts |= {f["gameObject"] for f in features.get(id, ()) if f.get("gameObject") is not None}
+        ids = _subjects(feature)
+        owners = (name for id in ids for name in (id, id.rpartition("/")[0]))
+        parts = {part_of[name] for name in owners if name in part_of}
+        sides = (f.get("gameObject") for id in ids for f in features.get(id, ()))
+        parts |= {side for side in sides if side is not None}
+        of_joints = sorted({i for id in ids for i in joints_of.get(id, ())})
         keys = ("outcome", "severity", "code", "message", "source")
         told = {key: str(entry[key]) for key in keys if key in entry}
-        found.append(told | {"feature": feature, "parts": sorted(parts), "joints": joints_of.get(id, [])})
+        found.append(told | {"feature": feature, "parts": sorted(parts), "joints": of_joints})
     return found
+
+
+def _subjects(feature: str) -> set[str]:
+    """The ids that a feature may speak of: ``joint Knee``, ``name of Top/Base``, ``friction of joint Knee, rx``."""
+    owner = feature.rpartition(" of ")[2]
+    ids = {feature, feature.partition(" ")[2], owner, owner.partition(" ")[2]}
+    return ids | {id.rpartition(", ")[0] for id in ids} - {""}
 
 
 def _look(motion: Motion) -> list[float]:

@@ -30,6 +30,17 @@ internal static class SettingsCheck
     }
 
     /// <inheritdoc cref="ThrowIfWrong(Document.Joint)"/>
+    public static void ThrowIfWrong(ArticulationBody settings)
+    {
+        var findings = new Findings(1);
+        var at = new Place(findings, "settings");
+        LinkRules.Numbers(settings, at);
+        LinkRules.Mass(settings, at);
+        LinkRules.LimitsOrder(settings, at);
+        ThrowIfAny(findings, nameof(settings));
+    }
+
+    /// <inheritdoc cref="ThrowIfWrong(Document.Joint)"/>
     public static void ThrowIfWrong(Rigidbody settings)
     {
         var findings = new Findings(1);

@@ -128,6 +128,18 @@ public sealed class WorldConfigurableJoint : WorldJoint
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
+    /// <summary>Counts the turns from the pose as it is, within half a turn of zero.</summary>
+    internal void Restart()
+    {
+        for (int i = FirstAngle; i < Axes; i++)
+        {
+            _unwrapped[i] = Raw(i, 0);
+            _speeds[i] = SpeedOf(i);
+        }
+
+        Solved.LastTwist = _sign * _unwrapped[FirstAngle];
+    }
+
     // A drive's row knows the goal as a rotation, which it reaches by the shorter way: a goal farther off is led there.
     internal override void BeforeStep()
     {

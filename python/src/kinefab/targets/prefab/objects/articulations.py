@@ -13,6 +13,7 @@ from .bodies import DETECTION, LEAST_INERTIA
 
 CLASS = (171741748, "ArticulationBody")
 TYPES = {"Fixed": 0, "Prismatic": 1, "Revolute": 2, "Spherical": 3}
+DRIVES = {"Force": 0, "Acceleration": 1, "Target": 2, "Velocity": 3}
 LOCKS = {"Locked": 0, "Limited": 1, "Free": 2}
 UNLIMITED_FORCE = 3.4028235e38
 """What the editor writes for a link's drive without a largest force; of a joint's it is the float below."""
@@ -67,7 +68,7 @@ def articulation_fields(body: ArticulationBody, owner: int, dialect: Dialect) ->
 
 def _drive(drive: ArticulationDrive, dialect: Dialect) -> Fields:
     force = UNLIMITED_FORCE if math.isinf(drive.forceLimit) else drive.forceLimit
-    kind: Fields = {"driveType": int(drive.acceleration)} if dialect.mass_properties else {}
+    kind: Fields = {"driveType": DRIVES[drive.driveType]} if dialect.mass_properties else {}
     return {
         "lowerLimit": round(float(drive.lowerLimit), 12),
         "upperLimit": round(float(drive.upperLimit), 12),

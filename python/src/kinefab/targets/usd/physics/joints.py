@@ -30,7 +30,7 @@ from ....model import (
 )
 from ....spatial import Pose, quaternion_from_matrix, rotation_log
 from ....unity.joints.coordinates import CanonicalJoint, canonical, coordinates_in
-from ....unity.joints.limits import report_gap
+from ....unity.joints.limits import feature_of, report_gap
 from ....unity.joints.passive import with_passive_drives
 from ..bodies import Bodies
 from ..prims import Prim, quaternion32, quaternion64, rounded, vector3d, vector3f
@@ -98,8 +98,7 @@ class Places:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Begun:
-    """A joint whose prim is there.  values: the six coordinates at the exported pose, of ``shape``.
-    told: whether the report has something to tell of it."""
+    """A joint whose prim is there.  values: the six coordinates at the exported pose, of ``shape``."""
 
     joint: Joint
     edge: Edge
@@ -107,7 +106,6 @@ class _Begun:
     passives: Mapping[int, Passive]
     values: Sequence[float]
     kind: str
-    told: bool
 
 
 @dataclass(slots=True, eq=False)
@@ -125,7 +123,6 @@ class Joints:
 
     def begin(self, joint: Joint, name: str, finding: JointFinding | None) -> Edge:
         """Make the joint's prim, whose sides are known when all joints are.  name: of the prim."""
-        before = len(self.report.outcomes)
         bare, passives = _passive_apart(joint)
         shape = canonical(with_passive_drives(bare, self.report))
         values = self._standing(joint, shape)
@@ -142,8 +139,7 @@ class Joints:
             closing=finding is not None and finding.closure,
             exchanges=joint.slerp is None and is_same_from_both_sides(shape.freedoms),
         )
-        told = len(self.report.outcomes) > before
-        self._begun.append(_Begun(joint, edge, shape, passives, values, kind, told))
+        self._begun.append(_Begun(joint, edge, shape, passives, values, kind))
         return edge
 
     def finish(self, inward: Collection[Any]) -> None:
@@ -153,7 +149,6 @@ class Joints:
 
     def _finish(self, begun: _Begun, exchanged: bool) -> None:
         joint, prim, shape, values = begun.joint, begun.edge.prim, begun.shape, begun.values
-        before = len(self.report.outcomes)
         sides = (
             (begun.edge.a, self.scene.pose(joint.a) @ shape.frame_a),
             (begun.edge.b, self.scene.pose(joint.b) @ shape.frame_b),
@@ -182,8 +177,7 @@ class Joints:
             prim.numbers({"physics:breakTorque": joint.break_torque})
         if joint.collide:
             prim.attribute("physics:collisionEnabled", "Bool", True)
-        if not begun.told and len(self.report.outcomes) == before:
-            self.report.kept(f"joint {joint.id}", joint.where)
+        self.report.kept(f"joint {joint.id}", joint.where)
         names = {shape.name_of[i]: DOFS[i] for i in free}
         self.written[joint.id] = WrittenJoint(prim, names, len(free) == 1)
 
@@ -235,9 +229,10 @@ class Joints:
             any(i < RX for i in unlocked_of(shape.freedoms))
             and replace(passive, effort=math.inf) != Passive()
         ):
+            feature = feature_of(joint, "friction, armature and largest speed", shape.name_of[freedom])
             self.report.approximated(
-                f"joint {joint.id}", "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
-                detail=f"friction, armature and greatest speed of {name} stand there, which no engine takes of a joint that slides and turns",
+                feature, "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
+                detail="what is stated of these stands there, and no engine takes it of a joint that slides and turns",
             )  # fmt: skip
 
     def _standing(self, joint: Joint, shape: CanonicalJoint) -> list[float]:

@@ -15,24 +15,28 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
-from ...unity.mapping import GROUND_ID
-from ...unity.overlaps import check_overlaps
-from ...unity.scene import (
+from ..joints.limits import feature_of
+from ..mapping import GROUND_ID
+from ..overlaps import check_overlaps
+from ..scene import (
     AnimationClip,
     ArticulationBody,
     Component,
     ConfigurableJoint,
+    Coupling,
     FixedJoint,
     GameObject,
     Joint,
+    JointCoordinate,
     Rigidbody,
     Transform,
     UnityScene,
     Vector3,
 )
-from ...unity.scene.joints.joint import AnchoredJoint
-from ...unity.scene.vectors import quaternion4, vector3
-from .links import ARTICULATION, NotArticulated, link_motion, tell_link_losses, twist_range
+from ..scene.joints.joint import AnchoredJoint
+from ..scene.vectors import quaternion4, vector3
+from .motions import ARTICULATION, NotArticulated, link_motion, tell_link_losses, twist_range
+from .order import with_parents_first
 
 ARTICULATION_GROUND_ID = "kinefab:articulation ground"
 """Of the root that stands for the world where no object does."""
@@ -47,8 +51,8 @@ Edge = tuple[int, int]
 
 
 def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
-    """The scene with links for Rigidbodies.  joints: of the model, by id.  The report gets an error for each joint that no
-    articulation has."""
+    """The scene with links for Rigidbodies; its couplings are those of the links' coordinates.  joints: of the model, by id.  The report
+    gets an error for each joint that no articulation has."""
     return _Articulation(scene, joints, report).scene_of_links()
 
 
@@ -62,6 +66,8 @@ class _Articulation:
     bodies: dict[int, Rigidbody] = field(default_factory=dict[int, Rigidbody])
     edges: list[Edge] = field(default_factory=list[Edge])
     ground: int | None = None
+    moved: dict[Edge, Edge] = field(default_factory=dict[Edge, Edge])
+    """Of each joint the component that holds it now."""
 
     def scene_of_links(self) -> UnityScene:
         self._read()
@@ -77,10 +83,30 @@ class _Articulation:
                 link,
             )
             self._move_below(index, parents[index][0])
+            if (inner := parents[index][1]) is not None:
+                kinds = [isinstance(c, ArticulationBody) for c in self.objects[index].components]
+                self.moved[inner] = (index, kinds.index(True))
         for edge in closing:
             self._close(edge, links)
         animations = self._clips(links.keys())
-        return replace(self.scene, gameObjects=tuple(self.objects), couplings=(), animations=animations)
+        couplings = tuple(self._coupling(coupling) for coupling in self.scene.couplings)
+        made = replace(
+            self.scene, gameObjects=tuple(self.objects), couplings=couplings, animations=animations
+        )
+        return with_parents_first(made)
+
+    def _coupling(self, coupling: Coupling) -> Coupling:
+        """Between the same motions: a link's coordinates count as those of the joint that it stands for."""
+        terms = tuple(replace(term, coordinate=self._coordinate(term.coordinate)) for term in coupling.terms)
+        return replace(coupling, coordinate=self._coordinate(coupling.coordinate), terms=terms)
+
+    def _coordinate(self, at: JointCoordinate) -> JointCoordinate:
+        found = self.moved.get((at.gameObject, at.component))
+        if found is None:
+            return at
+        held = self.objects[found[0]].components[found[1]]
+        turned = isinstance(held, ArticulationBody) and at.coordinate == "angle"
+        return JointCoordinate(found[0], found[1], "angularX" if turned else at.coordinate)
 
     def _clips(self, links: Collection[int]) -> tuple[AnimationClip, ...]:
         """Without what moves links: no Transform moves them, and they stand below other objects now."""
@@ -207,6 +233,7 @@ class _Articulation:
             self._tell_range(joint)
         if moving["jointType"] != "Fixed":
             moving["jointFriction"] = self._tell_friction(joint)
+        moving["because"], moving["extras"] = joint.because, joint.extras
         tell_link_losses(joint, body, self.objects[child].id, self.report)
         return replace(link, **moving, **self._anchors(joint, edge, child, parent))
 
@@ -251,7 +278,8 @@ class _Articulation:
         most = max(passive, default=0.0)
         if stated is not None and most > 0.0:
             feature = f"friction of joint {joint.id}"
-            self.report.withdraw(feature, "JOINT_FRICTION_DROPPED")
+            for freedom in stated.unlocked:
+                self.report.withdraw(feature_of(stated, "friction", freedom), "JOINT_FRICTION_DROPPED")
             told = {"joint": joint.id, "value": f"{most:g}"}
             self.report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)
         return most
@@ -295,6 +323,7 @@ class _Articulation:
             replace(joint, connectedBody=other),
         )
         name = joint.id or own.name
+        self.moved[edge] = (len(self.objects), len(components) - 1)
         self.objects.append(
             GameObject(
                 f"kinefab:helper {joint.id or own.id}",

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from ...diagnostics import Report
-from ...unity.scene import (
+from ..scene import (
     ArticulationDrive,
     ConfigurableJoint,
     FixedJoint,
@@ -16,7 +16,7 @@ from ...unity.scene import (
     JointDrive,
     Rigidbody,
 )
-from ...unity.scene.joints.configurable_joint import TWIST_RANGE
+from ..scene.joints.configurable_joint import TWIST_RANGE
 
 ARTICULATION = "an articulation"
 MOTOR_DAMPING = 1e7
@@ -83,15 +83,19 @@ def _hinge_drive(joint: HingeJoint) -> ArticulationDrive:
             spring.spring,
             spring.damper,
             target=spring.targetPosition,
-            acceleration=joint.useAcceleration,
+            driveType=_kind(joint.useAcceleration),
         )
     return ArticulationDrive(*limits)
+
+
+def _kind(accelerates: bool) -> str:
+    return "Acceleration" if accelerates else "Force"
 
 
 def _driven(drive: JointDrive, target: float, velocity: float) -> ArticulationDrive:
     gains = (drive.positionSpring, drive.positionDamper, drive.maximumForce)
     return ArticulationDrive(
-        0.0, 0.0, *gains, target if drive.positionSpring else 0.0, velocity, drive.useAcceleration
+        0.0, 0.0, *gains, target if drive.positionSpring else 0.0, velocity, _kind(drive.useAcceleration)
     )
 
 

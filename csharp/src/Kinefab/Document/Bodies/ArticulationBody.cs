@@ -1,0 +1,214 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Json;
+using Kinefab.Numerics;
+using Kinefab.Reading;
+
+namespace Kinefab.Document;
+
+/// <summary>
+/// A link of a tree in reduced coordinates, held to the nearest ArticulationBody above it in the hierarchy; without one it is the root.
+/// Zero of its coordinates is the pose in the file.
+/// </summary>
+public sealed record ArticulationBody : Component
+{
+    internal static readonly FieldNames Fields = new(
+        ["type"],
+        "mass", "parentAnchorPosition", "parentAnchorRotation", "anchorPosition", "anchorRotation", "jointType",
+        "linearLock", "twistLock", "swingYLock", "swingZLock", "xDrive", "yDrive", "zDrive",
+        "linearDamping", "angularDamping", "jointFriction", "maxJointVelocity", "centerOfMass", "inertiaTensor", "inertiaTensorRotation",
+        "immovable", "useGravity", "collisionDetectionMode", "solverIterations", "solverVelocityIterations", "because", "extras");
+
+    /// <summary>Unity's defaults.</summary>
+    public ArticulationBody()
+    {
+    }
+
+    internal ArticulationBody(ref JsonCursor json)
+    {
+        FieldCursor fields = json.BeginObject(Fields);
+        while (json.NextField(ref fields))
+        {
+            switch (fields.Name)
+            {
+                case "mass":
+                    Mass = json.Number();
+                    break;
+                case "parentAnchorPosition":
+                    ParentAnchorPosition = json.Vector3();
+                    break;
+                case "parentAnchorRotation":
+                    ParentAnchorRotation = json.Quaternion();
+                    break;
+                case "anchorPosition":
+                    AnchorPosition = json.Vector3();
+                    break;
+                case "anchorRotation":
+                    AnchorRotation = json.Quaternion();
+                    break;
+                case "jointType":
+                    JointType = json.Word(ArticulationJointTypeWords.Table);
+                    break;
+                case "linearLock":
+                    LinearLock = json.Word(ConfigurableJointMotionWords.Table);
+                    break;
+                case "twistLock":
+                    TwistLock = json.Word(ConfigurableJointMotionWords.Table);
+                    break;
+                case "swingYLock":
+                    SwingYLock = json.Word(ConfigurableJointMotionWords.Table);
+                    break;
+                case "swingZLock":
+                    SwingZLock = json.Word(ConfigurableJointMotionWords.Table);
+                    break;
+                case "xDrive":
+                    XDrive = new ArticulationDrive(ref json);
+                    break;
+                case "yDrive":
+                    YDrive = new ArticulationDrive(ref json);
+                    break;
+                case "zDrive":
+                    ZDrive = new ArticulationDrive(ref json);
+                    break;
+                case "linearDamping":
+                    LinearDamping = json.Number();
+                    break;
+                case "angularDamping":
+                    AngularDamping = json.Number();
+                    break;
+                case "jointFriction":
+                    JointFriction = json.Number();
+                    break;
+                case "maxJointVelocity":
+                    MaxJointVelocity = json.Number();
+                    break;
+                case "centerOfMass":
+                    CenterOfMass = json.Vector3();
+                    break;
+                case "inertiaTensor":
+                    InertiaTensor = json.Vector3();
+                    break;
+                case "inertiaTensorRotation":
+                    InertiaTensorRotation = json.Quaternion();
+                    break;
+                case "immovable":
+                    Immovable = json.Boolean();
+                    break;
+                case "useGravity":
+                    UseGravity = json.Boolean();
+                    break;
+                case "collisionDetectionMode":
+                    CollisionDetectionMode = json.Word(CollisionDetectionModeWords.Table);
+                    break;
+                case "solverIterations":
+                    SolverIterations = json.Int();
+                    break;
+                case "solverVelocityIterations":
+                    SolverVelocityIterations = json.Int();
+                    break;
+                case "because":
+                    Because = json.List(static (ref JsonCursor item) => item.Text());
+                    break;
+                case "extras":
+                    ExtrasJson = json.Extras();
+                    break;
+            }
+        }
+    }
+
+    /// <summary>kg.</summary>
+    public double Mass { get; init; } = 1;
+
+    /// <summary>The joint's frame, seen from the link above; metres.</summary>
+    public Vector3d ParentAnchorPosition { get; init; }
+
+    /// <summary>The joint's frame, seen from the link above.</summary>
+    public Quaterniond ParentAnchorRotation { get; init; } = Quaterniond.Identity;
+
+    /// <summary>The joint's frame in the own one; metres, multiplied by the GameObject's world scale.</summary>
+    public Vector3d AnchorPosition { get; init; }
+
+    /// <summary>The joint's frame in the own one.</summary>
+    public Quaterniond AnchorRotation { get; init; } = Quaterniond.Identity;
+
+    /// <summary>How it may move against the link above.</summary>
+    public ArticulationJointType JointType { get; init; }
+
+    /// <summary>Of a prismatic joint, along X: free unless Limited.</summary>
+    public ConfigurableJointMotion LinearLock { get; init; }
+
+    /// <summary>About X, of a revolute or spherical joint; a revolute one is free unless Limited.</summary>
+    public ConfigurableJointMotion TwistLock { get; init; }
+
+    /// <summary>About Y, of a spherical joint.</summary>
+    public ConfigurableJointMotion SwingYLock { get; init; }
+
+    /// <summary>About Z, of a spherical joint.</summary>
+    public ConfigurableJointMotion SwingZLock { get; init; }
+
+    /// <summary>Along X, or about it.</summary>
+    public ArticulationDrive XDrive { get; init; } = ArticulationDrive.Default;
+
+    /// <summary>About Y, of a spherical joint.</summary>
+    public ArticulationDrive YDrive { get; init; } = ArticulationDrive.Default;
+
+    /// <summary>About Z, of a spherical joint.</summary>
+    public ArticulationDrive ZDrive { get; init; } = ArticulationDrive.Default;
+
+    /// <summary>1/s.</summary>
+    public double LinearDamping { get; init; }
+
+    /// <summary>1/s.</summary>
+    public double AngularDamping { get; init; } = 0.05;
+
+    /// <summary>Share of what the joint transmits that resists its motion.</summary>
+    public double JointFriction { get; init; }
+
+    /// <summary>Of each axis, m/s or rad/s; null: PhysX's own 100.</summary>
+    public double? MaxJointVelocity { get; init; }
+
+    /// <summary>Local, metres.</summary>
+    public Vector3d CenterOfMass { get; init; }
+
+    /// <summary>Principal moments about the centre of mass, kg m^2.</summary>
+    public Vector3d InertiaTensor { get; init; } = new(1, 1, 1);
+
+    /// <summary>Local frame from principal axes.</summary>
+    public Quaterniond InertiaTensorRotation { get; init; } = Quaterniond.Identity;
+
+    /// <summary>A root that stands still.</summary>
+    public bool Immovable { get; init; }
+
+    /// <summary>Whether Physics.gravity acts.</summary>
+    public bool UseGravity { get; init; } = true;
+
+    /// <summary>Against passing through other bodies.</summary>
+    public CollisionDetectionMode CollisionDetectionMode { get; init; }
+
+    /// <summary>Null: <see cref="Physics.SolverIterations"/>.</summary>
+    public int? SolverIterations { get; init; }
+
+    /// <summary>Null: <see cref="Physics.SolverVelocityIterations"/>.</summary>
+    public int? SolverVelocityIterations { get; init; }
+
+    /// <summary>Source constraints or joints that its joint comes from.</summary>
+    public IReadOnlyList<string> Because { get; init; } = Array.Empty<string>();
+
+    /// <summary>The link as a body by itself.</summary>
+    internal Rigidbody AsRigidbody => new()
+    {
+        Mass = Mass,
+        LinearDamping = LinearDamping,
+        AngularDamping = AngularDamping,
+        CenterOfMass = CenterOfMass,
+        InertiaTensor = InertiaTensor,
+        InertiaTensorRotation = InertiaTensorRotation,
+        UseGravity = UseGravity,
+        IsKinematic = Immovable,
+        CollisionDetectionMode = CollisionDetectionMode,
+        SolverIterations = SolverIterations,
+        SolverVelocityIterations = SolverVelocityIterations,
+    };
+
+    private protected override string Describe() => Line($"ArticulationBody {Mass} kg, {JointType}{(Immovable ? ", immovable" : "")}{(UseGravity ? "" : ", without gravity")}");
+}

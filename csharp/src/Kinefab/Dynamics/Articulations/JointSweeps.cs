@@ -1,0 +1,255 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Articulations;
+
+/// <summary>
+/// Gauss-Seidel over all freedoms, one visit of the tree a sweep: outwards each joint's rows are solved with the velocities that the ones before
+/// left, on the way back their impulses are handed inwards. Source: DyFeatherstoneArticulation.cpp, solveInternalJointConstraintRecursive.
+/// </summary>
+internal sealed class JointSweeps
+{
+    private const int Axes = ArticulationTree.MostAxes;
+
+    private readonly ArticulationTree _tree;
+    private readonly ForwardDynamics _dynamics;
+    private readonly LinkResponses _responses;
+    private readonly ArticulationRules _rules;
+    private readonly AxisRows[] _rows;
+
+    // Of each link the motion's change in this sweep, as its children see it, and the impulses from them.
+    private readonly Twist[] _changes;
+    private readonly Wrench[] _impulses;
+
+    // Of each freedom: speed before the sweeps, impulse of this visit, what a unit of impulse does to the link and to the joint's freedoms.
+    private readonly double[] _startSpeeds;
+    private readonly double[] _given;
+    private readonly Twist[] _linkResponses;
+    private readonly double[] _jointResponses;
+
+    private bool _hasGiven;
+
+    /// <summary>Rows of joints to the world; null: none.</summary>
+    public ILinkRows? WorldRows;
+
+    public JointSweeps(ArticulationTree tree, ForwardDynamics dynamics, LinkResponses responses, ArticulationRules rules)
+    {
+        _tree = tree;
+        _dynamics = dynamics;
+        _responses = responses;
+        _rules = rules;
+        _rows = new AxisRows[tree.Freedoms];
+        _changes = new Twist[tree.Count];
+        _impulses = new Wrench[tree.Count];
+        _startSpeeds = new double[tree.Freedoms];
+        _given = new double[tree.Freedoms];
+        _linkResponses = new Twist[tree.Freedoms];
+        _jointResponses = new double[tree.Freedoms * Axes];
+    }
+
+    /// <summary>Whether a sweep may do anything: else the responses need not be found.</summary>
+    public bool Needed()
+    {
+        for (int i = 1; i < _tree.Count; i++)
+        {
+            LinkDefinition link = _tree.Links[i];
+            for (int f = _tree.FirstFreedom[i]; f < _tree.FirstFreedom[i + 1]; f++)
+            {
+                ref LinkAxis axis = ref link.Axes[_tree.AxisOf[f]];
+                if (axis.HasDrive || axis.Motion == LinkMotion.Limited || link.Friction > 0 || Math.Abs(_tree.Speeds[f]) > link.MaxJointSpeed)
+                    return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Rows of the step; needs the responses.</summary>
+    /// <param name="dt">s.</param>
+    /// <param name="transmitted">Of each link what its joint carries, for friction.</param>
+    public void Prepare(double dt, ReadOnlySpan<Wrench> transmitted)
+    {
+        for (int i = 1; i < _tree.Count; i++)
+        {
+            int first = _tree.FirstFreedom[i];
+            int count = _tree.FirstFreedom[i + 1] - first;
+            LinkDefinition link = _tree.Links[i];
+            double compliance = _rules.Compliance + _rules.ComplianceShare * Math.Max(_responses.Links[i].LargestLinear, _responses.Links[_tree.Parents[i]].LargestLinear);
+            double maxFriction = link.Friction > 0 ? Length(transmitted[i]) * link.Friction * dt : 0;
+            for (int k = 0; k < count; k++)
+            {
+                int f = first + k;
+                FindResponse(i, first, count, k);
+                ref AxisRows row = ref _rows[f];
+                row.Response = _jointResponses[f * Axes + k];
+                row.InverseResponse = row.Response > 0 ? 1 / (row.Response + compliance) : 0;
+                row.MaxFriction = maxFriction;
+                row.MaxSpeed = link.MaxJointSpeed;
+                ref LinkAxis axis = ref _tree.AxisOfFreedom(i, f);
+                double gap = axis.HasDrive && count > 1 && _rules.DrivesSphericalByRotation ? RotationGap(i, _tree.AxisOf[f]) : axis.Target - _tree.Positions[f];
+                row.Prepare(axis, gap, _tree.Positions[f], dt, _rules);
+            }
+        }
+    }
+
+    /// <summary>Speeds from which the sweeps go on, as the links' motions have them: after their prediction and after each flush.</summary>
+    public void Start()
+    {
+        for (int i = 1; i < _tree.Count; i++)
+        {
+            Twist relative = _tree.Motions[i] - _tree.Motions[_tree.Parents[i]].At(_dynamics.Levers[i]);
+            for (int f = _tree.FirstFreedom[i]; f < _tree.FirstFreedom[i + 1]; f++)
+                _startSpeeds[f] = _tree.Links[i].Joint == LinkJointKind.Prismatic ? Vector3d.Dot(_dynamics.Axis[f].Linear, relative.Linear) : Vector3d.Dot(_dynamics.Axis[f].Angular, relative.Angular);
+        }
+    }
+
+    /// <summary>One sweep; false when no row gave anything, so that another would not either.</summary>
+    public bool Sweep(bool isVelocityIteration, double dt)
+    {
+        _hasGiven = false;
+        _changes[0] = _dynamics.RootResponse.Times(_responses.RootKept);
+        _impulses[0] = default;
+        SolveWorldRows(0);
+        int at = 0;
+        for (int i = 1; i < _tree.Count; i++)
+        {
+            int parent = _tree.Parents[i];
+            for (; at != parent; at = _tree.Parents[at])
+                Leave(at);
+            Enter(i, parent, isVelocityIteration, dt);
+            at = i;
+        }
+
+        for (; at > 0; at = _tree.Parents[at])
+            Leave(at);
+        _responses.RootKept += _impulses[0];
+        return _hasGiven;
+    }
+
+    private void Enter(int link, int parent, bool isVelocityIteration, double dt)
+    {
+        _impulses[link] = default;
+        int first = _tree.FirstFreedom[link];
+        int end = _tree.FirstFreedom[link + 1];
+        if (end - first == 1)
+            EnterOne(link, parent, first, isVelocityIteration, dt);
+        else
+            EnterSeveral(link, parent, first, end, isVelocityIteration, dt);
+        SolveWorldRows(link);
+    }
+
+    // Nearly all joints: as EnterSeveral, without its loops.
+    private void EnterOne(int link, int parent, int freedom, bool isVelocityIteration, double dt)
+    {
+        ref Twist above = ref _changes[parent];
+        Vector3d angular = above.Angular;
+        Vector3d linear = above.Linear + Vector3d.Cross(angular, _dynamics.Levers[link]);
+        ref Wrench inertia = ref _dynamics.InertiaAxes[freedom];
+        double answer = _dynamics.InverseInertias[link * Axes * Axes]
+            * (_responses.Kept[freedom] - Vector3d.Dot(inertia.Force, linear) - Vector3d.Dot(inertia.Torque, angular));
+        double given = _rows[freedom].Solve(_startSpeeds[freedom] + answer, isVelocityIteration, dt, _rules);
+        _given[freedom] = given;
+        _hasGiven |= given != 0;
+        ref Twist axis = ref _dynamics.Axis[freedom];
+        ref Twist response = ref _linkResponses[freedom];
+        _changes[link] = new Twist(
+            angular + axis.Angular * answer + response.Angular * given,
+            linear + axis.Linear * answer + response.Linear * given);
+    }
+
+    private void EnterSeveral(int link, int parent, int first, int end, bool isVelocityIteration, double dt)
+    {
+        Twist change = _changes[parent].At(_dynamics.Levers[link]);
+        _dynamics.Answer(link, change, _responses.Kept, _responses.Changes);
+        for (int f = first; f < end; f++)
+            change += _dynamics.Axis[f] * _responses.Changes[f];
+        for (int f = first; f < end; f++)
+        {
+            double given = _rows[f].Solve(_startSpeeds[f] + _responses.Changes[f], isVelocityIteration, dt, _rules);
+            _given[f] = given;
+            if (given == 0)
+                continue;
+            _hasGiven = true;
+            change += _linkResponses[f] * given;
+            for (int k = f + 1; k < end; k++)
+                _responses.Changes[k] += _jointResponses[f * Axes + k - first] * given;
+        }
+
+        _changes[link] = change;
+    }
+
+    private void SolveWorldRows(int link)
+    {
+        if (WorldRows != null && WorldRows.Has(link))
+            _hasGiven |= WorldRows.Solve(link, ref _changes[link], ref _impulses[link]);
+    }
+
+    private void Leave(int link)
+    {
+        Wrench impulse = _impulses[link];
+        Wrench passed = impulse;
+        for (int f = _tree.FirstFreedom[link]; f < _tree.FirstFreedom[link + 1]; f++)
+        {
+            double onFreedom = _given[f] + Wrench.Dot(impulse, _dynamics.Axis[f]);
+            _responses.Kept[f] += onFreedom;
+            passed -= _dynamics.Reactions[f] * onFreedom;
+        }
+
+        passed = passed.From(_dynamics.Levers[link]);
+        int parent = _tree.Parents[link];
+        _impulses[parent] += passed;
+        if (link != _tree.LastChildren[parent])
+            _changes[parent] += _responses.Links[parent].Times(passed);
+    }
+
+    private void FindResponse(int link, int first, int count, int k)
+    {
+        Twist change = _responses.Links[_tree.Parents[link]].Times((_dynamics.Reactions[first + k] * -1).From(_dynamics.Levers[link])).At(_dynamics.Levers[link]);
+        for (int l = 0; l < count; l++)
+            _responses.Changes[first + l] = l == k ? 1 : 0;
+        _dynamics.Answer(link, change, _responses.Changes, _responses.Changes);
+        for (int l = 0; l < count; l++)
+        {
+            double answer = _responses.Changes[first + l];
+            _jointResponses[(first + k) * Axes + l] = answer;
+            change += _dynamics.Axis[first + l] * answer;
+        }
+
+        _linkResponses[first + k] = change;
+    }
+
+    // Twice the vector part of what is left of the turn to the targets' rotation vector.
+    private double RotationGap(int link, int axis)
+    {
+        Vector3d target = Vector3d.Zero;
+        for (int f = _tree.FirstFreedom[link]; f < _tree.FirstFreedom[link + 1]; f++)
+        {
+            ref LinkAxis other = ref _tree.AxisOfFreedom(link, f);
+            int a = _tree.AxisOf[f];
+            if (other.HasDrive)
+                target += new Vector3d(a == 0 ? other.Target : 0, a == 1 ? other.Target : 0, a == 2 ? other.Target : 0);
+        }
+
+        Quaterniond goal = TreeKinematics.Turn(target);
+        Quaterniond now = TreeKinematics.RelativeRotation(_tree, link);
+        Quaterniond left = goal.Conjugate() * now;
+        return (left.W < 0 ? 2 : -2) * left.Vector[axis];
+    }
+
+    // As PhysX adds them up: N and N m.
+    private static double Length(in Wrench w) => w.Force.Length + w.Torque.Length;
+}
+
+/// <summary>Rows of joints that hold one link to the world: PhysX solves them on the way through the tree, right after the link's own.</summary>
+internal interface ILinkRows
+{
+    /// <summary>Whether a link has any.</summary>
+    bool Has(int link);
+
+    /// <summary>Solves them once.</summary>
+    /// <param name="link">Which.</param>
+    /// <param name="change">Change of its motion in the sweeps since the last flush; takes what the rows add.</param>
+    /// <param name="impulse">Impulses on it in this visit; takes what the rows add.</param>
+    /// <returns>Whether any gave something.</returns>
+    bool Solve(int link, ref Twist change, ref Wrench impulse);
+}

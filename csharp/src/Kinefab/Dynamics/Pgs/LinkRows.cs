@@ -1,0 +1,377 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Dynamics.Articulations;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Pgs;
+
+/// <summary>
+/// Rows of joints and couplings that act on links of articulations, in the sweeps: PhysX's 1-D rows with the response of the whole
+/// articulation in the place of a body's inverse mass, without preprocessing. Those between one link and the world are solved inside the
+/// articulation's own sweep. Source: DyConstraintSetup.cpp, setupSolverConstraint (isExtended).
+/// </summary>
+internal sealed class LinkRows
+{
+    private const double LeastResponse = 1e-12;
+
+    private readonly MultibodySystem _mechanism;
+    private readonly ArticulatedBodies _links;
+    private readonly int[] _joints;
+    private readonly int[] _couplings;
+    private readonly SweepRows _rows;
+    private readonly Row[] _made;
+    private readonly WorldSide[] _worldSides;
+    private readonly ConstraintRow[] _given = new ConstraintRow[JointModel.MaxRows];
+    private int _count;
+
+    private struct Row
+    {
+        public int Joint;
+        public Part A, B, C, D;
+        public int Parts;
+        public bool Counts;
+
+        // Solved inside the articulation.
+        public bool IsInner;
+    }
+
+    private struct Part
+    {
+        public int Body;
+        public Wrench Direction;
+        public Twist Start;
+
+        /// <summary>Of a rigid body: its change of velocity by a unit of impulse.</summary>
+        public Twist Response;
+    }
+
+    public LinkRows(MultibodySystem mechanism, ArticulatedBodies links)
+    {
+        _mechanism = mechanism;
+        _links = links;
+        var joints = new List<int>();
+        for (int i = 0; i < mechanism.Joints.Length; i++)
+        {
+            if (!links.HeldJoints[i] && Touches(mechanism.Joints[i]))
+                joints.Add(i);
+        }
+
+        var couplings = new List<int>();
+        for (int i = 0; i < mechanism.Couplings.Length; i++)
+        {
+            if (Touches(mechanism.Couplings[i].A.Joint) || Touches(mechanism.Couplings[i].B.Joint))
+                couplings.Add(i);
+        }
+
+        _joints = joints.ToArray();
+        _couplings = couplings.ToArray();
+        int most = joints.Count + couplings.Count;
+        _rows = new SweepRows(most);
+        _made = new Row[most * JointModel.MaxRows];
+        _worldSides = new WorldSide[links.Solvers.Length];
+        for (int a = 0; a < _worldSides.Length; a++)
+        {
+            _worldSides[a] = new WorldSide(this, links.Solvers[a]);
+            links.Solvers[a].WorldRows = _worldSides[a];
+        }
+    }
+
+    /// <summary>Whether there are any.</summary>
+    public bool IsNeeded => _joints.Length + _couplings.Length > 0;
+
+    /// <summary>Whether a joint is one of these, or one that an articulation holds.</summary>
+    public bool Takes(int joint) => _links.HeldJoints[joint] || Array.BinarySearch(_joints, joint) >= 0;
+
+    /// <summary>Whether a coupling is one of these.</summary>
+    public bool TakesCoupling(int coupling) => Array.BinarySearch(_couplings, coupling) >= 0;
+
+    /// <summary>Rows of a step; the articulations have begun theirs.</summary>
+    public void Prepare(double dt)
+    {
+        _count = 0;
+        foreach (WorldSide side in _worldSides)
+            side.Clear();
+        double inverseDt = 1 / dt;
+        foreach (int j in _joints)
+        {
+            JointModel joint = _mechanism.Joints[j];
+            if (joint.IsBroken)
+                continue;
+            int count = joint.Prepare(_mechanism.Bodies.PoseOf(joint.Body0), _mechanism.Bodies.PoseOf(joint.Body1), _given);
+            for (int hint = 0; hint <= 2; hint++)
+            {
+                for (int i = 0; i < count; i++)
+                {
+                    if (Class(_given[i].Hint) != hint)
+                        continue;
+                    ref Row row = ref Begin(j);
+                    Add(ref row, joint.Body0, _given[i].Linear0, _given[i].Angular0);
+                    Add(ref row, joint.Body1, _given[i].Linear1 * -1, _given[i].Angular1 * -1);
+                    double scale = _given[i].Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
+                    End(ref row, _given[i], scale, dt, inverseDt);
+                }
+            }
+        }
+
+        foreach (int c in _couplings)
+            PrepareCoupling(_mechanism.Couplings[c], dt, inverseDt);
+        _rows.Constants = _rows.BiasedConstants;
+    }
+
+    /// <summary>From the velocity iterations on the error counts no more.</summary>
+    public void RemoveBias() => _rows.Constants = _rows.UnbiasedConstants;
+
+    /// <summary>All but those to the world once.</summary>
+    public void Sweep(BodyDelta[] deltas, SqrtInertia[] sqrtInertia)
+    {
+        for (int i = 0; i < _count; i++)
+        {
+            ref Row row = ref _made[i];
+            if (row.IsInner)
+                continue;
+            double speed = 0;
+            for (int p = 0; p < row.Parts; p++)
+            {
+                ref Part part = ref At(ref row, p);
+                Twist change = _links.IsLink(part.Body)
+                    ? _links.Motion(part.Body) - part.Start
+                    : new Twist(sqrtInertia[part.Body].Times(deltas[part.Body].Angular.Vector).Vector, deltas[part.Body].Linear.Vector);
+                speed += Wrench.Dot(part.Direction, change);
+            }
+
+            double impulse = Solve(i, speed);
+            for (int p = 0; impulse != 0 && p < row.Parts; p++)
+            {
+                ref Part part = ref At(ref row, p);
+                if (_links.IsLink(part.Body))
+                {
+                    _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Apply(_links.LinkOf[part.Body], part.Direction * impulse);
+                    continue;
+                }
+
+                deltas[part.Body].Linear += new Double4(part.Response.Linear * impulse, 0);
+                deltas[part.Body].Angular += sqrtInertia[part.Body].Times(part.Direction.Torque * impulse);
+            }
+        }
+    }
+
+    /// <summary>Breaks the joints that passed their limits; true when one did.</summary>
+    public bool Break(double dt)
+    {
+        bool broken = false;
+        for (int i = 0; i < _count;)
+        {
+            int j = _made[i].Joint;
+            JointReaction impulse = Sum(ref i);
+            if (j < 0 || !_mechanism.Joints[j].CanBreak)
+                continue;
+            JointModel joint = _mechanism.Joints[j];
+            joint.IsBroken = impulse.Force.Length > joint.BreakForce * dt || impulse.Torque.Length > joint.BreakTorque * dt;
+            broken |= joint.IsBroken;
+        }
+
+        return broken;
+    }
+
+    /// <summary>Adds the step's forces and torques on actor 0, the torque about the anchor in actor 1.</summary>
+    public void Write(JointReaction[] reactions, double dt)
+    {
+        for (int i = 0; i < _count;)
+        {
+            int j = _made[i].Joint;
+            JointReaction impulse = Sum(ref i);
+            if (j >= 0)
+                reactions[j] = new JointReaction { Force = impulse.Force * (1 / dt), Torque = impulse.Torque * (1 / dt) };
+        }
+    }
+
+    private JointReaction Sum(ref int i)
+    {
+        int joint = _made[i].Joint;
+        var sum = default(JointReaction);
+        for (; i < _count && _made[i].Joint == joint; i++)
+        {
+            if (_made[i].Counts)
+            {
+                sum.Force += _rows.Vectors[i].Linear.Vector * _rows.Impulses[i];
+                sum.Torque += _rows.Angular0[i] * _rows.Impulses[i];
+            }
+        }
+
+        return sum;
+    }
+
+    // The order in which PhysX sorts them: drives and soft limits, equalities, inequalities.
+    private static int Class(SolveHint hint) => hint == SolveHint.Equality ? 1 : hint == SolveHint.Inequality ? 2 : 0;
+
+    private bool Touches(JointModel joint) => _links.IsLink(joint.Body0) || _links.IsLink(joint.Body1);
+
+    private ref Row Begin(int joint)
+    {
+        ref Row row = ref _made[_count];
+        row = default;
+        row.Joint = joint;
+        return ref row;
+    }
+
+    private void Add(ref Row row, int body, Vector3d linear, Vector3d angular)
+    {
+        if (body < 0 || (!_links.IsLink(body) && !(_mechanism.Bodies.InverseMasses[body] > 0)))
+            return;
+        int p = 0;
+        while (p < row.Parts && At(ref row, p).Body != body)
+            p++;
+        ref Part part = ref At(ref row, p);
+        part.Body = body;
+        part.Direction += new Wrench(linear, angular);
+        row.Parts = Math.Max(row.Parts, p + 1);
+    }
+
+    // Response and speed at the start; a row that moves nothing is left out.
+    private void End(ref Row row, in ConstraintRow given, double driveScale, double dt, double inverseDt)
+    {
+        Bodies bodies = _mechanism.Bodies;
+        double response = 0;
+        double speed = 0;
+        double compliance = 0;
+        for (int p = 0; p < row.Parts; p++)
+        {
+            ref Part part = ref At(ref row, p);
+            if (_links.IsLink(part.Body))
+            {
+                ArticulationSolver solver = _links.Solvers[_links.ArticulationOf[part.Body]];
+                solver.Responses.Apply(_links.LinkOf[part.Body], part.Direction);
+                part.Start = solver.Tree.Motions[_links.LinkOf[part.Body]];
+                compliance = Math.Max(compliance, solver.JointCompliance(_links.LinkOf[part.Body]));
+            }
+            else
+            {
+                part.Start = new Twist(bodies.AngularVelocities[part.Body], bodies.LinearVelocities[part.Body]);
+                Quaterniond q = bodies.Poses[part.Body].Rotation;
+                part.Response = new Twist(
+                    q * Vector3d.Scale(bodies.InverseInertias[part.Body], q.InverseRotate(part.Direction.Torque)), part.Direction.Force * bodies.InverseMasses[part.Body]);
+            }
+
+            speed += Wrench.Dot(part.Direction, part.Start);
+        }
+
+        for (int p = 0; p < row.Parts; p++)
+        {
+            ref Part part = ref At(ref row, p);
+            response += Wrench.Dot(part.Direction, _links.IsLink(part.Body) ? _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Change(_links.LinkOf[part.Body]) : part.Response);
+        }
+
+        bool isInner = row.Parts == 1 && _links.IsLink(row.A.Body);
+        for (int p = 0; p < row.Parts; p++)
+        {
+            if (_links.IsLink(At(ref row, p).Body))
+                _links.Solvers[_links.ArticulationOf[At(ref row, p).Body]].Responses.Forget();
+        }
+
+        if (!(response > LeastResponse))
+            return;
+        response += compliance;
+        int i = _count++;
+        row.Counts = given.Has(RowFlags.OutputForce);
+        row.IsInner = isInner;
+        _rows.Vectors[i] = new RowVectors
+        {
+            Linear = new Double4(given.Linear0, given.GeometricError),
+            Sqrt0 = new Double4(Vector3d.Zero, given.VelocityTarget),
+            Sqrt1 = new Double4(Vector3d.Zero, speed),
+        };
+        _rows.Angular0[i] = given.Angular0;
+        PgsConstants.Set(_rows, i, response, given, driveScale, dt, inverseDt);
+        if (isInner)
+            _worldSides[_links.ArticulationOf[row.A.Body]].Add(_links.LinkOf[row.A.Body], i);
+    }
+
+    private void PrepareCoupling(CoordinateCoupling coupling, double dt, double inverseDt)
+    {
+        JointModel a = coupling.A.Joint;
+        JointModel b = coupling.B.Joint;
+        if (a.IsBroken || b.IsBroken)
+            return;
+        Bodies bodies = _mechanism.Bodies;
+        double error = coupling.Prepare(bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), out ConstraintRow rowA, out ConstraintRow rowB);
+        ref Row row = ref Begin(-1);
+        Add(ref row, a.Body0, rowA.Linear0 * -coupling.Ratio, rowA.Angular0 * -coupling.Ratio);
+        Add(ref row, a.Body1, rowA.Linear1 * coupling.Ratio, rowA.Angular1 * coupling.Ratio);
+        Add(ref row, b.Body0, rowB.Linear0, rowB.Angular0);
+        Add(ref row, b.Body1, -rowB.Linear1, -rowB.Angular1);
+        var given = new ConstraintRow { GeometricError = error, Minimum = double.NegativeInfinity, Maximum = double.PositiveInfinity, Hint = SolveHint.Equality };
+        End(ref row, given, 1, dt, inverseDt);
+    }
+
+    private double Solve(int i, double speed)
+    {
+        ref RowBounds bounds = ref _rows.Bounds[i];
+        double impulse = bounds.ImpulseMultiplier * _rows.Impulses[i] + _rows.VelocityMultipliers[i] * speed + _rows.Constants[i];
+        impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
+        double given = impulse - _rows.Impulses[i];
+        _rows.Impulses[i] = impulse;
+        return given;
+    }
+
+    private static ref Part At(ref Row row, int part)
+    {
+        switch (part)
+        {
+            case 0:
+                return ref row.A;
+            case 1:
+                return ref row.B;
+            case 2:
+                return ref row.C;
+            default:
+                return ref row.D;
+        }
+    }
+
+    /// <summary>The rows between one articulation's links and the world.</summary>
+    private sealed class WorldSide : ILinkRows
+    {
+        private readonly LinkRows _owner;
+        private readonly ArticulationSolver _solver;
+        private readonly List<int>[] _rows;
+
+        public WorldSide(LinkRows owner, ArticulationSolver solver)
+        {
+            _owner = owner;
+            _solver = solver;
+            _rows = new List<int>[solver.Tree.Count];
+            for (int i = 0; i < _rows.Length; i++)
+                _rows[i] = new List<int>();
+        }
+
+        public bool Has(int link) => _rows[link].Count > 0;
+
+        public void Clear()
+        {
+            foreach (List<int> rows in _rows)
+                rows.Clear();
+        }
+
+        public void Add(int link, int row) => _rows[link].Add(row);
+
+        public bool Solve(int link, ref Twist change, ref Wrench impulse)
+        {
+            bool given = false;
+            foreach (int i in _rows[link])
+            {
+                ref Part part = ref _owner._made[i].A;
+                Twist moved = _solver.Tree.Motions[link] + change - part.Start;
+                double by = _owner.Solve(i, Wrench.Dot(part.Direction, moved));
+                if (by == 0)
+                    continue;
+                given = true;
+                Wrench push = part.Direction * by;
+                change += _solver.Responses.Links[link].Times(push);
+                impulse += push;
+            }
+
+            return given;
+        }
+    }
+}

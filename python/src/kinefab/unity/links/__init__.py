@@ -1,0 +1,1 @@
+"""Links of articulations in the place of bodies and joints."""

@@ -1,0 +1,285 @@
+using System;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using NUnit.Framework;
+using Quaterniond = Kinefab.Numerics.Quaterniond;
+
+namespace Kinefab.Tests.Dynamics.Articulations;
+
+/// <summary>Articulations of a scene in a world, by either solver.</summary>
+public sealed class WorldLinkTests
+{
+    private const ArticulationJointType Revolute = ArticulationJointType.Revolute;
+    private const ArticulationJointType Prismatic = ArticulationJointType.Prismatic;
+    private const ArticulationJointType Spherical = ArticulationJointType.Spherical;
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Step_Pendulum_SwingsWithTheClosedFormsPeriod(SolverKind solver)
+    {
+        // Released at 5 degrees from hanging: T = 2 pi sqrt(I / m g r) (1 + a^2/16).
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute));
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.SetPosition(Coordinate.AngularX, -85);
+        double amplitude = 5 * Math.PI / 180;
+        double period = 2 * Math.PI * Math.Sqrt((0.1 + 2 * 0.25) / (2 * 9.81 * 0.5)) * (1 + amplitude * amplitude / 16);
+        RunResult run = world.Run(period, record: ["L1"], step: period / 2000);
+        Assert.That(run["L1"][^1], Is.EqualTo(-85).Within(0.05));
+        Assert.That(run["L1"].Min(), Is.EqualTo(-95).Within(0.05));
+    }
+
+    [TestCase(SolverKind.Unity, ArticulationDriveType.Force)]
+    [TestCase(SolverKind.Unity, ArticulationDriveType.Acceleration)]
+    [TestCase(SolverKind.Unity, ArticulationDriveType.Target)]
+    [TestCase(SolverKind.Exact, ArticulationDriveType.Force)]
+    [TestCase(SolverKind.Exact, ArticulationDriveType.Acceleration)]
+    [TestCase(SolverKind.Exact, ArticulationDriveType.Target)]
+    public void Step_DrivenToATarget_ReachesItInItsOwnSense(SolverKind solver, ArticulationDriveType type)
+    {
+        var drive = new ArticulationDrive { Stiffness = 1e6, Damping = 1e5, Target = 40, DriveType = type };
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute, drive), LinkScene.Link(Prismatic, drive with { Target = 0.2 }));
+        world.Run(4);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world["L1"], Is.EqualTo(40).Within(0.1));
+            Assert.That(world["L2"], Is.EqualTo(0.2).Within(1e-3));
+            Assert.That(world.Body("L1").Pose.Rotation.Z, Is.EqualTo(Math.Sin(20 * Math.PI / 180)).Within(1e-3), "left-handed about Z");
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Step_DriveOfTypeVelocity_HoldsTheSpeed(SolverKind solver)
+    {
+        var drive = new ArticulationDrive { TargetVelocity = 30, DriveType = ArticulationDriveType.Velocity };
+        World world = LinkScene.World(solver, LinkScene.Link(Prismatic, drive with { TargetVelocity = 0.05 }), LinkScene.Link(Revolute, drive));
+        world.Run(2);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world["L2"], Is.EqualTo(60).Within(0.7));
+            Assert.That(world["L1"], Is.EqualTo(0.1).Within(2e-3));
+            Assert.That(((WorldLinkJoint)world.Joints[1]).Speed(Coordinate.AngularX), Is.EqualTo(30).Within(0.05));
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void DriveToAndAt_ByName_MoveTheLink(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Prismatic), LinkScene.Link(Revolute));
+        world.DriveTo("L2", -35);
+        world.DriveAt("L1", 0.04);
+        world.Run(2);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world["L2.angularX"], Is.EqualTo(-35).Within(0.05));
+            Assert.That(world["L1.x"], Is.EqualTo(0.08).Within(1e-3));
+        }
+    }
+
+    [TestCase(SolverKind.Unity, 0.1)]
+    [TestCase(SolverKind.Exact, 0.1)]
+    public void Step_LimitsThatLieLopsided_Hold(SolverKind solver, double within)
+    {
+        World world = LinkScene.World(
+            solver,
+            LinkScene.Link(Revolute, new ArticulationDrive { LowerLimit = -20, UpperLimit = 50 }) with { TwistLock = ConfigurableJointMotion.Limited },
+            LinkScene.Link(Prismatic, new ArticulationDrive { LowerLimit = -0.1, UpperLimit = 0.3, Damping = 5 }) with { LinearLock = ConfigurableJointMotion.Limited });
+        RunResult run = world.Run(3, record: ["L1", "L2"]);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(run["L1"].Min(), Is.EqualTo(-20).Within(within));
+            Assert.That(run["L2"].Max(), Is.EqualTo(0.3).Within(2e-3), "slides down the sloping arm");
+        }
+    }
+
+    [Test]
+    public void Step_TumblingInFreeSpace_KeepsMomentumAndEnergyToTheOrderOfTheStep()
+    {
+        double coarse = Loss(0.004), fine = Loss(0.002);
+        Assert.That(coarse, Is.LessThan(0.02));
+        Assert.That(fine, Is.LessThan(0.65 * coarse), "first order");
+
+        static double Loss(double step)
+        {
+            ArticulationBody root = LinkScene.Base with { Immovable = false, UseGravity = false, AngularDamping = 0 };
+            World world = World.Create(LinkScene.Scene(root, LinkScene.Link(Revolute) with { UseGravity = false }, LinkScene.Link(Spherical) with { UseGravity = false }));
+            WorldBody body = world.Body("L0");
+            body.AngularVelocity = new Vector3d(0.4, 0.8, -0.5);
+            world.Step(step);
+            (double energy, Vector3d linear, Vector3d angular) = (world.KineticEnergy, Linear(world), Angular(world));
+            world.Run(1, step: step);
+            return Math.Abs(world.KineticEnergy - energy) / energy + (Linear(world) - linear).Length / 3 + (Angular(world) - angular).Length / angular.Length;
+        }
+    }
+
+    /// <summary>The same open chain as links and as Rigidbodies with joints in the exact solver.</summary>
+    [Test]
+    public void Step_ArticulationAndExactJoints_AgreeToTheOrderOfTheStep()
+    {
+        double coarse = Gap(0.002), fine = Gap(0.001);
+        Assert.That(coarse, Is.LessThan(0.02));
+        Assert.That(fine, Is.LessThan(0.65 * coarse), "first order");
+
+        static double Gap(double step)
+        {
+            ArticulationBody[] links = [LinkScene.Link(Revolute), LinkScene.Link(Spherical), LinkScene.Link(Prismatic, new ArticulationDrive { Stiffness = 200, Damping = 2 })];
+            World unity = LinkScene.World(SolverKind.Unity, links);
+            World exact = LinkScene.World(SolverKind.Exact, links);
+            unity.Run(0.6, step: step);
+            exact.Run(0.6, step: step);
+            return (unity.Body("L3").Pose.Position - exact.Body("L3").Pose.Position).Length;
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void SetPositionAndSpeed_OfALink_MoveAllBelow(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute) with { UseGravity = false }, LinkScene.Link(Revolute) with { UseGravity = false });
+        var first = (WorldLinkJoint)world.Joints[0];
+        first.SetPosition(Coordinate.AngularX, 90);
+        Assert.That((world.Body("L2").Pose.Position - new Vector3d(0.5, 1.5, 0)).Length, Is.LessThan(1e-9));
+        first.SetSpeed(Coordinate.AngularX, 90);
+        world.Step(0.01);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(first.Speed(Coordinate.AngularX), Is.EqualTo(90).Within(2));
+            Assert.That(world["L1"], Is.EqualTo(90.9).Within(0.02));
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Pose_OfTheRoot_TakesTheArticulationAlong(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute) with { UseGravity = false });
+        world.Body("L0").Pose = new Pose(new Vector3d(0, 2, 0), Quaterniond.AxisAngle(Vector3d.UnitY, Math.PI / 2));
+        world.Step(0.02);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((world.Body("L1").Pose.Position - new Vector3d(0, 2, -1)).Length, Is.LessThan(1e-9));
+            Assert.That(() => world.Body("L1").Pose = Pose.Identity, Throws.InvalidOperationException);
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void AddForce_OnACoordinate_HoldsTheWeight(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute));
+        for (int i = 0; i < 50; i++)
+        {
+            ((WorldLinkJoint)world.Joints[0]).AddForce(Coordinate.AngularX, 2 * 9.81 * 0.5);
+            world.Step(0.02);
+        }
+
+        Assert.That(world["L1"], Is.Zero.Within(1e-3));
+    }
+
+    [Test]
+    public void Restore_Snapshot_GivesTheSameBitsAgain()
+    {
+        World world = LinkScene.World(SolverKind.Unity, LinkScene.Link(Revolute), LinkScene.Link(Spherical), LinkScene.Link(Prismatic, new ArticulationDrive { Stiffness = 100 }));
+        world.Run(0.5);
+        WorldSnapshot snapshot = world.Snapshot();
+        world.DriveTo("L1", 20);
+        world.Run(0.5);
+        Pose[] poses = [.. world.Bodies.Select(b => b.Pose)];
+        world.Restore(snapshot);
+        world.DriveTo("L1", 20);
+        world.Run(0.5);
+        Assert.That(world.Bodies.Select(b => b.Pose), Is.EqualTo(poses));
+    }
+
+    [Test]
+    public void Friction_AboveTheWeight_HoldsAndTheExactSolverSaysThatItHasNone()
+    {
+        ArticulationBody link = LinkScene.Link(Revolute) with { JointFriction = 3 };
+        World world = LinkScene.World(SolverKind.Unity, link);
+        world.Run(1);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world["L1"], Is.Zero.Within(0.2));
+            Assert.That(LinkScene.World(SolverKind.Exact, link).Findings.Diagnostics.Select(d => d.Code), Is.EqualTo("LINK_NOT_EXACT".Split()));
+        }
+    }
+
+    [Test]
+    public void MaxJointVelocity_OfALink_IsNotPassed()
+    {
+        World world = LinkScene.World(SolverKind.Unity, LinkScene.Link(Revolute) with { MaxJointVelocity = 1 });
+        double fastest = 0;
+        for (int i = 0; i < 100; i++)
+        {
+            world.Step(0.02);
+            fastest = Math.Max(fastest, Math.Abs(((WorldLinkJoint)world.Joints[0]).Speed(Coordinate.AngularX)));
+        }
+
+        Assert.That(fastest, Is.EqualTo(180 / Math.PI).Within(0.01));
+    }
+
+    /// <summary>A loop of links that a joint of a helper closes, and a coupling of two links' coordinates.</summary>
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Step_CouplingOfTwoLinks_KeepsTheirRatio(SolverKind solver)
+    {
+        ArticulationBody[] links = [LinkScene.Link(Revolute), LinkScene.Link(Revolute)];
+        SceneDocument document = LinkScene.Document(LinkScene.Base, links) with
+        {
+            Couplings = [new Coupling { Id = "gear", A = At(1), B = At(2), Ratio = -0.5 }],
+        };
+        World world = World.Create(LinkScene.Valid(document), solver);
+        world.Run(0.5);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(Math.Abs(world["L1"]), Is.GreaterThan(20));
+            Assert.That(world["L2"], Is.EqualTo(-0.5 * world["L1"]).Within(0.3));
+        }
+
+        static JointCoordinate At(int link) => new() { GameObject = link, Component = 0, Coordinate = Coordinate.AngularX };
+    }
+
+    [Test]
+    public void Step_WithoutRows_AllocatesNothing()
+    {
+        World world = LinkScene.World(SolverKind.Unity, LinkScene.Link(Revolute, new ArticulationDrive { Stiffness = 100, Damping = 10 }), LinkScene.Link(Spherical));
+        world.Run(0.2);
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        for (int i = 0; i < 100; i++)
+            world.Step(0.02);
+        Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+    }
+
+    [Test]
+    public void Step_OnHugeNumbers_StopsAndThrowsNothing()
+    {
+        ArticulationBody[] links = [LinkScene.Link(Revolute) with { MaxJointVelocity = 1e300 }, LinkScene.Link(Prismatic) with { MaxJointVelocity = 1e300 }];
+        World world = LinkScene.World(SolverKind.Unity, links);
+        world.Gravity = new Vector3d(0, -1e300, 1e300);
+        for (int i = 0; i < 20; i++)
+            world.Step(0.02);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world.Stops, Is.Positive);
+            Assert.That(world.Bodies.All(b => b.Pose.Position.IsFinite), Is.True);
+        }
+    }
+
+    private static Vector3d Linear(World world) => world.Bodies.Aggregate(Vector3d.Zero, (sum, b) => sum + b.LinearVelocity * b.Settings.Mass);
+
+    private static Vector3d Angular(World world)
+    {
+        double mass = world.Bodies.Sum(b => b.Settings.Mass);
+        Vector3d center = world.Bodies.Aggregate(Vector3d.Zero, (sum, b) => sum + b.CenterOfMass * b.Settings.Mass) * (1 / mass);
+        return world.Bodies.Aggregate(Vector3d.Zero, (sum, b) =>
+        {
+            Quaterniond q = b.Pose.Rotation;
+            Vector3d spin = q * Vector3d.Scale(b.Settings.InertiaTensor, q.Conjugate() * b.AngularVelocity);
+            return sum + spin + Vector3d.Cross(b.CenterOfMass - center, b.LinearVelocity * b.Settings.Mass);
+        });
+    }
+}

@@ -1,0 +1,90 @@
+"""``--physics articulation`` to ``.kinefab``: the links of the prefab, with format 1.1 and the couplings kept."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab.spatial import matrix_from_quaternion
+from test_prefab_articulation import ARTICULATED, BOX, arm, exported, link, mass, nodes_of
+
+VECTORS = {
+    "anchorPosition": "m_AnchorPosition",
+    "parentAnchorPosition": "m_ParentAnchorPosition",
+    "centerOfMass": "m_CenterOfMass",
+}
+
+
+def written(scene, folder: Path, **options) -> dict:
+    writing = {**ARTICULATED, **options.pop("writing", {})}
+    kinefab.export(scene, folder / "arm.kinefab", kinefab.ExportOptions(writing=writing, **options))
+    return json.loads((folder / "arm.kinefab").read_text(encoding="utf-8"))
+
+
+def links_of(scene: dict) -> dict[str, dict]:
+    return {
+        entry["name"]: component
+        for entry in scene["gameObjects"]
+        for component in entry.get("components", [])
+        if component["type"] == "ArticulationBody"
+    }
+
+
+def test_links_are_those_of_the_prefab(tmp_path):
+    found = links_of(written(arm(), tmp_path))
+    nodes = nodes_of(exported(arm(), tmp_path)[0])
+    assert {"Upper", "Fore"} <= set(found)
+    for name in ("Upper", "Fore"):
+        ours, theirs = found[name], link(nodes[name])
+        assert ours.get("mass", 1.0) == float(theirs["m_Mass"])
+        for mine, unity in VECTORS.items():
+            there = np.array([float(theirs[unity][k]) for k in "xyz"])
+            assert np.allclose(ours.get(mine, [0, 0, 0]), there, atol=1e-6), (name, mine)
+        turns = [
+            matrix_from_quaternion(np.array(q))
+            for q in (
+                ours.get("anchorRotation", [0, 0, 0, 1]),
+                [float(theirs["m_AnchorRotation"][k]) for k in "xyzw"],
+            )
+        ]
+        assert np.allclose(turns[0], turns[1], atol=1e-6)
+        for mine, unity in (("xDrive", "m_XDrive"), ("yDrive", "m_YDrive")):
+            drive = ours.get(mine, {})
+            for field in ("lowerLimit", "upperLimit", "stiffness", "damping", "target"):
+                assert drive.get(field, 0.0) == pytest.approx(float(theirs[unity][field]), abs=1e-6), (name, mine, field)
+    assert found["Upper"]["jointType"] == "Revolute"
+    assert found["Fore"]["jointType"] == "Prismatic"
+
+
+def test_a_link_says_which_joint_it_stands_for(tmp_path):
+    assert links_of(written(arm(), tmp_path))["Upper"]["because"]
+
+
+def test_version_is_that_of_what_is_in_the_file(tmp_path):
+    assert written(arm(), tmp_path)["version"] == "1.1"
+    assert written(arm(), tmp_path, writing={"physics": "rigidbody"})["version"] == "1.0"
+
+
+def test_couplings_are_those_of_the_links(tmp_path):
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", BOX, grounded=True)
+    wheels = [scene.add_part(f"Wheel{i}", BOX, translation=(i, 0, 0), mass=mass(1.0)) for i in range(2)]
+    joints = [
+        scene.add_hinge(base, wheel, point=(i, 0, 0), axis=(0, 0, 1), name=f"Pin{i}")
+        for i, wheel in enumerate(wheels)
+    ]
+    scene.add_coupling(*joints, -2.0)
+    found = written(scene, tmp_path)
+    plain = written(scene, tmp_path, writing={"physics": "rigidbody"})
+    assert len(found["couplings"]) == 1
+    (mine,), (theirs,) = found["couplings"], plain["couplings"]
+    assert mine["ratio"] == theirs["ratio"]
+    for side in ("a", "b"):
+        at = mine[side]
+        entry = found["gameObjects"][at["gameObject"]]
+        assert entry["components"][at["component"]]["type"] == "ArticulationBody"
+        assert at["coordinate"] == "angularX"
+        assert entry["id"] == plain["gameObjects"][theirs[side]["gameObject"]]["id"]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import kinefab
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from joint_cases import DRIVEN, GROUNDING, KINDS, NAMES, Case, between, relative, turned
 from kinefab.diagnostics import Report
-from kinefab.model import FREE, UNLOCKED, Drive, Freedom, JointKind, Motion, Node, SphericalDrive
+from kinefab.model import FREE, UNLOCKED, Drive, Freedom, JointKind, Motion, Node, Passive, SphericalDrive
 from kinefab.rigid import rigid_groups
 from kinefab.spatial import Pose, rotation_exp
 from kinefab.unity.joints.mapping import map_joint
@@ -51,6 +52,57 @@ def test_hinge_limits_past_half_a_turn_are_extended_and_past_a_turn_reported():
     case = Case(7, JointKind.REVOLUTE, rx=between(-700, 700))
     assert "useLimits" not in case.component and case.component["exact"] is False
     assert [o.code for o in case.report.outcomes] == ["JOINT_LIMIT_BEYOND_TURN"]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "speed", "extended"),
+    [
+        (-180, 180, math.inf, True),
+        (-180, 180, 0.0, True),  # a speed of zero in a file says nothing about what pushes the part
+        (-180, 0, 1.0, True),
+        (0, 175, 3.0, True),  # turns 6.9 degrees in two steps of 0.02 s
+        (-170, 170, 3.0, False),
+        (-170, 170, math.inf, True),
+        (-90, 160, math.inf, False),
+    ],
+)
+def test_a_hinge_that_may_wrap_beyond_its_stop_is_extended(low, high, speed, extended):
+    """Without extendedLimits the angle jumps from 180 to -180, and the stop pushes the wrong way; nothing is lost by them."""
+    freedom = replace(between(low, high), passive=Passive(speed=speed))
+    case = Case(7, JointKind.REVOLUTE, rx=freedom)
+    assert case.component.get("extendedLimits", False) is extended
+    assert case.component["limits"] == pytest.approx({"min": low, "max": high}, abs=1e-9)
+
+
+def test_a_fast_motor_makes_the_limits_of_its_hinge_extended():
+    """720 degrees a second are 28.8 in two steps; 100 are 4."""
+    for speed, extended in ((720, True), (100, False)):
+        drive = Drive(target_velocity=math.radians(speed), damping=1.0, motor=True)
+        freedom = replace(between(-155, 155), drive=drive)
+        case = Case(7, JointKind.REVOLUTE, rx=freedom)
+        assert case.component.get("extendedLimits", False) is extended
+
+
+@pytest.mark.parametrize(
+    ("stop", "speed", "extended"), [("3.141592653589793", 3, True), ("2.97", 3, False), ("2.97", 7, True)]
+)
+def test_a_robots_speed_decides_whether_its_hinge_is_extended(tmp_path, stop, speed, extended):
+    """From the file to the scene; 2.97 rad are 170.2 degrees. An older editor has no such field, and the report tells it."""
+    link = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    source = tmp_path / "arm.urdf"
+    source.write_text(
+        f'<robot name="Arm"><link name="base">{link}</link><link name="tip">{link}</link>'
+        '<joint name="turn" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>'
+        f'<limit lower="-{stop}" upper="{stop}" effort="10" velocity="{speed}"/></joint></robot>'
+    )
+    scene = kinefab.export(source, tmp_path / "arm.kinefab")
+    assert ('"extendedLimits": true' in scene.path.read_text()) is extended
+    assert [o.outcome.value for o in scene.report.outcomes if o.feature == "joint turn"] == ["kept"]
+    (tmp_path / "old").mkdir()
+    options = kinefab.ExportOptions(writing={"unity": "2021"})
+    old = kinefab.export(source, tmp_path / "old" / "arm.prefab", options)
+    told = [o for o in old.report.outcomes if "extendedLimits" in o.feature + o.message]
+    assert bool(told) is extended
 
 
 @pytest.mark.parametrize("grounding", GROUNDING)

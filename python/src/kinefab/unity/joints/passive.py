@@ -72,7 +72,8 @@ def _without_idle(joint: Joint, index: int, freedom: Freedom, report: Report) ->
 
 def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:
     names = {"joint": joint.id, "freedom": joint.freedom_name(index)}
-    bare = replace(freedom, passive=None)
+    # The largest speed stays beside the freedom: Unity does not hold it, but a hinge's stops are written for it.
+    bare = replace(freedom, passive=Passive(speed=passive.speed) if math.isfinite(passive.speed) else None)
     if freedom.motion is Motion.LOCKED:
         return bare
     for what, value, code in (

@@ -11,6 +11,9 @@ internal static class JointExtras
     /// <summary>Whether the source counts the connected body's motion against the own one.</summary>
     internal static bool CountsConnected(Joint joint) => Text(joint, "counts") == "connected";
 
+    /// <summary>Whether the joint only keeps its bodies from colliding: it holds nothing and stands for no joint of the source.</summary>
+    internal static bool KeepsApart(Joint joint) => joint is ConfigurableJoint && Text(joint, "apart") is not null;
+
     private static string? Text(Joint joint, string field)
     {
         if (joint.ExtrasJson is not string json)

@@ -65,6 +65,12 @@ public sealed partial class Mechanism
             }
         }
 
+        HoldsNothing = new bool[joints.Count];
+        for (int j = 0; j < definition.Joints.Count; j++)
+        {
+            HoldsNothing[j] = JointExtras.KeepsApart(definition.Joints[j].Source) && MotionSubspace.LockedAxes(joints[j]) == 0;
+        }
+
         JointPlaces = new (int, int)[definition.Joints.Count];
         for (int j = 0; j < JointPlaces.Length; j++)
         {
@@ -111,6 +117,9 @@ public sealed partial class Mechanism
 
     /// <summary>The components' joints, then those that frozen motions amount to.</summary>
     internal JointModel[] Joints => Linkage.Joints;
+
+    /// <summary>For each joint whether it only keeps its bodies from colliding: it closes no loop and joins no islands.</summary>
+    internal bool[] HoldsNothing { get; }
 
     /// <summary>For each joint of a component where it stands.</summary>
     internal (int GameObject, int Component)[] JointPlaces { get; }

@@ -77,11 +77,11 @@ public static class MobilityAnalysis
     {
         KinematicTree tree = mechanism.Tree;
         var sets = new DisjointSets(mechanism.BodyCount);
-        foreach (Joints.JointModel joint in mechanism.Joints)
+        for (int j = 0; j < mechanism.Joints.Length; j++)
         {
-            int a = tree.Moving(joint.Body0);
-            int b = tree.Moving(joint.Body1);
-            if (a >= 0 && b >= 0)
+            int a = tree.Moving(mechanism.Joints[j].Body0);
+            int b = tree.Moving(mechanism.Joints[j].Body1);
+            if (a >= 0 && b >= 0 && !mechanism.HoldsNothing[j])
             {
                 sets.Join(a, b);
             }
@@ -116,6 +116,11 @@ public static class MobilityAnalysis
 
         foreach (int joint in tree.Closures)
         {
+            if (mechanism.HoldsNothing[joint])
+            {
+                continue;
+            }
+
             int body = Math.Max(tree.Moving(mechanism.Joints[joint].Body0), tree.Moving(mechanism.Joints[joint].Body1));
             Tally tally = tallies[sets.Find(body)];
             tally.Rows += MotionSubspace.Rows(mechanism.Joints[joint]);

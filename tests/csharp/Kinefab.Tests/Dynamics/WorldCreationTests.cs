@@ -4,6 +4,7 @@ using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
+using Kinefab.Validation;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics;
@@ -12,6 +13,30 @@ namespace Kinefab.Tests.Dynamics;
 public sealed class WorldCreationTests
 {
     private static readonly HingeJoint HingeZ = new() { Axis = new Vector3d(0, 0, 3) };
+
+    [Test]
+    public void Create_ManyJointsOnOneBody_TakesMemoryInProportion()
+    {
+        // Unity's solver needs no matrix: a pattern of it would hold every pair of the hub's joints.
+        _ = StarBytes(16);
+        Assert.That(StarBytes(400), Is.LessThan(2.6 * StarBytes(200)));
+    }
+
+    private static double StarBytes(int leaves)
+    {
+        var hub = new GameObject { Id = "hub", Name = "hub", Components = [new Rigidbody()] };
+        GameObject[] around = Enumerable.Range(0, leaves).Select(i => new GameObject
+        {
+            Id = $"leaf{i}",
+            Name = "leaf",
+            Transform = new Transform { LocalPosition = new Vector3d(i + 1, 0, 0) },
+            Components = [new Rigidbody(), new HingeJoint { Axis = Vector3d.UnitZ, ConnectedBody = 0 }],
+        }).ToArray();
+        ValidScene scene = SmallScene.Validate(new SceneDocument { GameObjects = [hub, .. around] });
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        _ = World.Create(scene);
+        return GC.GetAllocatedBytesForCurrentThread() - before;
+    }
 
     [Test]
     public void Anchor_ScaledObject_IsScaledComponentByComponent()

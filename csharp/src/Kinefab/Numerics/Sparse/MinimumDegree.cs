@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace Kinefab.Numerics;
@@ -35,6 +36,13 @@ internal static class MinimumDegree
             var around = new int[neighbours[node].Count];
             neighbours[node].CopyTo(around);
             later[node] = around;
+            if (around.Length == n - turn - 1)
+            {
+                // All that are left become neighbours of each other: nothing is to be found out any more, only n^2 to be written.
+                FinishClique(sizes, around, order, turn + 1, later);
+                break;
+            }
+
             foreach (int a in around)
             {
                 neighbours[a].Remove(node);
@@ -61,6 +69,20 @@ internal static class MinimumDegree
             }
 
             return rows;
+        }
+    }
+
+    // Among nodes that are all neighbours, the one of most rows has the least degree, whatever has gone before.
+    private static void FinishClique(int[] sizes, int[] nodes, int[] order, int turn, int[][] later)
+    {
+        var left = new List<int>(nodes);
+        var turns = (int[])nodes.Clone();
+        Array.Sort(turns, (a, b) => sizes[a] != sizes[b] ? sizes[b].CompareTo(sizes[a]) : a.CompareTo(b));
+        foreach (int node in turns)
+        {
+            left.RemoveAt(left.BinarySearch(node));
+            later[node] = left.ToArray();
+            order[turn++] = node;
         }
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -27,6 +28,14 @@ internal sealed class Island
         public readonly int Body;
         public readonly int Block;
     }
+
+    // A body of n joints couples n^2 pairs of them: the pattern is built when it is first asked for, since Unity's solver, and an
+    // island that is only looked at for loops, do without.
+    private readonly int[] _sizes;
+    private readonly List<(int Node, int Side)>[] _touching;
+    private BlockPattern? _pattern;
+    private Link[]? _links;
+    private bool[]? _isAngular;
 
     /// <param name="bodies">Index in the mechanism (or Joint.World) of each body, the moving ones first.</param>
     /// <param name="movingBodies">How many move.</param>
@@ -65,7 +74,7 @@ internal sealed class Island
             }
         }
 
-        IsWorkless = System.Array.IndexOf(IsStatic, false, movingBodies) < 0;
+        IsWorkless = Array.IndexOf(IsStatic, false, movingBodies) < 0;
         RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
@@ -74,16 +83,8 @@ internal sealed class Island
 
         LockedInertiaBodies = FindLockedInertia(bodies, movingBodies, inverseInertias);
         MeanRateBodies = FindMeanRate(blocks, movingBodies);
-        Pattern = new BlockPattern(sizes, Couplings(touching));
-        Links = MakeLinks(touching, Pattern);
-        IsAngular = new bool[Pattern.RowCount];
-        for (int n = 0; n < blocks.Length; n++)
-        {
-            for (int i = 0; i < blocks[n].Rows; i++)
-            {
-                IsAngular[Pattern.Rows[n] + i] = blocks[n].IsLockedAngle(i);
-            }
-        }
+        _sizes = sizes;
+        _touching = touching;
     }
 
     /// <summary>Index in the mechanism (or Joint.World) of each of the island's bodies, the moving ones first.</summary>
@@ -99,9 +100,9 @@ internal sealed class Island
 
     public RowBlock[] Blocks { get; }
 
-    public BlockPattern Pattern { get; }
+    public BlockPattern Pattern => _pattern ??= new BlockPattern(_sizes, Couplings(_touching));
 
-    public Link[] Links { get; }
+    public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
 
     /// <summary>Whether nothing but the bodies' own forces does work on them: no scalar row, no kinematic body.</summary>
     public bool IsWorkless { get; }
@@ -124,7 +125,7 @@ internal sealed class Island
     public bool IsInconsistent => Loops == LoopConsistency.Inconsistent;
 
     /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
-    public bool[] IsAngular { get; }
+    public bool[] IsAngular => _isAngular ??= FindAngular(Blocks, Pattern);
 
     /// <summary>Rows with a scalar row, of all blocks.</summary>
     public int ScalarCount { get; }
@@ -209,6 +210,20 @@ internal sealed class Island
         }
 
         return frozen.ToArray();
+    }
+
+    private static bool[] FindAngular(RowBlock[] blocks, BlockPattern pattern)
+    {
+        var angular = new bool[pattern.RowCount];
+        for (int n = 0; n < blocks.Length; n++)
+        {
+            for (int i = 0; i < blocks[n].Rows; i++)
+            {
+                angular[pattern.Rows[n] + i] = blocks[n].IsLockedAngle(i);
+            }
+        }
+
+        return angular;
     }
 
     private static IEnumerable<(int A, int B)> Couplings(List<(int Node, int Side)>[] touching)

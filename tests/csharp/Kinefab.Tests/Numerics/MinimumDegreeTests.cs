@@ -1,0 +1,58 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Numerics;
+
+/// <summary>The order of elimination against the rule carried out word for word.</summary>
+internal sealed class MinimumDegreeTests
+{
+    [Test]
+    public void Order_RandomGraphs_IsTheRulesOrder([Range(0, 199)] int seed)
+    {
+        var random = new Random(seed);
+        int n = random.Next(1, 25);
+        double density = random.NextDouble();
+        int[] sizes = Enumerable.Range(0, n).Select(_ => random.Next(0, 7)).ToArray();
+        SortedSet<int>[] graph = Enumerable.Range(0, n).Select(_ => new SortedSet<int>()).ToArray();
+        for (int a = 0; a < n; a++)
+        {
+            for (int b = 0; b < a; b++)
+            {
+                if (random.NextDouble() < density)
+                {
+                    graph[a].Add(b);
+                    graph[b].Add(a);
+                }
+            }
+        }
+
+        (int[] order, int[][] later) = ByTheRule(sizes, graph);
+        Assert.That(MinimumDegree.Order(sizes, graph, out int[][] found), Is.EqualTo(order));
+        Assert.That(found, Is.EqualTo(later));
+    }
+
+    private static (int[] Order, int[][] Later) ByTheRule(int[] sizes, SortedSet<int>[] graph)
+    {
+        HashSet<int>[] left = graph.Select(around => new HashSet<int>(around)).ToArray();
+        var nodes = new SortedSet<int>(Enumerable.Range(0, sizes.Length));
+        var order = new List<int>();
+        var later = new int[sizes.Length][];
+        while (nodes.Count > 0)
+        {
+            int node = nodes.OrderBy(a => left[a].Sum(b => sizes[b])).ThenBy(a => a).First();
+            nodes.Remove(node);
+            order.Add(node);
+            later[node] = left[node].Order().ToArray();
+            foreach (int a in later[node])
+            {
+                left[a].UnionWith(later[node]);
+                left[a].ExceptWith([a, node]);
+            }
+        }
+
+        return (order.ToArray(), later);
+    }
+}

@@ -240,7 +240,7 @@ class Report:
         'kept'
         """
         if code:
-            self._told(feature, Outcome.KEPT, code, where, values)
+            self._told([feature], Outcome.KEPT, code, where, {"feature": feature, **values})
         else:
             self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
 
@@ -252,7 +252,7 @@ class Report:
         >>> report.outcomes[0].outcome.value
         'approximated'
         """
-        self._told(feature, Outcome.APPROXIMATED, code, where, values)
+        self._told([feature], Outcome.APPROXIMATED, code, where, {"feature": feature, **values})
 
     def approximated_alike(self, features: Iterable[str], code: str, **values: object) -> None:
         """Note features that are in the scene only nearly for one reason, and one finding for all of them.
@@ -262,7 +262,7 @@ class Report:
         >>> len(report.outcomes), len(report.diagnostics)
         (1, 1)
         """
-        self._alike(features, Outcome.APPROXIMATED, code, values)
+        self._told(features, Outcome.APPROXIMATED, code, "", values)
 
     def dropped_alike(self, features: Iterable[str], code: str, **values: object) -> None:
         """Note features that are not in the scene for one reason, and one finding for all of them.
@@ -273,14 +273,7 @@ class Report:
         >>> len(report.outcomes), len(report.diagnostics)
         (2, 1)
         """
-        self._alike(features, Outcome.DROPPED, code, values)
-
-    def _alike(
-        self, features: Iterable[str], outcome: Outcome, code: str, values: Mapping[str, object]
-    ) -> None:
-        found = self.add(code, **values)
-        lost = outcome, code, found.severity, found.message
-        self.outcomes += [FeatureOutcome(feature, *lost) for feature in features]
+        self._told(features, Outcome.DROPPED, code, "", values)
 
     def dropped(self, feature: str, code: str, where: str = "", **values: object) -> None:
         """Note that a feature is not in the scene, and the finding that says why.
@@ -290,7 +283,7 @@ class Report:
         >>> report.outcomes[0].outcome.value
         'dropped'
         """
-        self._told(feature, Outcome.DROPPED, code, where, values)
+        self._told([feature], Outcome.DROPPED, code, where, {"feature": feature, **values})
 
     def field_dropped(self, owner: str, field: str, target: str, where: str = "") -> None:
         """Note that a target has no place for one field of what it holds: a feature of its own, beside the owner's.
@@ -300,15 +293,16 @@ class Report:
         >>> report.outcomes[0].feature
         'friction of joint Hinge'
         """
-        found = self.add("TARGET_FIELD_DROPPED", where, feature=owner, field=field, target=target)
-        lost = Outcome.DROPPED, found.code, found.severity, found.message, where
-        self.outcomes.append(FeatureOutcome(f"{field} of {owner}", *lost))
+        values = {"feature": owner, "field": field, "target": target}
+        self._told([f"{field} of {owner}"], Outcome.DROPPED, "TARGET_FIELD_DROPPED", where, values)
 
     def _told(
-        self, feature: str, outcome: Outcome, code: str, where: str, values: Mapping[str, object]
+        self, features: Iterable[str], outcome: Outcome, code: str, where: str, values: Mapping[str, object]
     ) -> None:
-        found = self.add(code, where, feature=feature, **values)
-        self.outcomes.append(FeatureOutcome(feature, outcome, code, found.severity, found.message, where))
+        """One finding, and what became of each feature that it is about."""
+        found = self.add(code, where, **values)
+        became = outcome, code, found.severity, found.message, where
+        self.outcomes += [FeatureOutcome(feature, *became) for feature in features]
 
     def forgive(self, since: int, feature: str, code: str) -> bool:
         """Turn the errors after the first ``since`` findings into the loss of a feature, each with its place and its

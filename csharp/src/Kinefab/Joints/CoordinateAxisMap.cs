@@ -53,7 +53,7 @@ internal readonly struct CoordinateAxisMap
         row.Flags = RowFlags.Angular;
         Quaterniond q = f.Relative.Rotation;
         double angle = Sign * 2 * Math.Atan2(q.Vector[axis], q.W);
-        row.GeometricError = angle + 2 * Math.PI * Math.Round((near - angle) / (2 * Math.PI));
+        row.GeometricError = SwingTwist.Nearest(angle, near);
         return row.GeometricError;
     }
 }

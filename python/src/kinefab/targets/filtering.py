@@ -44,12 +44,14 @@ def ignored_pairs(scene: Scene) -> tuple[list[tuple[int, int]], list[str]]:
     stated = scene.extras.get("ignoreCollision")
     of_node = {node.id: i for i, node in enumerate(scene.nodes)}
     found: list[tuple[int, int]] = [(pair.a, pair.b) for pair in scene.apart]
+    known = {frozenset(pair) for pair in found}
     unknown: list[str] = []
     for pair in cast("list[object]", stated) if isinstance(stated, list) else []:
         ids = [str(id) for id in cast("list[object]", pair)] if isinstance(pair, list) else []
         numbers = [of_node[id] for id in ids if id in of_node]
         if len(ids) == 2 and len(numbers) == 2:
-            if frozenset(numbers) not in {frozenset(pair) for pair in found}:
+            if frozenset(numbers) not in known:
+                known.add(frozenset(numbers))
                 found.append((numbers[0], numbers[1]))
         else:
             unknown.append(" and ".join(ids))

@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Articulations;
@@ -83,9 +84,9 @@ internal static class TreeKinematics
         if (definition.Joint == LinkJointKind.Prismatic)
             return ((tree.Poses[tree.Parents[link]] * definition.ParentAnchor).Inverse() * (tree.Poses[link] * definition.Anchor)).Position.X;
         Quaterniond q = RelativeRotation(tree, link);
-        double angle = 2 * Math.Atan2(q.X, q.W);
-        double turns = Math.Round((near - angle) / (2 * Math.PI));
-        return Finite.Is(turns) ? angle + 2 * Math.PI * turns : angle;
+        double angle = SwingTwist.TwistAngle(q);
+        double nearest = SwingTwist.Nearest(angle, near);
+        return Finite.Is(nearest) ? nearest : angle;
     }
 
     /// <summary>Motions of all links below the root from the joints' speeds.</summary>

@@ -119,6 +119,9 @@ internal sealed class Bodies
     /// <summary>A body's pose; the identity for Joint.World.</summary>
     public Pose PoseOf(int body) => body < 0 ? Pose.Identity : Poses[body];
 
+    /// <summary>A body's angular velocity, rad/s in the world frame; none for Joint.World.</summary>
+    public Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : AngularVelocities[body];
+
     /// <summary>Translation and rotation, J; a frozen rotation and a kinematic body count for nothing.</summary>
     public double KineticEnergy(int body)
     {

@@ -129,9 +129,8 @@ internal sealed class CouplingRows
             return reached;
         }
 
-        Vector3d w0 = joint.Body0 < 0 ? Vector3d.Zero : bodies.AngularVelocities[joint.Body0];
-        Vector3d w1 = joint.Body1 < 0 ? Vector3d.Zero : bodies.AngularVelocities[joint.Body1];
-        return SwingTwist.Nearest(reached, last + dt * row.Velocity(Vector3d.Zero, w0, Vector3d.Zero, w1));
+        double speed = row.Velocity(Vector3d.Zero, bodies.AngularVelocityOf(joint.Body0), Vector3d.Zero, bodies.AngularVelocityOf(joint.Body1));
+        return SwingTwist.Nearest(reached, last + dt * speed);
     }
 
     // A body on both sides counts once, with its parts added up.

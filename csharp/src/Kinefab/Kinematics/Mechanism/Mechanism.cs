@@ -68,7 +68,7 @@ public sealed partial class Mechanism
         HoldsNothing = new bool[joints.Count];
         for (int j = 0; j < definition.Joints.Count; j++)
         {
-            HoldsNothing[j] = JointExtras.KeepsApart(definition.Joints[j].Source) && MotionSubspace.LockedAxes(joints[j]) == 0;
+            HoldsNothing[j] = MotionSubspace.LockedAxes(joints[j]) == 0 && JointExtras.KeepsApart(definition.Joints[j].Source);
         }
 
         JointPlaces = new (int, int)[definition.Joints.Count];

@@ -53,8 +53,7 @@ internal sealed partial class ActiveSet<V>
             double c = scalar.Built.GeometricError;
             if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring) && scalar.Built.Stiffness > 0 && !(scalar.Built.Has(RowFlags.Limit) && c >= 0) && HasPotential(scalar))
             {
-                double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
-                double k = response > LeastResponse ? scalar.Built.Stiffness / response : 0;
+                double k = Stiffness(scalar);
                 bool isForce = _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
                 double most = (c < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
                 double yield = Math.Min(Math.Abs(c), most / Math.Max(k, LeastResponse));
@@ -73,11 +72,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring))
-            {
-                double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
-                sum += response > LeastResponse ? scalar.Built.Stiffness / response * distance * distance : 0;
-            }
+            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * distance : 0;
         }
 
         return sum;
@@ -94,6 +89,13 @@ internal sealed partial class ActiveSet<V>
         }
 
         return sum;
+    }
+
+    // N/m or N m/rad, of an acceleration spring too; 0 where it hardly acts.
+    private double Stiffness(in ScalarRow scalar)
+    {
+        double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
+        return response > LeastResponse ? scalar.Built.Stiffness / response : 0;
     }
 
     // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing

@@ -43,9 +43,8 @@ public sealed class WorldConfigurableJoint : WorldJoint
         _goals = ConfigurableDrives.Goals((D6Joint)Solved);
         for (int i = 0; i < Axes; i++)
         {
-            _start[i] = Raw(i, 0);
+            _start[i] = Evaluate(i, 0, out _speeds[i]);
             _unwrapped[i] = _start[i];
-            _speeds[i] = IsAngle(i) ? SpeedOf(i) : 0;
         }
     }
 
@@ -133,8 +132,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     {
         for (int i = FirstAngle; i < Axes; i++)
         {
-            _unwrapped[i] = Raw(i, 0);
-            _speeds[i] = SpeedOf(i);
+            _unwrapped[i] = Evaluate(i, 0, out _speeds[i]);
         }
 
         Solved.LastTwist = _sign * _unwrapped[FirstAngle];
@@ -169,8 +167,8 @@ public sealed class WorldConfigurableJoint : WorldJoint
     {
         for (int i = FirstAngle; i < Axes; i++)
         {
-            double speed = SpeedOf(i);
-            _unwrapped[i] = Raw(i, _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed));
+            double reached = Evaluate(i, _unwrapped[i], out double speed);
+            _unwrapped[i] = SwingTwist.Nearest(reached, _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed));
             _speeds[i] = speed;
         }
 
@@ -192,16 +190,14 @@ public sealed class WorldConfigurableJoint : WorldJoint
         ? coordinate - Document.Coordinate.X
         : throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
 
-    // rad/s.
-    private double SpeedOf(int axis)
-    {
-        new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, 0, out ConstraintRow row);
-        Bodies bodies = MultibodySystem.Bodies;
-        Vector3d w0 = Solved.Body0 < 0 ? Vector3d.Zero : bodies.AngularVelocities[Solved.Body0];
-        Vector3d w1 = Solved.Body1 < 0 ? Vector3d.Zero : bodies.AngularVelocities[Solved.Body1];
-        return row.Velocity(Vector3d.Zero, w0, Vector3d.Zero, w1);
-    }
+    private double Raw(int axis, double near) => Evaluate(axis, near, out _);
 
-    private double Raw(int axis, double near) =>
-        new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, near, out _);
+    // An angle's rate in rad/s; 0 of a slide, whose way is never counted by turns.
+    private double Evaluate(int axis, double near, out double speed)
+    {
+        double value = new Kinefab.Joints.CoordinateAxisMap(Solved, (CoordinateAxis)axis, _sign).Evaluate(Pose0, Pose1, near, out ConstraintRow row);
+        Bodies bodies = MultibodySystem.Bodies;
+        speed = IsAngle(axis) ? row.Velocity(Vector3d.Zero, bodies.AngularVelocityOf(Solved.Body0), Vector3d.Zero, bodies.AngularVelocityOf(Solved.Body1)) : 0;
+        return value;
+    }
 }

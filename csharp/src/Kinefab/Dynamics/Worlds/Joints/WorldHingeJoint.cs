@@ -61,7 +61,7 @@ public sealed class WorldHingeJoint : WorldJoint
         get
         {
             Vector3d axis = (Pose0 * Solved.Frame0).Rotation * Vector3d.UnitX;
-            return Vector3d.Dot(AngularVelocityOf(Solved.Body0) - AngularVelocityOf(Solved.Body1), axis) * Degrees;
+            return Vector3d.Dot(MultibodySystem.Bodies.AngularVelocityOf(Solved.Body0) - MultibodySystem.Bodies.AngularVelocityOf(Solved.Body1), axis) * Degrees;
         }
     }
 
@@ -137,6 +137,4 @@ public sealed class WorldHingeJoint : WorldJoint
         double angle = -((RevoluteJoint)Solved).Angle(Pose0, Pose1);
         return angle - 2 * Math.PI * Math.Ceiling((angle - Math.PI) / (2 * Math.PI));
     }
-
-    private Vector3d AngularVelocityOf(int body) => body < 0 ? Vector3d.Zero : MultibodySystem.Bodies.AngularVelocities[body];
 }

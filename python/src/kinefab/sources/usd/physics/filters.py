@@ -59,15 +59,14 @@ def filters(
             if pair[0] != pair[1] and pair not in pairs and pair[::-1] not in pairs:
                 pairs.append(pair)
     node_of = {node.id: i for i, node in enumerate(scene.nodes)}
-    unknown = [pair for pair in pairs if not (pair[0] in node_of and pair[1] in node_of)]
-    scene.apart += [
-        Apart(node_of[first], node_of[second], "filtered pair", opened.place(f"/{first}"))
-        for first, second in (pair for pair in pairs if pair not in unknown)
-    ]
-    for first, second in unknown:
-        report.approximated(
-            f"filtered pair {first} and {second}", "USD_COLLISION_FILTER", opened.place(f"/{first}")
-        )
+    unknown: list[list[str]] = []
+    for first, second in pairs:
+        where = opened.place(f"/{first}")
+        if first in node_of and second in node_of:
+            scene.apart.append(Apart(node_of[first], node_of[second], "filtered pair", where))
+        else:
+            unknown.append([first, second])
+            report.approximated(f"filtered pair {first} and {second}", "USD_COLLISION_FILTER", where)
     if unknown:
         extras["ignoreCollision"] = unknown
     if found.collision_groups:

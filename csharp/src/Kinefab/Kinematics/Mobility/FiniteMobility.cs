@@ -87,7 +87,7 @@ internal sealed class FiniteMobility
         foreach (double[] vector in space.Basis)
         {
             k++;
-            double weight = Math.Sin(12.9898 * k + 4.1414 * round);
+            double weight = Trigonometry.Sin(12.9898 * k + 4.1414 * round);
             for (int i = 0; i < step.Length; i++)
             {
                 step[i] += weight * vector[i];

@@ -224,3 +224,33 @@ def test_parts_that_are_rigid_with_a_third_pass_through_each_other(tmp_path: Pat
     assert [c["extras"]["apart"] for o in objects for c in o.get("components", ()) if "apart" in c.get("extras", {})] == [
         "held together by FixedJoints"
     ]
+
+
+def three_links(model: str = "", fore: str = "") -> str:
+    def link(name: str, z: float, more: str = "") -> str:
+        return f"""<link name="{name}"><pose>0 0 {z} 0 0 0</pose><inertial><mass>1</mass></inertial>{more}<collision name="c"><geometry>
+<box><size>.1 .1 .3</size></box></geometry></collision></link>"""
+
+    def pin(parent: str, child: str) -> str:
+        return f"""<joint name="{parent}{child}" type="revolute"><parent>{parent}</parent><child>{child}</child>
+<axis><xyz>0 1 0</xyz></axis></joint>"""
+
+    return f"""<sdf version="1.9"><world name="w"><model name="arm">{model}{link("base", 0)}{link("upper", 0.3)}{link("fore", 0.6, fore)}
+{pin("base", "upper")}{pin("upper", "fore")}</model><model name="crate">{link("box", 3)}</model></world></sdf>"""
+
+
+TRUE = "<self_collide>true</self_collide>"
+FALSE = "<self_collide>false</self_collide>"
+
+
+@pytest.mark.parametrize(
+    ("model", "fore", "collides"),
+    [("", "", False), (TRUE, "", True), (FALSE, TRUE, True), (TRUE, FALSE, True), ("", FALSE, False)],
+)
+def test_links_of_a_model_collide_where_one_of_them_says_so(tmp_path: Path, model: str, fore: str, collides: bool):
+    """SDFormat 1.12: two links collide if one of both has self_collide, which a link has from its model; never across a joint."""
+    (tmp_path / "arm.sdf").write_text(three_links(model, fore), encoding="utf-8")
+    kinefab.export(tmp_path / "arm.sdf", tmp_path / "arm.kinefab")
+    with_crate = {frozenset((f"arm/{name}", "crate/box")) for name in ("base", "upper", "fore")}
+    within = {frozenset(("arm/base", "arm/fore"))} if collides else set()
+    assert touching(tmp_path / "arm.kinefab") == with_crate | within

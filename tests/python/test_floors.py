@@ -51,6 +51,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"frames", "scene"},
         {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
+        {"welded"},
         {"counting", "links"},
         {"__init__"},
     ],

@@ -162,7 +162,7 @@ class _Nodes:
         held = body == HELD or (body is None and not self.above_moving[index] and not self._carried(index))
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
-        part = bool(bodies or shapes or body is not None) and not whole
+        part = (bool(bodies or shapes or not below) or body is not None) and not whole
         mass = None
         if body is not None and body != HELD:
             turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))

@@ -26,6 +26,7 @@ from ..scene import (
     Transform,
     UnityScene,
 )
+from .demanded import demand_sound
 from .nouns import COMPONENTS, component, noun, unheld
 
 Entry = Mapping[str, Any]
@@ -83,7 +84,7 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
     """
     objects = [_game_object(entry, report) for entry in document["gameObjects"]]
     analysis = document.get("analysis")
-    return UnityScene(
+    found = UnityScene(
         source=_told(Source, document.get("source", {}), "source", report),
         physics=_told(Physics, document.get("physics", {}), "physics", report),
         gameObjects=tuple(objects),
@@ -95,6 +96,8 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
         analysis=None if analysis is None else noun(Mobility, analysis),
         extras=document.get("extras", {}),
     )
+    demand_sound(found)
+    return found
 
 
 def _told(kind: Any, entry: Entry, name: str, report: Report) -> Any:
@@ -115,6 +118,7 @@ def _game_object(entry: Entry, report: Report) -> GameObject:
         components.append(cast(Component, component(each)))
     bare = {key: value for key, value in entry.items() if key not in ("components", "transform")}
     _tell(GameObject, bare, f"object {own}", report)
+    _tell(Transform, entry.get("transform", {}), f"place of {own}", report)
     read = noun(GameObject, bare)
     transform = noun(Transform, entry.get("transform", {}))
     return GameObject(

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, cast
 
 from ..unity.definitions import NONE, Noun, Property, definition_of, definitions, properties
-from .numbers import plain_value, significant
+from .numbers import plain_value, significant, whole_numbers
 
 SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio"})
 """Fields whose size says nothing about their precision; all others are lengths, directions and angles."""
@@ -79,8 +79,10 @@ def _is_noun(kind: Any) -> bool:
 
 
 def _written(key: str, value: Any, of_item: Callable[[Any], dict[str, Any]] = entry) -> Any:
-    if key == "extras" or isinstance(value, (str, bool)):
+    if isinstance(value, (str, bool)):
         return value
+    if key == "extras":
+        return whole_numbers(value)
     if isinstance(value, tuple):
         items = cast(tuple[Any, ...], value)
         if items and _is_noun(items[0].__class__):

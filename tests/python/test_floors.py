@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src" / "kinefab"
 
 FLOORS: dict[str, list[set[str]]] = {
     "": [
-        {"spatial", "color", "diagnostics", "options", "replacing", "collector"},
+        {"spatial", "color", "diagnostics", "options", "replacing", "collector", "container"},
         {"model", "partition"},
         {"geometry", "rigid", "findings"},
         {"sources", "analysis", "unity"},

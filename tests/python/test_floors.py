@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src" / "kinefab"
 
 FLOORS: dict[str, list[set[str]]] = {
     "": [
-        {"spatial", "color", "diagnostics", "options", "replacing", "collector", "container"},
+        {"spatial", "color", "diagnostics", "options", "replacing", "collector"},
         {"model", "partition"},
         {"geometry", "rigid", "findings"},
         {"sources", "analysis", "unity"},
@@ -48,7 +48,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "unity": [
-        {"frames", "scene", "definitions"},
+        {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
         {"counting", "links", "back"},

@@ -10,7 +10,7 @@ from pathlib import Path
 import kinefab
 import pytest
 from golden import golden_pairs
-from kinefab.container import JSON, chunks_of, write_container
+from kinefab.unity.container import JSON, chunks_of, write_container
 from kinefab.diagnostics import KinefabError
 from kinefab.unity.back.scene_file import read_buffers, read_scene_file
 from kinefab.views.overview import overview, picture
@@ -159,7 +159,7 @@ def overview_of(path: Path) -> str:
 
 
 def test_a_file_that_its_header_cannot_count_is_not_written(tmp_path, monkeypatch):
-    monkeypatch.setattr("kinefab.container.MOST_BYTES", 1000)
+    monkeypatch.setattr("kinefab.unity.container.MOST_BYTES", 1000)
     with pytest.raises(KinefabError) as error:
         exported(LEVER, tmp_path, "binary")
     assert error.value.diagnostics[0].code == "TARGET_UNWRITABLE"

@@ -20,10 +20,10 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 
 from .. import __version__, model
-from ..container import write_container
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
+from ..unity.container import write_container
 from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.links.tree import articulated
 from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene

@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
-from ...container import Damaged, chunks_of, is_container
 from ...diagnostics import KinefabError, Report, diagnostic
+from ..container import Damaged, chunks_of, is_container
 
 
 _HALF = re.compile(rb"\\u[dD][89a-fA-F]")

@@ -15,12 +15,14 @@ internal static class ShortestText
     {
         if (double.IsNaN(value) || double.IsInfinity(value))
             throw new ArgumentException($"JSON has no number {value.ToString(CultureInfo.InvariantCulture)}.");
+        // Where an exponent begins differs from runtime to runtime.
         string text = Digits(value);
         int e = text.IndexOf('E');
-        if (e < 0)
-            return text.Contains('.') ? text : text + ".0";
-        int exponent = int.Parse(text.Substring(e + 1), NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture);
-        return exponent == 15 ? Fixed(text.Substring(0, e), exponent) : text.Replace('E', 'e');
+        if (e >= 0)
+            return text.Substring(e) == "E+15" ? WithoutExponent(text.Substring(0, e), 15) : text.Replace('E', 'e');
+        if (Math.Abs(value) >= 1e16)
+            return WithExponent(text);
+        return text.Contains('.') ? text : text + ".0";
     }
 
     private static string Digits(double value)
@@ -40,12 +42,19 @@ internal static class ShortestText
 #endif
     }
 
-    // d.ddd and an exponent, which the runtime has already, without one.
-    private static string Fixed(string mantissa, int exponent)
+    private static string WithoutExponent(string mantissa, int exponent)
     {
-        string sign = mantissa[0] == '-' ? "-" : "";
-        string digits = mantissa.Substring(sign.Length).Replace(".", "", StringComparison.Ordinal).PadRight(exponent + 1, '0');
-        string fraction = digits.Substring(exponent + 1);
-        return sign + digits.Substring(0, exponent + 1) + "." + (fraction.Length == 0 ? "0" : fraction);
+        int sign = mantissa[0] == '-' ? 1 : 0;
+        string digits = mantissa.Replace(".", "", StringComparison.Ordinal);
+        int point = sign + exponent + 1;
+        return digits.Length > point ? digits.Insert(point, ".") : digits.PadRight(point, '0') + ".0";
+    }
+
+    private static string WithExponent(string whole)
+    {
+        int sign = whole[0] == '-' ? 1 : 0;
+        string digits = whole.TrimEnd('0');
+        int exponent = whole.Length - sign - 1;
+        return (digits.Length > sign + 1 ? digits.Insert(sign + 1, ".") : digits) + "e+" + Invariant.Text(exponent);
     }
 }

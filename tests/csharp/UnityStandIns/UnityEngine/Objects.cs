@@ -98,6 +98,14 @@ namespace UnityEngine
 
         public bool TryGetComponent<T>(out T component) => gameObject.TryGetComponent(out component);
 
+        public T[] GetComponents<T>() => gameObject.GetComponents<T>();
+
+        public void GetComponents<T>(List<T> results) => gameObject.GetComponents(results);
+
+        public void GetComponentsInChildren<T>(List<T> results) => gameObject.GetComponentsInChildren(includeInactive: false, results);
+
+        public void GetComponentsInChildren<T>(bool includeInactive, List<T> results) => gameObject.GetComponentsInChildren(includeInactive, results);
+
         public T GetComponentInParent<T>() => gameObject.GetComponentInParent<T>();
 
         public T[] GetComponentsInChildren<T>(bool includeInactive = false) => gameObject.GetComponentsInChildren<T>(includeInactive);
@@ -199,6 +207,12 @@ namespace UnityEngine
             var found = new List<T>();
             Collect(this, includeInactive, found);
             return found.ToArray();
+        }
+
+        public void GetComponentsInChildren<T>(bool includeInactive, List<T> results)
+        {
+            results.Clear();
+            Collect(this, includeInactive, results);
         }
 
         internal override void Ending()

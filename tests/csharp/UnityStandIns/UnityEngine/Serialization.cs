@@ -65,7 +65,7 @@ namespace UnityEngine
 
         /// <summary>Whether Unity serializes a field.</summary>
         internal static bool IsSerialized(FieldInfo field) =>
-            !field.IsInitOnly && !field.IsNotSerialized && (field.IsPublic || field.IsDefined(typeof(SerializeField))) && IsSerializable(field.FieldType);
+            !field.IsInitOnly && !field.IsDefined(typeof(NonSerializedAttribute)) && (field.IsPublic || field.IsDefined(typeof(SerializeField))) && IsSerializable(field.FieldType);
 
         internal static IEnumerable<FieldInfo> Fields(Type type, Type upTo)
         {

@@ -140,6 +140,20 @@ namespace UnityEngine
             return new Vector3(own.x / _localScale.x, own.y / _localScale.y, own.z / _localScale.z);
         }
 
+        public Vector3 InverseTransformVector(Vector3 v)
+        {
+            Vector3 own = Quaternion.Inverse(_localRotation) * (parent == null ? v : parent.InverseTransformVector(v));
+            return new Vector3(own.x / _localScale.x, own.y / _localScale.y, own.z / _localScale.z);
+        }
+
+#if UNITY_2022_2_OR_NEWER
+        public void SetLocalPositionAndRotation(Vector3 localPosition, Quaternion localRotation)
+        {
+            this.localPosition = localPosition;
+            this.localRotation = localRotation;
+        }
+#endif
+
         public Vector3 InverseTransformDirection(Vector3 v) => Quaternion.Inverse(rotation) * v;
 
         public IEnumerator GetEnumerator() => Children.ToArray().GetEnumerator();

@@ -160,6 +160,8 @@ namespace UnityEngine
 
         public static Color black => new Color(0, 0, 0, 1);
 
+        public static Color Lerp(Color a, Color b, float t) => new Color(a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a));
+
         /// <summary>From linear to sRGB; the opacity stays.</summary>
         public Color gamma => new Color(Gamma(r), Gamma(g), Gamma(b), a);
 
@@ -204,5 +206,20 @@ namespace UnityEngine
                 m03 = p.x, m13 = p.y, m23 = p.z, m33 = 1,
             };
         }
+    }
+
+    public static class Mathf
+    {
+        public const float PI = (float)Math.PI, Rad2Deg = 180 / PI, Deg2Rad = PI / 180, Infinity = float.PositiveInfinity;
+
+        public static float Min(float a, float b) => a < b ? a : b;
+
+        public static float Max(float a, float b) => a > b ? a : b;
+
+        public static float Abs(float a) => Math.Abs(a);
+
+        public static float Clamp(float value, float min, float max) => Max(min, Min(max, value));
+
+        public static float Clamp01(float value) => Clamp(value, 0, 1);
     }
 }

@@ -30,7 +30,7 @@ public sealed class EmptyJointTests
         {
             Assert.That(geared.Stops, Is.Zero);
             Assert.That(Math.Abs(pinion.Coordinate(Coordinate.Angle)), Is.GreaterThan(1), "nothing turned");
-            Assert.That(helper.Coordinate(Coordinate.AngularX), Is.EqualTo(-1.5 * pinion.Coordinate(Coordinate.Angle)).Within(1e-6));
+            Assert.That(pinion.Coordinate(Coordinate.Angle), Is.EqualTo(-1.5 * helper.Coordinate(Coordinate.AngularX)).Within(1e-6));
         });
     }
 

@@ -48,7 +48,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "unity": [
-        {"frames", "scene", "definitions"},
+        {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
         {"counting", "links", "back"},

@@ -173,7 +173,7 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
         reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
     )
     because = tuple(str(source) for source in component.get("because", ()))
-    own = str(extras.get("name", ""))
+    own = str(component.get("name") or extras.get("name", ""))
     force, torque = breaks(component)
     return Joint(
         name, kind, a, b, frame_a, frame_b, freedoms, own,

@@ -174,6 +174,7 @@ class _Nodes:
             NodeKind.PART if part else NodeKind.ASSEMBLY,
             self._parent(entry),
             self.back.poses[index],
+            entry.definition or None,
             bodies=tuple(bodies),
             mass=mass,
             grounded=held and part,

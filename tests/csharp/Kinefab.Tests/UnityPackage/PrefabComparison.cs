@@ -87,7 +87,8 @@ internal sealed class PrefabComparison
         foreach (string field in own.Fields.Keys.Where(f => !IsLeftOut(own.Class, f) && !(isRoot && f == "m_Name")))
             Check(own, field, to, at);
         string[] components = [.. own.List("m_Component")];
-        Assert.That(to.Components.Select(c => c.GetType().Name).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
+        // The package's own component is none of a prefab's, which needs no package.
+        Assert.That(to.Components.Where(c => c is not Unity.MonoBehaviour).Select(c => c.GetType().Name).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
         foreach (IGrouping<string, string> kind in components.GroupBy(c => prefab.Documents[c].Class))
         {
             foreach ((string from, Unity.Component component) in kind.Zip(to.Components.Where(c => c.GetType().Name == kind.Key)))

@@ -72,6 +72,15 @@ internal sealed class CoordinateNames
     /// <summary>What a coordinate is called in files and messages.</summary>
     public string this[int coordinate] => _full[coordinate];
 
+    /// <summary>The CAD's name if it finds the coordinate, with the coordinate behind it where the joint has several; else the joint's; else the full name.</summary>
+    public string Short(int coordinate)
+    {
+        CoordinatePlace place = _coordinates[coordinate];
+        string cad = _names.NameInCad(place.GameObject, place.Component) ?? "";
+        string[] names = { cad, $"{cad}.{Words[(int)place.Coordinate]}", _names.Joint(place.GameObject, place.Component) };
+        return Array.Find(names, name => _found.TryGetValue(name, out int found) && found == coordinate) ?? _full[coordinate];
+    }
+
     /// <summary>As <see cref="SceneNames.GameObject"/>.</summary>
     public int GameObject(string name, out IReadOnlyList<string> several) => _names.GameObject(name, out several);
 

@@ -90,6 +90,7 @@ public sealed partial class Mechanism
         for (int i = 0; i < _coordinates.Length; i++)
         {
             _coordinates[i].Name = _names[i];
+            _coordinates[i].ShortName = _names.Short(i);
         }
 
         PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);

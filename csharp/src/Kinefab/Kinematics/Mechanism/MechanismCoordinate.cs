@@ -33,6 +33,12 @@ public sealed class MechanismCoordinate
     /// </summary>
     public string Name { get; internal set; } = "";
 
+    /// <summary>
+    /// The shortest of the names that find it: what the CAD program calls its joint (Shaft), with the coordinate behind it where the
+    /// joint has several (Arm.angularX); else the GameObject's id, else <see cref="Name"/>.
+    /// </summary>
+    public string ShortName { get; internal set; } = "";
+
     /// <summary>Index of the GameObject that carries the joint.</summary>
     public int GameObject { get; }
 
